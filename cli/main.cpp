@@ -1,0 +1,40 @@
+#include <exception>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "cli/arguments.h"
+#include "cli/exit_code.h"
+#include "cli/measure.h"
+#include "cli/output.h"
+
+namespace repose::cli {
+namespace {
+
+ExitCode run(int count, const char* const* words) {
+  const Arguments arguments = parse_arguments(count, words);
+  if (!arguments.fault.empty()) {
+    fmt::print(stderr, "repose: {}\n", arguments.fault);
+    return ExitCode::bad_input;
+  }
+  if (arguments.measure) return run_measure(*arguments.measure);
+  write_output(std::string(kStandardOutput), arguments.text);
+  return ExitCode::done;
+}
+
+}  // namespace
+}  // namespace repose::cli
+
+int main(int count, char** words) {
+  using repose::cli::ExitCode;
+  ExitCode code = ExitCode::internal_error;
+  try {
+    code = repose::cli::run(count, words);
+  } catch (const std::invalid_argument& fault) {
+    fmt::print(stderr, "repose: {}\n", fault.what());
+    code = ExitCode::bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "repose: internal error: {}. Fix: please report it.\n", error.what());
+  }
+  return static_cast<int>(code);
+}

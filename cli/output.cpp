@@ -1,0 +1,24 @@
+#include "cli/output.h"
+
+#include <cstdio>
+#include <span>
+#include <stdexcept>
+
+#include "vision/whole_file.h"
+
+namespace repose::cli {
+
+void write_output(const std::string& file, std::string_view text) {
+  if (file != kStandardOutput) {
+    vision::write_whole_file(file, std::as_bytes(std::span(text)));
+    return;
+  }
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!is_written || std::fflush(stdout) != 0) {
+    throw std::invalid_argument(
+        "standard output: cannot be written. Fix: look whether the disk is full or the program "
+        "that reads it has ended.");
+  }
+}
+
+}  // namespace repose::cli

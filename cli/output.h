@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace repose::cli {
+
+/// The name that stands for standard output.
+inline constexpr std::string_view kStandardOutput = "-";
+
+/// Writes to a file, whole or not at all, or to standard output.
+/// @throws std::invalid_argument  when it cannot be written.
+void write_output(const std::string& file, std::string_view text);
+
+}  // namespace repose::cli

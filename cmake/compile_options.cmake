@@ -1,0 +1,14 @@
+# How every target below the including folder is compiled. Nothing of it reaches a project that uses
+# the installed package.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+# a*b + c is rounded twice, also where the machine could fuse it into one instruction: the same
+# picture gives the same bytes on every machine and with every compiler.
+add_compile_options(-ffp-contract=off)
+
+# Presets for developers turn these into errors. -Wfloat-conversion: a pixel position silently cut to
+# an int is a wrong angle. (All of -Wconversion objects to how OpenCV assigns its expressions.)
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor)

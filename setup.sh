@@ -1,0 +1,100 @@
+#!/bin/sh
+# Makes repose ready to run: installs the Debian packages that are missing, configures, builds.
+#
+#   ./setup.sh [--tests] [PRESET [TARGET]...]
+#
+#   --tests   also install what only the tests need: clang-format and clang-tidy
+#   PRESET    release (default), dev, sanitize or tidy
+#   TARGET    build only this, not everything
+#
+# Started again it only looks whether something is to be done. It reports to stderr, a line a step.
+set -eu
+
+root=$(dirname -- "$(readlink -f -- "$0")")
+needed="g++ cmake ninja-build pkg-config
+  libopencv-dev libceres-dev libeigen3-dev libboost-dev libtbb-dev
+  libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev fonts-dejavu-core
+  libgtest-dev libgmock-dev libbenchmark-dev"
+if [ "${1-}" = --tests ]; then needed="$needed clang-format-14 clang-tidy-14"; shift; fi
+preset=release
+if [ $# -gt 0 ]; then preset=$1; shift; fi
+
+log=$(mktemp)
+trap 'rm -f -- "$log"' EXIT
+trap 'exit 130' INT TERM
+
+say() { printf 'repose: %s\n' "$*" >&2; }
+
+# step TEXT COMMAND...  says what is done; shows what the command printed only when it fails.
+step() {
+  say "$1"
+  shift
+  "$@" >"$log" 2>&1 && return
+  cat "$log" >&2
+  say "this failed: $*"
+  exit 1
+}
+
+missing_packages() {
+  for package in $needed; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || status=
+    [ "$status" = installed ] || printf ' %s' "$package"
+  done
+}
+
+# Waits for up to five minutes while another program holds the package lock.
+apt() {
+  waited_s=0
+  until $as_root env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=10 \
+      -o Acquire::Retries=3 "$@" </dev/null >"$log" 2>&1; do
+    grep -q -e 'Could not get lock' -e 'Unable to lock' "$log" && [ $waited_s -lt 300 ] || return 1
+    [ $waited_s -gt 0 ] || say "waiting: another program is installing packages"
+    sleep 5
+    waited_s=$((waited_s + 15))
+  done
+}
+
+install_packages() {
+  as_root=
+  if [ "$(id -u)" -ne 0 ]; then
+    as_root="sudo -n"
+    if ! $as_root true 2>/dev/null; then
+      say "these packages are missing:$1"
+      say "Fix: sudo apt-get install --no-install-recommends$1"
+      exit 2
+    fi
+  fi
+  say "installing$1"
+  apt update || say "the list of packages could not be renewed; going on with the one that is here"
+  if ! apt install -y --no-install-recommends $1; then
+    tail -n 30 "$log" >&2
+    say "the packages could not be installed. Fix: see the lines above, then start this again"
+    exit 2
+  fi
+}
+
+installed=
+if command -v dpkg-query >/dev/null; then
+  packages=$(missing_packages)
+  if [ -n "$packages" ]; then
+    install_packages "$packages"
+    installed=yes
+  fi
+else
+  say "not Debian: going on with the compiler, CMake, Ninja and libraries that are here (README.md" \
+    "lists them)"
+fi
+
+cd -- "$root"
+build=build/$preset
+# Once configured, Ninja itself sees when CMake must run again, but for a change in the presets and
+# for packages that were missing before.
+if [ -n "$installed" ] || [ ! "$build/build.ninja" -nt CMakePresets.json ]; then
+  step "configuring $build" cmake --preset "$preset"
+fi
+if [ $# -gt 0 ]; then set -- --target "$@"; fi
+first_time=
+[ -e "$build/.ninja_log" ] || first_time=" (this takes some minutes the first time)"
+# -k 0: a failing build names every fault, not only the first.
+step "building $build$first_time" cmake --build "$build" --parallel "$(nproc)" "$@" -- -k 0

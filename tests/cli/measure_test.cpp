@@ -1,0 +1,319 @@
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "tests/cli/run_program.h"
+#include "tests/support/heap_picture.h"
+#include "vision/picture.h"
+
+namespace repose::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
+using Words = std::vector<std::string>;
+
+/// A folder with drawn pictures in it; the drawing is done once for all tests.
+class Measure : public ::testing::Test {
+ protected:
+  void draw_heap_to(const std::string& name) const {
+    static const vision::Picture heap = [] {
+      HeapScene scene;
+      scene.width = 600;
+      scene.height = 400;
+      return draw_heap(scene).picture;
+    }();
+    vision::write_picture(folder_.path() / name, heap);
+  }
+  void draw_plain(const std::string& name, int width = 300, std::uint8_t brightness = 0) const {
+    const auto bytes = static_cast<std::size_t>(3 * width * width);
+    vision::write_picture(
+        folder_.path() / name,
+        {.width = width, .height = width, .bgr = std::vector<std::uint8_t>(bytes, brightness)});
+  }
+  Finished run(const Words& words) const {
+    Words all = {"measure"};
+    all.insert(all.end(), words.begin(), words.end());
+    return run_repose(folder_, all);
+  }
+  std::string text(const std::string& name) const { return text_of(folder_.path() / name); }
+  bool exists(const std::string& name) const {
+    return std::filesystem::exists(folder_.path() / name);
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::size_t letters(const std::string& line) {
+  return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
+  }));
+}
+
+TEST_F(Measure, AHeapGivesAnAngle) {
+  draw_heap_to("heap.png");
+  const Finished result = run({"heap.png"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("heap.png"), HasSubstr(" ± "), HasSubstr("ok")));
+  EXPECT_THAT(result.out, Not(HasSubstr("mean "))) << "one picture has no mean";
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(Measure, PipedTablesAreNarrowAndWithoutColour) {
+  const std::string name = "a_very_long_name_of_a_picture_that_somebody_took_in_the_lab.png";
+  draw_heap_to(name);
+  draw_plain("black.png");
+  const Finished result = run({name, "black.png", "--definitions"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, Not(HasSubstr("\033")));
+  std::istringstream lines(result.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(letters(line), 80U) << line;
+}
+
+TEST_F(Measure, FoldersStandForTheirPicturesByName) {
+  std::filesystem::create_directories(folder_.path() / "photos" / "deeper");
+  draw_plain("photos/b.png");
+  draw_plain("photos/a.JPG");
+  draw_plain("photos/deeper/c.png");
+  folder_.write("photos/notes.txt", std::string("no picture"));
+  const json array = json::parse(run({"photos", "--json", "-"}).out);
+  ASSERT_EQ(array.size(), 2U);
+  EXPECT_EQ(array[0]["file"], "photos/a.JPG");
+  EXPECT_EQ(array[1]["file"], "photos/b.png");
+}
+
+TEST_F(Measure, FoldersWithoutPicturesAreSaid) {
+  std::filesystem::create_directory(folder_.path() / "empty");
+  const Finished result = run({"empty"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("empty: no pictures"), HasSubstr("Fix: ")));
+}
+
+TEST_F(Measure, UnmeasurablePicturesAreRefusedWithAReason) {
+  draw_plain("black.png", 300, 0);
+  draw_plain("grey.png", 300, 128);
+  draw_plain("dot.png", 1, 200);
+  const Finished result = run({"black.png", "grey.png", "dot.png", "--json", "-"});
+  EXPECT_EQ(result.exit_code, 3);
+  for (const json& picture : json::parse(result.out)) {
+    EXPECT_EQ(picture["status"], "refused");
+    EXPECT_NE(picture["reason"], "");
+    EXPECT_TRUE(picture["angle_deg"].is_null());
+    EXPECT_TRUE(picture["uncertainty_deg"].is_null());
+  }
+}
+
+TEST_F(Measure, AnUnreadablePictureDoesNotStopTheOthers) {
+  draw_heap_to("heap.png");
+  folder_.write("notes.jpg", std::string("angle: 23 degrees"));
+  const std::string whole = text("heap.png");
+  folder_.write("half.png", whole.substr(0, whole.size() / 2));
+  const Finished result = run({"missing.jpg", "notes.jpg", "half.png", "heap.png"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("not read"), HasSubstr(" ± "), HasSubstr("3 not read")));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("missing.jpg: there is no such file"),
+                                HasSubstr("notes.jpg: no picture"),
+                                HasSubstr("half.png: the PNG is cut short")));
+}
+
+TEST_F(Measure, JsonHasTheContractsKeys) {
+  draw_heap_to("heap.png");
+  const Finished result = run({"heap.png", "missing.png", "--json", "-"});
+  const json array = json::parse(result.out);
+  ASSERT_EQ(array.size(), 2U);
+  for (const json& picture : array) {
+    for (const char* key :
+         {"file", "status", "angle_deg", "uncertainty_deg", "left", "right", "ground_tilt_deg",
+          "window", "method", "confidence", "warnings", "segmentation", "strays", "grain_px",
+          "height_px", "base_px", "definitions"}) {
+      EXPECT_TRUE(picture.contains(key)) << key;
+    }
+    for (const char* key : {"status", "angle_deg", "uncertainty_deg", "r2", "points"}) {
+      EXPECT_TRUE(picture["left"].contains(key)) << key;
+    }
+  }
+  EXPECT_TRUE(array[0]["angle_deg"].is_number());
+  EXPECT_FALSE(array[0].contains("reason"));
+  EXPECT_EQ(array[0]["window"], json({0.2, 0.8}));
+  EXPECT_EQ(array[1]["status"], "refused");
+  EXPECT_THAT(array[1]["reason"].get<std::string>(), HasSubstr("no such file"));
+  EXPECT_TRUE(array[1]["angle_deg"].is_null());
+  EXPECT_TRUE(array[1]["confidence"].is_null());
+}
+
+TEST_F(Measure, MethodWindowAndPitchReachTheMeasuring) {
+  draw_heap_to("heap.png");
+  const auto measured = [&](Words words) {
+    words.insert(words.end(), {"heap.png", "--json", "-"});
+    return json::parse(run(words).out).at(0);
+  };
+  const json usual = measured({});
+  EXPECT_EQ(measured({"--method", "auto", "--window", "0.2,0.8", "--pitch-deg", "0"}), usual);
+  EXPECT_EQ(measured({"--method", "paper"})["method"], "paper");
+  EXPECT_EQ(measured({"--window", "0.3,0.7"})["window"], json({0.3, 0.7}));
+  EXPECT_NE(measured({"--pitch-deg", "-10"})["angle_deg"], usual["angle_deg"]);
+}
+
+TEST_F(Measure, ABoxOutsideOnePictureFaultsOnlyThatPicture) {
+  draw_heap_to("large.png");
+  draw_plain("small.png", 100);
+  const Finished result = run({"large.png", "small.png", "--exclude", "0,0,120,20", "--json", "-"});
+  EXPECT_EQ(result.exit_code, 2);
+  const json array = json::parse(result.out);
+  EXPECT_TRUE(array[0]["angle_deg"].is_number());
+  EXPECT_THAT(result.err, StartsWith("repose: small.png: "));
+}
+
+TEST_F(Measure, SeveralPicturesHaveAMeanOfThoseThatAreOk) {
+  draw_heap_to("a.png");
+  draw_heap_to("b.png");
+  draw_plain("black.png");
+  const Finished result = run({"a.png", "b.png", "black.png", "--summary", "mean.json"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("mean "), HasSubstr("sd 0.00° n = 2"),
+                                HasSubstr("(Student)"), HasSubstr("1 refused")));
+  const json summary = json::parse(text("mean.json"));
+  EXPECT_EQ(summary["n"], 2);
+  EXPECT_EQ(summary["refused"], 1);
+  EXPECT_EQ(summary["interval_deg"][0], summary["mean_deg"]);
+}
+
+/// Fields of a line without quotes in it.
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> result(1);
+  for (const char letter : line) {
+    if (letter == ',') {
+      result.emplace_back();
+    } else {
+      result.back() += letter;
+    }
+  }
+  return result;
+}
+
+TEST_F(Measure, CsvHasARowForEachPicture) {
+  draw_heap_to("heap.png");
+  draw_plain("with, comma.png");
+  const Finished result = run({"heap.png", "with, comma.png", "missing.png", "--csv", "-"});
+  EXPECT_EQ(result.exit_code, 2);
+  std::istringstream lines(result.out);
+  std::string header, heap, comma, missing, end;
+  std::getline(lines, header);
+  std::getline(lines, heap);
+  std::getline(lines, comma);
+  std::getline(lines, missing);
+  EXPECT_FALSE(std::getline(lines, end));
+  EXPECT_EQ(fields(heap).size(), fields(header).size());
+  EXPECT_THAT(heap, StartsWith("heap.png,"));
+  EXPECT_THAT(comma, StartsWith("\"with, comma.png\",refused,"));
+  EXPECT_EQ(fields(missing.substr(0, missing.find("missing.png:"))).size(), fields(header).size());
+}
+
+TEST_F(Measure, OnlyTheOutputAskedForGoesToStandardOutput) {
+  draw_heap_to("heap.png");
+  const Finished result =
+      run({"heap.png", "--json", "all.json", "--csv", "all.csv", "--summary", "-"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(json::parse(result.out)["n"], 1);
+  EXPECT_EQ(json::parse(text("all.json")).size(), 1U);
+  EXPECT_THAT(text("all.csv"), StartsWith("file,status,"));
+}
+
+TEST_F(Measure, OutputsInOnePlaceAreRefused) {
+  draw_heap_to("heap.png");
+  for (const auto& [json_file, csv_file] :
+       {std::pair("-", "-"), {"out", "./out"}, {"heap.png", "x.csv"}}) {
+    const Finished result = run({"heap.png", "--json", json_file, "--csv", csv_file});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, AllOf(HasSubstr("--json"), HasSubstr("Fix: ")));
+  }
+  EXPECT_THAT(folder_.names(), ElementsAre("heap.png"));
+}
+
+TEST_F(Measure, OverlaysAreDrawnAlsoForRefusedPictures) {
+  draw_heap_to("heap.png");
+  draw_plain("black.png");
+  EXPECT_EQ(run({"heap.png", "black.png", "--overlay", "new/checked"}).exit_code, 0);
+  EXPECT_GE(vision::read_picture(folder_.path() / "new/checked/heap.png").width, 600);
+  EXPECT_TRUE(exists("new/checked/black.png"));
+}
+
+TEST_F(Measure, PicturesOfOneNameHaveOverlaysOfTheirOwn) {
+  std::filesystem::create_directory(folder_.path() / "other");
+  draw_heap_to("heap.png");
+  draw_heap_to("heap.jpg");
+  draw_heap_to("other/heap.png");
+  const Finished result = run({"heap.jpg", "heap.png", "other/heap.png", "--overlay", "."});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(folder_.names(), UnorderedElementsAre("heap.png", "heap.jpg", "other", "heap-2.png",
+                                                    "heap-3.png", "heap-4.png"));
+  EXPECT_EQ(vision::read_picture(folder_.path() / "heap.png").height, 400) << "not overwritten";
+  EXPECT_THAT(result.err, HasSubstr("heap-2.png"));
+}
+
+TEST_F(Measure, AnOverlayFolderThatIsMeasuredIsRefused) {
+  draw_heap_to("heap.png");
+  const Finished result = run({".", "--overlay", "."});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--overlay"));
+}
+
+TEST_F(Measure, UnwritablePlacesAreSaidBeforeMeasuring) {
+  draw_heap_to("heap.png");
+  folder_.write("file", std::string("in the way"));
+  const Finished result =
+      run({"heap.png", "--overlay", "file", "--json", "no/x.json", "--csv", "no/x.csv"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--overlay file"), HasSubstr("--json no/x.json"),
+                                HasSubstr("--csv no/x.csv")));
+}
+
+TEST_F(Measure, LockedFoldersAreSaid) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may do everything";
+  draw_heap_to("heap.png");
+  std::filesystem::create_directory(folder_.path() / "locked");
+  std::filesystem::permissions(folder_.path() / "locked", std::filesystem::perms::none);
+  const Finished result = run({"heap.png", "locked", "--json", "locked/x.json"});
+  std::filesystem::permissions(folder_.path() / "locked", std::filesystem::perms::owner_all);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("locked: "), HasSubstr("--json locked/x.json")));
+}
+
+TEST_F(Measure, APictureNamedTwiceCountsOnce) {
+  draw_heap_to("heap.png");
+  const Finished result = run({"heap.png", "./heap.png", "--json", "-"});
+  EXPECT_EQ(json::parse(result.out).size(), 1U);
+  EXPECT_THAT(result.err, HasSubstr("named twice"));
+}
+
+TEST_F(Measure, AnyNumberOfThreadsGivesTheSameBytes) {
+  for (const char* name : {"a.png", "b.jpg", "c.png", "d.jpg"}) draw_heap_to(name);
+  draw_plain("e.png");
+  const auto bytes_with = [&](const std::string& threads) {
+    const std::string overlays = "overlays" + threads;
+    const Finished result = run({"a.png", "b.jpg", "c.png", "d.jpg", "e.png", "--json", "-",
+                                 "--overlay", overlays, "--threads", threads});
+    EXPECT_EQ(result.exit_code, 0);
+    return result.out + text(overlays + "/a.png") + text(overlays + "/b.png");
+  };
+  const std::string alone = bytes_with("1");
+  EXPECT_EQ(bytes_with("2"), alone);
+  EXPECT_EQ(bytes_with("7"), alone);
+}
+
+}  // namespace
+}  // namespace repose::testing

@@ -1,0 +1,21 @@
+# The tests `package_install` and `package`: what is installed is enough for an outside project
+# (tests/package) to find, compile with, link and run.
+
+set(prefix ${CMAKE_CURRENT_BINARY_DIR}/package/prefix)
+
+add_test(NAME package_install
+  COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
+set_tests_properties(package_install PROPERTIES
+  FIXTURES_SETUP installed_package LABELS package)
+
+add_test(NAME package
+  COMMAND ${CMAKE_CTEST_COMMAND}
+    --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/package ${CMAKE_CURRENT_BINARY_DIR}/package/build
+    --build-generator ${CMAKE_GENERATOR}
+    --build-options
+      -DCMAKE_PREFIX_PATH=${prefix}
+      -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+      -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
+      -DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}
+    --test-command stranger)
+set_tests_properties(package PROPERTIES FIXTURES_REQUIRED installed_package LABELS package)

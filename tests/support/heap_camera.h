@@ -1,0 +1,18 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "tests/support/heap_paint.h"
+#include "tests/support/heap_random.h"
+#include "tests/support/heap_scene.h"
+#include "vision/picture.h"
+
+namespace repose::testing {
+
+/// Where a point of the stage (px from its top left corner) lies in the picture.
+vision::Point in_picture(const HeapScene& scene, double margin_px, vision::Point stage_point);
+
+/// Takes the picture: uneven light, defocus, roll, exposure, sensor noise, compression.
+vision::Picture take_picture(const Stage& stage, const HeapScene& scene, Random& random);
+
+}  // namespace repose::testing

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+
+#include "tests/support/heap_random.h"
+#include "tests/support/heap_scene.h"
+
+namespace repose::testing {
+
+constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// A scene being made up, and the random numbers it is made from.
+struct Draft {
+  HeapScene scene;
+  Random random;
+};
+
+Side any_side(Random& random);
+
+void choose_angles(HeapForm& form, double mean_rad, double spread_rad, Random& random);
+
+/// A good laboratory picture: the start of every condition.
+Draft draft(std::string_view condition, std::uint64_t seed);
+
+}  // namespace repose::testing

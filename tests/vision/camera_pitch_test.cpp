@@ -1,0 +1,100 @@
+#include "vision/measure/camera_pitch.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/vision/pictures.h"
+
+namespace repose::vision {
+namespace {
+
+/// Angle of the silhouette's side of a cone of slope `angle_rad`, by geometry alone.
+///
+/// A far camera that looks down by e maps (x, y, z), y away from it and z up, to
+/// (x, z cos e + y sin e). The silhouette is the hull of the apex and of the base circle, so its
+/// side is the flattest of the lines from the apex down to points of the circle's right half.
+double silhouette_angle_rad(double angle_rad, double pitch_rad) {
+  const double height = std::tan(angle_rad);  // of a cone of base radius 1
+  const auto steepness = [&](double around) {
+    const double x = std::cos(around);
+    const double y = std::sin(around);
+    return (height * std::cos(pitch_rad) - y * std::sin(pitch_rad)) / x;
+  };
+  // It has one minimum on the right half: search by thirds, down to rounding.
+  double low = -std::numbers::pi / 2;
+  double high = std::numbers::pi / 2;
+  for (int i = 0; i < 200; ++i) {
+    const double third = (high - low) / 3;
+    if (steepness(low + third) < steepness(high - third)) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  return std::atan(steepness((low + high) / 2));
+}
+
+TEST(CameraPitch, CorrectionUndoesTheProjectionOfACone) {
+  for (const double angle_deg : {12.0, 20.0, 25.0, 35.0, 45.0}) {
+    for (const double pitch_deg : {0.5, 2.0, 5.0, 8.0, 11.0}) {
+      const double seen = silhouette_angle_rad(angle_deg * kDegree, pitch_deg * kDegree);
+      EXPECT_LT(seen, angle_deg * kDegree);
+      EXPECT_NEAR(angle_without_pitch(seen, pitch_deg * kDegree), angle_deg * kDegree, 1e-9)
+          << angle_deg << " seen from " << pitch_deg;
+    }
+  }
+}
+
+TEST(CameraPitch, ChangesUsualAnglesLittle) {
+  for (double angle_deg = 25; angle_deg <= 40; angle_deg += 5) {
+    const auto change_deg = [&](double pitch_deg) {
+      const double apparent = silhouette_angle_rad(angle_deg * kDegree, pitch_deg * kDegree);
+      return (angle_without_pitch(apparent, pitch_deg * kDegree) - apparent) / kDegree;
+    };
+    EXPECT_LE(change_deg(5), 0.5);
+    EXPECT_LE(change_deg(10), 2);
+    EXPECT_GT(change_deg(10), 1);
+  }
+}
+
+TEST(CameraPitch, LevelCameraNeedsNoCorrection) {
+  EXPECT_EQ(angle_without_pitch(0.4, 0), 0.4);
+  EXPECT_NEAR(angle_without_pitch(0.4, 1e-6), 0.4, 1e-11);
+}
+
+TEST(CameraPitch, LookingUpIsLookingDown) {
+  EXPECT_EQ(angle_without_pitch(0.4, -0.1), angle_without_pitch(0.4, 0.1));
+}
+
+/// Bow of the least-squares parabola through a half ellipse of half width 1 and depth `depth`, by
+/// summing over many points: u^2 less its mean 1/3 carries the whole curvature.
+double bow_of_half_ellipse(double depth) {
+  double product = 0;
+  double squares = 0;
+  constexpr int kPoints = 200'000;
+  for (int i = 0; i < kPoints; ++i) {
+    const double u = 2 * (i + 0.5) / kPoints - 1;
+    const double centred = u * u - 1.0 / 3;
+    product += depth * std::sqrt(1 - u * u) * centred;
+    squares += centred * centred;
+  }
+  return -product / squares / 2;
+}
+
+TEST(PitchFromBow, IsThatOfTheBasesRim) {
+  // A circle of radius 1 is seen 2 wide; its near half lies up to sin e below its middle.
+  for (const double pitch_deg : {0.0, 3.0, 10.0, 40.0}) {
+    const double bow = bow_of_half_ellipse(std::sin(pitch_deg * kDegree));
+    EXPECT_NEAR(pitch_from_bow(bow), pitch_deg * kDegree, 1e-6);  // sums of 200,000 points
+  }
+}
+
+TEST(PitchFromBow, StaysWithinLevelAndUpright) {
+  EXPECT_EQ(pitch_from_bow(-0.1), 0);
+  EXPECT_NEAR(pitch_from_bow(0.7), 90 * kDegree, 1e-12);
+}
+
+}  // namespace
+}  // namespace repose::vision

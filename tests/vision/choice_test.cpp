@@ -1,0 +1,85 @@
+#include "vision/measure/choice.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/vision/pictures.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr int kWidth = 640;
+
+Choice choice_of(const cv::Mat& picture) { return choose_reading(work_of(picture), {}); }
+
+Reading reading_of(const cv::Mat& picture) {
+  const WorkingPicture work = work_of(picture);
+  return read_heap(grey_otsu(work), work, {});
+}
+
+cv::Mat blurred(const cv::Mat& picture, double sigma_px) {
+  cv::Mat soft;
+  cv::GaussianBlur(picture, soft, {}, sigma_px);
+  return soft;
+}
+
+TEST(Score, IsHigherForASharpEdgeThanForASoftOne) {
+  const auto heap = drawn("silhouette", 1, kWidth);
+  const Reading sharp = reading_of(mat_of(heap.picture));
+  const Reading soft = reading_of(blurred(mat_of(heap.picture), 6));
+  EXPECT_GT(sharp.score, 0.55) << "nothing is clearer than a silhouette";
+  EXPECT_LT(soft.score, sharp.score);
+  EXPECT_LT(soft.edge_sharpness, sharp.edge_sharpness);
+}
+
+TEST(Score, IsHigherForAStrongEdgeThanForAFaintOne) {
+  const auto heap = drawn("silhouette", 1, kWidth);
+  const cv::Mat strong = mat_of(heap.picture);
+  const cv::Mat faint = strong * 0.02 + cv::Scalar::all(120);
+  EXPECT_LT(reading_of(faint).edge_contrast, reading_of(strong).edge_contrast);
+  EXPECT_LT(reading_of(faint).score, reading_of(strong).score);
+}
+
+TEST(ReadHeap, APictureWithoutOneHasNoFlankAndNoScore) {
+  const Reading reading = reading_of(cv::Mat3b(200, 300, cv::Vec3b(90, 90, 90)));
+  EXPECT_FALSE(reading.has_flank());
+  EXPECT_EQ(reading.score, 0);
+}
+
+TEST(Reading, AngleIsTheMeanOfTheSidesThatExist) {
+  Reading reading;
+  EXPECT_EQ(reading.angle_rad(), 0);
+  reading.left.angle_rad = 0.4;
+  reading.left.status = FlankStatus::ok;
+  reading.right.angle_rad = 0.6;
+  EXPECT_EQ(reading.angle_rad(), 0.4);
+  reading.right.status = FlankStatus::ok;
+  EXPECT_EQ(reading.angle_rad(), 0.5);
+}
+
+TEST(ChooseReading, SegmentationsAgreeOnAClearPicture) {
+  const Choice choice = choice_of(mat_of(drawn("clean", 2, kWidth).picture));
+  EXPECT_GT(choice.best.score, 0.55);
+  EXPECT_LT(choice.disagreement_rad, 0.3 * kDegree);
+  EXPECT_LT(choice.left_disagreement_rad, 0.5 * kDegree);
+}
+
+TEST(ChooseReading, TakesTheSegmentationThatSeesTheHeap) {
+  // As bright as its backdrop, of another colour: lightness shows nothing.
+  cv::Mat3b picture(400, 600, cv::Vec3b(150, 130, 130));
+  const std::vector<std::vector<cv::Point>> heap = {{{120, 320}, {300, 220}, {480, 320}}};
+  cv::fillPoly(picture, heap, {70, 135, 165});
+  const Choice choice = choice_of(picture);
+  ASSERT_TRUE(choice.best.has_flank());
+  EXPECT_NE(choice.best.segmentation.name, "otsu lightness");
+  EXPECT_NEAR(choice.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
+}
+
+TEST(ChooseReading, AnUprightBodyIsSaidToBeOne) {
+  const Choice choice = choice_of(mat_of(drawn("column", 1, kWidth).picture));
+  EXPECT_FALSE(choice.best.has_flank());
+  EXPECT_TRUE(choice.best.left.vertical || choice.best.right.vertical);
+}
+
+}  // namespace
+}  // namespace repose::vision

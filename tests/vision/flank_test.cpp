@@ -1,0 +1,247 @@
+#include "vision/measure/flank.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/heap_random.h"
+#include "tests/vision/pictures.h"
+#include "tests/vision/profiles.h"
+
+namespace repose::vision {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Ge;
+using ::testing::Le;
+
+constexpr double kLeft_rad = 20 * kDegree;
+constexpr double kRight_rad = 30 * kDegree;
+
+const Triangle kTriangle{350, 110, std::tan(kLeft_rad), std::tan(kRight_rad)};
+
+FlankFit fit(const Profile& profile, Side side, FlankOptions options = {}) {
+  return fit_flank(profile, side, options);
+}
+
+/// A right flank of slope `slope` from its crest at x = 20, 100 high, changed by `change(u, h)`.
+template <class Change>
+Profile right_flank(double slope, Change change) {
+  return profile_of(500, [&](double along) {
+    const double u = along - 20.5;
+    return u < 0 ? 100 + 0.5 * u : change(u, 100 - slope * u);
+  });
+}
+
+TEST(FitFlank, StraightFlanksAreExact) {
+  const Profile profile = profile_of(700, kTriangle);
+  for (const auto& [side, angle] : {std::pair(Side::left, kLeft_rad), {Side::right, kRight_rad}}) {
+    const FlankFit flank = fit(profile, side);
+    ASSERT_EQ(flank.status, FlankStatus::ok) << flank.reason;
+    EXPECT_NEAR(flank.angle_rad, angle, 1e-6);
+    EXPECT_NEAR(std::atan(-flank.least_squares.slope), angle, 1e-9);
+    EXPECT_NEAR(flank.least_squares.r2, 1, 1e-9);
+    EXPECT_NEAR(flank.fit_error_rad, 0, 1e-6);
+    EXPECT_NEAR(flank.window_spread_rad, 0, 1e-6);
+    EXPECT_NEAR(flank.bend_rad, 0, 1e-6);
+    EXPECT_FALSE(flank.apron_cut || flank.frame_cut || flank.vertical);
+  }
+}
+
+TEST(FitFlank, UsesTheWindowThatIsAskedFor) {
+  const Profile profile = profile_of(700, kTriangle);
+  for (const auto& [from, to] : {std::pair(0.2, 0.8), {0.1, 0.5}, {0.6, 0.95}}) {
+    const FlankFit flank =
+        fit(profile, Side::right, {.window_from = from, .window_to = to, .grain = 4});
+    // One column is tan 30 high; the ends are whole columns.
+    EXPECT_NEAR(flank.height.front(), to * 110, 1.2);
+    EXPECT_NEAR(flank.height.back(), from * 110, 1.2);
+    EXPECT_TRUE(std::is_sorted(flank.along.begin(), flank.along.end()));
+  }
+}
+
+TEST(FitFlank, WindowEndsWhereTheLineNotABumpHasTheHeight) {
+  // Bumps of a tenth of the height; whether one reaches over the window's height must not matter.
+  for (double phase = 0; phase < 6; phase += 0.5) {
+    const Profile bumpy = right_flank(
+        0.5, [&](double u, double h) { return std::max(0.0, h + 5 * std::sin(u / 4 + phase)); });
+    const FlankFit flank = fit(bumpy, Side::right, {.grain = 12});
+    ASSERT_EQ(flank.status, FlankStatus::ok);
+    const double high = 0.8 * bumpy.crest_height;
+    const double low = 0.2 * bumpy.crest_height;
+    EXPECT_NEAR(flank.least_squares.y(flank.along.front()), high, 1);
+    EXPECT_NEAR(flank.least_squares.y(flank.along.back()), low, 1);
+    // What a wave of amplitude a and length w can turn a line of length l: 6 a w / (pi l^2), here
+    // 0.017 of slope, 0.76 degrees.
+    EXPECT_NEAR(flank.angle_rad, std::atan(0.5), 0.76 * kDegree);
+  }
+}
+
+TEST(FitFlank, AHollowToeBelowTheWindowDoesNotMatter) {
+  const double slope = std::tan(28 * kDegree);
+  const auto with_toe = [&](double u, double h) {
+    const double knee = 82 / slope;  // 18 high; from there on a third as steep
+    return std::max(0.0, u < knee ? h : 18 - slope / 3 * (u - knee));
+  };
+  const FlankFit flank = fit(right_flank(slope, with_toe), Side::right, {.grain = 4});
+  EXPECT_NEAR(flank.angle_rad, 28 * kDegree, 1e-6);
+  // 10-90 % of the height lets the toe in.
+  EXPECT_GT(flank.window_spread_rad, 0.5 * kDegree);
+}
+
+TEST(FitFlank, AnApronInTheWindowIsLeftOut) {
+  const double slope = std::tan(26 * kDegree);
+  constexpr double kGrain = 12;
+  const auto with_apron = [&](double u, double h) {  // two grains thick, twice the flank's length
+    const double end = 3 * 100 / slope;
+    return u < end ? std::max(h, 2 * kGrain + std::sin(u / 4)) : 0;
+  };
+  const Profile profile = right_flank(slope, with_apron);
+  const FlankFit without = fit(profile, Side::right, {.grain = kGrain});
+  EXPECT_TRUE(without.apron_cut);
+  EXPECT_NEAR(without.angle_rad, 26 * kDegree, 0.1 * kDegree);
+  const FlankFit with = fit(profile, Side::right, {.leave_apron_out = false, .grain = kGrain});
+  EXPECT_FALSE(with.apron_cut);
+  EXPECT_LT(std::atan(-with.least_squares.slope), 23 * kDegree);
+}
+
+TEST(FitFlank, AnUprightFaceIsNoFlank) {
+  // A block with a level top, on a thin layer.
+  const Profile block =
+      profile_of(300, [](double along) { return along > 50 && along < 250 ? 120.0 : 5.0; });
+  for (const Side side : {Side::left, Side::right}) {
+    const FlankFit flank = fit(block, side);
+    EXPECT_EQ(flank.status, FlankStatus::absent);
+    EXPECT_TRUE(flank.vertical);
+    EXPECT_THAT(flank.reason, ::testing::HasSubstr("vertical"));
+  }
+}
+
+TEST(FitFlank, ABodyThatEndsAtItsCrestIsUprightThere) {
+  const Profile half = right_flank(0.5, [](double, double h) { return std::max(0.0, h); });
+  const FlankFit left = fit(half, Side::left);
+  EXPECT_EQ(left.status, FlankStatus::absent);
+  EXPECT_TRUE(left.vertical);
+  EXPECT_NEAR(fit(half, Side::right).angle_rad, std::atan(0.5), 1e-6);
+}
+
+TEST(FitFlank, AHalfHeapAgainstTheFrameIsAbsentNotUpright) {
+  Profile half = right_flank(0.5, [](double, double h) { return std::max(0.0, h); });
+  half.leaves_frame_left = true;
+  const FlankFit left = fit(half, Side::left);
+  EXPECT_EQ(left.status, FlankStatus::absent);
+  EXPECT_FALSE(left.vertical);
+  EXPECT_FALSE(left.reason.empty());
+}
+
+/// The triangle's right flank, cut off by the frame at `share` of its height.
+Profile cut_off_at(double share) {
+  const double end = 350 + (1 - share) * 110 / std::tan(kRight_rad);
+  Profile profile = profile_of(static_cast<int>(end), kTriangle);
+  profile.leaves_frame_right = true;
+  return profile;
+}
+
+TEST(FitFlank, AFlankCutLowIsMeasuredAbove) {
+  const FlankFit flank = fit(cut_off_at(0.35), Side::right);
+  ASSERT_EQ(flank.status, FlankStatus::ok);
+  EXPECT_TRUE(flank.frame_cut);
+  EXPECT_NEAR(flank.angle_rad, kRight_rad, 1e-6);
+}
+
+TEST(FitFlank, AFlankCutHighIsTruncated) {
+  const Profile profile = cut_off_at(0.6);
+  EXPECT_EQ(fit(profile, Side::right).status, FlankStatus::truncated);
+  EXPECT_EQ(fit(profile, Side::left).status, FlankStatus::ok);
+}
+
+TEST(FitFlank, AFewColumnsAreNoFlank) {
+  const FlankFit flank = fit(profile_of(16, Triangle{8, 8, 1, 1}), Side::right);
+  EXPECT_EQ(flank.status, FlankStatus::absent);
+}
+
+TEST(FitFlank, BendIsPositiveForAHollowFlankAndNegativeForARoundOne) {
+  const auto bent = [](double bend) {
+    return right_flank(0.5, [=](double u, double h) {
+      const double from_middle = (u - 100) / 100;
+      return std::max(0.0, h + bend * (from_middle * from_middle - 1));
+    });
+  };
+  // Slopes of the halves, 30 px either side of the middle: 0.5 +- 2 bend 0.3 / 100.
+  const double change = std::atan(0.5 + 0.06) - std::atan(0.5 - 0.06);
+  EXPECT_NEAR(fit(bent(10), Side::right).bend_rad, change, 0.15 * change);
+  EXPECT_NEAR(fit(bent(-10), Side::right).bend_rad, -change, 0.15 * change);
+}
+
+TEST(FitFlank, TellsTheAngleOfOtherWindows) {
+  const FlankFit flank = fit(profile_of(700, kTriangle), Side::left);
+  ASSERT_EQ(flank.other_windows.size(), 2);
+  EXPECT_EQ(flank.other_windows[0].window_from, 0.1);
+  EXPECT_EQ(flank.other_windows[0].window_to, 0.9);
+  EXPECT_EQ(flank.other_windows[1].window_from, 0.3);
+  EXPECT_EQ(flank.other_windows[1].window_to, 0.7);
+  for (const WindowAngle& window : flank.other_windows) {
+    EXPECT_NEAR(window.angle_rad, kLeft_rad, 1e-6);
+  }
+}
+
+TEST(FitFlank, LeftIsTheMirrorImageOfRight) {
+  const auto bumpy = [](double along) { return kTriangle(along) + 3 * std::sin(along / 5); };
+  const Profile profile = profile_of(700, bumpy);
+  const Profile mirrored = profile_of(700, [&](double along) { return bumpy(700 - along); });
+  const FlankFit right = fit(profile, Side::right, {.grain = 15});
+  const FlankFit left = fit(mirrored, Side::left, {.grain = 15});
+  EXPECT_NEAR(left.angle_rad, right.angle_rad, 1e-9);
+  EXPECT_NEAR(left.fit_error_rad, right.fit_error_rad, 1e-9);
+  EXPECT_NEAR(left.bend_rad, right.bend_rad, 1e-9);
+}
+
+/// A flank of grains 10 px long: a moving average over normal numbers.
+Profile grainy(testing::Random& random) {
+  std::vector<double> white;
+  for (int i = 0; i < 600; ++i) white.push_back(random.normal(0, 2 * std::sqrt(10)));
+  return right_flank(0.5, [&](double u, double h) {
+    double sum = 0;
+    for (int k = 0; k < 10; ++k)
+      sum += white[static_cast<std::size_t>(u) + static_cast<std::size_t>(k)];
+    return std::max(0.0, h + sum / 10);
+  });
+}
+
+TEST(FitFlank, FitErrorIsTheAnglesScatter) {
+  constexpr int kTrials = 200;  // scatter known to 5 %
+  testing::Random random(2);
+  double scatter = 0;
+  double stated = 0;
+  double noise = 0;
+  for (int i = 0; i < kTrials; ++i) {
+    const FlankFit flank = fit(grainy(random), Side::right, {.grain = 10});
+    scatter += std::pow(flank.angle_rad - std::atan(0.5), 2) / kTrials;
+    stated += std::pow(flank.fit_error_rad, 2) / kTrials;
+    noise += flank.scatter / kTrials;
+  }
+  EXPECT_NEAR(noise, 2, 0.3);  // the line follows its own grains, which hides a little of it
+  // 120 columns hold only six blocks of two grains: the error of the error is a quarter.
+  EXPECT_NEAR(std::sqrt(stated / scatter), 1, 0.25);
+}
+
+TEST(FitFlank, SameSeedGivesTheSameBits) {
+  testing::Random random(3);
+  const Profile profile = grainy(random);
+  const auto error = [&](std::uint64_t seed) {
+    return fit(profile, Side::right, {.grain = 10, .seed = seed}).fit_error_rad;
+  };
+  EXPECT_EQ(error(1), error(1));
+  EXPECT_NE(error(1), error(2));
+}
+
+TEST(FitFlank, GrainIsReadOffTheBumpsWhenUnknown) {
+  const Profile bumpy =
+      right_flank(0.25, [](double u, double h) { return std::max(0.0, h + 3 * std::sin(u / 2)); });
+  // A bump is 2 pi 2 = 12.6 long; counting crossings may miss one of the twenty.
+  EXPECT_THAT(fit(bumpy, Side::right).grain, AllOf(Ge(11), Le(14)));
+}
+
+}  // namespace
+}  // namespace repose::vision

@@ -1,0 +1,122 @@
+#include "vision/measure/ground_line.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/heap_random.h"
+#include "tests/vision/pictures.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kTolerance = 3;
+
+/// Points of y(x) at x = 0.5, 1.5, ...
+template <class Y>
+std::vector<Point> points_of(int count, Y y) {
+  std::vector<Point> points;
+  for (int i = 0; i < count; ++i) points.push_back({i + 0.5, y(i + 0.5)});
+  return points;
+}
+
+TEST(SupportLine, LevelPoints) {
+  const auto ground = support_line(points_of(100, [](double) { return 50.0; }), kTolerance);
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->line.slope, 0, 1e-12);
+  EXPECT_NEAR(ground->line.y(50), 50, 1e-9);
+  EXPECT_EQ(ground->share, 1);
+}
+
+TEST(SupportLine, TiltedPoints) {
+  for (const double tilt_deg : {-7.0, -2.0, 0.3, 5.0}) {
+    const double slope = std::tan(tilt_deg * kDegree);
+    const auto ground =
+        support_line(points_of(300, [&](double x) { return 80 + slope * x; }), kTolerance);
+    ASSERT_TRUE(ground) << tilt_deg;
+    EXPECT_NEAR(ground->line.tilt_rad(), tilt_deg * kDegree, 1e-9);
+  }
+}
+
+TEST(SupportLine, WhatStandsOnTheGroundDoesNotLiftIt) {
+  const double slope = std::tan(1.5 * kDegree);
+  // A heap over 40 % of the width, 30 degrees steep.
+  const auto outline = [&](double x) {
+    return 200 + slope * x - std::max(0.0, 60 - 0.58 * std::abs(x - 250));
+  };
+  const auto ground = support_line(points_of(500, outline), kTolerance);
+  ASSERT_TRUE(ground);
+  // The heap's two toes lie within the tolerance, five points each of 300: they may tilt nothing.
+  EXPECT_NEAR(ground->line.tilt_rad(), 1.5 * kDegree, 0.02 * kDegree);
+  EXPECT_NEAR(ground->line.y(250), 200 + slope * 250, 0.2);
+  EXPECT_NEAR(ground->share, 0.6, 0.03);
+}
+
+TEST(SupportLine, AFlatTopLongerThanTheGroundIsNotTheGround) {
+  const auto outline = [](double x) { return std::abs(x - 200) < 110 ? 50.0 : 100.0; };
+  const auto ground = support_line(points_of(400, outline), kTolerance);
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->line.y(200), 100, 1e-9);
+}
+
+TEST(SupportLine, GapsUnderLargeGrainsDoNotLiftIt) {
+  // Grains of 20 px: their lower edges touch the ground only at every 20th point.
+  const auto bottoms = [](double x) {
+    const double from_middle = std::fmod(x, 20) - 10;
+    return 100 - 10 + std::sqrt(std::max(0.0, 100 - from_middle * from_middle));
+  };
+  const auto ground = support_line(points_of(400, bottoms), kTolerance);
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->line.tilt_rad(), 0, 0.1 * kDegree);
+  EXPECT_NEAR(ground->line.y(200), 100, kTolerance) << "the grains' feet, not their middles";
+}
+
+TEST(SupportLine, SlopesSteeperThanATripodAreNoGround) {
+  const double slope = std::tan(12 * kDegree);
+  EXPECT_FALSE(support_line(points_of(200, [&](double x) { return slope * x; }), kTolerance));
+}
+
+TEST(SupportLine, ALineWithMuchBelowItIsNoGround) {
+  // A level edge over the right third; the rest lies deeper, on slopes without any level line.
+  const auto outline = [](double x) { return x > 200 ? 50.0 : 60 + std::abs(x - 100); };
+  const auto ground = support_line(points_of(300, outline), kTolerance);
+  EXPECT_TRUE(!ground || ground->line.y(250) > 150) << "at y = " << ground->line.y(250);
+}
+
+TEST(SupportLine, NeedsEightPoints) {
+  EXPECT_FALSE(support_line({}, kTolerance));
+  EXPECT_FALSE(support_line(points_of(7, [](double) { return 5.0; }), kTolerance));
+  EXPECT_TRUE(support_line(points_of(8, [](double) { return 5.0; }), kTolerance));
+}
+
+TEST(SupportLine, PointsInOneColumnAreNoLine) {
+  EXPECT_FALSE(support_line(std::vector<Point>(20, Point{4, 4}), kTolerance));
+}
+
+/// Bases are ragged over a grain's length: neighbours belong together.
+TEST(SupportLine, DeviationIsTheTiltsError) {
+  constexpr int kTrials = 200;
+  constexpr int kGrain = 10;
+  testing::Random random(11);
+  int held = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> white;
+    for (int i = 0; i < 400 + kGrain; ++i) white.push_back(random.normal(0, 1.5));
+    const auto ground = support_line(points_of(400,
+                                               [&](double x) {
+                                                 double sum = 0;
+                                                 for (int k = 0; k < kGrain; ++k) {
+                                                   sum += white[static_cast<std::size_t>(x) + k];
+                                                 }
+                                                 return 60 + sum / std::sqrt(kGrain) / 2;
+                                               }),
+                                     kTolerance);
+    ASSERT_TRUE(ground);
+    held += std::abs(ground->line.tilt_rad()) <= 1.96 * ground->deviation_rad ? 1 : 0;
+  }
+  EXPECT_GE(held, 0.88 * kTrials);  // 95 % is the aim, 3.1 % the trials' own scatter at 2 sigma
+}
+
+}  // namespace
+}  // namespace repose::vision

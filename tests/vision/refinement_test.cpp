@@ -1,0 +1,129 @@
+#include "vision/measure/refinement.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/support/heap_random.h"
+#include "tests/vision/pictures.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr int kGround = 320;
+
+cv::Mat1b triangle(int half_base, int height) {
+  cv::Mat1b mask = cv::Mat1b::zeros(400, 600);
+  cv::fillPoly(mask,
+               std::vector<std::vector<cv::Point>>{{{300 - half_base, kGround - 1},
+                                                    {300, kGround - height},
+                                                    {300 + half_base, kGround - 1}}},
+               255);
+  return mask;
+}
+
+/// A brown heap before a grey backdrop, both noisy, in light that falls off by half to the right.
+struct Scene {
+  cv::Mat1b heap = triangle(200, 120);
+  WorkingPicture work;
+
+  Scene() {
+    testing::Random random(1);
+    cv::Mat3b picture(heap.size());
+    for (int row = 0; row < picture.rows; ++row) {
+      for (int col = 0; col < picture.cols; ++col) {
+        const double light = (1 - 0.5 * col / picture.cols) * random.normal(1, 0.05);
+        const cv::Vec3d colour =
+            heap(row, col) != 0 ? cv::Vec3d(80, 110, 150) : cv::Vec3d(190, 190, 190);
+        for (int k = 0; k < 3; ++k) {
+          picture(row, col)[k] = cv::saturate_cast<std::uint8_t>(colour[k] * light);
+        }
+      }
+    }
+    work = work_of(picture);
+  }
+};
+
+Body body_of(const cv::Mat1b& mask) {
+  Body body;
+  body.mask = mask;
+  body.ground = {kGround, 0};
+  return body;
+}
+
+double overlap(const cv::Mat1f& inside, const cv::Mat1b& heap) {
+  const cv::Mat1b found = inside > 0;
+  return static_cast<double>(cv::countNonZero(found & heap)) / cv::countNonZero(found | heap);
+}
+
+TEST(LearnedSegmentation, SeparatesTheHeapInFallingLight) {
+  const Scene scene;
+  EXPECT_GT(overlap(learned_segmentation(scene.work, body_of(scene.heap)).inside, scene.heap),
+            0.97);
+}
+
+TEST(LearnedSegmentation, CorrectsABodyThatIsTooSmallOrTooLarge) {
+  const Scene scene;
+  for (const auto& [half_base, height] : {std::pair(185, 109), {214, 130}}) {
+    const cv::Mat1b wrong = triangle(half_base, height);
+    const double before = overlap(cv::Mat1f(wrong) - 1, scene.heap);
+    const double after =
+        overlap(learned_segmentation(scene.work, body_of(wrong)).inside, scene.heap);
+    EXPECT_LT(1 - after, 0.75 * (1 - before)) << "part of the wrong strip still teaches";
+  }
+}
+
+TEST(LearnedSegmentation, NothingIsInsideBelowTheGround) {
+  const Scene scene;
+  const Segmentation learned = learned_segmentation(scene.work, body_of(scene.heap));
+  EXPECT_EQ(cv::countNonZero(learned.inside.rowRange(kGround, 400) > 0), 0);
+}
+
+TEST(LearnedSegmentation, ExcludedPixelsTeachNothing) {
+  const cv::Rect label(140, 225, 320, 100);  // grey as the backdrop, over most of the heap
+  const auto overlap_beside_label = [&](bool exclude) {
+    Scene scene;
+    cv::cvtColor(cv::Mat3f(label.size(), cv::Vec3f(0.6F, 0.6F, 0.6F)), scene.work.lab(label),
+                 cv::COLOR_BGR2Lab);
+    if (exclude) scene.work.evidence(label) = 0;
+    cv::Mat1f inside = learned_segmentation(scene.work, body_of(scene.heap)).inside;
+    inside(label) = -1;
+    cv::Mat1b heap = scene.heap.clone();
+    heap(label) = 0;
+    return overlap(inside, heap);
+  };
+  EXPECT_GT(overlap_beside_label(true), 0.9);  // a small remainder, much of it edge
+  EXPECT_LT(overlap_beside_label(false), 0.85) << "the label must matter";
+}
+
+TEST(LearnedSegmentation, TooLittleToLearnFromHasNothingInside) {
+  const Scene scene;
+  const Segmentation learned = learned_segmentation(scene.work, body_of(triangle(4, 3)));
+  EXPECT_EQ(cv::countNonZero(learned.inside > 0), 0);
+}
+
+TEST(GrabCutSegmentation, FindsTheHeapFromARoughBody) {
+  const Scene scene;
+  const Segmentation cut = grabcut_segmentation(scene.work, body_of(triangle(170, 100)), 1);
+  EXPECT_GT(overlap(cut.inside, scene.heap), 0.9);  // it works on a picture 2.5 times smaller
+}
+
+TEST(GrabCutSegmentation, SameSeedGivesTheSameBits) {
+  const Scene scene;
+  const Body rough = body_of(triangle(170, 100));
+  const cv::Mat1f first = grabcut_segmentation(scene.work, rough, 3).inside;
+  cv::theRNG().next();  // what others drew from the thread's generator does not matter
+  const cv::Mat1f second = grabcut_segmentation(scene.work, rough, 3).inside;
+  EXPECT_EQ(cv::norm(first, second, cv::NORM_INF), 0);
+}
+
+TEST(GrabCutSegmentation, AFullOrEmptyBodyIsNotCut) {
+  const Scene scene;
+  Body none = body_of(cv::Mat1b::zeros(400, 600));
+  EXPECT_EQ(cv::countNonZero(grabcut_segmentation(scene.work, none, 1).inside > 0), 0);
+  Body full = body_of(cv::Mat1b(400, 600, 255));
+  full.ground = {400, 0};
+  EXPECT_EQ(cv::countNonZero(grabcut_segmentation(scene.work, full, 1).inside > 0), 0);
+}
+
+}  // namespace
+}  // namespace repose::vision

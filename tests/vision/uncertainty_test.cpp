@@ -1,0 +1,98 @@
+#include "vision/measure/uncertainty.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/vision/pictures.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kFloor_rad = 0.06 * kDegree;
+// Student's 97.5 % quantiles, from a table.
+constexpr double kStudent10 = 2.2281;
+constexpr double kStudent20 = 2.0860;
+
+FlankFit flank(double fit_error_rad) {
+  FlankFit fit;
+  fit.status = FlankStatus::ok;
+  fit.fit_error_rad = fit_error_rad;
+  fit.degrees_of_freedom = 10;
+  return fit;
+}
+
+Choice choice_of(double left_error_rad, double right_error_rad) {
+  Choice choice;
+  choice.best.left = flank(left_error_rad);
+  choice.best.right = flank(right_error_rad);
+  return choice;
+}
+
+TEST(Uncertainty, IsNeverBelowTheFloor) {
+  const Uncertainty u = uncertainty_of(choice_of(0, 0));
+  EXPECT_DOUBLE_EQ(u.left_rad, kFloor_rad);
+  EXPECT_DOUBLE_EQ(u.mean_rad, kFloor_rad);
+}
+
+TEST(Uncertainty, GrainsCountByStudentsFactor) {
+  const Uncertainty u = uncertainty_of(choice_of(0.01, 0.02));
+  EXPECT_NEAR(u.left_rad, std::hypot(kStudent10 * 0.01, kFloor_rad), 1e-6);  // table's digits
+  EXPECT_NEAR(u.right_rad, std::hypot(kStudent10 * 0.02, kFloor_rad), 1e-6);
+}
+
+TEST(Uncertainty, MeanOfTwoFlanksHasBothTheirPoints) {
+  const Uncertainty u = uncertainty_of(choice_of(0.01, 0.01));
+  EXPECT_NEAR(u.mean_rad, std::hypot(kStudent20 * 0.01 / std::sqrt(2), kFloor_rad), 1e-6);
+}
+
+TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
+  Choice choice = choice_of(0.01, 0.01);
+  const Uncertainty before = uncertainty_of(choice);
+  choice.best.body.ground_deviation_rad = 0.02;
+  const Uncertainty after = uncertainty_of(choice);
+  EXPECT_EQ(after.mean_rad, before.mean_rad);
+  EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, 1.96 * 0.02), 1e-9);
+  EXPECT_NEAR(after.right_rad, std::hypot(before.right_rad, 1.96 * 0.02), 1e-9);
+}
+
+TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
+  Choice choice = choice_of(0.01, 0.01);
+  choice.best.right.status = FlankStatus::truncated;
+  choice.best.body.ground_deviation_rad = 0.02;
+  const Uncertainty u = uncertainty_of(choice);
+  EXPECT_EQ(u.mean_rad, u.left_rad);
+  EXPECT_GT(u.mean_rad, 1.96 * 0.02);
+  EXPECT_EQ(u.right_rad, 0);
+}
+
+TEST(Uncertainty, GrowsWhereSegmentationsDisagree) {
+  Choice choice = choice_of(0.01, 0.01);
+  const Uncertainty before = uncertainty_of(choice);
+  choice.disagreement_rad = 0.03;
+  choice.left_disagreement_rad = 0.05;
+  const Uncertainty after = uncertainty_of(choice);
+  EXPECT_NEAR(after.mean_rad, std::hypot(before.mean_rad, 0.03), 1e-9);
+  EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, 0.05), 1e-9);
+  EXPECT_EQ(after.right_rad, before.right_rad);
+}
+
+TEST(Uncertainty, WindowCountsBeyondWhatTheGrainsExplain) {
+  Choice choice = choice_of(0.01, 0.01);
+  const Uncertainty before = uncertainty_of(choice);
+  choice.best.left.window_spread_rad = 0.02;  // two standard errors: chance
+  EXPECT_EQ(uncertainty_of(choice).left_rad, before.left_rad);
+  choice.best.left.window_spread_rad = 0.1;
+  EXPECT_NEAR(uncertainty_of(choice).left_rad,
+              std::hypot(before.left_rad, 0.5 * std::sqrt(0.1 * 0.1 - 0.02 * 0.02)), 1e-9);
+}
+
+TEST(Uncertainty, TheWindowsPartDoesNotAverageOut) {
+  Choice choice = choice_of(0, 0);
+  choice.best.left.window_spread_rad = choice.best.right.window_spread_rad = 0.1;
+  const Uncertainty u = uncertainty_of(choice);
+  EXPECT_NEAR(u.mean_rad, u.left_rad, 1e-12);
+}
+
+}  // namespace
+}  // namespace repose::vision

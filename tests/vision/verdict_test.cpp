@@ -1,0 +1,195 @@
+#include "vision/measure/verdict.h"
+
+#include <functional>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tests/vision/pictures.h"
+
+namespace repose::vision {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+FlankFit good_flank() {
+  FlankFit fit;
+  fit.status = FlankStatus::ok;
+  fit.angle_rad = 28 * kDegree;
+  fit.least_squares.r2 = 0.99;
+  return fit;
+}
+
+/// A heap of 30 grains with a sharp edge, seen by a level camera.
+struct Case {
+  Choice choice;
+  MeasureOptions options;
+  ReposeAngle result;
+
+  Case() {
+    Reading& best = choice.best;
+    best.score = 0.7;
+    best.body.mask = cv::Mat1b(10, 10, 255);
+    best.profile.crest_height = 150;
+    best.grain = 5;
+    best.left = best.right = good_flank();
+    result.angle_rad = result.left.angle_rad = result.right.angle_rad = 28 * kDegree;
+    result.uncertainty_rad = result.left.uncertainty_rad = 0.01;
+    result.right.uncertainty_rad = 0.01;
+  }
+  ReposeAngle judged() {
+    judge(result, choice, options);
+    return result;
+  }
+};
+
+TEST(Judge, AGoodPictureIsOkWithoutAWord) {
+  const ReposeAngle result = Case().judged();
+  EXPECT_EQ(result.status, MeasureStatus::ok);
+  EXPECT_EQ(result.confidence, 1);
+  EXPECT_THAT(result.reason, IsEmpty());
+  EXPECT_THAT(result.warnings, IsEmpty());
+  EXPECT_TRUE(result.angle_rad);
+}
+
+struct Fault {
+  const char* name;
+  std::function<void(Case&)> make;
+  const char* says;  ///< part of the reason, or the warning's code
+};
+
+std::ostream& operator<<(std::ostream& out, const Fault& fault) { return out << fault.name; }
+
+std::string name_of(const ::testing::TestParamInfo<Fault>& fault) { return fault.param.name; }
+
+class Refusal : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(Refusal, SaysWhyAndWhatToDoAndGivesNoNumber) {
+  Case heap;
+  GetParam().make(heap);
+  const ReposeAngle result = heap.judged();
+  EXPECT_EQ(result.status, MeasureStatus::refused);
+  EXPECT_THAT(result.reason, HasSubstr(GetParam().says));
+  EXPECT_THAT(result.reason, HasSubstr("Fix: "));
+  EXPECT_FALSE(result.angle_rad || result.uncertainty_rad);
+  EXPECT_FALSE(result.left.angle_rad || result.left.uncertainty_rad);
+  EXPECT_FALSE(result.right.angle_rad || result.right.uncertainty_rad);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, Refusal,
+    ::testing::Values(
+        Fault{"no_body", [](Case& c) { c.choice.best.body.mask.release(); }, "no heap stands out"},
+        Fault{"no_flank",
+              [](Case& c) {
+                c.choice.best.left = c.choice.best.right = FlankFit{};
+                c.choice.best.left.reason = "this side falls off vertically";
+              },
+              "left: this side falls off vertically"},
+        Fault{"faint_edge", [](Case& c) { c.choice.best.score = 0.1; }, "too uncertain"},
+        Fault{"disagreement", [](Case& c) { c.choice.disagreement_rad = 3 * kDegree; },
+              "too uncertain"},
+        Fault{"crest_cut", [](Case& c) { c.choice.best.profile.leaves_frame_top = true; },
+              "crest lies outside"},
+        Fault{"from_above", [](Case& c) { c.choice.best.body.base_bow = 0.15; },
+              "base bows downwards"},
+        Fault{"one_layer", [](Case& c) { c.choice.best.grain = 100; }, "hardly higher"},
+        Fault{"level", [](Case& c) { c.choice.best.right.angle_rad = 2 * kDegree; },
+              "right side is level"},
+        Fault{"wall", [](Case& c) { c.choice.best.left.angle_rad = 70 * kDegree; },
+              "steeper than loose grains"},
+        Fault{"ball", [](Case& c) { c.choice.best.left.bend_rad = -20 * kDegree; },
+              "left side is round"},
+        Fault{"ragged", [](Case& c) { c.choice.best.right.least_squares.r2 = 0.7; }, "no line"}),
+    name_of);
+
+class Flagged : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(Flagged, KeepsTheNumberAndAsksForALook) {
+  Case heap;
+  GetParam().make(heap);
+  const ReposeAngle result = heap.judged();
+  EXPECT_EQ(result.status, MeasureStatus::flagged);
+  EXPECT_TRUE(result.angle_rad);
+  EXPECT_THAT(result.warnings, Contains(Field(&Warning::code, GetParam().says)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, Flagged,
+    ::testing::Values(
+        Fault{"weak_edge", [](Case& c) { c.choice.best.score = 0.25; }, "weak_edge"},
+        Fault{"hollow", [](Case& c) { c.choice.best.left.bend_rad = 12 * kDegree; }, "bent_flank"},
+        Fault{"window", [](Case& c) { c.choice.best.left.window_spread_rad = 4 * kDegree; },
+              "window_sensitive"},
+        Fault{"low", [](Case& c) { c.choice.best.profile.crest_height = 30; }, "low_heap"},
+        Fault{"bow", [](Case& c) { c.choice.best.body.base_bow = 0.045; }, "base_bows"}),
+    name_of);
+
+class Noted : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(Noted, LeavesTheNumberOk) {
+  Case heap;
+  GetParam().make(heap);
+  const ReposeAngle result = heap.judged();
+  EXPECT_EQ(result.status, MeasureStatus::ok);
+  EXPECT_THAT(result.warnings, ElementsAre(Field(&Warning::code, GetParam().says)));
+  EXPECT_THAT(result.warnings.at(0).message, ::testing::EndsWith("."));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, Noted,
+    ::testing::Values(
+        Fault{"truncated", [](Case& c) { c.choice.best.left.status = FlankStatus::truncated; },
+              "flank_truncated"},
+        Fault{"absent", [](Case& c) { c.choice.best.left.status = FlankStatus::absent; },
+              "one_flank"},
+        Fault{"cut", [](Case& c) { c.choice.best.left.frame_cut = true; }, "flank_cut_by_frame"},
+        Fault{"apron", [](Case& c) { c.choice.best.right.apron_cut = true; }, "apron_left_out"},
+        Fault{"grains", [](Case& c) { c.choice.best.grain = 20; }, "few_grains"},
+        Fault{"tilt", [](Case& c) { c.choice.best.body.ground.slope = 0.07; }, "tilted_picture"},
+        Fault{"mirror", [](Case& c) { c.choice.best.body.mirrored = true; }, "mirror"},
+        Fault{"strays", [](Case& c) { c.result.strays = 3; }, "strays"},
+        Fault{"unequal", [](Case& c) { c.choice.best.left.angle_rad = 20 * kDegree; },
+              "unequal_flanks"}),
+    name_of);
+
+ReposeAngle judged_with(double base_bow, double pitch_deg) {
+  Case heap;
+  heap.choice.best.body.base_bow = base_bow;
+  heap.options.camera_pitch_rad = pitch_deg * kDegree;
+  return heap.judged();
+}
+
+TEST(Judge, ABowedBaseIsNoFaultWhenItsPitchIsGiven) {
+  // By pitch_from_bow: 7 and 24 degrees.
+  EXPECT_EQ(judged_with(0.045, 7).status, MeasureStatus::ok);
+  EXPECT_EQ(judged_with(0.15, 24).status, MeasureStatus::ok);
+}
+
+TEST(Judge, ABaseThatBowsOtherwiseThanThePitchGivenIsFlagged) {
+  for (const ReposeAngle& result : {judged_with(0, 17), judged_with(0.15, 5)}) {
+    EXPECT_EQ(result.status, MeasureStatus::flagged);
+    EXPECT_THAT(result.warnings, ElementsAre(Field(&Warning::code, "pitch_disagrees")));
+  }
+}
+
+TEST(Judge, ConfidenceFallsWithTheEdgeAndWithDisagreement) {
+  const auto confidence = [](double score, double disagreement_deg) {
+    Case heap;
+    heap.choice.best.score = score;
+    heap.choice.disagreement_rad = disagreement_deg * kDegree;
+    return heap.judged().confidence;
+  };
+  EXPECT_GT(confidence(0.5, 0), confidence(0.4, 0));
+  EXPECT_GT(confidence(0.5, 0), confidence(0.5, 1));
+  EXPECT_GT(confidence(0.5, 1), confidence(0.5, 2));
+  EXPECT_LE(confidence(1, 0), 1);
+  EXPECT_EQ(confidence(0, 0), 0);
+}
+
+}  // namespace
+}  // namespace repose::vision

@@ -1,0 +1,227 @@
+#include "vision/drawing/overlay_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "vision/drawing/overlay_style.h"
+
+namespace repose::vision {
+namespace {
+
+using Path = std::vector<cv::Point2d>;
+
+constexpr int kFractionBits = 4;  // OpenCV draws at sixteenths of a pixel
+constexpr double kDimmed = 0.7;   // what is left of the light outside the heap
+
+/// The image with the sizes of strokes and letters that suit it.
+class Canvas {
+ public:
+  Canvas(cv::Mat& image, double scale)
+      : image_(image),
+        scale_(scale),
+        size_(std::sqrt(static_cast<double>(image.cols) * image.rows)) {}
+
+  cv::Mat& image() const { return image_; }
+  cv::Point2d at(const Point& point) const { return {point.x * scale_, point.y * scale_}; }
+  int stroke(double weight) const { return std::max(1, cvRound(weight * size_ / 350)); }
+  double length(double part) const { return part * size_; }
+
+  Path path_of(const std::vector<Point>& points) const {
+    Path path;
+    path.reserve(points.size());
+    for (const Point& point : points) path.push_back(at(point));
+    return path;
+  }
+
+  /// A line that shows on any ground: its dark halo is drawn first.
+  void draw(const Path& path, const cv::Scalar& colour, double weight, bool closed = false) const {
+    const int halo = stroke(weight) + 2 * std::max(1, stroke(weight) / 3);
+    draw_once(path, kDark, halo, closed);
+    draw_once(path, colour, stroke(weight), closed);
+  }
+
+  void draw_dashed(cv::Point2d from, cv::Point2d to, const cv::Scalar& colour,
+                   double weight) const {
+    const double dash = length(0.012);
+    const double whole = cv::norm(to - from);
+    for (double at = 0; at < whole; at += 2 * dash) {
+      const double end = std::min(at + dash, whole);
+      draw({from + (to - from) * (at / whole), from + (to - from) * (end / whole)}, colour, weight);
+    }
+  }
+
+ private:
+  void draw_once(const Path& path, const cv::Scalar& colour, int thickness, bool closed) const {
+    std::vector<cv::Point> points;
+    points.reserve(path.size());
+    for (const cv::Point2d& point : path) {
+      // OpenCV counts from the centre of the first pixel, we from its corner.
+      points.emplace_back(cvRound((point.x - 0.5) * (1 << kFractionBits)),
+                          cvRound((point.y - 0.5) * (1 << kFractionBits)));
+    }
+    cv::polylines(image_, points, closed, colour, thickness, cv::LINE_AA, kFractionBits);
+  }
+
+  cv::Mat& image_;
+  double scale_;
+  double size_;
+};
+
+void dim_outside(const Canvas& canvas, const std::vector<Point>& outline) {
+  if (outline.size() < 3) return;
+  std::vector<cv::Point> corners;
+  corners.reserve(outline.size());
+  for (const Point& point : outline) corners.emplace_back(canvas.at(point));
+  cv::Mat inside = cv::Mat::zeros(canvas.image().size(), CV_8U);
+  cv::fillPoly(inside, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(255));
+  cv::Mat dimmed = canvas.image() * kDimmed;
+  canvas.image().copyTo(dimmed, inside);
+  dimmed.copyTo(canvas.image());
+}
+
+void draw_excluded(const Canvas& canvas, const Box& box) {
+  const cv::Point2d top_left = canvas.at({double(box.x), double(box.y)});
+  const cv::Point2d bottom_right =
+      canvas.at({double(box.x) + box.width, double(box.y) + box.height});
+  const cv::Point2d top_right{bottom_right.x, top_left.y}, bottom_left{top_left.x, bottom_right.y};
+  canvas.draw({top_left, top_right, bottom_right, bottom_left}, kGrey, 0.7, true);
+  canvas.draw({top_left, bottom_right}, kGrey, 0.7);
+  canvas.draw({top_right, bottom_left}, kGrey, 0.7);
+}
+
+/// Where the lines a and b through two points each meet.
+std::optional<cv::Point2d> meeting(cv::Point2d a0, cv::Point2d a1, cv::Point2d b0, cv::Point2d b1) {
+  const cv::Point2d a = a1 - a0, b = b1 - b0;
+  const double cross = a.cross(b);
+  if (std::abs(cross) <= 1e-9 * cv::norm(a) * cv::norm(b)) return std::nullopt;
+  return a0 + a * ((b0 - a0).cross(b) / cross);
+}
+
+Path arc(cv::Point2d centre, double radius, double from_rad, double to_rad) {
+  constexpr int kSteps = 40;
+  Path path;
+  for (int step = 0; step <= kSteps; ++step) {
+    const double angle = from_rad + (to_rad - from_rad) * step / kSteps;
+    path.emplace_back(centre + radius * cv::Point2d(std::cos(angle), std::sin(angle)));
+  }
+  return path;
+}
+
+double direction(cv::Point2d vector) { return std::atan2(vector.y, vector.x); }
+
+/// A fitted line from its lower to its upper end.
+struct FlankLine {
+  cv::Point2d low;
+  cv::Point2d high;
+  bool is_left = true;
+  cv::Scalar colour;
+};
+
+FlankLine flank_line(const Canvas& canvas, const Segment& line, bool is_left) {
+  FlankLine result{canvas.at(line.from), canvas.at(line.to), is_left, is_left ? kOrange : kSkyBlue};
+  if (result.low.y < result.high.y) std::swap(result.low, result.high);
+  return result;
+}
+
+/// The angle between the ground and the line: an arc around the point where they meet, inside the
+/// heap.
+void draw_angle(const Canvas& canvas, const FlankLine& flank, cv::Point2d foot,
+                cv::Point2d along_ground) {
+  const cv::Point2d uphill = flank.high - flank.low;
+  if (along_ground.dot(uphill) < 0) along_ground = -along_ground;
+  const double radius = 0.5 * cv::norm((flank.low + flank.high) / 2 - foot);
+  const double from_rad = direction(along_ground);
+  const double turn_rad = std::remainder(direction(uphill) - from_rad, 2 * std::numbers::pi);
+  canvas.draw(arc(foot, radius, from_rad, from_rad + turn_rad), flank.colour, 0.7);
+}
+
+/// Where the flank's line meets the ground; empty when there is no ground or that is far away.
+std::optional<cv::Point2d> foot_of(const Canvas& canvas, const FlankLine& flank,
+                                   const std::optional<Segment>& ground) {
+  if (!ground) return std::nullopt;
+  const auto foot = meeting(flank.low, flank.high, canvas.at(ground->from), canvas.at(ground->to));
+  const bool is_near = foot && cv::norm(*foot - flank.low) < canvas.length(2);
+  return is_near ? foot : std::nullopt;
+}
+
+void draw_line(const Canvas& canvas, const FlankLine& flank, const std::optional<Segment>& ground,
+               bool has_angle) {
+  const cv::Point2d along = flank.high - flank.low;
+  const auto met = foot_of(canvas, flank, ground);
+  const cv::Point2d foot = met.value_or(flank.low - 0.25 * along);
+  if (met && has_angle) {
+    draw_angle(canvas, flank, foot, canvas.at(ground->to) - canvas.at(ground->from));
+  }
+  canvas.draw_dashed(flank.low, foot, flank.colour, 0.7);
+  canvas.draw_dashed(flank.high, flank.high + 0.3 * along, flank.colour, 0.7);
+  canvas.draw({flank.low, flank.high}, flank.colour, 1.1);
+  const cv::Point2d tick =
+      cv::Point2d(-along.y, along.x) * (canvas.length(0.014) / std::max(1.0, cv::norm(along)));
+  for (const cv::Point2d end : {flank.low, flank.high}) {
+    canvas.draw({end - tick, end + tick}, flank.colour, 0.9);
+  }
+}
+
+/// A line of text on a dark plate, moved into the image where it would stick out.
+void draw_label(const Canvas& canvas, const Lettering& lettering, const std::string& text,
+                cv::Point2d anchor, bool ends_at_anchor, const cv::Scalar& colour) {
+  const int height = std::max(12, cvRound(canvas.length(0.042)));
+  const int pad = height / 3;
+  cv::Mat& image = canvas.image();
+  const cv::Size plate(lettering.width(text, height) + 2 * pad, height + pad);
+  cv::Point corner(cvRound(anchor.x) - (ends_at_anchor ? plate.width : 0),
+                   cvRound(anchor.y) - plate.height);
+  corner.x = std::clamp(corner.x, 0, std::max(0, image.cols - plate.width));
+  corner.y = std::clamp(corner.y, 0, std::max(0, image.rows - plate.height));
+  const cv::Rect box = cv::Rect(corner, plate) & cv::Rect({}, image.size());
+  cv::Mat under = image(box);
+  cv::addWeighted(under, 0.2, cv::Mat(under.size(), under.type(), kDark), 0.8, 0, under);
+  cv::rectangle(image, cv::Rect(box.tl(), cv::Size(std::max(2, pad / 3), box.height)), colour,
+                cv::FILLED);
+  lettering.draw(image, text, corner + cv::Point(pad, pad / 2), height, kWhite);
+}
+
+void label_flank(const Canvas& canvas, const Lettering& lettering, const Flank& measured,
+                 const FlankLine& flank) {
+  if (!measured.angle_rad) return;
+  const cv::Point2d along = flank.high - flank.low;
+  cv::Point2d outward = cv::Point2d(along.y, -along.x) / std::max(1.0, cv::norm(along));
+  if (outward.y > 0) outward = -outward;
+  const cv::Point2d anchor = (flank.low + flank.high) / 2 + outward * canvas.length(0.035);
+  draw_label(canvas, lettering, angle_text(*measured.angle_rad, measured.uncertainty_rad), anchor,
+             flank.is_left, flank.colour);
+}
+
+void draw_ground(const Canvas& canvas, const Segment& ground) {
+  const cv::Point2d from = canvas.at(ground.from), to = canvas.at(ground.to);
+  const cv::Point2d beyond = 0.04 * (to - from);
+  canvas.draw({from - beyond, to + beyond}, kYellow, 0.8);
+}
+
+}  // namespace
+
+void draw_marks(cv::Mat& image, double scale, const ReposeAngle& measured,
+                const std::vector<Box>& excluded, const Lettering& lettering) {
+  const Canvas canvas(image, scale);
+  dim_outside(canvas, measured.outline);
+  for (const Box& box : excluded) draw_excluded(canvas, box);
+  if (!measured.outline.empty()) canvas.draw(canvas.path_of(measured.outline), kWhite, 0.6, true);
+  if (measured.ground) draw_ground(canvas, *measured.ground);
+
+  std::vector<std::pair<const Flank*, FlankLine>> flanks;
+  for (const Flank* flank : {&measured.left, &measured.right}) {
+    if (!flank->line) continue;
+    flanks.emplace_back(flank, flank_line(canvas, *flank->line, flank == &measured.left));
+  }
+  for (const auto& [flank, line] : flanks)
+    draw_line(canvas, line, measured.ground, flank->angle_rad.has_value());
+  for (const auto& [flank, line] : flanks) label_flank(canvas, lettering, *flank, line);
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "vision/measure/geometry.h"
+#include "vision/measure/segmentation.h"
+#include "vision/measure/working_picture.h"
+
+namespace repose::vision {
+
+/// A solid region of the working picture that may be the heap, and the line it stands on.
+struct Body {
+  cv::Mat1b mask;  ///< 255 inside; nothing below the ground line
+  PictureLine ground;
+  double ground_deviation_rad = 0;  ///< standard uncertainty of the ground line's tilt
+  double base_bow = 0;    ///< how far the base bows downwards, as a share of the base's width
+  bool mirrored = false;  ///< the ground line is the axis of a reflection
+};
+
+/// Fills holes and cuts off the ground, for each of the few largest regions; largest first.
+std::vector<Body> find_bodies(const Segmentation& segmentation, const WorkingPicture& work);
+
+/// The largest region as it is, holes filled, on a level line through its lowest pixel.
+Body largest_region(const Segmentation& segmentation, const WorkingPicture& work);
+
+/// The same heap by another segmentation, on the ground line that is known already. Empty mask when
+/// nothing stands there.
+Body body_on(const Body& known, const Segmentation& segmentation, const WorkingPicture& work);
+
+/// Small pieces with their feet on the ground, apart from the heap itself.
+int count_strays(const Body& body, const Segmentation& segmentation, const WorkingPicture& work);
+
+}  // namespace repose::vision

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "vision/measure/reading.h"
+#include "vision/repose_angle.h"
+
+namespace repose::vision {
+
+/// The same heap's angle by other definitions in use; those that the picture allows.
+std::vector<NamedAngle> other_definitions(const Reading& reading);
+
+}  // namespace repose::vision

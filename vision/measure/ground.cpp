@@ -1,0 +1,149 @@
+#include "vision/measure/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/core.hpp>
+
+#include "vision/measure/ground_line.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kTailShare = 0.12;     // of the frame's width that must be bare ground
+constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron of grains is not
+constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
+constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
+constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a share of its width
+constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
+constexpr double kBaseTolerance = 3.0;  // px: grains touch the ground only here and there
+
+std::vector<Point> points_of(const std::vector<int>& rows, double offset) {
+  std::vector<Point> points;
+  for (std::size_t col = 0; col < rows.size(); ++col) {
+    if (rows[col] >= 0) points.push_back({static_cast<double>(col) + 0.5, rows[col] + offset});
+  }
+  return points;
+}
+
+/// Mean colour and roughness of a region, as one vector in L*a*b* units.
+struct Material {
+  cv::Vec4d sum;
+  double count = 0;
+
+  void add(const WorkingPicture& work, int row, int col) {
+    const cv::Vec3f here = work.lab(row, col);
+    const double step = row > 0 ? std::abs(here[0] - work.lab(row - 1, col)[0]) : 0;
+    sum += cv::Vec4d(here[0], here[1], here[2], 2 * step);
+    ++count;
+  }
+  cv::Vec4d mean() const { return sum / std::max(1.0, count); }
+};
+
+/// Whether the layer below a line through the outline's tails is made of the heap's own material:
+/// then it is an apron of grains, not the ground.
+bool tails_are_grains(const Spans& spans, const PictureLine& line, const WorkingPicture& work) {
+  Material tail;
+  Material heap;
+  for (std::size_t i = 0; i < spans.top.size(); ++i) {
+    if (spans.top[i] < 0) continue;
+    const int col = static_cast<int>(i);
+    const double ground = line.y(col + 0.5);
+    const int level = static_cast<int>(std::lround(ground));
+    if (std::abs(spans.top[i] - ground) <= kTailTolerance) {
+      const int last = std::min({spans.bottom[i], level + kTailDepth, work.lab.rows - 1});
+      for (int row = std::max(0, level + 2); row <= last; ++row) tail.add(work, row, col);
+    } else if (spans.top[i] < ground - kTailDepth) {
+      for (int row = spans.top[i] + 3; row < level - 2; row += 2) heap.add(work, row, col);
+    }
+  }
+  return tail.count > 0 && heap.count > 0 && cv::norm(tail.mean() - heap.mean()) < kSameMaterial;
+}
+
+/// Bare ground left or right of the heap, when the segmentation took the ground for heap: a smooth
+/// stretch of the upper outline that reaches the frame, everything else above it.
+std::optional<Ground> ground_from_tails(const Spans& spans, const WorkingPicture& work) {
+  const cv::Rect& frame = work.frame;
+  const auto reaches = [&](int col) { return spans.top[static_cast<std::size_t>(col)] >= 0; };
+  const bool left = reaches(frame.x + 2);
+  const bool right = reaches(frame.br().x - 3);
+  if (!left && !right) return std::nullopt;
+  const std::vector<Point> tops = points_of(spans.top, 0);
+  const auto line = support_line(tops, kTailTolerance);
+  if (!line || line->share * static_cast<double>(tops.size()) < kTailShare * frame.width ||
+      tails_are_grains(spans, line->line, work)) {
+    return std::nullopt;
+  }
+  return Ground{line->line, line->deviation_rad, 0, false};
+}
+
+/// c of y = a + b x + c x^2 through the points, as the bow's depth over the width.
+double bow_of(const std::vector<Point>& points) {
+  if (points.size() < 8) return 0;
+  const double middle = (points.front().x + points.back().x) / 2;
+  const double reach = (points.back().x - points.front().x) / 2;
+  cv::Matx33d normal = cv::Matx33d::zeros();
+  cv::Vec3d right;
+  for (const Point& p : points) {
+    const double u = (p.x - middle) / reach;
+    const cv::Vec3d terms(1, u, u * u);
+    normal += terms * terms.t();
+    right += terms * p.y;
+  }
+  const cv::Vec3d fit = normal.solve(right, cv::DECOMP_SVD);
+  return -fit[2] / (2 * reach);
+}
+
+/// The axis of a reflection: half way between the upper and the lower outline, everywhere. What is
+/// below it must look different, as a reflection is weaker; else this is one body seen from above.
+std::optional<Ground> ground_from_mirror(const Spans& spans, const WorkingPicture& work) {
+  std::vector<Point> middles;
+  for (std::size_t col = 0; col < spans.top.size(); ++col) {
+    if (spans.top[col] < 0) continue;
+    middles.push_back(
+        {static_cast<double>(col) + 0.5, (spans.top[col] + spans.bottom[col] + 1) / 2.0});
+  }
+  const auto axis = support_line(middles, kBaseTolerance);
+  if (!axis || axis->share <= 0.5) return std::nullopt;
+  Material heap;
+  Material image;
+  for (std::size_t i = 0; i < spans.top.size(); ++i) {
+    if (spans.top[i] < 0) continue;
+    const int col = static_cast<int>(i);
+    const int level = static_cast<int>(std::lround(axis->line.y(col + 0.5)));
+    for (int row = spans.top[i] + 3; row < level - 2; row += 2) heap.add(work, row, col);
+    for (int row = level + 3; row < spans.bottom[i] - 2; row += 2) image.add(work, row, col);
+  }
+  if (cv::norm(heap.mean() - image.mean()) < kSameMaterial) return std::nullopt;
+  return Ground{axis->line, axis->deviation_rad, 0, true};
+}
+
+/// The base of a heap that the segmentation separated from the ground.
+std::optional<Ground> ground_from_base(const Spans& spans, const WorkingPicture& work) {
+  const std::vector<Point> bottoms = points_of(spans.bottom, 1);
+  const double bow = bow_of(bottoms);
+  std::optional<SupportLine> base;
+  for (const double looser : {1.0, 2.0, 3.5}) {  // large grains leave large gaps at the ground
+    base = support_line(bottoms, looser * kBaseTolerance);
+    if (base && base->share > 0.5 && bow < kStraightBase && bow > -kRaggedBase) {
+      return Ground{base->line, base->deviation_rad, bow, false};
+    }
+  }
+  if (auto mirror = ground_from_mirror(spans, work)) return mirror;
+  if (!base || bow < 0) return std::nullopt;
+  // A bowed base: the heap stands on the line through its two ends.
+  const Point& first = bottoms.front();
+  const Point& last = bottoms.back();
+  const double slope = (last.y - first.y) / std::max(1.0, last.x - first.x);
+  if (std::abs(std::atan(slope)) > kMaxGroundTilt_rad) return std::nullopt;
+  return Ground{{first.y - slope * first.x, slope}, base->deviation_rad, bow, false};
+}
+
+}  // namespace
+
+std::optional<Ground> find_ground(const Spans& region, const WorkingPicture& work) {
+  if (auto tails = ground_from_tails(region, work)) return tails;
+  return ground_from_base(region, work);
+}
+
+}  // namespace repose::vision

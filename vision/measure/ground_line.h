@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "vision/measure/geometry.h"
+
+namespace repose::vision {
+
+/// A near-level line through as many points as possible, none of them the heap's.
+struct SupportLine {
+  PictureLine line;
+  double share = 0;          ///< of the points that lie on the line
+  double deviation_rad = 0;  ///< standard uncertainty of its tilt
+};
+
+/// Steepest ground line that is believed. A level tripod stays below 3 degrees.
+inline constexpr double kMaxGroundTilt_rad = 8 * 3.14159265358979 / 180;
+
+/// The line on which most points lie within `tolerance` with next to none below it (y larger).
+/// Exhaustive over pairs of a fixed subset: no chance involved. Empty for fewer than 8 points.
+std::optional<SupportLine> support_line(const std::vector<Point>& points, double tolerance);
+
+}  // namespace repose::vision

@@ -1,0 +1,97 @@
+#include "vision/measure/line_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <ceres/ceres.h>
+
+namespace repose::vision {
+namespace {
+
+constexpr double kMadToSigma = 1.4826;   // of a normal distribution
+constexpr double kTukeyTuning = 4.685;   // 95 % efficiency on normal residuals
+constexpr double kSmallestScale = 1e-6;  // keeps a perfect line solvable
+
+/// Vertical distances of all points from one line; the loss is applied to each by IRLS weights
+/// inside Ceres, so every point is its own residual block.
+struct VerticalDistance {
+  double x;
+  double y;
+
+  template <typename T>
+  bool operator()(const T* line, T* residual) const {
+    residual[0] = T(y) - (line[0] + line[1] * T(x));
+    return true;
+  }
+};
+
+}  // namespace
+
+double median(std::span<const double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (sorted.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(sorted.begin(), middle)) / 2;
+}
+
+LineFit least_squares_line(std::span<const double> x, std::span<const double> y) {
+  const std::size_t n = std::min(x.size(), y.size());
+  if (n == 0) return {};
+  double mean_x = 0;
+  double mean_y = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    mean_x += x[i] / static_cast<double>(n);
+    mean_y += y[i] / static_cast<double>(n);
+  }
+  double sxx = 0;
+  double sxy = 0;
+  double syy = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sxx += (x[i] - mean_x) * (x[i] - mean_x);
+    sxy += (x[i] - mean_x) * (y[i] - mean_y);
+    syy += (y[i] - mean_y) * (y[i] - mean_y);
+  }
+  // Points above one another: what is left of sxx is rounding.
+  if (sxx <= 1e-20 * static_cast<double>(n) * mean_x * mean_x || sxx == 0) {
+    return {.intercept = mean_y};
+  }
+  const double slope = sxy / sxx;
+  return {.intercept = mean_y - slope * mean_x,
+          .slope = slope,
+          .r2 = syy > 0 ? sxy * sxy / (sxx * syy) : 1};
+}
+
+LineFit robust_line(std::span<const double> x, std::span<const double> y) {
+  const LineFit start = least_squares_line(x, y);
+  if (x.size() < 4) return start;
+  std::vector<double> distance;
+  for (std::size_t i = 0; i < x.size(); ++i) distance.push_back(std::abs(y[i] - start.y(x[i])));
+  const double scale = std::max(kMadToSigma * median(distance), kSmallestScale);
+
+  // Centred and scaled, so that both parameters have the same size.
+  const double middle = (x.front() + x.back()) / 2;
+  const double reach = std::max(std::abs(x.back() - x.front()) / 2, 1e-9);
+  double line[2] = {start.y(middle), start.slope * reach};
+  ceres::Problem problem;
+  ceres::LossFunction* tukey = new ceres::TukeyLoss(kTukeyTuning * scale);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<VerticalDistance, 1, 2>(
+                                 new VerticalDistance{(x[i] - middle) / reach, y[i]}),
+                             tukey, line);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = 50;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return start;
+  const double slope = line[1] / reach;
+  return {.intercept = line[0] - slope * middle, .slope = slope, .r2 = start.r2};
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "vision/measure/body.h"
+#include "vision/measure/flank.h"
+#include "vision/measure/profile.h"
+#include "vision/measure/segmentation.h"
+#include "vision/repose_angle.h"
+
+namespace repose::vision {
+
+/// What one segmentation says about the heap, and how well the picture supports it.
+struct Reading {
+  Segmentation segmentation;
+  Body body;
+  Profile profile;
+  FlankFit left;
+  FlankFit right;
+  std::optional<double> grain;  ///< working px
+  double edge_contrast = 0;     ///< step across the edge over the scatter beside it
+  double edge_sharpness = 0;    ///< share of the step within three pixels: a shadow's is soft
+  double score = 0;             ///< 0 to 1: boundary times plausibility; 0 when no flank was found
+
+  const FlankFit& flank(Side side) const { return side == Side::left ? left : right; }
+  bool has_flank() const {
+    return left.status == FlankStatus::ok || right.status == FlankStatus::ok;
+  }
+  /// Mean of the sides that exist.
+  double angle_rad() const;
+};
+
+/// The best reading of the bodies that the segmentation shows; score 0 when there is none.
+Reading read_heap(const Segmentation& segmentation, const WorkingPicture& work,
+                  const MeasureOptions& options);
+
+/// Reads the heap anew by another segmentation, on the ground line of an earlier reading.
+Reading read_again(const Reading& earlier, const Segmentation& segmentation,
+                   const WorkingPicture& work, const MeasureOptions& options);
+
+}  // namespace repose::vision

@@ -1,0 +1,117 @@
+#include "vision/measure/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace repose::vision {
+namespace {
+
+constexpr int kBandNear = 2;          // px from the edge at which the bands beside it begin
+constexpr int kBandFar = 8;           // and end
+constexpr double kUsualBase = 0.25;   // of the frame's width: smaller things are hardly the subject
+constexpr double kCrestUnseen = 0.3;  // a body that hangs from the top is hardly the heap
+constexpr std::size_t kChunks = 10;
+
+struct Band {
+  cv::Vec3d sum;
+  double squares = 0;
+  int count = 0;
+
+  void add(const cv::Vec3f& colour) {
+    const cv::Vec3d value = colour;
+    sum += value;
+    squares += value.dot(value);
+    ++count;
+  }
+  cv::Vec3d mean() const { return sum / std::max(1, count); }
+  double variance() const {
+    const cv::Vec3d m = mean();
+    return std::max(0.0, squares / std::max(1, count) - m.dot(m));
+  }
+};
+
+struct EdgePoint {
+  int col;
+  double row;
+};
+
+struct EdgeQuality {
+  double contrast = 0;
+  double sharpness = 0;
+};
+
+cv::Vec3f colour_at(const WorkingPicture& work, double row, int col) {
+  const int r = std::clamp(static_cast<int>(std::floor(row)), 0, work.lab.rows - 1);
+  return work.lab(r, col);
+}
+
+EdgeQuality chunk_quality(const std::vector<EdgePoint>& edge, std::size_t first, std::size_t last,
+                          const WorkingPicture& work) {
+  Band outside;
+  Band inside;
+  for (std::size_t i = first; i < last; ++i) {
+    for (int away = kBandNear; away <= kBandFar; ++away) {
+      outside.add(colour_at(work, edge[i].row - away, edge[i].col));
+      inside.add(colour_at(work, edge[i].row + away, edge[i].col));
+    }
+  }
+  const cv::Vec3d step = inside.mean() - outside.mean();
+  const double length = cv::norm(step);
+  if (length < 1e-6) return {};
+  double near_step = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const cv::Vec3d near = cv::Vec3d(colour_at(work, edge[i].row + 1.5, edge[i].col)) -
+                           cv::Vec3d(colour_at(work, edge[i].row - 1.5, edge[i].col));
+    near_step += near.dot(step) / (length * length) / static_cast<double>(last - first);
+  }
+  return {length / std::sqrt(4 + outside.variance() + 0.5 * inside.variance()),
+          std::clamp(near_step, 0.0, 1.0)};
+}
+
+std::vector<EdgePoint> edge_of(const FlankFit& flank, Side side, const Reading& reading,
+                               const WorkingPicture& work) {
+  const GroundFrame ground(reading.body.ground);
+  const double crest = reading.profile.along[reading.profile.crest];
+  std::vector<EdgePoint> edge;
+  for (std::size_t i = 0; i < flank.along.size(); ++i) {
+    const double along = side == Side::left ? crest - flank.along[i] : crest + flank.along[i];
+    const Point p = ground.picture(along, flank.height[i]);
+    const int col = std::clamp(static_cast<int>(p.x), 0, work.lab.cols - 1);
+    edge.push_back({col, p.y});
+  }
+  return edge;
+}
+
+double saturated(double value, double half) { return value / (value + half); }
+
+}  // namespace
+
+void score(Reading& reading, const WorkingPicture& work) {
+  if (!reading.has_flank()) return;
+  std::vector<double> contrast;
+  double sharpness = 0;
+  double fit = 1;
+  for (const Side side : {Side::left, Side::right}) {
+    const FlankFit& flank = reading.flank(side);
+    if (flank.status != FlankStatus::ok) continue;
+    const std::vector<EdgePoint> edge = edge_of(flank, side, reading, work);
+    for (std::size_t chunk = 0; chunk < kChunks; ++chunk) {
+      const EdgeQuality q = chunk_quality(edge, chunk * edge.size() / kChunks,
+                                          (chunk + 1) * edge.size() / kChunks, work);
+      contrast.push_back(q.contrast);
+      sharpness += q.sharpness;
+    }
+    fit = std::min(fit, flank.least_squares.r2);
+  }
+  sharpness /= static_cast<double>(contrast.size());
+  std::sort(contrast.begin(), contrast.end());
+  reading.edge_contrast = contrast[contrast.size() / 4];  // most of the edge, not its best part
+  reading.edge_sharpness = sharpness;
+  const double base = reading.profile.along.back() - reading.profile.along.front();
+  const double share = std::min(1.0, base / (kUsualBase * work.frame.width));
+  reading.score = saturated(reading.edge_contrast, 1) * saturated(sharpness, 0.3) * fit * fit *
+                  share * share * (reading.profile.leaves_frame_top ? kCrestUnseen : 1);
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "vision/measure/working_picture.h"
+
+namespace repose::vision {
+
+/// One way to tell heap from not-heap. `inside` is a smooth field, > 0 where the heap is believed
+/// to be; where it crosses 0 between two pixels is the edge, finer than a pixel.
+struct Segmentation {
+  std::string name;
+  cv::Mat1f inside;
+};
+
+/// Segmentations that need nothing but the picture: Otsu on several channels, distance from a
+/// backdrop model, adaptive threshold.
+std::vector<Segmentation> blind_segmentations(const WorkingPicture& work);
+
+/// By texture alone: finds grains before a backdrop of their own colour, with a blurred edge.
+Segmentation rough_segmentation(const WorkingPicture& work);
+
+/// Otsu on the grey picture and nothing else.
+Segmentation grey_otsu(const WorkingPicture& work);
+
+/// Otsu's threshold of `values` where `evidence` is set, in the units of `values`.
+double otsu_threshold(const cv::Mat1f& values, const cv::Mat1b& evidence);
+
+/// Local standard deviation of lightness: grains are rough, backdrops smooth.
+cv::Mat1f roughness(const cv::Mat1f& lightness, double sigma_px);
+
+cv::Mat1f smoothed(const cv::Mat1f& values, double sigma_px);
+
+}  // namespace repose::vision

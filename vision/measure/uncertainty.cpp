@@ -1,0 +1,73 @@
+#include "vision/measure/uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace repose::vision {
+namespace {
+
+constexpr double kNormal95 = 1.96;
+constexpr double kFloor_rad = 0.06 * std::numbers::pi / 180;
+constexpr double kWindowShare = 0.5;
+
+double student_95(double degrees_of_freedom) {
+  const boost::math::students_t student(std::max(1.0, degrees_of_freedom));
+  return boost::math::quantile(student, 0.975);
+}
+
+double grains_95(const FlankFit& flank) {
+  return student_95(flank.degrees_of_freedom) * flank.fit_error_rad;
+}
+
+/// Of the mean of two flanks; degrees of freedom by Welch and Satterthwaite (GUM, G.2b).
+double grains_95(const FlankFit& left, const FlankFit& right) {
+  const double l = left.fit_error_rad * left.fit_error_rad;
+  const double r = right.fit_error_rad * right.fit_error_rad;
+  if (l + r <= 0) return 0;
+  const double freedom =
+      (l + r) * (l + r) / (l * l / left.degrees_of_freedom + r * r / right.degrees_of_freedom);
+  return student_95(freedom) * std::sqrt(l + r) / 2;
+}
+
+/// What moving the window changes beyond what the grains' scatter explains.
+double window_95(const FlankFit& flank) {
+  const double spread = flank.window_spread_rad;
+  const double chance = 2 * flank.fit_error_rad;
+  return kWindowShare * std::sqrt(std::max(0.0, spread * spread - chance * chance));
+}
+
+double combined(std::initializer_list<double> parts) {
+  double squares = kFloor_rad * kFloor_rad;
+  for (const double part : parts) squares += part * part;
+  return std::sqrt(squares);
+}
+
+double side_95(const FlankFit& flank, double ground_rad, double disagreement_rad) {
+  if (flank.status != FlankStatus::ok) return 0;
+  return combined({grains_95(flank), window_95(flank), kNormal95 * ground_rad, disagreement_rad});
+}
+
+}  // namespace
+
+Uncertainty uncertainty_of(const Choice& choice) {
+  const Reading& best = choice.best;
+  const double ground = best.body.ground_deviation_rad;
+  Uncertainty u;
+  u.left_rad = side_95(best.left, ground, choice.left_disagreement_rad);
+  u.right_rad = side_95(best.right, ground, choice.right_disagreement_rad);
+  const bool left = best.left.status == FlankStatus::ok;
+  const bool right = best.right.status == FlankStatus::ok;
+  if (left && right) {
+    u.mean_rad =
+        combined({grains_95(best.left, best.right),
+                  (window_95(best.left) + window_95(best.right)) / 2, choice.disagreement_rad});
+  } else {
+    u.mean_rad = left ? u.left_rad : u.right_rad;
+  }
+  return u;
+}
+
+}  // namespace repose::vision

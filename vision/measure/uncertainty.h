@@ -1,0 +1,26 @@
+#pragma once
+
+#include "vision/measure/choice.h"
+
+namespace repose::vision {
+
+/// Half-widths of 95 % intervals [rad].
+struct Uncertainty {
+  double left_rad = 0;
+  double right_rad = 0;
+  double mean_rad = 0;
+};
+
+/// Combines what can be wrong with an angle, in quadrature:
+/// - grains: block bootstrap of the line, times Student's t for the independent stretches of edge;
+/// - window: half the largest change when the window is 10-90 % or 30-70 % instead, less what the
+///   grains' scatter explains of it; both flanks share the choice, so their parts add up;
+/// - ground line: its tilt, which enters the two sides with opposite sign, so the mean is free of
+/// it;
+/// - segmentation: how far the other good segmentations are on average, as it is: the best one has
+///   earned its place, so the others only bound its error;
+/// - a floor for what a single picture cannot show (lens, pixels).
+/// Source: JCGM 100:2008 (GUM), 5.1.2 and G.4.1.
+Uncertainty uncertainty_of(const Choice& choice);
+
+}  // namespace repose::vision

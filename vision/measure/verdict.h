@@ -1,0 +1,12 @@
+#pragma once
+
+#include "vision/measure/choice.h"
+#include "vision/repose_angle.h"
+
+namespace repose::vision {
+
+/// Decides whether the measured number may be used: fills in status, reason, confidence and
+/// warnings of a result that holds everything else.
+void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& options);
+
+}  // namespace repose::vision

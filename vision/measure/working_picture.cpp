@@ -1,0 +1,96 @@
+#include "vision/measure/working_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "vision/mat_of_picture.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kBarBlack = 24;      // a bar's brightest pixel, of 255: JPEG ringing stays below
+constexpr double kBarContent = 0.25;  // of a bar's row may be a logo or a timer laid over it
+constexpr double kPictureContent = 0.5;  // of the row after a bar that must be picture
+
+/// Rows of a black bar at the top of `grey`, 0 when there is none. A dark backdrop is no bar: its
+/// rows become lighter little by little, where the heap is, not nearly everywhere at once.
+int bar_height(const cv::Mat1b& grey) {
+  for (int row = 0; row < grey.rows; ++row) {
+    if (cv::countNonZero(grey.row(row) > kBarBlack) <= kBarContent * grey.cols) continue;
+    const int after = std::min(row + 2, grey.rows - 1);  // resizing blurs the bar's edge
+    return cv::countNonZero(grey.row(after) > kBarBlack) >= kPictureContent * grey.cols ? row : 0;
+  }
+  return 0;
+}
+
+/// Bars come in pairs; a single one is more likely a dark table or ceiling.
+cv::Rect without_letterbox(const cv::Mat1b& grey) {
+  const auto pair_of_bars = [](const cv::Mat1b& upright) {
+    cv::Mat1b flipped;
+    cv::flip(upright, flipped, 0);
+    const int first = bar_height(upright);
+    const int last = bar_height(flipped);
+    if (first == 0 || last == 0) return std::pair{0, 0};
+    return std::pair{first + 1, last + 1};
+  };
+  const auto [top, bottom] = pair_of_bars(grey);
+  const auto [left, right] = pair_of_bars(grey.t());
+  const cv::Rect inner(left, top, grey.cols - left - right, grey.rows - top - bottom);
+  return inner.width > 0 && inner.height > 0 ? inner : cv::Rect({}, grey.size());
+}
+
+cv::Rect shrunk(const Box& box, double shrink) {
+  const auto floored = [&](int value) { return static_cast<int>(std::floor(value / shrink)); };
+  const auto ceiled = [&](int value) { return static_cast<int>(std::ceil(value / shrink)); };
+  const cv::Point first(floored(box.x), floored(box.y));
+  const cv::Point last(ceiled(box.x + box.width), ceiled(box.y + box.height));
+  return {first, last};
+}
+
+/// L*a*b* of a picture of blue, green and red from 0 to 1.
+cv::Mat3f lab_of(const cv::Mat3f& bgr) {
+  // OpenCV builds its tables at the first conversion, without a lock: one thread must do that
+  // alone.
+  static const bool tables_ready = [] {
+    cv::Mat3f lab;
+    cv::cvtColor(cv::Mat3f(1, 1, cv::Vec3f()), lab, cv::COLOR_BGR2Lab);
+    return true;
+  }();
+  static_cast<void>(tables_ready);
+  cv::Mat3f lab;
+  cv::cvtColor(bgr, lab, cv::COLOR_BGR2Lab);
+  return lab;
+}
+
+}  // namespace
+
+WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& excluded) {
+  const cv::Mat full = mat_of(picture);
+  const int longest = std::max(picture.width, picture.height);
+  WorkingPicture work;
+  work.shrink = std::max(1.0, static_cast<double>(longest) / kWorkingSide);
+  if (work.shrink > 1) {
+    const double scale = 1 / work.shrink;
+    const cv::Size size(std::max(1, static_cast<int>(std::lround(picture.width * scale))),
+                        std::max(1, static_cast<int>(std::lround(picture.height * scale))));
+    cv::resize(full, work.bgr, size, 0, 0, cv::INTER_AREA);
+  } else {
+    full.copyTo(work.bgr);
+  }
+  cv::Mat3f scaled;
+  work.bgr.convertTo(scaled, CV_32F, 1 / 255.0);
+  work.lab = lab_of(scaled);
+  cv::Mat1b grey;
+  cv::cvtColor(work.bgr, grey, cv::COLOR_BGR2GRAY);
+  work.frame = without_letterbox(grey);
+  work.evidence = cv::Mat1b::zeros(work.bgr.size());
+  work.evidence(work.frame) = 255;
+  for (const Box& box : excluded) {
+    work.evidence(shrunk(box, work.shrink) & cv::Rect({}, work.bgr.size())) = 0;
+  }
+  return work;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+/// Pictures: what every part of `vision` reads.
+///
+/// Image points are in pixels, x to the right, y downwards, (0, 0) the outer corner of the
+/// top-left pixel, so pixel centres lie at (0.5, 0.5), (1.5, 0.5), ...
+namespace repose::vision {
+
+struct Point {
+  double x = 0;
+  double y = 0;
+};
+
+struct Segment {
+  Point from;
+  Point to;
+};
+
+/// Rectangle of whole pixels; x, y is its top-left pixel.
+struct Box {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// 8-bit colour picture, rows from the top, three bytes a pixel in the order blue, green, red.
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bgr;  ///< width * height * 3 bytes, no padding between rows
+
+  bool empty() const { return width <= 0 || height <= 0; }
+};
+
+/// More pixels than this are refused before any memory is asked for.
+inline constexpr std::int64_t kMaxPixels = 200'000'000;
+
+/// Reads a JPEG, PNG, TIFF, BMP or WebP file into upright 8-bit colour.
+///
+/// EXIF rotation is applied; grey, CMYK, 16-bit and transparent pictures are converted.
+/// @throws std::invalid_argument  one line "FILE: what. Fix: ..." when the file is missing, empty,
+///   no picture, damaged, cut short, or claims more than kMaxPixels.
+Picture read_picture(const std::filesystem::path& file);
+
+/// Writes a PNG (or JPEG, by the name's ending) whole or not at all.
+/// @throws std::invalid_argument  when the place cannot be written.
+void write_picture(const std::filesystem::path& file, const Picture& picture);
+
+}  // namespace repose::vision

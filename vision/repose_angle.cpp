@@ -1,0 +1,178 @@
+#include "vision/repose_angle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/measure/camera_pitch.h"
+#include "vision/measure/choice.h"
+#include "vision/measure/definitions.h"
+#include "vision/measure/paper_method.h"
+#include "vision/measure/uncertainty.h"
+#include "vision/measure/verdict.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kNarrowestWindow = 0.1;
+constexpr double kLargestPitch_rad = 30 * std::numbers::pi / 180;
+constexpr int kSmallestSide = 64;
+
+void check(const Picture& picture, const MeasureOptions& options) {
+  std::vector<std::string> faults = options.problems();
+  if (picture.empty()) faults.emplace_back("the picture is empty. Fix: read one first.");
+  for (const Box& box : options.excluded) {
+    if (box.x < 0 || box.y < 0 || box.width <= 0 || box.height <= 0 ||
+        box.width > picture.width - box.x || box.height > picture.height - box.y) {
+      faults.push_back(
+          fmt::format("excluded box {},{},{},{} does not lie inside the {} x {} picture. Fix: give "
+                      "the top-left "
+                      "pixel, width and height in pixels of the picture.",
+                      box.x, box.y, box.width, box.height, picture.width, picture.height));
+    }
+  }
+  if (!faults.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(faults, "\n")));
+}
+
+/// Pictures are measured side by side. Threads inside OpenCV would gain nothing then, and while one
+/// of them waited it could start on another picture and reseed the generator that GrabCut draws
+/// from.
+void one_thread_a_picture() {
+  static const bool once = [] {
+    cv::setNumThreads(1);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+Point to_picture(Point working, double shrink) { return {working.x * shrink, working.y * shrink}; }
+
+/// The side in the picture's own pixels, its angle corrected for the camera's pitch.
+Flank flank_of(const Reading& reading, Side side, double shrink, double half_width_rad,
+               double pitch_rad) {
+  const FlankFit& fit = reading.flank(side);
+  Flank flank;
+  flank.status = fit.status;
+  flank.reason = fit.reason;
+  if (fit.status != FlankStatus::ok) return flank;
+  const auto level = [&](double apparent) { return angle_without_pitch(apparent, pitch_rad); };
+  flank.angle_rad = level(fit.angle_rad);
+  flank.uncertainty_rad = half_width_rad;
+  flank.least_squares_rad = level(std::atan(-fit.least_squares.slope));
+  flank.robust_rad = level(std::atan(-fit.robust.slope));
+  flank.r2 = fit.least_squares.r2;
+  flank.points = static_cast<int>(fit.along.size());
+  flank.bend_rad = fit.bend_rad;
+  flank.other_windows = fit.other_windows;
+  for (WindowAngle& window : flank.other_windows) window.angle_rad = level(window.angle_rad);
+
+  const GroundFrame ground(reading.body.ground);
+  const double crest = reading.profile.along[reading.profile.crest];
+  const auto place = [&](double out, double height) {
+    const double along = side == Side::left ? crest - out : crest + out;
+    return to_picture(ground.picture(along, height), shrink);
+  };
+  for (std::size_t i = 0; i < fit.along.size(); ++i) {
+    flank.edge.push_back(place(fit.along[i], fit.height[i]));
+  }
+  const LineFit& line = fit.shown;
+  flank.line = Segment{place(fit.along.front(), line.y(fit.along.front())),
+                       place(fit.along.back(), line.y(fit.along.back()))};
+  return flank;
+}
+
+std::vector<Point> outline_of(const cv::Mat1b& mask, double shrink) {
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::vector<Point> outline;
+  if (contours.empty()) return outline;
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < contours.size(); ++i) {
+    if (contours[i].size() > contours[longest].size()) longest = i;
+  }
+  for (const cv::Point& p : contours[longest]) {
+    outline.push_back(to_picture({p.x + 0.5, p.y + 0.5}, shrink));
+  }
+  return outline;
+}
+
+/// Everything that was seen, in the picture's own pixels; judged later.
+ReposeAngle described(const Choice& choice, const WorkingPicture& work,
+                      const MeasureOptions& options) {
+  const Reading& best = choice.best;
+  ReposeAngle result;
+  result.method = options.method;
+  result.window = {options.window_from, options.window_to};
+  result.segmentation = best.segmentation.name;
+  if (best.body.mask.empty() || best.profile.size() == 0) return result;
+  const Uncertainty u = uncertainty_of(choice);
+  result.left = flank_of(best, Side::left, work.shrink, u.left_rad, options.camera_pitch_rad);
+  result.right = flank_of(best, Side::right, work.shrink, u.right_rad, options.camera_pitch_rad);
+  if (best.has_flank()) {
+    result.angle_rad = angle_without_pitch(best.angle_rad(), options.camera_pitch_rad);
+    result.uncertainty_rad = u.mean_rad;
+  }
+  result.ground_tilt_rad = best.body.ground.tilt_rad();
+  const GroundFrame ground(best.body.ground);
+  result.ground = Segment{to_picture(ground.picture(best.profile.along.front(), 0), work.shrink),
+                          to_picture(ground.picture(best.profile.along.back(), 0), work.shrink)};
+  result.outline = outline_of(best.body.mask, work.shrink);
+  result.height_px = best.profile.crest_height * work.shrink;
+  result.base_px = (best.profile.along.back() - best.profile.along.front()) * work.shrink;
+  if (best.grain) result.grain_px = *best.grain * work.shrink;
+  result.strays = count_strays(best.body, best.segmentation, work);
+  result.definitions = other_definitions(best);
+  return result;
+}
+
+ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
+  ReposeAngle result;
+  result.method = options.method;
+  result.window = {options.window_from, options.window_to};
+  result.reason = fmt::format(
+      "of the {} x {} pixels too few remain to measure in. Fix: use a picture of at least {} "
+      "pixels "
+      "each way, not much longer than wide, whose heap is 100 pixels high.",
+      picture.width, picture.height, kSmallestSide);
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> MeasureOptions::problems() const {
+  std::vector<std::string> faults;
+  // Written so that NaN fails.
+  if (!(window_from >= 0 && window_to <= 1 && window_to - window_from >= kNarrowestWindow)) {
+    faults.push_back(fmt::format(
+        "window = {},{} must be two rising fractions of the heap's height from 0 to 1, at least {} "
+        "apart. Fix: try 0.2,0.8.",
+        window_from, window_to, kNarrowestWindow));
+  }
+  if (!(std::abs(camera_pitch_rad) <= kLargestPitch_rad)) {
+    faults.push_back(fmt::format(
+        "camera pitch = {:.1f} degrees must lie within -30 and 30. Fix: retake the picture with a "
+        "level camera.",
+        camera_pitch_rad * 180 / std::numbers::pi));
+  }
+  return faults;
+}
+
+ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options) {
+  check(picture, options);
+  one_thread_a_picture();
+  const WorkingPicture work = working_picture(picture, options.excluded);
+  if (std::min(work.frame.width, work.frame.height) < kSmallestSide) {
+    return too_small(picture, options);
+  }
+  const Choice choice = options.method == Method::paper ? read_by_paper(work, options)
+                                                        : choose_reading(work, options);
+  ReposeAngle result = described(choice, work, options);
+  judge(result, choice, options);
+  return result;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+/// Files that are there whole or not at all: written beside their place and then renamed, so that
+/// a full disk or a kill leaves the earlier file as it was.
+namespace repose::vision {
+
+/// @throws std::invalid_argument  "FILE: what. Fix: ..." when the place cannot be written.
+void write_whole_file(const std::filesystem::path& file, std::span<const std::byte> content);
+
+/// Finds out before long work whether write_whole_file would succeed; changes nothing.
+/// @throws std::invalid_argument  as write_whole_file.
+void check_can_write(const std::filesystem::path& file);
+
+}  // namespace repose::vision
