@@ -17,7 +17,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::AllOf;
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -39,7 +38,7 @@ class Measure : public ::testing::Test {
     vision::write_picture(folder_.path() / name, heap);
   }
   void draw_plain(const std::string& name, int width = 300, std::uint8_t brightness = 0) const {
-    const auto bytes = static_cast<std::size_t>(3 * width * width);
+    const auto bytes = std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
     vision::write_picture(
         folder_.path() / name,
         {.width = width, .height = width, .bgr = std::vector<std::uint8_t>(bytes, brightness)});
