@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "dem/contact/material.h"
+
+namespace repose::dem {
+
+/// The constants of Hertz-Mindlin contact between two materials, worked out once.
+struct ContactLaw {
+  double reduced_young_pa = 0;         ///< E*: 1/E* = sum (1 - nu^2) / E
+  double reduced_shear_pa = 0;         ///< G*: 1/G* = sum 2 (2 - nu)(1 + nu) / E
+  double normal_damping = 0;           ///< factor on sqrt(S_n m*) v_n, S_n = 2 E* sqrt(R* delta)
+  double tangential_damper_ratio = 0;  ///< sqrt(S_t / S_n), constant for a pair
+  double sliding_friction = 0;
+  double rolling_friction = 0;
+};
+
+/// Materials, and what each pair of them does: everything contacts depend on but shape.
+///
+/// Source of the moduli: Johnson, Contact Mechanics (1985), eqs. 4.24 and 7.43-7.44.
+class ContactTable {
+ public:
+  /// Throws std::invalid_argument naming every value that is out of range.
+  /// `pairs` is a full symmetric matrix, row by row.
+  ContactTable(std::vector<Material> materials, std::vector<PairCoefficients> pairs,
+               RollingModel rolling);
+
+  const ContactLaw& law(int a, int b) const { return laws_[index(a, b)]; }
+  const PairCoefficients& pair(int a, int b) const { return pairs_[index(a, b)]; }
+  const Material& material(int index) const { return materials_[static_cast<std::size_t>(index)]; }
+  int size() const { return static_cast<int>(materials_.size()); }
+  RollingModel rolling() const { return rolling_; }
+
+ private:
+  std::size_t index(int a, int b) const {
+    return static_cast<std::size_t>(a) * materials_.size() + static_cast<std::size_t>(b);
+  }
+
+  std::vector<Material> materials_;
+  std::vector<PairCoefficients> pairs_;
+  std::vector<ContactLaw> laws_;
+  RollingModel rolling_;
+};
+
+}  // namespace repose::dem

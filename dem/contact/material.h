@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+namespace repose::dem {
+
+/// What a grain or a wall is made of.
+struct Material {
+  std::string name;
+  double density_kg_m3 = 0;  ///< > 0; of no effect on walls
+  double young_modulus_pa = 0;
+  double poisson_ratio = 0;  ///< 0 <= nu < .5
+};
+
+/// How the torque that resists rolling is defined. The coefficient means something else in each.
+enum class RollingModel {
+  none,
+  /// EDEM's standard rolling friction: on each body, mu_r F_n times its own distance from the
+  /// centre of mass to the contact, against its own spin.
+  constant_torque,
+  /// LIGGGHTS's `cdt`: mu_r F_n times the reduced radius, against the relative spin.
+  relative_constant_torque,
+  /// Rolling spring with a plastic limit (EPSD): comes to rest.
+  elastic_plastic,
+};
+
+/// What two materials do to each other.
+struct PairCoefficients {
+  double restitution = 1;       ///< .05 ... 1: what comes out of a central impact of two spheres
+  double sliding_friction = 0;  ///< >= 0
+  double rolling_friction = 0;  ///< >= 0
+};
+
+}  // namespace repose::dem

@@ -1,0 +1,132 @@
+#include "dem/engine/audit.h"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace repose::dem {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+int material_of(const Bodies& bodies, const std::vector<GrainKind>& kinds, int body) {
+  const int kind = bodies.kind[static_cast<std::size_t>(body)];
+  return kinds[static_cast<std::size_t>(kind)].material;
+}
+
+/// Calls visit(body a, body b or -1, law, normal, overlap, reduced radius, point, memory).
+template <typename Visit>
+void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
+                    const std::vector<GrainKind>& kinds, const NeighbourList& list,
+                    const Visit& visit) {
+  for (const NearGrains& pair : list.grains) {
+    const ContactLaw& law =
+        contacts.law(material_of(bodies, kinds, pair.a), material_of(bodies, kinds, pair.b));
+    for (int k = pair.first; k < pair.first + pair.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const PlacedSphere& a = bodies.spheres[static_cast<std::size_t>(list.spheres[at].a)];
+      const PlacedSphere& b = bodies.spheres[static_cast<std::size_t>(list.spheres[at].b)];
+      const Vector apart = b.centre - a.centre;
+      const double overlap = a.radius + b.radius - apart.norm();
+      if (overlap <= 0) continue;
+      const Vector normal = apart.normalized();
+      visit(pair.a, pair.b, law, normal, overlap, a.radius * b.radius / (a.radius + b.radius),
+            Vector(a.centre + normal * (a.radius - overlap / 2)), list.memories[at]);
+    }
+  }
+  for (const NearWall& pair : list.walls) {
+    const ContactLaw& law =
+        contacts.law(material_of(bodies, kinds, pair.body), walls.wall(pair.wall).material);
+    for (int k = pair.first; k < pair.first + pair.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const PlacedSphere& a = bodies.spheres[static_cast<std::size_t>(list.facets[at].sphere)];
+      const FacetContact facet = walls.contact(pair.wall, list.facets[at].facet, a.centre);
+      const double overlap = a.radius - facet.distance;
+      if (overlap <= 0) continue;
+      visit(pair.body, -1, law, Vector(-facet.normal), overlap, a.radius,
+            Vector(a.centre - facet.normal * (a.radius - overlap / 2)), list.wall_memories[at]);
+    }
+  }
+}
+
+Eigen::Matrix3d cross_matrix(const Vector& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+/// Adds a contact's stiffness to a body's, in coordinates scaled by the roots of mass and inertia.
+void add_stiffness(const Bodies& bodies, std::size_t body, const Vector& point,
+                   const Eigen::Matrix3d& stiffness, Matrix6& sum) {
+  const Eigen::Matrix3d axes = bodies.orientation[body].toRotationMatrix();
+  const Vector roots = (bodies.mass[body] * bodies.gyration[body]).cwiseSqrt().cwiseInverse();
+  Eigen::Matrix<double, 3, 6> motion;  // of the point, by the scaled coordinates
+  motion.leftCols<3>() = Eigen::Matrix3d::Identity() / std::sqrt(bodies.mass[body]);
+  motion.rightCols<3>() = -cross_matrix(point - bodies.position[body]) * axes * roots.asDiagonal();
+  sum += motion.transpose() * stiffness * motion;
+}
+
+}  // namespace
+
+std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& walls,
+                                        const ContactTable& contacts,
+                                        const std::vector<GrainKind>& kinds,
+                                        const NeighbourList& list) {
+  std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>> sums(bodies.size(), Matrix6::Zero());
+  bool any = false;
+  for_each_touch(bodies, walls, contacts, kinds, list,
+                 [&](int a, int b, const ContactLaw& law, const Vector& normal, double overlap,
+                     double reduced_radius, const Vector& point, const ContactMemory& /*memory*/) {
+                   const double radius = std::sqrt(reduced_radius * overlap);
+                   const double normal_stiffness = 2 * law.reduced_young_pa * radius;
+                   const double tangential_stiffness =
+                       law.sliding_friction > 0 ? 8 * law.reduced_shear_pa * radius : 0;
+                   const Eigen::Matrix3d across = normal * normal.transpose();
+                   const Eigen::Matrix3d stiffness =
+                       normal_stiffness * across +
+                       tangential_stiffness * (Eigen::Matrix3d::Identity() - across);
+                   any = true;
+                   const auto ka = static_cast<std::size_t>(a);
+                   if (b < 0) {
+                     add_stiffness(bodies, ka, point, stiffness, sums[ka]);
+                     return;
+                   }
+                   const auto kb = static_cast<std::size_t>(b);
+                   add_stiffness(bodies, ka, point, 2 * stiffness, sums[ka]);
+                   add_stiffness(bodies, kb, point, 2 * stiffness, sums[kb]);
+                 });
+  if (!any) return std::nullopt;
+  double greatest = 0;
+  for (const Matrix6& sum : sums) {
+    // The trace is above every eigenvalue: most bodies need no more than that.
+    if (sum.trace() <= greatest) continue;
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(sum, Eigen::EigenvaluesOnly);
+    greatest = std::max(greatest, solver.eigenvalues()[5]);
+  }
+  return std::sqrt(greatest);
+}
+
+Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
+                     const std::vector<GrainKind>& kinds, const NeighbourList& list,
+                     const Vector& gravity) {
+  Energies sum;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (!bodies.present[k]) continue;
+    const Vector own = bodies.orientation[k].conjugate() * bodies.angular_momentum[k];
+    sum.kinetic_j += .5 * bodies.mass[k] * bodies.velocity[k].squaredNorm() +
+                     .5 * own.cwiseAbs2().cwiseQuotient(bodies.gyration[k]).sum() / bodies.mass[k];
+    sum.potential_j -= bodies.mass[k] * gravity.dot(bodies.position[k]);
+  }
+  for_each_touch(
+      bodies, walls, contacts, kinds, list,
+      [&sum](int /*a*/, int /*b*/, const ContactLaw& law, const Vector& /*normal*/, double overlap,
+             double reduced_radius, const Vector& /*point*/, const ContactMemory& memory) {
+        const double radius = std::sqrt(reduced_radius * overlap);
+        sum.elastic_j += 8.0 / 15 * law.reduced_young_pa * radius * overlap * overlap;
+        const double tangential_stiffness = 8 * law.reduced_shear_pa * radius;
+        sum.elastic_j += memory.tangential.squaredNorm() / (2 * tangential_stiffness);
+      });
+  return sum;
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/contact/contact_table.h"
+#include "dem/vector.h"
+
+namespace repose::dem {
+
+/// What a contact remembers from step to step. All zero: it does not touch.
+struct ContactMemory {
+  Vector tangential = Vector::Zero();  ///< tangential spring's force on a, N
+  Vector rolling = Vector::Zero();     ///< rolling spring's torque on a, N m
+  double radius = 0;                   ///< of the contact area, m
+};
+
+/// Two surfaces that overlap, seen from body a. Velocities are those of b's surface against a's.
+struct Touch {
+  Vector normal;       ///< unit, from a to b
+  double overlap = 0;  ///< m, > 0
+  double reduced_radius = 0;
+  double reduced_mass = 0;  ///< of the whole bodies
+  Vector half_velocity;     ///< half a step back: what the springs were stretched by
+  Vector velocity;          ///< now: what the dampers feel
+  double twist = 0;         ///< mean spin of both about the normal, rad/s
+};
+
+/// The force on a; b gets the opposite.
+struct ContactForce {
+  double normal = 0;  ///< size of the push, N, never negative
+  Vector total;       ///< N
+};
+
+/// Hertz-Mindlin without slip, Coulomb's limit, damping.
+///
+/// Normal: Hertz, F = 4/3 E* a delta, a = sqrt(R* delta) (Johnson 1985, eqs. 4.22-4.24), with the
+/// damper of restitution.h. Tangential: Mindlin's stiffness S_t = 8 G* a, stepwise; the spring
+/// turns with the contact and shrinks with a when unloading, so that no energy is made (Thornton,
+/// Cummins, Cleary 2013, Powder Technology 233, eqs. 15-17). Small strains: delta << R*. Proved by
+/// tests/dem/impact_test.cpp.
+inline ContactForce contact_force(const Touch& touch, const ContactLaw& law, double timestep,
+                                  ContactMemory& memory) {
+  const Vector& n = touch.normal;
+  const double a = std::sqrt(touch.reduced_radius * touch.overlap);
+  const double normal_stiffness = 2 * law.reduced_young_pa * a;
+  const double tangential_stiffness = 8 * law.reduced_shear_pa * a;
+  const double root_mass_stiffness = std::sqrt(normal_stiffness * touch.reduced_mass);
+  const double normal_damper = law.normal_damping * root_mass_stiffness;
+  const double tangential_damper = normal_damper * law.tangential_damper_ratio;
+
+  const double approach = -touch.velocity.dot(n);
+  ContactForce force;
+  force.normal =
+      std::max(0.0, 2.0 / 3 * normal_stiffness * touch.overlap + normal_damper * approach);
+
+  Vector spring = memory.tangential;
+  const double old_size2 = spring.squaredNorm();
+  if (old_size2 > 0) {
+    spring -= n * n.dot(spring);
+    const double size2 = spring.squaredNorm();
+    double scale = size2 > 0 ? std::sqrt(old_size2 / size2) : 0;
+    if (a < memory.radius) scale *= a / memory.radius;
+    spring *= scale;
+    spring += timestep * touch.twist * n.cross(spring);
+  }
+  const Vector half_slip = touch.half_velocity - n * n.dot(touch.half_velocity);
+  spring += tangential_stiffness * timestep * half_slip;
+
+  const double limit = law.sliding_friction * force.normal;
+  const double size2 = spring.squaredNorm();
+  Vector tangential = spring;
+  if (size2 > limit * limit) {
+    spring *= limit / std::sqrt(size2);
+    tangential = spring;
+  } else if (tangential_damper > 0) {
+    tangential += tangential_damper * (touch.velocity + n * approach);
+    const double total2 = tangential.squaredNorm();
+    if (total2 > limit * limit) tangential *= limit / std::sqrt(total2);
+  }
+  memory.tangential = spring;
+  memory.radius = a;
+  force.total = tangential - n * force.normal;
+  return force;
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/engine/bodies.h"
+#include "dem/engine/contact_force.h"
+#include "dem/wall/wall_set.h"
+
+namespace repose::dem {
+
+/// Two grains near each other, and where their near spheres are listed. a < b.
+struct NearGrains {
+  int a = 0;
+  int b = 0;
+  int first = 0;
+  int count = 0;
+};
+
+/// Two spheres that may touch before the list is made anew. Numbers of `Bodies::spheres`.
+struct NearSpheres {
+  int a = 0;
+  int b = 0;
+};
+
+/// A grain near a wall.
+struct NearWall {
+  int body = 0;
+  int wall = 0;
+  int first = 0;
+  int count = 0;
+};
+
+/// A sphere near a facet of a wall.
+struct NearFacet {
+  int sphere = 0;
+  int facet = 0;
+};
+
+/// All that may touch soon, in the one order in which forces are summed: by grain, then by sphere.
+/// It does not show in the results when the list was made: what does not touch adds nothing.
+struct NeighbourList {
+  std::vector<NearGrains> grains;
+  std::vector<NearSpheres> spheres;
+  std::vector<ContactMemory> memories;  ///< one for each of `spheres`
+  std::vector<int>
+      body_start;  ///< one more than bodies: where each one's part of body_pairs starts
+  std::vector<int> body_pairs;  ///< numbers of `grains` in which a body takes part, rising
+  std::vector<NearWall> walls;
+  std::vector<NearFacet> facets;
+  std::vector<ContactMemory> wall_memories;  ///< one for each of `facets`
+};
+
+/// Keeps a NeighbourList up to date: made anew once some grain has used up its margin. The margin
+/// grows with a grain's speed, so that a few fast grains do not cost the many slow ones.
+class Neighbours {
+ public:
+  const NeighbourList& list() const { return list_; }
+  NeighbourList& list() { return list_; }
+
+  /// The list must be made anew before the next step.
+  void expire() { is_expired_ = true; }
+
+  /// The contacts that touched at the last step, in order.
+  std::vector<ContactState> touching(const Bodies& bodies) const;
+  /// Gives the contacts of a fresh list the memories that they had. Throws std::invalid_argument
+  /// when one of them is of spheres that are not near each other.
+  void restore(const Bodies& bodies, const std::vector<ContactState>& contacts);
+
+  /// Makes the list anew if it is due.
+  void update(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
+              std::int64_t step);
+
+ private:
+  bool is_due(const Bodies& bodies, std::int64_t step) const;
+  void set_margins(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
+                   std::int64_t step);
+  void sort_into_cells(const Bodies& bodies);
+  void find_near(const Bodies& bodies, int body);
+  void list_grains(const Bodies& bodies);
+  void list_walls(const Bodies& bodies, const WallSet& walls);
+  void carry_memories();
+  void index_by_body(std::size_t bodies);
+
+  NeighbourList list_;
+  NeighbourList next_;
+  bool is_expired_ = true;
+  std::int64_t due_step_ = 0;
+  double wall_margin_ = 0;
+  // Where the grains were when the list was made, and how far each may move.
+  std::vector<Vector> position_;
+  std::vector<Quaternion> orientation_;
+  std::vector<double> margin_;
+  // Grid of cubic cells that hold grains by their centres.
+  Vector corner_ = Vector::Zero();
+  double cell_size_ = 1;
+  Eigen::Vector3i cells_ = Eigen::Vector3i::Ones();
+  std::vector<int> cell_of_;
+  std::vector<int> cell_start_;
+  std::vector<int> cell_bodies_;
+  std::vector<int> near_;
+};
+
+}  // namespace repose::dem

@@ -1,0 +1,281 @@
+#include "dem/engine/simulation.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include "dem/engine/audit.h"
+#include "dem/engine/bodies.h"
+#include "dem/engine/interactions.h"
+#include "dem/engine/neighbour_list.h"
+#include "dem/engine/parallel.h"
+#include "dem/engine/unstable_run.h"
+
+namespace repose::dem {
+namespace {
+
+/// Spheres overlap by less than this share of their radius in any run worth reporting.
+constexpr double kDeepestOverlap = .3;
+/// Energy that may appear between two audits, as a share of what is in motion and in springs.
+constexpr double kEnergyTolerance = .05;
+
+void check(const SimulationSetup& setup) {
+  std::string faults;
+  const auto fault = [&faults](const std::string& text) {
+    faults += (faults.empty() ? "" : "\n") + text;
+  };
+  if (!(setup.timestep_s > 0) || !std::isfinite(setup.timestep_s)) {
+    fault(fmt::format("timestep_s is {:g}. Rule: above 0.", setup.timestep_s));
+  }
+  if (setup.threads < 1) fault(fmt::format("threads is {}. Rule: 1 or more.", setup.threads));
+  const auto is_known = [&setup](int material) {
+    return material >= 0 && material < setup.contacts.size();
+  };
+  for (std::size_t k = 0; k < setup.kinds.size(); ++k) {
+    const ClumpShape& shape = setup.kinds[k].shape;
+    if (!is_known(setup.kinds[k].material))
+      fault(fmt::format("grain kind {}: no such material", k));
+    if (shape.spheres.empty()) fault(fmt::format("grain kind {}: it has no spheres", k));
+    if (!(shape.volume_m3 > 0) || !(shape.gyration_m2.minCoeff() > 0)) {
+      fault(fmt::format("grain kind {}: volume and moments of inertia must be above 0", k));
+    }
+    for (const ClumpSphere& sphere : shape.spheres) {
+      if (!(sphere.radius > 0)) fault(fmt::format("grain kind {}: a radius is not above 0", k));
+    }
+  }
+  for (std::size_t k = 0; k < setup.walls.size(); ++k) {
+    if (!is_known(setup.walls[k].material)) fault(fmt::format("wall {}: no such material", k));
+  }
+  if (!faults.empty()) throw std::invalid_argument(faults);
+}
+
+}  // namespace
+
+class Simulation::State {
+ public:
+  explicit State(SimulationSetup given)
+      : setup(std::move(given)), walls(setup.walls), arena(setup.threads) {
+    check(setup);
+  }
+
+  const ClumpShape& shape(std::size_t body) const {
+    return setup.kinds[static_cast<std::size_t>(bodies.kind[body])].shape;
+  }
+  double time_s() const { return static_cast<double>(step) * setup.timestep_s; }
+  ContactStep contact_step() const {
+    return {bodies, walls, setup.contacts, setup.kinds, setup.timestep_s};
+  }
+
+  void take_step();
+  void leave_through_floor();
+  void audit();
+  /// Energy jumps that the run itself did not make: grains and walls put in or taken out.
+  void restart_energy_audit() { has_energy_mark = false; }
+
+  SimulationSetup setup;
+  WallSet walls;
+  tbb::task_arena arena;
+  std::int64_t step = 0;
+  Bodies bodies;
+  Neighbours neighbours;
+  Interactions interactions;
+  ContactTally tally;
+  bool has_energy_mark = false;
+  double energy_mark_j = 0;
+  double wall_work_j = 0;
+};
+
+void Simulation::State::take_step() {
+  const double timestep = setup.timestep_s;
+  for_each_index(bodies.size(), setup.threads, [&](std::size_t k) {
+    if (bodies.present[k]) start_step(bodies, k, shape(k), timestep);
+  });
+  ++step;
+  walls.move_to(time_s());
+  neighbours.update(bodies, walls, time_s(), timestep, step);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    bodies.force[k] = bodies.mass[k] * setup.gravity;
+    bodies.torque[k].setZero();
+    bodies.rolling_limit[k] = 0;
+  }
+  tally = interactions.apply(bodies, contact_step(), neighbours.list(), setup.threads);
+  wall_work_j += tally.wall_power_w * timestep;
+  for_each_index(bodies.size(), setup.threads, [&](std::size_t k) {
+    if (bodies.present[k]) finish_step(bodies, k, timestep);
+  });
+  leave_through_floor();
+}
+
+void Simulation::State::leave_through_floor() {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (!bodies.present[k] || bodies.position[k].z() >= setup.floor_m) continue;
+    bodies.present[k] = 0;
+    neighbours.expire();
+    restart_energy_audit();
+  }
+}
+
+void Simulation::State::audit() {
+  const auto stop = [this](const std::string& what) {
+    throw UnstableRun(
+        fmt::format("the run went unstable at {:.6f} s (step {} of {:.3g} s): {}. "
+                    "Fix: a shorter time step, or slower impacts.",
+                    time_s(), step, setup.timestep_s, what));
+  };
+  if (tally.deepest_overlap > kDeepestOverlap) {
+    const auto body = static_cast<std::size_t>(tally.deepest_body);
+    const Vector& at = bodies.position[body];
+    stop(fmt::format("grain {} at ({:.4f}, {:.4f}, {:.4f}) m overlaps by {:.0f} % of a radius",
+                     body, at.x(), at.y(), at.z(), 100 * tally.deepest_overlap));
+  }
+  const auto& list = neighbours.list();
+  const auto frequency = highest_frequency(bodies, walls, setup.contacts, setup.kinds, list);
+  if (frequency && setup.timestep_s * *frequency >= 2) {
+    stop(fmt::format("its contacts need a time step below {:.3g} s", 2 / *frequency));
+  }
+  const Energies now = energies_of(bodies, walls, setup.contacts, setup.kinds, list, setup.gravity);
+  if (!std::isfinite(now.sum_j())) stop("its energy is no number");
+  const double made = now.sum_j() - energy_mark_j - wall_work_j;
+  double falls = 0;  // what a fall by a grain's size sets free
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (bodies.present[k]) falls += bodies.mass[k] * setup.gravity.norm() * bodies.reach[k];
+  }
+  if (has_energy_mark && made > kEnergyTolerance * (now.kinetic_j + now.elastic_j + falls)) {
+    stop(fmt::format("{:.3g} J came from nowhere ({:.3g} J are in motion)", made, now.kinetic_j));
+  }
+  has_energy_mark = true;
+  energy_mark_j = now.sum_j();
+  wall_work_j = 0;
+}
+
+Simulation::Simulation(SimulationSetup setup) : state_(std::make_unique<State>(std::move(setup))) {}
+
+Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
+    : Simulation(std::move(setup)) {
+  State& s = *state_;
+  for (const Grain& grain : from.grains) add(grain);
+  s.step = from.step;
+  s.walls.move_to(s.time_s());
+  s.bodies.angular_momentum = from.angular_momentum;
+  s.bodies.force = from.force;
+  s.bodies.torque = from.torque;
+  s.bodies.rolling_limit = from.rolling_limit;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) s.bodies.present[k] = from.is_present[k];
+  s.neighbours.update(s.bodies, s.walls, s.time_s(), s.setup.timestep_s, s.step);
+  s.neighbours.restore(s.bodies, from.contacts);
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+int Simulation::add(const Grain& grain) {
+  State& s = *state_;
+  if (grain.kind < 0 || static_cast<std::size_t>(grain.kind) >= s.setup.kinds.size()) {
+    throw std::invalid_argument(fmt::format("grain kind {} does not exist", grain.kind));
+  }
+  const GrainKind& kind = s.setup.kinds[static_cast<std::size_t>(grain.kind)];
+  add_body(s.bodies, grain, kind, s.setup.contacts.material(kind.material).density_kg_m3);
+  s.bodies.force.back() = s.bodies.mass.back() * s.setup.gravity;
+  s.neighbours.expire();
+  s.restart_energy_audit();
+  return static_cast<int>(s.bodies.size()) - 1;
+}
+
+void Simulation::remove(int grain) {
+  state_->bodies.present.at(static_cast<std::size_t>(grain)) = 0;
+  state_->neighbours.expire();
+  state_->restart_energy_audit();
+}
+
+void Simulation::set_motions(int wall, std::vector<Motion> motions) {
+  state_->walls.set_motions(wall, std::move(motions));
+  state_->neighbours.expire();
+}
+
+void Simulation::remove_wall(int wall) {
+  state_->walls.remove(wall);
+  state_->neighbours.expire();
+  state_->restart_energy_audit();
+}
+
+void Simulation::advance(std::int64_t steps) {
+  State& s = *state_;
+  s.arena.execute([&s, steps] {
+    for (std::int64_t k = 0; k < steps; ++k) {
+      s.take_step();
+      if (s.step % s.setup.audit_steps == 0) s.audit();
+    }
+  });
+}
+
+const SimulationSetup& Simulation::setup() const { return state_->setup; }
+std::int64_t Simulation::step() const { return state_->step; }
+double Simulation::time_s() const { return state_->time_s(); }
+int Simulation::grain_count() const { return static_cast<int>(state_->bodies.size()); }
+bool Simulation::is_present(int grain) const {
+  return state_->bodies.present.at(static_cast<std::size_t>(grain)) != 0;
+}
+
+Grain Simulation::grain(int grain) const {
+  const Bodies& bodies = state_->bodies;
+  const auto k = static_cast<std::size_t>(grain);
+  const Eigen::Matrix3d axes = bodies.orientation.at(k).toRotationMatrix();
+  const Vector own = axes.transpose() * bodies.angular_momentum[k];
+  return {.kind = bodies.kind[k],
+          .position = bodies.position[k],
+          .orientation = bodies.orientation[k],
+          .velocity = bodies.velocity[k],
+          .spin = axes * (own.cwiseQuotient(bodies.gyration[k]) / bodies.mass[k])};
+}
+
+double Simulation::mass_kg(int grain) const {
+  return state_->bodies.mass.at(static_cast<std::size_t>(grain));
+}
+Vector Simulation::force_n(int grain) const {
+  return state_->bodies.force.at(static_cast<std::size_t>(grain));
+}
+Vector Simulation::torque_n_m(int grain) const {
+  return state_->bodies.torque.at(static_cast<std::size_t>(grain));
+}
+WallMoment Simulation::wall(int wall) const { return state_->walls.moment(wall); }
+double Simulation::deepest_overlap() const { return state_->tally.deepest_overlap; }
+
+Energies Simulation::energies() const {
+  const State& s = *state_;
+  return energies_of(s.bodies, s.walls, s.setup.contacts, s.setup.kinds, s.neighbours.list(),
+                     s.setup.gravity);
+}
+
+std::optional<double> Simulation::stable_timestep_s() const {
+  const State& s = *state_;
+  const auto frequency =
+      highest_frequency(s.bodies, s.walls, s.setup.contacts, s.setup.kinds, s.neighbours.list());
+  if (!frequency) return std::nullopt;
+  return 2 / *frequency;
+}
+
+std::vector<ContactState> Simulation::contacts() const {
+  return state_->neighbours.touching(state_->bodies);
+}
+
+Checkpoint Simulation::checkpoint() const {
+  const State& s = *state_;
+  Checkpoint now;
+  now.step = s.step;
+  now.angular_momentum = s.bodies.angular_momentum;
+  now.force = s.bodies.force;
+  now.torque = s.bodies.torque;
+  now.rolling_limit = s.bodies.rolling_limit;
+  now.contacts = contacts();
+  for (int k = 0; k < grain_count(); ++k) {
+    now.grains.push_back(grain(k));
+    now.is_present.push_back(is_present(k));
+  }
+  return now;
+}
+
+}  // namespace repose::dem

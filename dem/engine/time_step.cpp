@@ -1,0 +1,105 @@
+#include "dem/engine/time_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+namespace repose::dem {
+namespace {
+
+/// Accuracy needs this share of the stable step 2 / omega: restitution and sliding then come out
+/// within .005 (Restitution.ComesOutAtEveryAcceptedTimestep).
+constexpr double kAccurateShare = .08;
+
+/// Deepest overlap of a Hertz contact of two masses: (15 m* v^2 / (16 E* sqrt(R*)))^(2/5).
+double impact_overlap(double reduced_mass, double reduced_young, double reduced_radius,
+                      double speed) {
+  return std::pow(
+      15 * reduced_mass * speed * speed / (16 * reduced_young * std::sqrt(reduced_radius)), .4);
+}
+
+/// Highest frequency of a grain pressed onto a flat wall in one direction, by `overlap`: all of its
+/// spheres that reach the wall act on it at once.
+double frequency_on_wall(const ClumpShape& shape, double mass, const ContactLaw& law,
+                         const Vector& down, double overlap) {
+  double lowest = 0;
+  for (const ClumpSphere& sphere : shape.spheres) {
+    lowest = std::max(lowest, down.dot(sphere.centre) + sphere.radius);
+  }
+  // Free motion of a point `arm` away along n: 1/m_eff = 1/m + (arm x n) I^-1 (arm x n). The sum of
+  // stiffness over mass of all contacts and directions is the trace, no less than any eigenvalue.
+  Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
+  const Vector roots = (mass * shape.gyration_m2).cwiseSqrt().cwiseInverse();
+  for (const ClumpSphere& sphere : shape.spheres) {
+    const double depth = overlap - (lowest - down.dot(sphere.centre) - sphere.radius);
+    if (depth <= 0) continue;
+    const double radius = std::sqrt(sphere.radius * depth);
+    const double normal = 2 * law.reduced_young_pa * radius;
+    const double across = law.sliding_friction > 0 ? 8 * law.reduced_shear_pa * radius : 0;
+    const Vector arm = sphere.centre + down * sphere.radius;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Three directions that span space: the stiffness is isotropic across `down`.
+      const Vector unit = Vector::Unit(axis);
+      Eigen::Matrix<double, 6, 1> motion;
+      motion << unit / std::sqrt(mass), arm.cross(unit).cwiseProduct(roots);
+      sum += across * motion * motion.transpose();
+    }
+    Eigen::Matrix<double, 6, 1> motion;
+    motion << down / std::sqrt(mass), arm.cross(down).cwiseProduct(roots);
+    sum += (normal - across) * motion * motion.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(sum,
+                                                                          Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues()[5]));
+}
+
+/// Directions spread evenly over the sphere (Fibonacci lattice), and the axes.
+std::vector<Vector> directions() {
+  std::vector<Vector> all = {Vector::UnitX(),  Vector::UnitY(),  Vector::UnitZ(),
+                             -Vector::UnitX(), -Vector::UnitY(), -Vector::UnitZ()};
+  constexpr int kCount = 200;
+  for (int k = 0; k < kCount; ++k) {
+    const double z = 1 - (2 * k + 1.0) / kCount;
+    const double turn = 2.399963229728653 * k;  // the golden angle
+    const double r = std::sqrt(1 - z * z);
+    all.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
+  }
+  return all;
+}
+
+}  // namespace
+
+double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s) {
+  double highest = 0;
+  const std::vector<Vector> downs = directions();
+  for (const GrainKind& kind : setup.kinds) {
+    const double mass = kind.shape.volume_m3 * setup.contacts.material(kind.material).density_kg_m3;
+    double largest = 0;
+    for (const ClumpSphere& sphere : kind.shape.spheres) {
+      largest = std::max(largest, sphere.radius);
+    }
+    for (int other = 0; other < setup.contacts.size(); ++other) {
+      const ContactLaw& law = setup.contacts.law(kind.material, other);
+      const double overlap = impact_overlap(mass, law.reduced_young_pa, largest, speed_m_s);
+      for (const Vector& down : downs) {
+        highest = std::max(highest, frequency_on_wall(kind.shape, mass, law, down, overlap));
+      }
+    }
+  }
+  return kAccurateShare * 2 / highest;
+}
+
+void check_timestep(double timestep_s, const SimulationSetup& setup, double speed_m_s) {
+  const double longest = accurate_timestep_s(setup, speed_m_s);
+  if (timestep_s <= longest) return;
+  throw std::invalid_argument(
+      fmt::format("timestep_s is {:.3g}. Rule: at most {:.3g} s for these grains at {:.2g} m/s; "
+                  "longer ones make energy. Fix: {:.2g}, or leave it to the program.",
+                  timestep_s, longest, speed_m_s, longest));
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "dem/wall/wall.h"
+
+namespace repose::dem {
+
+/// Where a point is against one facet of a wall. World axes.
+struct FacetContact {
+  double distance = 0;             ///< m
+  Vector normal = Vector::Zero();  ///< unit, from the wall to the point
+};
+
+/// All walls of a simulation, placed for one moment.
+class WallSet {
+ public:
+  explicit WallSet(std::vector<Wall> walls);
+
+  int size() const { return static_cast<int>(walls_.size()); }
+  const Wall& wall(int index) const { return walls_[static_cast<std::size_t>(index)]; }
+  const WallMoment& moment(int index) const { return moments_[static_cast<std::size_t>(index)]; }
+  bool is_present(int index) const { return present_[static_cast<std::size_t>(index)]; }
+
+  void move_to(double time_s);
+  void set_motions(int wall, std::vector<Motion> motions);
+  void remove(int wall) { present_[static_cast<std::size_t>(wall)] = false; }
+
+  /// Greatest speed of any wall's points within `reach` of the origin at a time from then on, m/s.
+  double greatest_speed(double time_s, double reach) const;
+
+  /// Facets of a wall within `distance` of a point, in rising order. Plain walls are one facet, 0.
+  void facets_near(int wall, const Vector& point, double distance, std::vector<int>& facets) const;
+
+  FacetContact contact(int wall, int facet, const Vector& point) const;
+
+ private:
+  std::vector<Wall> walls_;
+  std::vector<WallMoment> moments_;
+  std::vector<bool> present_;
+  std::vector<Eigen::Matrix3d> axes_;
+};
+
+}  // namespace repose::dem
