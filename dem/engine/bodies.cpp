@@ -5,42 +5,34 @@
 namespace repose::dem {
 namespace {
 
-/// Turns by the rotation vector of 2 tan(angle / 2) / angle times `turn`: the Cayley map.
+/// Turns about the body's own axes by Cayley's map: by 2 atan(|turn| / 2) about `turn`.
 Quaternion turned(const Quaternion& orientation, const Vector& turn) {
-  const Vector half = turn / 2;
-  const Quaternion step(1, half.x(), half.y(), half.z());
-  Quaternion result = step * orientation;
-  result.normalize();
+  const Quaternion step(1, turn.x() / 2, turn.y() / 2, turn.z() / 2);
+  Quaternion result = orientation * step;
+  result.coeffs() /= result.norm();
   return result;
-}
-
-bool is_isotropic(const Vector& moments) {
-  return moments.x() == moments.y() && moments.y() == moments.z();
-}
-
-Vector spin_of(const Quaternion& orientation, const Vector& moments, const Vector& momentum) {
-  const Eigen::Matrix3d axes = orientation.toRotationMatrix();
-  const Vector own = axes.transpose() * momentum;
-  return axes * own.cwiseQuotient(moments);
 }
 
 /// Half a step of torque, then of constant-torque rolling friction as a dry brake on the spin: it
 /// takes at most what there is, so that a grain comes to rest instead of trembling.
-void kick_spin(Bodies& bodies, std::size_t body, double half_timestep) {
+/// @return the angular momentum in the body's own axes
+Vector kick_spin(Bodies& bodies, std::size_t body, double half_timestep) {
   Vector& momentum = bodies.angular_momentum[body];
+  const Eigen::Matrix3d& axes = bodies.axes[body];
   momentum += half_timestep * bodies.torque[body];
+  Vector own = axes.transpose() * momentum;
   const double brake = half_timestep * bodies.rolling_limit[body];
-  if (brake <= 0) return;
-  const Vector moments = bodies.mass[body] * bodies.gyration[body];
-  const Vector spin = spin_of(bodies.orientation[body], moments, momentum);
-  const double size = spin.norm();
-  if (size == 0) return;
-  const Vector axis = spin / size;
-  if (brake * axis.dot(spin_of(bodies.orientation[body], moments, axis)) >= size) {
-    momentum.setZero();
+  if (brake <= 0) return own;
+  const Vector spin = own.cwiseProduct(bodies.mobility[body]);
+  const double size2 = spin.squaredNorm();
+  // The brake slows the spin by brake (axis . I^-1 axis), axis = spin / |spin|.
+  if (brake * spin.cwiseAbs2().dot(bodies.mobility[body]) >= size2 * std::sqrt(size2)) {
+    own.setZero();
   } else {
-    momentum -= brake * axis;
+    own -= (brake / std::sqrt(size2)) * spin;
   }
+  momentum = axes * own;
+  return own;
 }
 
 }  // namespace
@@ -50,15 +42,16 @@ void add_body(Bodies& bodies, const Grain& grain, const GrainKind& kind, double 
   bodies.kind.push_back(grain.kind);
   bodies.present.push_back(1);
   bodies.mass.push_back(mass);
-  bodies.gyration.push_back(kind.shape.gyration_m2);
+  bodies.moments.emplace_back(mass * kind.shape.gyration_m2);
+  bodies.mobility.emplace_back(bodies.moments.back().cwiseInverse());
   bodies.reach.push_back(kind.shape.reach_m());
   bodies.position.push_back(grain.position);
   bodies.orientation.push_back(grain.orientation);
+  bodies.axes.push_back(grain.orientation.toRotationMatrix());
   bodies.velocity.push_back(grain.velocity);
-  const Eigen::Matrix3d axes = bodies.orientation.back().toRotationMatrix();
+  const Eigen::Matrix3d& axes = bodies.axes.back();
   const Vector own_spin = axes.transpose() * grain.spin;
-  bodies.angular_momentum.emplace_back(axes *
-                                       (mass * kind.shape.gyration_m2).cwiseProduct(own_spin));
+  bodies.angular_momentum.emplace_back(axes * bodies.moments.back().cwiseProduct(own_spin));
   for (auto* field :
        {&bodies.force, &bodies.torque, &bodies.spin, &bodies.velocity_kick, &bodies.spin_kick}) {
     field->push_back(Vector::Zero());
@@ -75,22 +68,16 @@ void add_body(Bodies& bodies, const Grain& grain, const GrainKind& kind, double 
 }
 
 void place_spheres(Bodies& bodies, std::size_t body, const ClumpShape& shape) {
-  const Vector& position = bodies.position[body];
-  auto* placed = &bodies.spheres[static_cast<std::size_t>(bodies.first_sphere[body])];
   const Eigen::Matrix3d axes = bodies.orientation[body].toRotationMatrix();
+  bodies.axes[body] = axes;
+  const Vector position = bodies.position[body];
+  auto* placed = &bodies.spheres[static_cast<std::size_t>(bodies.first_sphere[body])];
   for (const ClumpSphere& sphere : shape.spheres) {
     (placed++)->centre = position + axes * sphere.centre;
   }
-  const Vector moments = bodies.mass[body] * bodies.gyration[body];
-  if (is_isotropic(moments)) {
-    const double inverse = 1 / moments.x();
-    bodies.spin[body] = inverse * bodies.angular_momentum[body];
-    bodies.spin_kick[body] *= inverse;
-    return;
-  }
   const auto spin_by = [&](const Vector& momentum) -> Vector {
     const Vector own = axes.transpose() * momentum;
-    return axes * own.cwiseQuotient(moments);
+    return axes * own.cwiseProduct(bodies.mobility[body]);
   };
   bodies.spin[body] = spin_by(bodies.angular_momentum[body]);
   bodies.spin_kick[body] = spin_by(bodies.spin_kick[body]);
@@ -102,19 +89,14 @@ void start_step(Bodies& bodies, std::size_t body, const ClumpShape& shape, doubl
   bodies.velocity[body] += bodies.velocity_kick[body];
   bodies.position[body] += timestep * bodies.velocity[body];
 
-  Vector& momentum = bodies.angular_momentum[body];
-  const Vector before = momentum;
-  kick_spin(bodies, body, half);
-  bodies.spin_kick[body] = momentum - before;
-  Quaternion& orientation = bodies.orientation[body];
-  const Vector moments = bodies.mass[body] * bodies.gyration[body];
-  if (is_isotropic(moments)) {
-    orientation = turned(orientation, momentum * (timestep / moments.x()));
-  } else {
-    const Vector start = spin_of(orientation, moments, momentum);
-    const Quaternion middle = turned(orientation, half * start);
-    orientation = turned(orientation, timestep * spin_of(middle, moments, momentum));
-  }
+  const Vector before = bodies.angular_momentum[body];
+  const Vector own = kick_spin(bodies, body, half);
+  bodies.spin_kick[body] = bodies.angular_momentum[body] - before;
+  // Seen from the body the momentum turns: dl/dt = l x omega (Euler), here by half a step.
+  const Vector& mobility = bodies.mobility[body];
+  const Vector middle = own + half * own.cross(own.cwiseProduct(mobility));
+  bodies.orientation[body] =
+      turned(bodies.orientation[body], timestep * middle.cwiseProduct(mobility));
   place_spheres(bodies, body, shape);
 }
 

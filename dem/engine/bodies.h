@@ -17,10 +17,12 @@ struct Bodies {
   std::vector<int> kind;
   std::vector<char> present;
   std::vector<double> mass;
-  std::vector<Vector> gyration;  ///< principal moments per unit mass
+  std::vector<Vector> moments;   ///< principal moments of inertia, kg m^2
+  std::vector<Vector> mobility;  ///< 1 / moments
   std::vector<double> reach;     ///< farthest that a sphere reaches from the centre of mass
   std::vector<Vector> position;
   std::vector<Quaternion> orientation;
+  std::vector<Eigen::Matrix3d> axes;  ///< of the orientation
   std::vector<Vector> velocity;
   std::vector<Vector> angular_momentum;
   std::vector<Vector> force;   ///< N
@@ -50,7 +52,7 @@ void start_step(Bodies& bodies, std::size_t body, const ClumpShape& shape, doubl
 /// The second half kick.
 void finish_step(Bodies& bodies, std::size_t body, double timestep);
 
-/// Places the spheres of one body, and works out its spin.
+/// Places the spheres of one body, and works out its axes and its spin.
 void place_spheres(Bodies& bodies, std::size_t body, const ClumpShape& shape);
 
 }  // namespace repose::dem

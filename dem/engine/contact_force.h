@@ -39,8 +39,8 @@ struct ContactForce {
 /// turns with the contact and shrinks with a when unloading, so that no energy is made (Thornton,
 /// Cummins, Cleary 2013, Powder Technology 233, eqs. 15-17). Small strains: delta << R*. Proved by
 /// tests/dem/impact_test.cpp.
-inline ContactForce contact_force(const Touch& touch, const ContactLaw& law, double timestep,
-                                  ContactMemory& memory) {
+[[gnu::always_inline]] inline ContactForce contact_force(const Touch& touch, const ContactLaw& law,
+                                                         double timestep, ContactMemory& memory) {
   const Vector& n = touch.normal;
   const double a = std::sqrt(touch.reduced_radius * touch.overlap);
   const double normal_stiffness = 2 * law.reduced_young_pa * a;
@@ -59,10 +59,11 @@ inline ContactForce contact_force(const Touch& touch, const ContactLaw& law, dou
   if (old_size2 > 0) {
     spring -= n * n.dot(spring);
     const double size2 = spring.squaredNorm();
-    double scale = size2 > 0 ? std::sqrt(old_size2 / size2) : 0;
+    // Keeps its size while turning; (1 + q) / 2 is sqrt(q) to 1e-16 for the small turn of one step.
+    const double lost = size2 > 0 ? old_size2 / size2 : 0;
+    double scale = lost < 1.0000001 ? .5 + .5 * lost : std::sqrt(lost);
     if (a < memory.radius) scale *= a / memory.radius;
-    spring *= scale;
-    spring += timestep * touch.twist * n.cross(spring);
+    spring = scale * (spring + timestep * touch.twist * n.cross(spring));
   }
   const Vector half_slip = touch.half_velocity - n * n.dot(touch.half_velocity);
   spring += tangential_stiffness * timestep * half_slip;

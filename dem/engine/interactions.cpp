@@ -11,15 +11,28 @@ double reduced(double x, double y) { return x * y / (x + y); }
 
 /// Least moment about a point `arm` away from the centre of mass.
 double inertia_about(const Bodies& bodies, std::size_t k, double arm) {
-  return bodies.mass[k] * (bodies.gyration[k].minCoeff() + arm * arm);
+  return bodies.moments[k].minCoeff() + bodies.mass[k] * arm * arm;
 }
 
-Vector velocity_at(const Bodies& bodies, std::size_t k, const Vector& arm) {
-  return bodies.velocity[k] + bodies.spin[k].cross(arm);
+/// How b's surface moves against a's at points near a's centre: u + w x (point - a's centre).
+struct RelativeMotion {
+  Vector velocity;
+  Vector spin;
+  Vector at(const Vector& arm) const { return velocity + spin.cross(arm); }
+};
+
+/// @param across  from b's centre to a's
+RelativeMotion relative_motion(const Bodies& bodies, std::size_t a, std::size_t b,
+                               const Vector& across) {
+  return {bodies.velocity[b] - bodies.velocity[a] + bodies.spin[b].cross(across),
+          bodies.spin[b] - bodies.spin[a]};
 }
 
-Vector kick_at(const Bodies& bodies, std::size_t k, const Vector& arm) {
-  return bodies.velocity_kick[k] + bodies.spin_kick[k].cross(arm);
+/// What half a step of the last forces adds to it.
+RelativeMotion relative_kick(const Bodies& bodies, std::size_t a, std::size_t b,
+                             const Vector& across) {
+  return {bodies.velocity_kick[b] - bodies.velocity_kick[a] + bodies.spin_kick[b].cross(across),
+          bodies.spin_kick[b] - bodies.spin_kick[a]};
 }
 
 void add_to_a(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
@@ -34,6 +47,15 @@ void add_to_b(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
   bodies.force[k] -= load.force;
   bodies.torque[k] += load.torque_b;
   bodies.rolling_limit[k] += load.rolling_b;
+}
+
+/// But for the inertias.
+Roll roll_of(const Touch& touch, const Vector& spin, const ContactForce& force) {
+  return {.normal = touch.normal,
+          .spin = spin,
+          .normal_force = force.normal,
+          .overlap = touch.overlap,
+          .reduced_radius = touch.reduced_radius};
 }
 
 void note_overlap(double share, int body, ContactTally& tally) {
@@ -51,62 +73,84 @@ int ContactStep::material(int body) const {
 
 PairLoad ContactStep::load(const NearGrains& pair, NeighbourList& list) const {
   PairLoad load;
-  const auto a = static_cast<std::size_t>(pair.a);
-  const auto b = static_cast<std::size_t>(pair.b);
-  const ContactLaw* law = nullptr;
-  for (int k = pair.first; k < pair.first + pair.count; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(list.spheres[at].a)];
-    const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(list.spheres[at].b)];
-    const Vector apart = sphere_b.centre - sphere_a.centre;
-    const double reach = sphere_a.radius + sphere_b.radius;
-    const double distance2 = apart.squaredNorm();
-    ContactMemory& memory = list.memories[at];
-    if (distance2 >= reach * reach || distance2 == 0) {
-      if (memory.radius > 0) memory = {};
-      continue;
-    }
-    if (!law) law = &contacts.law(material(pair.a), material(pair.b));
-    const double distance = std::sqrt(distance2);
-    Touch touch;
-    touch.normal = apart / distance;
-    touch.overlap = reach - distance;
-    touch.reduced_radius = reduced(sphere_a.radius, sphere_b.radius);
-    touch.reduced_mass = reduced(bodies.mass[a], bodies.mass[b]);
-    const Vector point = sphere_a.centre + touch.normal * (sphere_a.radius - touch.overlap / 2);
-    const Vector arm_a = point - bodies.position[a];
-    const Vector arm_b = point - bodies.position[b];
-    touch.half_velocity = velocity_at(bodies, b, arm_b) - velocity_at(bodies, a, arm_a);
-    touch.velocity = touch.half_velocity + kick_at(bodies, b, arm_b) - kick_at(bodies, a, arm_a);
-    touch.twist = .5 * touch.normal.dot(bodies.spin[a] + bodies.spin[b]);
-    const ContactForce force = contact_force(touch, *law, timestep_s, memory);
-
-    load.force += force.total;
-    load.torque_a += arm_a.cross(force.total);
-    load.torque_b -= arm_b.cross(force.total);
-    load.overlap =
-        std::max(load.overlap, touch.overlap / std::min(sphere_a.radius, sphere_b.radius));
-    if (law->rolling_friction == 0) continue;
-    if (contacts.rolling() == RollingModel::constant_torque) {
-      const double torque = law->rolling_friction * force.normal;
-      load.rolling_a += torque * arm_a.norm();
-      load.rolling_b += torque * arm_b.norm();
-    } else if (contacts.rolling() != RollingModel::none) {
-      const Roll roll{
-          .normal = touch.normal,
-          .spin = bodies.spin[a] - bodies.spin[b],
-          .normal_force = force.normal,
-          .overlap = touch.overlap,
-          .reduced_radius = touch.reduced_radius,
-          .reduced_inertia = reduced(inertia_about(bodies, a, 0), inertia_about(bodies, b, 0)),
-          .contact_inertia = reduced(inertia_about(bodies, a, arm_a.norm()),
-                                     inertia_about(bodies, b, arm_b.norm()))};
-      const Vector torque = rolling_torque(contacts.rolling(), roll, *law, timestep_s, memory);
-      load.torque_a += torque;
-      load.torque_b -= torque;
-    }
+  const auto first = static_cast<std::size_t>(pair.first);
+  const auto end = first + static_cast<std::size_t>(pair.count);
+  std::array<std::size_t, kBatch> touching;
+  for (std::size_t from = first; from < end; from += kBatch) {
+    const std::size_t count = find_touching(list, from, std::min(end, from + kBatch), touching);
+    // Most near pairs of grains do not touch: no more is worked out for them than that.
+    if (count > 0) add_contacts(pair, {touching.data(), count}, list, load);
   }
   return load;
+}
+
+std::size_t ContactStep::find_touching(NeighbourList& list, std::size_t from, std::size_t to,
+                                       std::array<std::size_t, kBatch>& touching) const {
+  std::size_t count = 0;
+  for (std::size_t k = from; k < to; ++k) {
+    const PlacedSphere& a = bodies.spheres[static_cast<std::size_t>(list.spheres[k].a)];
+    const PlacedSphere& b = bodies.spheres[static_cast<std::size_t>(list.spheres[k].b)];
+    const double reach = a.radius + b.radius;
+    const bool touches = (b.centre - a.centre).squaredNorm() < reach * reach;
+    if (!touches && list.memories[k].radius > 0) list.memories[k] = {};  // what has parted forgets
+    touching[count] = k;
+    count += touches ? 1 : 0;  // no branch: there is no pattern in who touches
+  }
+  return count;
+}
+
+void ContactStep::add_contacts(const NearGrains& pair, std::span<const std::size_t> touching,
+                               NeighbourList& list, PairLoad& load) const {
+  const auto a = static_cast<std::size_t>(pair.a);
+  const auto b = static_cast<std::size_t>(pair.b);
+  const ContactLaw law = contacts.law(material(pair.a), material(pair.b));
+  const Vector centre_a = bodies.position[a];
+  const Vector across = centre_a - bodies.position[b];
+  const RelativeMotion motion = relative_motion(bodies, a, b, across);
+  const RelativeMotion kick = relative_kick(bodies, a, b, across);
+  const Vector mean_spin = .5 * (bodies.spin[a] + bodies.spin[b]);
+  Vector torque = Vector::Zero();
+  Vector rolling = Vector::Zero();
+  Vector sum = Vector::Zero();
+  Touch touch;
+  touch.reduced_mass = reduced(bodies.mass[a], bodies.mass[b]);
+  for (const std::size_t k : touching) {
+    const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(list.spheres[k].a)];
+    const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(list.spheres[k].b)];
+    const Vector apart = sphere_b.centre - sphere_a.centre;
+    const double distance = apart.norm();
+    touch.normal = apart / distance;
+    touch.overlap = sphere_a.radius + sphere_b.radius - distance;
+    touch.reduced_radius = reduced(sphere_a.radius, sphere_b.radius);
+    const Vector arm =
+        sphere_a.centre - centre_a + touch.normal * (sphere_a.radius - touch.overlap / 2);
+    touch.half_velocity = motion.at(arm);
+    touch.velocity = touch.half_velocity + kick.at(arm);
+    touch.twist = touch.normal.dot(mean_spin);
+    ContactMemory& memory = list.memories[k];
+    const ContactForce force = contact_force(touch, law, timestep_s, memory);
+
+    sum += force.total;
+    torque += arm.cross(force.total);
+    load.overlap =
+        std::max(load.overlap, touch.overlap / std::min(sphere_a.radius, sphere_b.radius));
+    if (law.rolling_friction == 0) continue;
+    const double arm_b = (arm + across).norm();
+    if (contacts.rolling() == RollingModel::constant_torque) {
+      load.rolling_a += law.rolling_friction * force.normal * arm.norm();
+      load.rolling_b += law.rolling_friction * force.normal * arm_b;
+    } else if (contacts.rolling() != RollingModel::none) {
+      Roll roll = roll_of(touch, -motion.spin, force);
+      roll.reduced_inertia = reduced(inertia_about(bodies, a, 0), inertia_about(bodies, b, 0));
+      roll.contact_inertia =
+          reduced(inertia_about(bodies, a, arm.norm()), inertia_about(bodies, b, arm_b));
+      rolling += rolling_torque(contacts.rolling(), roll, law, timestep_s, memory);
+    }
+  }
+  load.force += sum;
+  load.torque_a += torque + rolling;
+  // b feels the opposite forces, at arms longer by `across`.
+  load.torque_b -= torque + across.cross(sum) + rolling;
 }
 
 WallLoad ContactStep::load(const NearWall& pair, NeighbourList& list) const {
@@ -114,6 +158,7 @@ WallLoad ContactStep::load(const NearWall& pair, NeighbourList& list) const {
   const auto a = static_cast<std::size_t>(pair.body);
   const WallMoment& moment = walls.moment(pair.wall);
   const ContactLaw& law = contacts.law(material(pair.body), walls.wall(pair.wall).material);
+  const Vector centre = bodies.position[a];
   for (int k = pair.first; k < pair.first + pair.count; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const PlacedSphere& sphere = bodies.spheres[static_cast<std::size_t>(list.facets[at].sphere)];
@@ -128,11 +173,10 @@ WallLoad ContactStep::load(const NearWall& pair, NeighbourList& list) const {
     touch.overlap = sphere.radius - facet.distance;
     touch.reduced_radius = sphere.radius;
     touch.reduced_mass = bodies.mass[a];
-    const Vector point = sphere.centre + touch.normal * (sphere.radius - touch.overlap / 2);
-    const Vector arm = point - bodies.position[a];
-    const Vector wall_velocity = moment.velocity_at(point);
-    touch.half_velocity = wall_velocity - velocity_at(bodies, a, arm);
-    touch.velocity = touch.half_velocity - kick_at(bodies, a, arm);
+    const Vector arm = sphere.centre - centre + touch.normal * (sphere.radius - touch.overlap / 2);
+    const Vector wall_velocity = moment.velocity_at(centre + arm);
+    touch.half_velocity = wall_velocity - bodies.velocity[a] - bodies.spin[a].cross(arm);
+    touch.velocity = touch.half_velocity - bodies.velocity_kick[a] - bodies.spin_kick[a].cross(arm);
     touch.twist = .5 * touch.normal.dot(bodies.spin[a] + moment.spin);
     const ContactForce force = contact_force(touch, law, timestep_s, memory);
 
@@ -144,13 +188,9 @@ WallLoad ContactStep::load(const NearWall& pair, NeighbourList& list) const {
     if (contacts.rolling() == RollingModel::constant_torque) {
       load.rolling += law.rolling_friction * force.normal * arm.norm();
     } else if (contacts.rolling() != RollingModel::none) {
-      const Roll roll{.normal = touch.normal,
-                      .spin = bodies.spin[a] - moment.spin,
-                      .normal_force = force.normal,
-                      .overlap = touch.overlap,
-                      .reduced_radius = touch.reduced_radius,
-                      .reduced_inertia = inertia_about(bodies, a, 0),
-                      .contact_inertia = inertia_about(bodies, a, arm.norm())};
+      Roll roll = roll_of(touch, bodies.spin[a] - moment.spin, force);
+      roll.reduced_inertia = inertia_about(bodies, a, 0);
+      roll.contact_inertia = inertia_about(bodies, a, arm.norm());
       load.torque += rolling_torque(contacts.rolling(), roll, law, timestep_s, memory);
     }
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "dem/engine/bodies.h"
@@ -44,7 +46,16 @@ struct ContactStep {
 
   PairLoad load(const NearGrains& pair, NeighbourList& list) const;
   WallLoad load(const NearWall& pair, NeighbourList& list) const;
+
+ private:
+  static constexpr std::size_t kBatch = 64;
+
   int material(int body) const;
+  /// Numbers of the near spheres from ... to - 1 that touch; returns how many.
+  std::size_t find_touching(NeighbourList& list, std::size_t from, std::size_t to,
+                            std::array<std::size_t, kBatch>& touching) const;
+  void add_contacts(const NearGrains& pair, std::span<const std::size_t> touching,
+                    NeighbourList& list, PairLoad& load) const;
 };
 
 /// Works out the contacts of all bodies. Each body's sums are made in the order of the list, so

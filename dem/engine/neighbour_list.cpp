@@ -8,9 +8,9 @@ namespace repose::dem {
 namespace {
 
 /// Margin of a grain at rest, as a share of its reach.
-constexpr double kRestMargin = .03;
+constexpr double kRestMargin = .005;
 /// A moving grain's margin lasts for about so many steps ...
-constexpr double kHorizonSteps = 40;
+constexpr double kHorizonSteps = 60;
 /// ... but is at most this share of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.

@@ -223,13 +223,12 @@ bool Simulation::is_present(int grain) const {
 Grain Simulation::grain(int grain) const {
   const Bodies& bodies = state_->bodies;
   const auto k = static_cast<std::size_t>(grain);
-  const Eigen::Matrix3d axes = bodies.orientation.at(k).toRotationMatrix();
-  const Vector own = axes.transpose() * bodies.angular_momentum[k];
+  const Vector own = bodies.axes.at(k).transpose() * bodies.angular_momentum[k];
   return {.kind = bodies.kind[k],
           .position = bodies.position[k],
           .orientation = bodies.orientation[k],
           .velocity = bodies.velocity[k],
-          .spin = axes * (own.cwiseQuotient(bodies.gyration[k]) / bodies.mass[k])};
+          .spin = bodies.axes[k] * own.cwiseProduct(bodies.mobility[k])};
 }
 
 double Simulation::mass_kg(int grain) const {

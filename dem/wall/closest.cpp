@@ -40,7 +40,7 @@ Closest closest(const Box& box, const Vector& point) {
 
 Closest closest(const Tube& tube, const Vector& point) {
   using Point = Eigen::Vector2d;
-  const double from_axis = std::hypot(point.x(), point.y());
+  const double from_axis = std::sqrt(point.x() * point.x() + point.y() * point.y());
   const Vector outwards =
       from_axis > 0 ? Vector(point.x() / from_axis, point.y() / from_axis, 0) : Vector::UnitX();
   const Point half(tube.thickness / 2, tube.height / 2);
