@@ -155,46 +155,78 @@ void ContactStep::add_contacts(const NearGrains& pair, std::span<const std::size
 
 WallLoad ContactStep::load(const NearWall& pair, NeighbourList& list) const {
   WallLoad load;
-  const auto a = static_cast<std::size_t>(pair.body);
-  const WallMoment& moment = walls.moment(pair.wall);
-  const ContactLaw& law = contacts.law(material(pair.body), walls.wall(pair.wall).material);
-  const Vector centre = bodies.position[a];
-  for (int k = pair.first; k < pair.first + pair.count; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const PlacedSphere& sphere = bodies.spheres[static_cast<std::size_t>(list.facets[at].sphere)];
-    const FacetContact facet = walls.contact(pair.wall, list.facets[at].facet, sphere.centre);
-    ContactMemory& memory = list.wall_memories[at];
-    if (facet.distance >= sphere.radius) {
+  if (walls.has_facets(pair.wall)) hand_over_memories(pair, list);
+  const auto end = static_cast<std::size_t>(pair.first + pair.count);
+  for (auto k = static_cast<std::size_t>(pair.first); k < end; ++k) {
+    const int sphere = list.facets[k].sphere;
+    const auto at = static_cast<std::size_t>(sphere);
+    const FacetContact facet =
+        walls.contact(pair.wall, list.facets[k].facet, bodies.spheres[at].centre);
+    ContactMemory& memory = list.wall_memories[k];
+    if (facet.distance >= bodies.spheres[at].radius) {
       if (memory.radius > 0) memory = {};
       continue;
     }
-    Touch touch;
-    touch.normal = -facet.normal;
-    touch.overlap = sphere.radius - facet.distance;
-    touch.reduced_radius = sphere.radius;
-    touch.reduced_mass = bodies.mass[a];
-    const Vector arm = sphere.centre - centre + touch.normal * (sphere.radius - touch.overlap / 2);
-    const Vector wall_velocity = moment.velocity_at(centre + arm);
-    touch.half_velocity = wall_velocity - bodies.velocity[a] - bodies.spin[a].cross(arm);
-    touch.velocity = touch.half_velocity - bodies.velocity_kick[a] - bodies.spin_kick[a].cross(arm);
-    touch.twist = .5 * touch.normal.dot(bodies.spin[a] + moment.spin);
-    const ContactForce force = contact_force(touch, law, timestep_s, memory);
-
-    load.force += force.total;
-    load.torque += arm.cross(force.total);
-    load.overlap = std::max(load.overlap, touch.overlap / sphere.radius);
-    load.power_w += force.total.dot(wall_velocity);
-    if (law.rolling_friction == 0) continue;
-    if (contacts.rolling() == RollingModel::constant_torque) {
-      load.rolling += law.rolling_friction * force.normal * arm.norm();
-    } else if (contacts.rolling() != RollingModel::none) {
-      Roll roll = roll_of(touch, bodies.spin[a] - moment.spin, force);
-      roll.reduced_inertia = inertia_about(bodies, a, 0);
-      roll.contact_inertia = inertia_about(bodies, a, arm.norm());
-      load.torque += rolling_torque(contacts.rolling(), roll, law, timestep_s, memory);
-    }
+    add_contact(pair, bodies.spheres[at], facet, memory, load);
   }
   return load;
+}
+
+void ContactStep::hand_over_memories(const NearWall& pair, NeighbourList& list) const {
+  const auto touches = [&](std::size_t k) {
+    const auto sphere = static_cast<std::size_t>(list.facets[k].sphere);
+    return walls.contact(pair.wall, list.facets[k].facet, bodies.spheres[sphere].centre).distance <
+           bodies.spheres[sphere].radius;
+  };
+  const auto end = static_cast<std::size_t>(pair.first + pair.count);
+  auto first = static_cast<std::size_t>(pair.first);
+  while (first < end) {
+    std::size_t last = first + 1;
+    while (last < end && list.facets[last].sphere == list.facets[first].sphere) ++last;
+    for (std::size_t from = first; from < last; ++from) {
+      if (list.wall_memories[from].radius == 0 || touches(from)) continue;
+      for (std::size_t to = first; to < last; ++to) {
+        if (list.wall_memories[to].radius > 0 || !touches(to)) continue;
+        std::swap(list.wall_memories[to], list.wall_memories[from]);
+        break;
+      }
+    }
+    first = last;
+  }
+}
+
+void ContactStep::add_contact(const NearWall& pair, const PlacedSphere& sphere,
+                              const FacetContact& facet, ContactMemory& memory,
+                              WallLoad& load) const {
+  const auto a = static_cast<std::size_t>(pair.body);
+  const WallMoment& moment = walls.moment(pair.wall);
+  const ContactLaw& law = contacts.law(material(pair.body), walls.wall(pair.wall).material);
+  Touch touch;
+  touch.normal = -facet.normal;
+  touch.overlap = sphere.radius - facet.distance;
+  touch.reduced_radius = sphere.radius;
+  touch.reduced_mass = bodies.mass[a];
+  const Vector centre = bodies.position[a];
+  const Vector arm = sphere.centre - centre + touch.normal * (sphere.radius - touch.overlap / 2);
+  const Vector wall_velocity = moment.velocity_at(centre + arm);
+  touch.half_velocity = wall_velocity - bodies.velocity[a] - bodies.spin[a].cross(arm);
+  touch.velocity = touch.half_velocity - bodies.velocity_kick[a] - bodies.spin_kick[a].cross(arm);
+  touch.twist = .5 * touch.normal.dot(bodies.spin[a] + moment.spin);
+  const ContactForce force = contact_force(touch, law, timestep_s, memory);
+
+  load.force += force.total;
+  load.torque += arm.cross(force.total);
+  load.overlap = std::max(load.overlap, touch.overlap / sphere.radius);
+  load.power_w += force.total.dot(wall_velocity);
+  if (law.rolling_friction == 0) return;
+  if (contacts.rolling() == RollingModel::constant_torque) {
+    load.rolling += law.rolling_friction * force.normal * arm.norm();
+  } else if (contacts.rolling() != RollingModel::none) {
+    Roll roll = roll_of(touch, bodies.spin[a] - moment.spin, force);
+    roll.reduced_inertia = inertia_about(bodies, a, 0);
+    roll.contact_inertia = inertia_about(bodies, a, arm.norm());
+    load.torque += rolling_torque(contacts.rolling(), roll, law, timestep_s, memory);
+  }
 }
 
 ContactTally Interactions::apply(Bodies& bodies, const ContactStep& step, NeighbourList& list,

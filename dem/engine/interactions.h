@@ -56,6 +56,10 @@ struct ContactStep {
                             std::array<std::size_t, kBatch>& touching) const;
   void add_contacts(const NearGrains& pair, std::span<const std::size_t> touching,
                     NeighbourList& list, PairLoad& load) const;
+  /// A sphere that moves on to the next facet of a wall takes its contact's memory along.
+  void hand_over_memories(const NearWall& pair, NeighbourList& list) const;
+  void add_contact(const NearWall& pair, const PlacedSphere& sphere, const FacetContact& facet,
+                   ContactMemory& memory, WallLoad& load) const;
 };
 
 /// Works out the contacts of all bodies. Each body's sums are made in the order of the list, so

@@ -11,7 +11,13 @@ WallSet::WallSet(std::vector<Wall> walls)
     : walls_(std::move(walls)),
       moments_(walls_.size()),
       present_(walls_.size(), true),
-      axes_(walls_.size()) {
+      axes_(walls_.size()),
+      meshes_(walls_.size()) {
+  for (std::size_t k = 0; k < walls_.size(); ++k) {
+    if (const auto* surface = std::get_if<MeshSurface>(&walls_[k].shape)) {
+      meshes_[k] = std::make_shared<const MeshFacets>(surface->mesh);
+    }
+  }
   move_to(0);
 }
 
@@ -43,23 +49,32 @@ double WallSet::greatest_speed(double time_s, double reach) const {
 
 void WallSet::facets_near(int wall, const Vector& point, double distance,
                           std::vector<int>& facets) const {
+  const auto k = static_cast<std::size_t>(wall);
+  if (meshes_[k]) {
+    meshes_[k]->near(in_frame_of(k, point), distance, facets);
+    return;
+  }
   facets.clear();
   if (contact(wall, 0, point).distance < distance) facets.push_back(0);
 }
 
-FacetContact WallSet::contact(int wall, int /*facet*/, const Vector& point) const {
+FacetContact WallSet::contact(int wall, int facet, const Vector& point) const {
   const auto k = static_cast<std::size_t>(wall);
-  const Vector own = axes_[k].transpose() * (point - moments_[k].pose.position);
+  const Vector own = in_frame_of(k, point);
   const Closest spot = std::visit(
-      [&own](const auto& shape) -> Closest {
+      [&](const auto& shape) -> Closest {
         if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, MeshSurface>) {
-          return {.distance = 1e300, .normal = Vector::UnitZ()};
+          return meshes_[k]->closest(facet, own);
         } else {
           return closest(shape, own);
         }
       },
       walls_[k].shape);
   return {.distance = spot.distance, .normal = axes_[k] * spot.normal};
+}
+
+Vector WallSet::in_frame_of(std::size_t wall, const Vector& point) const {
+  return axes_[wall].transpose() * (point - moments_[wall].pose.position);
 }
 
 }  // namespace repose::dem

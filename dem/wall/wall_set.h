@@ -1,14 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "dem/wall/mesh_facets.h"
 #include "dem/wall/wall.h"
 
 namespace repose::dem {
 
 /// Where a point is against one facet of a wall. World axes.
 struct FacetContact {
-  double distance = 0;             ///< m
+  double distance = 0;             ///< m; without end when another facet has the contact
   Vector normal = Vector::Zero();  ///< unit, from the wall to the point
 };
 
@@ -21,6 +23,9 @@ class WallSet {
   const Wall& wall(int index) const { return walls_[static_cast<std::size_t>(index)]; }
   const WallMoment& moment(int index) const { return moments_[static_cast<std::size_t>(index)]; }
   bool is_present(int index) const { return present_[static_cast<std::size_t>(index)]; }
+
+  /// Whether a sphere can touch it at several places, and move from one to the next.
+  bool has_facets(int index) const { return meshes_[static_cast<std::size_t>(index)] != nullptr; }
 
   void move_to(double time_s);
   void set_motions(int wall, std::vector<Motion> motions);
@@ -35,10 +40,13 @@ class WallSet {
   FacetContact contact(int wall, int facet, const Vector& point) const;
 
  private:
+  Vector in_frame_of(std::size_t wall, const Vector& point) const;
+
   std::vector<Wall> walls_;
   std::vector<WallMoment> moments_;
   std::vector<bool> present_;
   std::vector<Eigen::Matrix3d> axes_;
+  std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< empty for plain walls
 };
 
 }  // namespace repose::dem
