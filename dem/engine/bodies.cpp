@@ -83,7 +83,8 @@ void place_spheres(Bodies& bodies, std::size_t body, const ClumpShape& shape) {
   bodies.spin_kick[body] = spin_by(bodies.spin_kick[body]);
 }
 
-void start_step(Bodies& bodies, std::size_t body, const ClumpShape& shape, double timestep) {
+void start_step(Bodies& bodies, std::size_t body, const ClumpShape& shape, const Vector& gravity,
+                double timestep) {
   const double half = timestep / 2;
   bodies.velocity_kick[body] = bodies.force[body] * (half / bodies.mass[body]);
   bodies.velocity[body] += bodies.velocity_kick[body];
@@ -98,6 +99,10 @@ void start_step(Bodies& bodies, std::size_t body, const ClumpShape& shape, doubl
   bodies.orientation[body] =
       turned(bodies.orientation[body], timestep * middle.cwiseProduct(mobility));
   place_spheres(bodies, body, shape);
+
+  bodies.force[body] = bodies.mass[body] * gravity;
+  bodies.torque[body].setZero();
+  bodies.rolling_limit[body] = 0;
 }
 
 void finish_step(Bodies& bodies, std::size_t body, double timestep) {

@@ -46,8 +46,10 @@ void add_body(Bodies& bodies, const Grain& grain, const GrainKind& kind, double 
 ///
 /// The orientation follows the angular momentum by the midpoint rule with Cayley's map (second
 /// order; Hairer, Lubich, Wanner 2006, Geometric Numerical Integration, sec. VII.5).
-/// Proved by FreeRotation.* in tests/dem/rotation_test.cpp.
-void start_step(Bodies& bodies, std::size_t body, const ClumpShape& shape, double timestep);
+/// Proved by FreeRotation.* in tests/dem/rotation_test.cpp. The sums of force, torque and rolling
+/// limit then begin anew, with gravity.
+void start_step(Bodies& bodies, std::size_t body, const ClumpShape& shape, const Vector& gravity,
+                double timestep);
 
 /// The second half kick.
 void finish_step(Bodies& bodies, std::size_t body, double timestep);

@@ -22,7 +22,7 @@ constexpr double kDeepestOverlap = .3;
 /// Energy that may appear between two audits, as a share of what is in motion and in springs.
 constexpr double kEnergyTolerance = .05;
 
-void check(const SimulationSetup& setup) {
+SimulationSetup checked(SimulationSetup setup) {
   std::string faults;
   const auto fault = [&faults](const std::string& text) {
     faults += (faults.empty() ? "" : "\n") + text;
@@ -31,6 +31,9 @@ void check(const SimulationSetup& setup) {
     fault(fmt::format("timestep_s is {:g}. Rule: above 0.", setup.timestep_s));
   }
   if (setup.threads < 1) fault(fmt::format("threads is {}. Rule: 1 or more.", setup.threads));
+  if (setup.audit_steps < 1) {
+    fault(fmt::format("audit_steps is {}. Rule: 1 or more.", setup.audit_steps));
+  }
   const auto is_known = [&setup](int material) {
     return material >= 0 && material < setup.contacts.size();
   };
@@ -50,6 +53,7 @@ void check(const SimulationSetup& setup) {
     if (!is_known(setup.walls[k].material)) fault(fmt::format("wall {}: no such material", k));
   }
   if (!faults.empty()) throw std::invalid_argument(faults);
+  return setup;
 }
 
 }  // namespace
@@ -57,9 +61,7 @@ void check(const SimulationSetup& setup) {
 class Simulation::State {
  public:
   explicit State(SimulationSetup given)
-      : setup(std::move(given)), walls(setup.walls), arena(setup.threads) {
-    check(setup);
-  }
+      : setup(checked(std::move(given))), walls(setup.walls), arena(setup.threads) {}
 
   const ClumpShape& shape(std::size_t body) const {
     return setup.kinds[static_cast<std::size_t>(bodies.kind[body])].shape;
@@ -91,16 +93,11 @@ class Simulation::State {
 void Simulation::State::take_step() {
   const double timestep = setup.timestep_s;
   for_each_index(bodies.size(), setup.threads, [&](std::size_t k) {
-    if (bodies.present[k]) start_step(bodies, k, shape(k), timestep);
+    if (bodies.present[k]) start_step(bodies, k, shape(k), setup.gravity, timestep);
   });
   ++step;
   walls.move_to(time_s());
   neighbours.update(bodies, walls, time_s(), timestep, step);
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    bodies.force[k] = bodies.mass[k] * setup.gravity;
-    bodies.torque[k].setZero();
-    bodies.rolling_limit[k] = 0;
-  }
   tally = interactions.apply(bodies, contact_step(), neighbours.list(), setup.threads);
   wall_work_j += tally.wall_power_w * timestep;
   for_each_index(bodies.size(), setup.threads, [&](std::size_t k) {
@@ -192,12 +189,15 @@ void Simulation::remove(int grain) {
 }
 
 void Simulation::set_motions(int wall, std::vector<Motion> motions) {
-  state_->walls.set_motions(wall, std::move(motions));
-  state_->neighbours.expire();
+  State& s = *state_;
+  s.walls.set_motions(wall, std::move(motions), s.time_s());
+  s.setup.walls.at(static_cast<std::size_t>(wall)) = s.walls.wall(wall);
+  s.neighbours.expire();
 }
 
 void Simulation::remove_wall(int wall) {
   state_->walls.remove(wall);
+  state_->setup.walls.at(static_cast<std::size_t>(wall)).is_present = false;
   state_->neighbours.expire();
   state_->restart_energy_audit();
 }

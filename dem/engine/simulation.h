@@ -90,7 +90,7 @@ class Simulation {
   int add(const Grain& grain);
   /// Takes a grain out; its number stays its own.
   void remove(int grain);
-  /// Sets a wall in steady motion from now on, or to rest with an empty list.
+  /// Sets a wall in motion from now on, or to rest with an empty list. Times are of the simulation.
   void set_motions(int wall, std::vector<Motion> motions);
   /// Takes a wall out.
   void remove_wall(int wall);
@@ -98,6 +98,7 @@ class Simulation {
   /// Throws UnstableRun when the audit finds the run gone wrong.
   void advance(std::int64_t steps);
 
+  /// Of now: its walls move as they were last told to.
   const SimulationSetup& setup() const;
   std::int64_t step() const;
   double time_s() const;

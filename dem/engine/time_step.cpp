@@ -13,7 +13,7 @@ namespace {
 
 /// Accuracy needs this share of the stable step 2 / omega: restitution and sliding then come out
 /// within .005 (Restitution.ComesOutAtEveryAcceptedTimestep).
-constexpr double kAccurateShare = .08;
+constexpr double kAccurateShare = .11;
 
 /// Deepest overlap of a Hertz contact of two masses: (15 m* v^2 / (16 E* sqrt(R*)))^(2/5).
 double impact_overlap(double reduced_mass, double reduced_young, double reduced_radius,

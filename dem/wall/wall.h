@@ -51,6 +51,7 @@ struct Wall {
   int material = 0;
   Pose pose;
   std::vector<Motion> motions;  ///< stretches in time that do not overlap
+  bool is_present = true;       ///< a wall that was taken out keeps its number
 };
 
 /// Where a wall is at one time, and how its points move.

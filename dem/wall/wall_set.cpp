@@ -10,7 +10,6 @@ namespace repose::dem {
 WallSet::WallSet(std::vector<Wall> walls)
     : walls_(std::move(walls)),
       moments_(walls_.size()),
-      present_(walls_.size(), true),
       axes_(walls_.size()),
       meshes_(walls_.size()) {
   for (std::size_t k = 0; k < walls_.size(); ++k) {
@@ -28,16 +27,17 @@ void WallSet::move_to(double time_s) {
   }
 }
 
-void WallSet::set_motions(int wall, std::vector<Motion> motions) {
+void WallSet::set_motions(int wall, std::vector<Motion> motions, double time_s) {
   const auto k = static_cast<std::size_t>(wall);
   walls_[k].pose = moments_[k].pose;
+  for (Motion& motion : motions) motion.start_s = std::max(motion.start_s, time_s);
   walls_[k].motions = std::move(motions);
 }
 
 double WallSet::greatest_speed(double time_s, double reach) const {
   double greatest = 0;
   for (std::size_t k = 0; k < walls_.size(); ++k) {
-    if (!present_[k]) continue;
+    if (!walls_[k].is_present) continue;
     for (const Motion& motion : walls_[k].motions) {
       if (time_s >= motion.stop_s) continue;
       greatest = std::max(

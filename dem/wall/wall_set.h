@@ -22,14 +22,15 @@ class WallSet {
   int size() const { return static_cast<int>(walls_.size()); }
   const Wall& wall(int index) const { return walls_[static_cast<std::size_t>(index)]; }
   const WallMoment& moment(int index) const { return moments_[static_cast<std::size_t>(index)]; }
-  bool is_present(int index) const { return present_[static_cast<std::size_t>(index)]; }
+  bool is_present(int index) const { return wall(index).is_present; }
 
   /// Whether a sphere can touch it at several places, and move from one to the next.
   bool has_facets(int index) const { return meshes_[static_cast<std::size_t>(index)] != nullptr; }
 
   void move_to(double time_s);
-  void set_motions(int wall, std::vector<Motion> motions);
-  void remove(int wall) { present_[static_cast<std::size_t>(wall)] = false; }
+  /// From `time_s` on, the moment that the walls are placed for.
+  void set_motions(int wall, std::vector<Motion> motions, double time_s);
+  void remove(int wall) { walls_[static_cast<std::size_t>(wall)].is_present = false; }
 
   /// Greatest speed of any wall's points within `reach` of the origin at a time from then on, m/s.
   double greatest_speed(double time_s, double reach) const;
@@ -44,7 +45,6 @@ class WallSet {
 
   std::vector<Wall> walls_;
   std::vector<WallMoment> moments_;
-  std::vector<bool> present_;
   std::vector<Eigen::Matrix3d> axes_;
   std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< empty for plain walls
 };

@@ -21,7 +21,7 @@ using repose::vision::measure_repose_angle;
 using repose::vision::read_picture;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kBatch = 8;
+constexpr int kBatch = 16;
 constexpr double kNoise = 0.016;
 
 /// JPEG files of 12 megapixels each, removed at the end.
