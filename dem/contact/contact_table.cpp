@@ -59,7 +59,8 @@ ContactLaw law_of(const Material& a, const Material& b, const PairCoefficients& 
   return {.reduced_young_pa = young,
           .reduced_shear_pa = shear,
           .normal_damping = damping_factor(pair.restitution),
-          .tangential_damper_ratio = std::sqrt(4 * shear / young),
+          .tangential_damping =
+              textbook_damping_factor(pair.restitution) * std::sqrt(4 * shear / young),
           .sliding_friction = pair.sliding_friction,
           .rolling_friction = pair.rolling_friction};
 }

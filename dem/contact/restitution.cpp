@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -40,6 +41,11 @@ double restitution_of(double factor) {
   const double to = force(state, factor);
   const double part = from > to ? from / (from - to) : 1;
   return -(before[1] + part * (state[1] - before[1]));
+}
+
+double textbook_damping_factor(double restitution) {
+  const double log = std::log(restitution);
+  return -2 * std::sqrt(5.0 / 6) * log / std::hypot(std::numbers::pi, log);
 }
 
 double damping_factor(double restitution) {

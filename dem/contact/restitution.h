@@ -16,6 +16,10 @@ namespace repose::dem {
 /// Proved by Restitution.* in tests/dem/restitution_test.cpp.
 double damping_factor(double restitution);
 
+/// 2 sqrt(5/6) beta, beta = -ln e / sqrt(pi^2 + ln^2 e): the factor of a damper that may pull, in
+/// common use for tangential damping (EDEM 2022 documentation, "Hertz-Mindlin (no slip)").
+double textbook_damping_factor(double restitution);
+
 /// The coefficient of restitution that a damping factor (>= 0) gives: the inverse.
 double restitution_of(double damping_factor);
 

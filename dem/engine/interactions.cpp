@@ -71,15 +71,23 @@ int ContactStep::material(int body) const {
   return kinds[static_cast<std::size_t>(kind)].material;
 }
 
-PairLoad ContactStep::load(const NearGrains& pair, NeighbourList& list) const {
+PairLoad ContactStep::load(NearGrains& pair, NeighbourList& list) const {
   PairLoad load;
+  const auto a = static_cast<std::size_t>(pair.a);
+  const auto b = static_cast<std::size_t>(pair.b);
+  const double reach = bodies.reach[a] + bodies.reach[b];
+  const bool is_apart = (bodies.position[b] - bodies.position[a]).squaredNorm() >= reach * reach;
+  if (is_apart && !pair.touched) return load;
+
   const auto first = static_cast<std::size_t>(pair.first);
   const auto end = first + static_cast<std::size_t>(pair.count);
   std::array<std::size_t, kBatch> touching;
+  pair.touched = false;
   for (std::size_t from = first; from < end; from += kBatch) {
     const std::size_t count = find_touching(list, from, std::min(end, from + kBatch), touching);
-    // Most near pairs of grains do not touch: no more is worked out for them than that.
-    if (count > 0) add_contacts(pair, {touching.data(), count}, list, load);
+    if (count == 0) continue;
+    pair.touched = true;
+    add_contacts(pair, {touching.data(), count}, list, load);
   }
   return load;
 }
@@ -114,6 +122,7 @@ void ContactStep::add_contacts(const NearGrains& pair, std::span<const std::size
   Vector sum = Vector::Zero();
   Touch touch;
   touch.reduced_mass = reduced(bodies.mass[a], bodies.mass[b]);
+  touch.touching = static_cast<int>(touching.size());
   for (const std::size_t k : touching) {
     const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(list.spheres[k].a)];
     const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(list.spheres[k].b)];
@@ -156,18 +165,22 @@ void ContactStep::add_contacts(const NearGrains& pair, std::span<const std::size
 WallLoad ContactStep::load(const NearWall& pair, NeighbourList& list) const {
   WallLoad load;
   if (walls.has_facets(pair.wall)) hand_over_memories(pair, list);
-  const auto end = static_cast<std::size_t>(pair.first + pair.count);
-  for (auto k = static_cast<std::size_t>(pair.first); k < end; ++k) {
-    const int sphere = list.facets[k].sphere;
-    const auto at = static_cast<std::size_t>(sphere);
-    const FacetContact facet =
-        walls.contact(pair.wall, list.facets[k].facet, bodies.spheres[at].centre);
-    ContactMemory& memory = list.wall_memories[k];
-    if (facet.distance >= bodies.spheres[at].radius) {
-      if (memory.radius > 0) memory = {};
-      continue;
+  const auto first = static_cast<std::size_t>(pair.first);
+  const auto end = first + static_cast<std::size_t>(pair.count);
+  std::array<WallTouch, kBatch> touching;
+  for (std::size_t from = first; from < end; from += kBatch) {
+    std::size_t count = 0;
+    for (std::size_t k = from; k < std::min(end, from + kBatch); ++k) {
+      const auto at = static_cast<std::size_t>(list.facets[k].sphere);
+      const FacetContact facet =
+          walls.contact(pair.wall, list.facets[k].facet, bodies.spheres[at].centre);
+      if (facet.distance < bodies.spheres[at].radius) {
+        touching[count++] = {.near = k, .facet = facet};
+      } else if (list.wall_memories[k].radius > 0) {
+        list.wall_memories[k] = {};  // what has parted forgets
+      }
     }
-    add_contact(pair, bodies.spheres[at], facet, memory, load);
+    add_contacts(pair, {touching.data(), count}, list, load);
   }
   return load;
 }
@@ -195,37 +208,41 @@ void ContactStep::hand_over_memories(const NearWall& pair, NeighbourList& list) 
   }
 }
 
-void ContactStep::add_contact(const NearWall& pair, const PlacedSphere& sphere,
-                              const FacetContact& facet, ContactMemory& memory,
-                              WallLoad& load) const {
+void ContactStep::add_contacts(const NearWall& pair, std::span<const WallTouch> touching,
+                               NeighbourList& list, WallLoad& load) const {
   const auto a = static_cast<std::size_t>(pair.body);
   const WallMoment& moment = walls.moment(pair.wall);
   const ContactLaw& law = contacts.law(material(pair.body), walls.wall(pair.wall).material);
-  Touch touch;
-  touch.normal = -facet.normal;
-  touch.overlap = sphere.radius - facet.distance;
-  touch.reduced_radius = sphere.radius;
-  touch.reduced_mass = bodies.mass[a];
   const Vector centre = bodies.position[a];
-  const Vector arm = sphere.centre - centre + touch.normal * (sphere.radius - touch.overlap / 2);
-  const Vector wall_velocity = moment.velocity_at(centre + arm);
-  touch.half_velocity = wall_velocity - bodies.velocity[a] - bodies.spin[a].cross(arm);
-  touch.velocity = touch.half_velocity - bodies.velocity_kick[a] - bodies.spin_kick[a].cross(arm);
-  touch.twist = .5 * touch.normal.dot(bodies.spin[a] + moment.spin);
-  const ContactForce force = contact_force(touch, law, timestep_s, memory);
+  Touch touch;
+  touch.reduced_mass = bodies.mass[a];
+  touch.touching = static_cast<int>(touching.size());
+  for (const auto& [near, facet] : touching) {
+    const PlacedSphere& sphere = bodies.spheres[static_cast<std::size_t>(list.facets[near].sphere)];
+    ContactMemory& memory = list.wall_memories[near];
+    touch.normal = -facet.normal;
+    touch.overlap = sphere.radius - facet.distance;
+    touch.reduced_radius = sphere.radius;
+    const Vector arm = sphere.centre - centre + touch.normal * (sphere.radius - touch.overlap / 2);
+    const Vector wall_velocity = moment.velocity_at(centre + arm);
+    touch.half_velocity = wall_velocity - bodies.velocity[a] - bodies.spin[a].cross(arm);
+    touch.velocity = touch.half_velocity - bodies.velocity_kick[a] - bodies.spin_kick[a].cross(arm);
+    touch.twist = .5 * touch.normal.dot(bodies.spin[a] + moment.spin);
+    const ContactForce force = contact_force(touch, law, timestep_s, memory);
 
-  load.force += force.total;
-  load.torque += arm.cross(force.total);
-  load.overlap = std::max(load.overlap, touch.overlap / sphere.radius);
-  load.power_w += force.total.dot(wall_velocity);
-  if (law.rolling_friction == 0) return;
-  if (contacts.rolling() == RollingModel::constant_torque) {
-    load.rolling += law.rolling_friction * force.normal * arm.norm();
-  } else if (contacts.rolling() != RollingModel::none) {
-    Roll roll = roll_of(touch, bodies.spin[a] - moment.spin, force);
-    roll.reduced_inertia = inertia_about(bodies, a, 0);
-    roll.contact_inertia = inertia_about(bodies, a, arm.norm());
-    load.torque += rolling_torque(contacts.rolling(), roll, law, timestep_s, memory);
+    load.force += force.total;
+    load.torque += arm.cross(force.total);
+    load.overlap = std::max(load.overlap, touch.overlap / sphere.radius);
+    load.power_w += force.total.dot(wall_velocity);
+    if (law.rolling_friction == 0) continue;
+    if (contacts.rolling() == RollingModel::constant_torque) {
+      load.rolling += law.rolling_friction * force.normal * arm.norm();
+    } else if (contacts.rolling() != RollingModel::none) {
+      Roll roll = roll_of(touch, bodies.spin[a] - moment.spin, force);
+      roll.reduced_inertia = inertia_about(bodies, a, 0);
+      roll.contact_inertia = inertia_about(bodies, a, arm.norm());
+      load.torque += rolling_torque(contacts.rolling(), roll, law, timestep_s, memory);
+    }
   }
 }
 
@@ -238,7 +255,7 @@ ContactTally Interactions::apply(Bodies& bodies, const ContactStep& step, Neighb
       note_overlap(pair_loads_[k].overlap, list.grains[k].a, tally);
     }
   } else {
-    for (const NearGrains& pair : list.grains) {
+    for (NearGrains& pair : list.grains) {
       const PairLoad load = step.load(pair, list);
       if (load.overlap == 0) continue;
       add_to_a(bodies, pair, load);

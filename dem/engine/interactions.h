@@ -44,11 +44,11 @@ struct ContactStep {
   const std::vector<GrainKind>& kinds;
   double timestep_s;
 
-  PairLoad load(const NearGrains& pair, NeighbourList& list) const;
+  PairLoad load(NearGrains& pair, NeighbourList& list) const;
   WallLoad load(const NearWall& pair, NeighbourList& list) const;
 
  private:
-  static constexpr std::size_t kBatch = 64;
+  static constexpr std::size_t kBatch = 256;
 
   int material(int body) const;
   /// Numbers of the near spheres from ... to - 1 that touch; returns how many.
@@ -58,8 +58,12 @@ struct ContactStep {
                     NeighbourList& list, PairLoad& load) const;
   /// A sphere that moves on to the next facet of a wall takes its contact's memory along.
   void hand_over_memories(const NearWall& pair, NeighbourList& list) const;
-  void add_contact(const NearWall& pair, const PlacedSphere& sphere, const FacetContact& facet,
-                   ContactMemory& memory, WallLoad& load) const;
+  struct WallTouch {
+    std::size_t near = 0;  ///< number in NeighbourList::facets
+    FacetContact facet;
+  };
+  void add_contacts(const NearWall& pair, std::span<const WallTouch> touching, NeighbourList& list,
+                    WallLoad& load) const;
 };
 
 /// Works out the contacts of all bodies. Each body's sums are made in the order of the list, so

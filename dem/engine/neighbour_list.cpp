@@ -10,7 +10,7 @@ namespace {
 /// Margin of a grain at rest, as a share of its reach.
 constexpr double kRestMargin = .005;
 /// A moving grain's margin lasts for about so many steps ...
-constexpr double kHorizonSteps = 60;
+constexpr double kHorizonSteps = 20;
 /// ... but is at most this share of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.

@@ -15,6 +15,7 @@ struct NearGrains {
   int b = 0;
   int first = 0;
   int count = 0;
+  bool touched = true;  ///< at the last step; true when not known
 };
 
 /// Two spheres that may touch before the list is made anew. Numbers of `Bodies::spheres`.
