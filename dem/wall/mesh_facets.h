@@ -18,6 +18,8 @@ class MeshFacets {
  public:
   /// Throws std::invalid_argument for a mesh without triangles, or with one without area.
   explicit MeshFacets(const Mesh& mesh);
+  MeshFacets(const MeshFacets&) = delete;  // the tree refers to the mesh beside it
+  MeshFacets& operator=(const MeshFacets&) = delete;
 
   /// Triangles within `distance` of a point, in rising order.
   void near(const Vector& point, double distance, std::vector<int>& facets) const;
