@@ -1,0 +1,137 @@
+#include "dem/shape/fill.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "dem/shape/inscribed_spheres.h"
+#include "dem/shape/mass_properties.h"
+#include "dem/shape/relocation.h"
+#include "dem/shape/sphere_fit.h"
+#include "dem/shape/surface_distance.h"
+#include "dem/shape/surface_samples.h"
+
+namespace repose::dem {
+namespace {
+
+std::size_t samples_for(int spheres) {
+  constexpr int kPerSphere = 120, kFewest = 2500, kMost = 8000;
+  return static_cast<std::size_t>(std::clamp(kPerSphere * spheres, kFewest, kMost));
+}
+
+/// Points above every other sample, low and high in turn, with their true distance: in a dent, the
+/// nearest surface may be another part of it.
+std::vector<SphereFit::Guard> guards_above(const Mesh& mesh,
+                                           const std::vector<SurfaceSample>& samples,
+                                           double equal_radius) {
+  constexpr double kLow = 0.1, kHigh = 0.3;  // of the radius of the sphere of equal volume
+  const SurfaceDistance surface(mesh);
+  std::vector<SphereFit::Guard> guards;
+  for (std::size_t i = 0; i < samples.size(); i += 2) {
+    const double height = (i % 4 == 0 ? kLow : kHigh) * equal_radius;
+    const Vector point = samples[i].point + height * samples[i].normal;
+    const double distance = surface.signed_distance(point);
+    if (distance > 0) guards.push_back({point, distance});
+  }
+  return guards;
+}
+
+std::vector<ClumpSphere> fitted_spheres(const Mesh& mesh, int count, double smallest_radius_share) {
+  const MassProperties body = mass_properties(mesh);
+  const double equal_radius = std::cbrt(3 * body.volume_m3 / (4 * std::numbers::pi));
+  if (count == 1) return {{body.centroid, equal_radius}};
+  const std::vector<SurfaceSample> samples = sample_surface(mesh, samples_for(count));
+  const double smallest_radius = smallest_radius_share * equal_radius;
+  const SphereFit fit(samples, guards_above(mesh, samples, equal_radius), smallest_radius);
+  std::vector<ClumpSphere> spheres = inscribed_spheres(mesh, count);
+  std::erase_if(spheres, [&](const ClumpSphere& s) { return s.radius < smallest_radius; });
+  relocate_and_fit(fit, samples, static_cast<std::size_t>(count), spheres);
+  return spheres;
+}
+
+/// The fewest spheres that reach the error: doubled until they do, then halved in between.
+FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_radius_share) {
+  const auto filled = [&](int count) {
+    FillReport report{.spheres = fitted_spheres(mesh, count, smallest_radius_share), .errors = {}};
+    report.errors = clump_errors(mesh, report.spheres);
+    return report;
+  };
+  int too_few = 0, enough = 1;
+  FillReport best = filled(enough);
+  double least_error = best.errors.volume_error;
+  while (best.errors.volume_error > volume_error) {
+    if (enough == kMostSpheres) {
+      std::ostringstream fault;
+      fault << "volume error: " << volume_error << " is not reached with " << kMostSpheres
+            << " spheres, " << least_error
+            << " is. Fix: ask for no less than that, or smooth the surface.";
+      throw std::invalid_argument(fault.str());
+    }
+    too_few = enough;
+    enough = std::min(2 * enough, kMostSpheres);
+    best = filled(enough);
+    least_error = std::min(least_error, best.errors.volume_error);
+  }
+  while (enough - too_few > 1) {
+    const int between = (too_few + enough) / 2;
+    FillReport report = filled(between);
+    if (report.errors.volume_error <= volume_error) {
+      best = std::move(report);
+      enough = between;
+    } else {
+      too_few = between;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<std::string> FillOptions::problems() const {
+  std::vector<std::string> problems;
+  if (spheres < 1 || spheres > kMostSpheres) {
+    problems.push_back("spheres: " + std::to_string(spheres) + " must be from 1 to " +
+                       std::to_string(kMostSpheres) + ". Fix: 11 is usual for a nut.");
+  }
+  if (volume_error && !(*volume_error > 0 && *volume_error < 1)) {
+    problems.push_back("volume error: " + std::to_string(*volume_error) +
+                       " must be a share between 0 and 1. Fix: 0.02 for 2 %.");
+  }
+  if (!(smallest_radius_share > 0 && smallest_radius_share < 1)) {
+    problems.push_back("smallest radius: " + std::to_string(smallest_radius_share) +
+                       " must be a share between 0 and 1. Fix: 0.1 is usual.");
+  }
+  return problems;
+}
+
+FillReport fill(const Mesh& mesh, const FillOptions& options) {
+  const std::vector<std::string> problems = options.problems();
+  if (!problems.empty()) {
+    std::string text;
+    for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+    throw std::invalid_argument(text);
+  }
+  if (options.volume_error) {
+    return fill_to_error(mesh, *options.volume_error, options.smallest_radius_share);
+  }
+  FillReport report{.spheres = fitted_spheres(mesh, options.spheres, options.smallest_radius_share),
+                    .errors = {}};
+  report.errors = clump_errors(mesh, report.spheres);
+  return report;
+}
+
+FilledClump clump_of(const Mesh& surface, const FillOptions& options) {
+  const PrincipalFrame frame = principal_frame(surface);
+  FilledClump clump;
+  clump.shape.surface = in_frame(surface, frame);
+  clump.shape.volume_m3 = mass_properties(surface).volume_m3;
+  clump.shape.gyration_m2 = frame.gyration_m2;
+  FillReport report = fill(clump.shape.surface, options);
+  clump.shape.spheres = std::move(report.spheres);
+  clump.errors = report.errors;
+  return clump;
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,74 @@
+#include <cmath>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "dem/shape/calliper.h"
+#include "dem/shape/mass_properties.h"
+#include "dem/shape/mesh_edges.h"
+#include "dem/shape/self_crossing.h"
+#include "tests/dem/shapes.h"
+
+namespace repose::testing {
+namespace {
+
+using dem::CalliperSizes;
+using dem::Mesh;
+using dem::Vector;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+CalliperSizes nut_sizes(double tip_share) {
+  return {
+      .length_m = 22.48e-3, .width_m = 18.23e-3, .thickness_m = 17.46e-3, .tip_share = tip_share};
+}
+
+/// Half the width near the end at +x, as a share of the full one.
+double width_near_tip(const Mesh& mesh, const CalliperSizes& sizes) {
+  double width = 0;
+  for (const Vector& vertex : mesh.vertices) {
+    if (vertex.x() > 0.9 * sizes.length_m / 2) width = std::max(width, vertex.y());
+  }
+  return width / (sizes.width_m / 2);
+}
+
+TEST(CalliperSurface, MeetsTheSizesToTheLastDigit) {
+  for (const double tip_share : {0.0, 0.3, 1.0}) {
+    Eigen::AlignedBox3d bounds;
+    for (const Vector& vertex : dem::calliper_surface(nut_sizes(tip_share)).vertices) {
+      bounds.extend(vertex);
+    }
+    EXPECT_EQ(bounds.max(), Vector(22.48e-3 / 2, 18.23e-3 / 2, 17.46e-3 / 2));
+    EXPECT_EQ(bounds.min(), -bounds.max());
+  }
+}
+
+TEST(CalliperSurface, IsClosedFacesOutwardsAndDoesNotCrossItself) {
+  for (const double tip_share : {0.0, 0.5, 1.0}) {
+    const Mesh mesh = dem::calliper_surface(nut_sizes(tip_share));
+    EXPECT_TRUE(dem::is_watertight(mesh));
+    EXPECT_GT(dem::mass_properties(mesh).volume_m3, 0);
+    EXPECT_EQ(dem::find_self_crossing(mesh).triangles, 0U);
+  }
+}
+
+TEST(CalliperSurface, GetsMorePointedWithTheTip) {
+  const CalliperSizes round = nut_sizes(0), nut = nut_sizes(0.5), point = nut_sizes(1);
+  EXPECT_GT(width_near_tip(dem::calliper_surface(round), round),
+            1.3 * width_near_tip(dem::calliper_surface(nut), nut));
+  EXPECT_GT(width_near_tip(dem::calliper_surface(nut), nut),
+            1.3 * width_near_tip(dem::calliper_surface(point), point));
+}
+
+TEST(CalliperSurface, NamesEverySizeThatIsWrong) {
+  const CalliperSizes wrong{
+      .length_m = -1, .width_m = 22, .thickness_m = std::nan(""), .tip_share = 1.5};
+  EXPECT_THAT([&] { dem::calliper_surface(wrong); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("the length is -1000 mm"), HasSubstr("the width is 22000 mm"),
+                        HasSubstr("the thickness is nan"), HasSubstr("tip: is 1.5"))));
+}
+
+}  // namespace
+}  // namespace repose::testing

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "dem/shape/calliper.h"
+#include "dem/shape/mesh.h"
+
+/// Surfaces whose properties are known.
+namespace repose::testing {
+
+/// The sample hazelnut by its calliper sizes.
+inline dem::Mesh nut_surface() {
+  return dem::calliper_surface(
+      {.length_m = 22.48e-3, .width_m = 18.23e-3, .thickness_m = 17.46e-3, .tip_share = 0.5});
+}
+
+/// A box about the origin, every face of two triangles.
+inline dem::Mesh box_surface(double x_m, double y_m, double z_m) {
+  dem::Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back(x_m * ((i & 1) - 0.5), y_m * ((i >> 1 & 1) - 0.5),
+                               z_m * ((i >> 2 & 1) - 0.5));
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+/// Corners at the origin and one step along each axis.
+inline dem::Mesh corner_tetrahedron(double x_m, double y_m, double z_m) {
+  return {.vertices = {{0, 0, 0}, {x_m, 0, 0}, {0, y_m, 0}, {0, 0, z_m}},
+          .triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+inline dem::Mesh moved(dem::Mesh mesh, const dem::Quaternion& turn, const dem::Vector& shift_m) {
+  for (dem::Vector& vertex : mesh.vertices) vertex = turn * vertex + shift_m;
+  return mesh;
+}
+
+inline dem::Mesh inside_out(dem::Mesh mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+/// Both surfaces in one.
+inline dem::Mesh together(dem::Mesh a, const dem::Mesh& b) {
+  const auto first = static_cast<int>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const auto& t : b.triangles)
+    a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  return a;
+}
+
+/// Every triangle with corners of its own, as STL has it.
+inline dem::Mesh taken_apart(const dem::Mesh& mesh) {
+  dem::Mesh apart;
+  for (const auto& triangle : mesh.triangles) {
+    const auto first = static_cast<int>(apart.vertices.size());
+    for (const int corner : triangle) {
+      apart.vertices.push_back(mesh.vertices[static_cast<std::size_t>(corner)]);
+    }
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  return apart;
+}
+
+}  // namespace repose::testing
