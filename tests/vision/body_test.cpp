@@ -64,8 +64,8 @@ TEST(FindBodies, AHeapStandsOnItsBase) {
   EXPECT_NEAR(bodies[0].ground.y(300), 300, 1);
   EXPECT_NEAR(bodies[0].ground.tilt_rad(), 0, 0.05 * kDegree);
   EXPECT_NEAR(cv::countNonZero(bodies[0].mask), 360 * 110 / 2., 780);  // a pixel all around
-  EXPECT_NEAR(bodies[0].base_bow, 0, 0.005);
-  EXPECT_FALSE(bodies[0].mirrored);
+  EXPECT_NEAR(bodies[0].ground.bow.value(), 0, 0.005);
+  EXPECT_FALSE(bodies[0].ground.mirrored);
 }
 
 TEST(FindBodies, ATiltedBaseIsATiltedGround) {
@@ -132,10 +132,40 @@ TEST(FindBodies, AReflectionsAxisIsTheGround) {
   const Corners image = {{120, 300}, {300, 410}, {480, 300}};
   const auto bodies = Scene().paint(image, {120, 135, 150}).paint(kTriangle, kHeap).bodies();
   ASSERT_EQ(bodies.size(), 1);
-  EXPECT_TRUE(bodies[0].mirrored);
+  EXPECT_TRUE(bodies[0].ground.mirrored);
+  EXPECT_FALSE(bodies[0].ground.bow) << "the base is not seen";
   EXPECT_NEAR(bodies[0].ground.y(300), 300, 1);
   EXPECT_NEAR(bodies[0].ground.tilt_rad(), 0, 0.1 * kDegree);
   EXPECT_EQ(cv::countNonZero(bodies[0].mask.rowRange(302, kRows)), 0);
+}
+
+TEST(FindBodies, WhatRunsOutOfTheFrameDoesNotTiltTheGround) {
+  // Haze joins the left foot to the frame's lower edge, 20 pixels below the base.
+  Scene scene = Scene().paint(kTriangle, kHeap).paint(rectangle(-5, 290, 140, 30), kHeap);
+  scene.picture = scene.picture.rowRange(0, 320).clone();
+  const auto bodies = scene.bodies();
+  ASSERT_EQ(bodies.size(), 1);
+  EXPECT_NEAR(bodies[0].ground.tilt_rad(), 0, 0.05 * kDegree);
+  EXPECT_NEAR(bodies[0].ground.y(300), 300, 1);
+}
+
+TEST(FindBodies, AnExcludedBoxDoesNotTiltTheGround) {
+  const Scene scene = Scene().paint(turned(kTriangle, 1 * kDegree), kHeap);
+  const WorkingPicture work = working_picture(picture_of(scene.picture), {{130, 285, 150, 40}});
+  const auto bodies = find_bodies(scene.segmentation(), work);
+  ASSERT_EQ(bodies.size(), 1);
+  // Half of the base is left: a pixel more or less at its end is 0.3 degrees.
+  EXPECT_NEAR(bodies[0].ground.tilt_rad(), 1 * kDegree, 0.2 * kDegree);
+}
+
+TEST(FindBodies, AHeapCutByTheFramesLowerEdgeHasAGroundOfUnknownTilt) {
+  Scene scene = Scene().paint(turned(kTriangle, 2 * kDegree), kHeap);
+  scene.picture = scene.picture.rowRange(0, 280).clone();
+  const auto bodies = scene.bodies();
+  ASSERT_EQ(bodies.size(), 1);
+  EXPECT_NEAR(bodies[0].ground.y(300), 280, 1);
+  EXPECT_GE(bodies[0].ground.deviation_rad, 1 * kDegree);
+  EXPECT_FALSE(bodies[0].ground.bow) << "the base is not seen";
 }
 
 /// The silhouette of a cone seen from above: hull of its apex and its base's ellipse.
@@ -158,7 +188,7 @@ TEST(FindBodies, ABowedBaseTellsTheCamerasPitch) {
     const auto bodies = Scene().paint(cone_seen_from(pitch_deg * kDegree), kHeap).bodies();
     ASSERT_EQ(bodies.size(), 1);
     // The rim's far half shows up to the flanks' feet: an arc a little longer than the near half.
-    EXPECT_NEAR(pitch_from_bow(bodies[0].base_bow) / kDegree, pitch_deg, 0.1 * pitch_deg);
+    EXPECT_NEAR(pitch_from_bow(bodies[0].ground.bow.value()) / kDegree, pitch_deg, 0.1 * pitch_deg);
   }
 }
 
@@ -191,7 +221,7 @@ TEST(LargestRegion, IsEmptyWhereThereIsNone) {
 TEST(BodyOn, KeepsTheGroundThatIsKnown) {
   const Scene scene = Scene().paint(kTriangle, kHeap);
   Body known = scene.bodies().at(0);
-  known.ground = {280, 0};
+  static_cast<PictureLine&>(known.ground) = {280, 0};
   const Body again = body_on(known, scene.segmentation(), scene.work());
   EXPECT_EQ(again.ground.y(300), 280);
   EXPECT_GT(cv::countNonZero(again.mask), 0);

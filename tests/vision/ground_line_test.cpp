@@ -1,12 +1,12 @@
-#include "vision/measure/ground_line.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/support/heap_random.h"
 #include "tests/vision/pictures.h"
+#include "vision/measure/ground.h"
 
 namespace repose::vision {
 namespace {
@@ -116,6 +116,69 @@ TEST(SupportLine, DeviationIsTheTiltsError) {
     held += std::abs(ground->line.tilt_rad()) <= 1.96 * ground->deviation_rad ? 1 : 0;
   }
   EXPECT_GE(held, 0.88 * kTrials);  // 95 % is the aim, 3.1 % the trials' own scatter at 2 sigma
+}
+
+constexpr double kGround = 150;
+constexpr Base kBase{100, 300};
+
+/// A dark heap on a plate before a light backdrop.
+WorkingPicture heap_on_plate(double tilt_rad) {
+  const double fall = std::tan(tilt_rad);
+  const auto at = [&](double x, double height) {
+    return cv::Point(cvRound(16 * (x - 0.5)), cvRound(16 * (kGround + fall * x - height - 0.5)));
+  };
+  cv::Mat3b picture(220, 400, cv::Vec3b(200, 200, 200));
+  const auto paint = [&](const std::vector<cv::Point>& corners, const cv::Scalar& colour) {
+    cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{corners}, colour, cv::LINE_AA, 4);
+  };
+  paint({at(-10, 0), at(410, 0), at(410, -100), at(-10, -100)}, {120, 130, 140});
+  paint({at(kBase.from, 0), at(200, 60), at(kBase.to, 0)}, {40, 50, 60});
+  return work_of(picture);
+}
+
+Ground level(double y, double slope) {
+  Ground ground;
+  ground.y_at_0 = y;
+  ground.slope = slope;
+  return ground;
+}
+
+TEST(GroundEvidence, IsLargestOnTheEdgeThatThePictureShows) {
+  const double tilt = 1 * kDegree;
+  const WorkingPicture work = heap_on_plate(tilt);
+  const double on_edge = ground_evidence({kGround, std::tan(tilt)}, kBase, work);
+  EXPECT_GT(on_edge, 0.7);
+  EXPECT_LE(on_edge, 1);
+  for (const auto& [y, tilt_deg] :
+       {std::pair{kGround + 4, 1.0}, {kGround - 4, 1.0}, {kGround, 0.0}, {kGround, 2.0}}) {
+    EXPECT_LT(ground_evidence({y, std::tan(tilt_deg * kDegree)}, kBase, work), 0.9 * on_edge);
+  }
+}
+
+TEST(GroundEvidence, IsNoneOutsideThePicture) {
+  EXPECT_EQ(ground_evidence({-50, 0}, kBase, heap_on_plate(0)), 0);
+  EXPECT_EQ(ground_evidence({900, 0}, kBase, heap_on_plate(0)), 0);
+}
+
+TEST(BestGround, TakesTheLineThatLiesOnAnEdge) {
+  const WorkingPicture work = heap_on_plate(0);
+  const Ground best = best_ground(
+      {level(kGround + 5, -0.02), level(kGround, 0), level(kGround + 5, 0.02)}, kBase, work);
+  EXPECT_EQ(best.slope, 0);
+  EXPECT_EQ(best.deviation_rad, 0) << "the others are not nearly as good";
+}
+
+TEST(BestGround, IsAsUncertainAsEquallyGoodLinesDisagree) {
+  const WorkingPicture work = heap_on_plate(0);
+  const Ground best = best_ground({level(kGround, 0), level(kGround + 0.4, -0.002)}, kBase, work);
+  EXPECT_NEAR(best.deviation_rad, 0.002, 1e-5);
+}
+
+TEST(BestGround, SearchesForTheEdgeWhereNoLineLiesOnOne) {
+  const double tilt = 1.5 * kDegree;
+  const Ground best = best_ground({level(kGround + 10, 0)}, kBase, heap_on_plate(tilt));
+  EXPECT_NEAR(best.tilt_rad(), tilt, 0.2 * kDegree);
+  EXPECT_GE(best.deviation_rad, 0.6 * kDegree) << "half of what the search has changed";
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Scene {
 
   template <class EdgeY>
   explicit Scene(EdgeY edge_y, PictureLine ground = {kGround, 0}) {
-    body.ground = ground;
+    static_cast<PictureLine&>(body.ground) = ground;
     body.mask = cv::Mat1b(kRows, kCols);
     for (int col = 0; col < kCols; ++col) {
       const double edge = edge_y(col + 0.5);

@@ -144,8 +144,45 @@ TEST(RoughSegmentation, FindsGrainsBeforeTheirOwnColour) {
 TEST(Roughness, IsTheLocalDeviation) {
   const cv::Mat1f noise = two_populations(50, 50, 5);
   // 35 pixels lie within the window's reach, the local mean takes a few per cent off.
-  EXPECT_NEAR(cv::mean(roughness(noise, 3))[0], 5, 0.5);
-  EXPECT_NEAR(cv::mean(roughness(cv::Mat1f(50, 50, 7.F), 3))[0], 0, 1e-3);
+  EXPECT_NEAR(cv::mean(roughness(noise, everywhere(noise), 3))[0], 5, 0.5);
+  const cv::Mat1f level(50, 50, 7.F);
+  EXPECT_NEAR(cv::mean(roughness(level, everywhere(level), 3))[0], 0, 1e-3);
+}
+
+/// Largest difference where the evidence counts.
+double difference(const cv::Mat1f& one, const cv::Mat1f& other, const cv::Mat1b& evidence) {
+  return cv::norm(one, other, cv::NORM_INF, evidence);
+}
+
+TEST(Smoothed, KeepsALevelPictureLevelUpToAnExcludedBox) {
+  cv::Mat1f values(60, 80, 7.F);
+  cv::Mat1b evidence = everywhere(values);
+  evidence(cv::Rect(20, 10, 30, 30)) = 0;
+  values(cv::Rect(20, 10, 30, 30)) = 500;
+  EXPECT_LT(difference(smoothed(values, evidence, 3), cv::Mat1f(60, 80, 7.F), evidence), 1e-3);
+  EXPECT_LT(difference(roughness(values, evidence, 3), cv::Mat1f(60, 80, 0.F), evidence), 1e-1);
+  EXPECT_TRUE(cv::checkRange(smoothed(values, cv::Mat1b::zeros(values.size()), 3)));
+}
+
+TEST(BlindSegmentations, ExcludedPixelsDoNotShineInFromABox) {
+  const cv::Mat1b mask = heap_mask({600, 400});
+  cv::Mat3b picture(mask.size(), cv::Vec3b(190, 180, 170));
+  picture.setTo(cv::Scalar(60, 90, 120), mask);
+  const Box box{180, 60, 100, 120};  // up to the left flank
+  std::vector<std::vector<Segmentation>> found;
+  cv::Mat1b evidence;
+  for (const int paint : {0, 255}) {
+    picture(cv::Rect(box.x, box.y, box.width, box.height)) =
+        cv::Vec3b::all(static_cast<std::uint8_t>(paint));
+    const WorkingPicture work = working_picture(picture_of(picture), {box});
+    evidence = work.evidence;
+    found.push_back(blind_segmentations(work));
+  }
+  for (std::size_t i = 0; i < found[0].size(); ++i) {
+    // L*a*b* from 0 to 100; the box differs by 100.
+    EXPECT_LT(difference(found[0][i].inside, found[1][i].inside, evidence), 0.01)
+        << found[0][i].name;
+  }
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(Uncertainty, MeanOfTwoFlanksHasBothTheirPoints) {
 TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
   Choice choice = choice_of(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
-  choice.best.body.ground_deviation_rad = 0.02;
+  choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty after = uncertainty_of(choice);
   EXPECT_EQ(after.mean_rad, before.mean_rad);
   EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, 1.96 * 0.02), 1e-9);
@@ -59,7 +59,7 @@ TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
 TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
   Choice choice = choice_of(0.01, 0.01);
   choice.best.right.status = FlankStatus::truncated;
-  choice.best.body.ground_deviation_rad = 0.02;
+  choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty u = uncertainty_of(choice);
   EXPECT_EQ(u.mean_rad, u.left_rad);
   EXPECT_GT(u.mean_rad, 1.96 * 0.02);

@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
               "too uncertain"},
         Fault{"crest_cut", [](Case& c) { c.choice.best.profile.leaves_frame_top = true; },
               "crest lies outside"},
-        Fault{"from_above", [](Case& c) { c.choice.best.body.base_bow = 0.15; },
+        Fault{"from_above", [](Case& c) { c.choice.best.body.ground.bow = 0.15; },
               "base bows downwards"},
         Fault{"one_layer", [](Case& c) { c.choice.best.grain = 100; }, "hardly higher"},
         Fault{"level", [](Case& c) { c.choice.best.right.angle_rad = 2 * kDegree; },
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"window", [](Case& c) { c.choice.best.left.window_spread_rad = 4 * kDegree; },
               "window_sensitive"},
         Fault{"low", [](Case& c) { c.choice.best.profile.crest_height = 30; }, "low_heap"},
-        Fault{"bow", [](Case& c) { c.choice.best.body.base_bow = 0.045; }, "base_bows"}),
+        Fault{"bow", [](Case& c) { c.choice.best.body.ground.bow = 0.045; }, "base_bows"}),
     name_of);
 
 class Noted : public ::testing::TestWithParam<Fault> {};
@@ -151,15 +151,15 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"apron", [](Case& c) { c.choice.best.right.apron_cut = true; }, "apron_left_out"},
         Fault{"grains", [](Case& c) { c.choice.best.grain = 20; }, "few_grains"},
         Fault{"tilt", [](Case& c) { c.choice.best.body.ground.slope = 0.07; }, "tilted_picture"},
-        Fault{"mirror", [](Case& c) { c.choice.best.body.mirrored = true; }, "mirror"},
+        Fault{"mirror", [](Case& c) { c.choice.best.body.ground.mirrored = true; }, "mirror"},
         Fault{"strays", [](Case& c) { c.result.strays = 3; }, "strays"},
         Fault{"unequal", [](Case& c) { c.choice.best.left.angle_rad = 20 * kDegree; },
               "unequal_flanks"}),
     name_of);
 
-ReposeAngle judged_with(double base_bow, double pitch_deg) {
+ReposeAngle judged_with(std::optional<double> base_bow, double pitch_deg) {
   Case heap;
-  heap.choice.best.body.base_bow = base_bow;
+  heap.choice.best.body.ground.bow = base_bow;
   heap.options.camera_pitch_rad = pitch_deg * kDegree;
   return heap.judged();
 }
@@ -175,6 +175,12 @@ TEST(Judge, ABaseThatBowsOtherwiseThanThePitchGivenIsFlagged) {
     EXPECT_EQ(result.status, MeasureStatus::flagged);
     EXPECT_THAT(result.warnings, ElementsAre(Field(&Warning::code, "pitch_disagrees")));
   }
+}
+
+TEST(Judge, ABaseThatIsNotSeenDisagreesWithNoPitch) {
+  const ReposeAngle result = judged_with(std::nullopt, 17);
+  EXPECT_EQ(result.status, MeasureStatus::ok);
+  EXPECT_THAT(result.warnings, ::testing::IsEmpty());
 }
 
 TEST(Judge, ConfidenceFallsWithTheEdgeAndWithDisagreement) {

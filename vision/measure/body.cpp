@@ -6,7 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/measure/ground.h"
 #include "vision/measure/regions.h"
 
 namespace repose::vision {
@@ -16,14 +15,13 @@ constexpr double kSmallestBody = 0.003;  // of the frame's area
 constexpr double kLargestStray = 0.05;   // of the heap's area
 constexpr int kSmallestStray = 9;        // px: smaller specks are noise
 
-/// What lies above the ground line.
-cv::Mat1b cut_below(const cv::Mat1b& mask, const PictureLine& ground) {
+/// What lies above the ground line, of a mask whose corner is at `corner` in the picture.
+cv::Mat1b cut_below(const cv::Mat1b& mask, const PictureLine& ground, cv::Point corner = {}) {
   cv::Mat1b above = mask.clone();
-  for (int row = 0; row < mask.rows; ++row) {
-    if (row < std::min(ground.y(0), ground.y(mask.cols)) - 1) continue;
-    for (int col = 0; col < mask.cols; ++col) {
-      if (row >= std::lround(ground.y(col + 0.5))) above(row, col) = 0;
-    }
+  for (int col = 0; col < mask.cols; ++col) {
+    const double surface = ground.y(corner.x + col + 0.5) - corner.y;
+    const int first = std::clamp(static_cast<int>(std::lround(surface)), 0, mask.rows);
+    if (first < mask.rows) above(cv::Range(first, mask.rows), cv::Range(col, col + 1)) = 0;
   }
   return above;
 }
@@ -41,9 +39,14 @@ int smallest_body(const WorkingPicture& work) {
 
 /// The largest piece of `mask` above the ground, solid; empty when there is none.
 cv::Mat1b standing_piece(const cv::Mat1b& mask, const PictureLine& ground, int smallest) {
-  const Pieces standing(holes_filled(cut_below(mask, ground)));
+  const cv::Rect box = cv::boundingRect(mask);
+  if (box.empty()) return {};
+  const Pieces standing(holes_filled(cut_below(mask(box), ground, box.tl())));
   const std::vector<int> heaps = largest_pieces(standing, smallest);
-  return heaps.empty() ? cv::Mat1b() : cv::Mat1b(standing.labels == heaps.front());
+  if (heaps.empty()) return {};
+  cv::Mat1b piece = cv::Mat1b::zeros(mask.size());
+  piece(box).setTo(255, standing.labels == heaps.front());
+  return piece;
 }
 
 }  // namespace
@@ -57,8 +60,7 @@ std::vector<Body> find_bodies(const Segmentation& segmentation, const WorkingPic
     const cv::Mat1b alone = pieces.labels == piece;
     const std::optional<Ground> ground = find_ground(spans_of(alone), work);
     if (!ground) continue;
-    Body body{standing_piece(alone, ground->line, smallest), ground->line, ground->deviation_rad,
-              ground->bow, ground->mirrored};
+    Body body{standing_piece(alone, *ground, smallest), *ground};
     if (body.mask.empty()) continue;
     bodies.push_back(std::move(body));
   }
@@ -72,7 +74,7 @@ Body largest_region(const Segmentation& segmentation, const WorkingPicture& work
   if (largest.empty()) return {};
   Body body;
   body.mask = pieces.labels == largest.front();
-  body.ground = {static_cast<double>(pieces.box(largest.front()).br().y), 0};
+  body.ground.y_at_0 = pieces.box(largest.front()).br().y;
   return body;
 }
 

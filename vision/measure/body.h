@@ -4,7 +4,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "vision/measure/geometry.h"
+#include "vision/measure/ground.h"
 #include "vision/measure/segmentation.h"
 #include "vision/measure/working_picture.h"
 
@@ -13,10 +13,7 @@ namespace repose::vision {
 /// A solid region of the working picture that may be the heap, and the line it stands on.
 struct Body {
   cv::Mat1b mask;  ///< 255 inside; nothing below the ground line
-  PictureLine ground;
-  double ground_deviation_rad = 0;  ///< standard uncertainty of the ground line's tilt
-  double base_bow = 0;    ///< how far the base bows downwards, as a share of the base's width
-  bool mirrored = false;  ///< the ground line is the axis of a reflection
+  Ground ground;
 };
 
 /// Fills holes and cuts off the ground, for each of the few largest regions; largest first.

@@ -11,11 +11,13 @@ namespace repose::vision {
 namespace {
 
 constexpr double kNearlyAsGood = 0.85;  // of the best score
+constexpr double kEquallyGood = 0.9;    // of the best score: only chance decides between them
 constexpr double kClearlyGood = 0.6;    // score above which GrabCut has nothing to add
 
 constexpr double kAgreement_rad = 0.3 * std::numbers::pi / 180;
 constexpr double kFairlyGood = 0.5;     // score below which texture is tried, too
 constexpr double kHardlyAnEdge = 0.25;  // score of a chance line through clutter
+constexpr double kSeesTheHeap = 0.5;    // of the best score: such a reading knows where the foot is
 
 /// A body whose sides stand upright: says more than a chance line through clutter.
 bool is_upright(const Reading& reading) {
@@ -72,6 +74,53 @@ const Reading& best_of(const std::vector<Reading>& readings) {
                            [](const Reading& a, const Reading& b) { return a.score < b.score; });
 }
 
+/// Of the readings that only chance ranks, the one whose angle lies in the middle: a flip of their
+/// order then changes little.
+const Reading& middle_of_best(const std::vector<Reading>& readings) {
+  const double enough = kEquallyGood * best_of(readings).score;
+  std::vector<const Reading*> good;
+  for (const Reading& reading : readings) {
+    if (reading.score >= enough) good.push_back(&reading);
+  }
+  std::stable_sort(good.begin(), good.end(), [](const Reading* a, const Reading* b) {
+    return a->angle_rad() < b->angle_rad();
+  });
+  const Reading* upper = good[good.size() / 2];
+  const Reading* lower = good[(good.size() - 1) / 2];
+  return lower->score > upper->score ? *lower : *upper;
+}
+
+bool is_same_line(const PictureLine& a, const PictureLine& b) {
+  return a.y_at_0 == b.y_at_0 && a.slope == b.slope;
+}
+
+/// Reads the heap anew, by every segmentation that sees it, on the ground that they share.
+void share_ground(std::vector<Reading>& readings, const WorkingPicture& work,
+                  const MeasureOptions& options) {
+  const Reading& best = best_of(readings);
+  const GroundFrame frame(best.body.ground);
+  const Base base{frame.picture(best.profile.along.front(), 0).x,
+                  frame.picture(best.profile.along.back(), 0).x};
+  std::vector<Ground> candidates;
+  for (const Reading& reading : readings) {
+    if (reading.score >= kSeesTheHeap * best.score) candidates.push_back(reading.body.ground);
+  }
+  Ground ground = best_ground(candidates, base, work);
+  ground.bow = best.body.ground.bow;  // of the base that the sharpest edge belongs to
+  const double enough = kNearlyAsGood * best.score;
+  std::vector<Reading> anew;
+  for (const Reading& reading : readings) {
+    if (reading.score < enough) continue;
+    Reading moved = reading;
+    moved.body.ground = ground;
+    const bool stands_there = is_same_line(reading.body.ground, ground);
+    anew.push_back(stands_there ? std::move(moved)
+                                : read_again(moved, reading.segmentation, work, options));
+  }
+  // A reading that only makes sense on its own ground is none; unless all of them say so.
+  if (best_of(anew).score >= enough) readings = std::move(anew);
+}
+
 /// Adds readings of segmentations that start from the best body so far.
 void look_again(std::vector<Reading>& readings, const WorkingPicture& work,
                 const MeasureOptions& options) {
@@ -107,10 +156,11 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
       return choice;
     }
   }
+  if (best_of(readings).score > 0) share_ground(readings, work, options);
   if (best_of(readings).score > 0 && !is_settled(best_of(readings), readings)) {
     look_again(readings, work, options);
   }
-  const Reading& best = best_of(readings);
+  const Reading& best = middle_of_best(readings);
   const std::vector<const Reading*> rivals = rivals_of(best, readings);
   choice.disagreement_rad = disagreement(best, rivals);
   choice.left_disagreement_rad = side_disagreement(best, rivals, Side::left);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kSteepest = 3.0;  // tan of 71.6 degrees: nothing loose stands steeper
 constexpr std::size_t kFewestPoints = 12;
-constexpr double kFewestVisible = 0.6;  // of the window that must be in the picture
+constexpr double kFewestVisible = 0.8;  // of the window that must be in the picture: a shorter
+                                        // stretch is another angle, flanks are hollow
 constexpr double kMadToSigma = 1.4826;  // of a normal distribution
 constexpr double kBlockGrains = 2;      // neighbours within 2 grains are one piece of evidence
 

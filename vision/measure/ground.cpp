@@ -5,8 +5,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "vision/measure/ground_line.h"
-
 namespace repose::vision {
 namespace {
 
@@ -16,7 +14,18 @@ constexpr int kTailDepth = 15;          // px of the ground that are compared wi
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a share of its width
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
+// Standard uncertainty of the tilt where the base is the frame's edge or a box: a camera held by
+// eye.
+constexpr double kRoll_rad = 1 * 3.14159265358979 / 180;
+constexpr int kFrameMargin = 3;         // px: what ends so close to the frame is cut by it
 constexpr double kBaseTolerance = 3.0;  // px: grains touch the ground only here and there
+
+constexpr double kEqualEvidence = 0.9;  // of the best line's: as good
+constexpr double kPlainEdge = 0.6;      // evidence above which a line lies on an edge
+constexpr double kBetterEdge = 1.1;     // times the evidence: a search that is worth believing
+constexpr double kFirstStep = 4;        // px by which the search moves the line's ends
+constexpr double kLastStep = 0.5;
+constexpr int kMostMoves = 24;
 
 std::vector<Point> points_of(const std::vector<int>& rows, double offset) {
   std::vector<Point> points;
@@ -74,7 +83,7 @@ std::optional<Ground> ground_from_tails(const Spans& spans, const WorkingPicture
       tails_are_grains(spans, line->line, work)) {
     return std::nullopt;
   }
-  return Ground{line->line, line->deviation_rad, 0, false};
+  return Ground{line->line, line->deviation_rad, std::nullopt, false};
 }
 
 /// c of y = a + b x + c x^2 through the points, as the bow's depth over the width.
@@ -115,18 +124,36 @@ std::optional<Ground> ground_from_mirror(const Spans& spans, const WorkingPictur
     for (int row = level + 3; row < spans.bottom[i] - 2; row += 2) image.add(work, row, col);
   }
   if (cv::norm(heap.mean() - image.mean()) < kSameMaterial) return std::nullopt;
-  return Ground{axis->line, axis->deviation_rad, 0, true};
+  return Ground{axis->line, axis->deviation_rad, std::nullopt, true};
+}
+
+/// The lower outline, where it is seen: where the region runs out of the frame or under an excluded
+/// box, its end says nothing of the ground.
+std::vector<Point> seen_bottoms(const Spans& spans, const WorkingPicture& work) {
+  std::vector<Point> seen;
+  for (std::size_t i = 0; i < spans.bottom.size(); ++i) {
+    const int row = spans.bottom[i];
+    if (row < 0 || row + kFrameMargin >= work.frame.br().y) continue;
+    const int col = static_cast<int>(i);
+    if (work.evidence(row + 1, col) == 0) continue;
+    seen.push_back({col + 0.5, row + 1.0});
+  }
+  return seen;
 }
 
 /// The base of a heap that the segmentation separated from the ground.
 std::optional<Ground> ground_from_base(const Spans& spans, const WorkingPicture& work) {
-  const std::vector<Point> bottoms = points_of(spans.bottom, 1);
+  const std::vector<Point> all = points_of(spans.bottom, 1);
+  std::vector<Point> bottoms = seen_bottoms(spans, work);
+  const bool hidden = 2 * bottoms.size() < all.size();
+  if (hidden) bottoms = all;
   const double bow = bow_of(bottoms);
   std::optional<SupportLine> base;
   for (const double looser : {1.0, 2.0, 3.5}) {  // large grains leave large gaps at the ground
     base = support_line(bottoms, looser * kBaseTolerance);
     if (base && base->share > 0.5 && bow < kStraightBase && bow > -kRaggedBase) {
-      return Ground{base->line, base->deviation_rad, bow, false};
+      if (!hidden) return Ground{base->line, base->deviation_rad, bow, false};
+      return Ground{base->line, std::hypot(base->deviation_rad, kRoll_rad), std::nullopt, false};
     }
   }
   if (auto mirror = ground_from_mirror(spans, work)) return mirror;
@@ -139,7 +166,58 @@ std::optional<Ground> ground_from_base(const Spans& spans, const WorkingPicture&
   return Ground{{first.y - slope * first.x, slope}, base->deviation_rad, bow, false};
 }
 
+struct Edge {
+  PictureLine line;
+  double evidence = 0;
+};
+
+/// Pattern search: moves the line's ends as long as the picture shows a better edge.
+Edge edge_near(const Edge& start, const Base& base, const WorkingPicture& work) {
+  const double width = std::max(1.0, base.to - base.from);
+  Edge best = start;
+  double step = kFirstStep;
+  for (int move = 0; move < kMostMoves && step >= kLastStep; ++move) {
+    const Edge here = best;
+    for (const auto& [left, right] :
+         {std::pair{1, 1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}}) {
+      PictureLine line = here.line;
+      line.slope += step * (right - left) / width;
+      line.y_at_0 = here.line.y(base.from) + step * left - line.slope * base.from;
+      if (std::abs(line.tilt_rad()) > kMaxGroundTilt_rad) continue;
+      const double evidence = ground_evidence(line, base, work);
+      if (evidence > best.evidence) best = {line, evidence};
+    }
+    if (best.evidence <= here.evidence) step /= 2;
+  }
+  return best;
+}
+
 }  // namespace
+
+Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
+                   const WorkingPicture& work) {
+  std::vector<double> evidence;
+  for (const Ground& ground : candidates) evidence.push_back(ground_evidence(ground, base, work));
+  const auto chosen = static_cast<std::size_t>(std::max_element(evidence.begin(), evidence.end()) -
+                                               evidence.begin());
+  Ground best = candidates.at(chosen);
+  double squares = 0;
+  int rivals = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i == chosen || evidence[i] < kEqualEvidence * evidence[chosen]) continue;
+    const double away = candidates[i].tilt_rad() - best.tilt_rad();
+    squares += away * away;
+    ++rivals;
+  }
+  best.deviation_rad = std::hypot(best.deviation_rad, std::sqrt(squares / std::max(1, rivals)));
+  if (evidence[chosen] >= kPlainEdge || best.mirrored) return best;
+  const Edge edge = edge_near({best, evidence[chosen]}, base, work);
+  if (edge.evidence < kBetterEdge * evidence[chosen]) return best;
+  const double change = edge.line.tilt_rad() - best.tilt_rad();
+  best.deviation_rad = std::hypot(best.deviation_rad, change / 2);
+  static_cast<PictureLine&>(best) = edge.line;
+  return best;
+}
 
 std::optional<Ground> find_ground(const Spans& region, const WorkingPicture& work) {
   if (auto tails = ground_from_tails(region, work)) return tails;

@@ -1,24 +1,33 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "vision/measure/geometry.h"
+#include "vision/measure/ground_line.h"
 #include "vision/measure/regions.h"
 #include "vision/measure/working_picture.h"
 
 namespace repose::vision {
 
 /// The line a heap stands on, and what gave it away.
-struct Ground {
-  PictureLine line;
-  double deviation_rad = 0;  ///< standard uncertainty of its tilt
-  double bow = 0;            ///< how far the base bows downwards, as a share of its width
-  bool mirrored = false;     ///< it is the axis of a reflection
+struct Ground : PictureLine {
+  double deviation_rad = 0;        ///< standard uncertainty of its tilt
+  std::optional<double> bow = {};  ///< how far the base bows downwards, as a share of its width;
+                                   ///< empty when the base is not seen
+  bool mirrored = false;  ///< it is the axis of a reflection
 };
 
 /// Finds the ground below one region: bare ground beside the heap when the region holds the ground,
 /// too; else the region's own base; else the axis of a reflection; else the line through the two
 /// ends of a base that bows. Empty when none of these is near level.
 std::optional<Ground> find_ground(const Spans& region, const WorkingPicture& work);
+
+/// The ground that the picture itself shows best along the base, of all that segmentations have
+/// found there: one that sees the flanks sharply may still bleed into the plate. Where none of them
+/// lies on a plain edge, the edge is searched for nearby. What equally good lines disagree about,
+/// and half of what the search changes, is added to the tilt's uncertainty. Needs a candidate.
+Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
+                   const WorkingPicture& work);
 
 }  // namespace repose::vision

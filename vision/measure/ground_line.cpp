@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/measure/band.h"
 #include "vision/measure/line_fit.h"
 
 namespace repose::vision {
@@ -10,6 +11,10 @@ namespace {
 
 constexpr std::size_t kTrialPoints = 60;
 constexpr double kBelowPenalty = 2;  // a point below the ground speaks against it twice as loudly
+
+constexpr int kBand = 4;         // px on either side of the line that are compared
+constexpr int kStretches = 40;   // of the line that must each show a step
+constexpr double kTails = 0.25;  // of the base's width: bare ground that counts on each side
 
 constexpr double kMostBelow = 0.15;  // of the points: what lies far below a line is not on ground
 
@@ -98,6 +103,28 @@ std::optional<SupportLine> support_line(const std::vector<Point>& points, double
   const Refit twice = refit(once.line, points, tolerance);
   if (std::abs(twice.line.slope) > steepest) return std::nullopt;
   return SupportLine{twice.line, twice.share, twice.deviation_rad};
+}
+
+double ground_evidence(const PictureLine& ground, const Base& base, const WorkingPicture& work) {
+  const double tail = kTails * (base.to - base.from);
+  const int first = std::max(work.frame.x, static_cast<int>(base.from - tail));
+  const int last = std::min(work.frame.br().x, static_cast<int>(base.to + tail));
+  double sum = 0;
+  for (int stretch = 0; stretch < kStretches; ++stretch) {
+    Band above;
+    Band below;
+    const int end = first + (stretch + 1) * (last - first) / kStretches;
+    for (int col = first + stretch * (last - first) / kStretches; col < end; ++col) {
+      const int level = static_cast<int>(std::lround(ground.y(col + 0.5)));
+      if (level - kBand < work.frame.y || level + kBand > work.frame.br().y) continue;
+      for (int row = level - kBand; row < level + kBand; ++row) {
+        if (work.evidence(row, col) != 0) (row < level ? above : below).add(work.lab(row, col));
+      }
+    }
+    if (above.count == 0 || below.count == 0) continue;
+    sum += saturated(step_contrast(above, below), 1) / kStretches;
+  }
+  return sum;
 }
 
 }  // namespace repose::vision

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vision/measure/geometry.h"
+#include "vision/measure/working_picture.h"
 
 namespace repose::vision {
 
@@ -20,5 +21,15 @@ inline constexpr double kMaxGroundTilt_rad = 8 * 3.14159265358979 / 180;
 /// The line on which most points lie within `tolerance` with next to none below it (y larger).
 /// Exhaustive over pairs of a fixed subset: no chance involved. Empty for fewer than 8 points.
 std::optional<SupportLine> support_line(const std::vector<Point>& points, double tolerance);
+
+/// First and last column that a heap stands on.
+struct Base {
+  double from = 0;
+  double to = 0;
+};
+
+/// How far the picture itself shows an edge along a line under a base and a little beyond, 0 to 1:
+/// the step from the rows just above it to those just below, over their scatter.
+double ground_evidence(const PictureLine& ground, const Base& base, const WorkingPicture& work);
 
 }  // namespace repose::vision

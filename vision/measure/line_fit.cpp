@@ -13,6 +13,8 @@ namespace {
 constexpr double kMadToSigma = 1.4826;   // of a normal distribution
 constexpr double kTukeyTuning = 4.685;   // 95 % efficiency on normal residuals
 constexpr double kSmallestScale = 1e-6;  // keeps a perfect line solvable
+constexpr int kMostRounds = 8;           // of line and scale in turn
+constexpr double kSettled = 0.02;        // relative change of the scale that moves no line
 
 /// Vertical distances of all points from one line; the loss is applied to each by IRLS weights
 /// inside Ceres, so every point is its own residual block.
@@ -65,19 +67,30 @@ LineFit least_squares_line(std::span<const double> x, std::span<const double> y)
           .r2 = syy > 0 ? sxy * sxy / (sxx * syy) : 1};
 }
 
+namespace {
+
+/// 1.4826 times the median distance from the line: the standard deviation of normal residuals.
+double scale_around(const LineFit& line, std::span<const double> x, std::span<const double> y) {
+  std::vector<double> distance;
+  for (std::size_t i = 0; i < x.size(); ++i) distance.push_back(std::abs(y[i] - line.y(x[i])));
+  return std::max(kMadToSigma * median(distance), kSmallestScale);
+}
+
+}  // namespace
+
 LineFit robust_line(std::span<const double> x, std::span<const double> y) {
   const LineFit start = least_squares_line(x, y);
   if (x.size() < 4) return start;
-  std::vector<double> distance;
-  for (std::size_t i = 0; i < x.size(); ++i) distance.push_back(std::abs(y[i] - start.y(x[i])));
-  const double scale = std::max(kMadToSigma * median(distance), kSmallestScale);
+  double scale = scale_around(start, x, y);
 
   // Centred and scaled, so that both parameters have the same size.
   const double middle = (x.front() + x.back()) / 2;
   const double reach = std::max(std::abs(x.back() - x.front()) / 2, 1e-9);
   double line[2] = {start.y(middle), start.slope * reach};
   ceres::Problem problem;
-  ceres::LossFunction* tukey = new ceres::TukeyLoss(kTukeyTuning * scale);
+  auto* tukey =
+      new ceres::LossFunctionWrapper(new ceres::TukeyLoss(kTukeyTuning * scale),
+                                     ceres::TAKE_OWNERSHIP);  // the problem owns the wrapper
   for (std::size_t i = 0; i < x.size(); ++i) {
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<VerticalDistance, 1, 2>(
                                  new VerticalDistance{(x[i] - middle) / reach, y[i]}),
@@ -87,11 +100,19 @@ LineFit robust_line(std::span<const double> x, std::span<const double> y) {
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 50;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return start;
-  const double slope = line[1] / reach;
-  return {.intercept = line[0] - slope * middle, .slope = slope, .r2 = start.r2};
+  LineFit fit = start;
+  for (int round = 0; round < kMostRounds; ++round) {
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (!summary.IsSolutionUsable()) return start;
+    fit.slope = line[1] / reach;
+    fit.intercept = line[0] - fit.slope * middle;
+    const double next = scale_around(fit, x, y);
+    if (std::abs(next - scale) <= kSettled * scale) break;
+    scale = next;
+    tukey->Reset(new ceres::TukeyLoss(kTukeyTuning * scale), ceres::TAKE_OWNERSHIP);
+  }
+  return fit;
 }
 
 }  // namespace repose::vision

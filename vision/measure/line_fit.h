@@ -20,7 +20,8 @@ LineFit least_squares_line(std::span<const double> x, std::span<const double> y)
 /// Line under Tukey's biweight loss (Ceres), started at the least-squares line: points farther than
 /// about 4.7 robust standard deviations do not count. r2 is that of the start.
 ///
-/// Scale: 1.4826 times the median absolute residual of the start.
+/// Scale: 1.4826 times the median absolute residual, of the start at first, then of each new line
+/// until it settles: strays widen the start's.
 /// Source: Huber & Ronchetti, Robust Statistics (2009), sec. 4.8 (biweight), 5.1 (median
 /// deviation).
 LineFit robust_line(std::span<const double> x, std::span<const double> y);

@@ -25,8 +25,8 @@ struct FeatureImages {
   explicit FeatureImages(const WorkingPicture& work) : width(work.lab.cols) {
     std::array<cv::Mat1f, 3> lab;
     cv::split(work.lab, lab.data());
-    for (std::size_t i = 0; i < 3; ++i) plane[i] = smoothed(lab[i], 0.8);
-    plane[3] = smoothed(roughness(lab[0], 1.5), 0.8);
+    for (std::size_t i = 0; i < 3; ++i) plane[i] = smoothed(lab[i], work.evidence, 0.8);
+    plane[3] = smoothed(roughness(lab[0], work.evidence, 1.5), work.evidence, 0.8);
   }
   Feature at(int row, int col) const {
     const double u = 2 * col / width - 1;

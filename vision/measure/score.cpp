@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "vision/measure/band.h"
+
 namespace repose::vision {
 namespace {
 
@@ -12,24 +14,6 @@ constexpr int kBandFar = 8;           // and end
 constexpr double kUsualBase = 0.25;   // of the frame's width: smaller things are hardly the subject
 constexpr double kCrestUnseen = 0.3;  // a body that hangs from the top is hardly the heap
 constexpr std::size_t kChunks = 10;
-
-struct Band {
-  cv::Vec3d sum;
-  double squares = 0;
-  int count = 0;
-
-  void add(const cv::Vec3f& colour) {
-    const cv::Vec3d value = colour;
-    sum += value;
-    squares += value.dot(value);
-    ++count;
-  }
-  cv::Vec3d mean() const { return sum / std::max(1, count); }
-  double variance() const {
-    const cv::Vec3d m = mean();
-    return std::max(0.0, squares / std::max(1, count) - m.dot(m));
-  }
-};
 
 struct EdgePoint {
   int col;
@@ -65,8 +49,7 @@ EdgeQuality chunk_quality(const std::vector<EdgePoint>& edge, std::size_t first,
                            cv::Vec3d(colour_at(work, edge[i].row - 1.5, edge[i].col));
     near_step += near.dot(step) / (length * length) / static_cast<double>(last - first);
   }
-  return {length / std::sqrt(4 + outside.variance() + 0.5 * inside.variance()),
-          std::clamp(near_step, 0.0, 1.0)};
+  return {step_contrast(outside, inside), std::clamp(near_step, 0.0, 1.0)};
 }
 
 std::vector<EdgePoint> edge_of(const FlankFit& flank, Side side, const Reading& reading,
@@ -82,8 +65,6 @@ std::vector<EdgePoint> edge_of(const FlankFit& flank, Side side, const Reading& 
   }
   return edge;
 }
-
-double saturated(double value, double half) { return value / (value + half); }
 
 }  // namespace
 

@@ -13,6 +13,7 @@ namespace {
 constexpr double kBackdropShare = 0.25;
 
 constexpr int kSampleStep = 2;
+constexpr double kLeastWeight = 1e-3;  // of the evidence within a blur's reach, to average over it
 
 cv::Mat1b backdrop_strip(const WorkingPicture& work) {
   cv::Mat1b strip = cv::Mat1b::zeros(work.evidence.size());
@@ -47,14 +48,29 @@ Segmentation by_threshold(std::string name, const cv::Mat1f& values, double thre
   return {std::move(name), cv::Mat1f((values - threshold) * sign)};
 }
 
-/// The same for a wide blur, which needs no fine pixels.
-cv::Mat1f coarsely_smoothed(const cv::Mat1f& values, double sigma_px) {
+/// Average of `sum / weight` under one blur; 0 where there is no weight.
+template <class Blur>
+cv::Mat1f weighted_average(const cv::Mat1f& values, const cv::Mat1b& evidence, Blur blur) {
+  if (cv::countNonZero(evidence) == static_cast<int>(evidence.total())) return blur(values);
+  cv::Mat1f inside;
+  evidence.convertTo(inside, CV_32F, 1 / 255.0);
+  const cv::Mat1f weight = blur(inside);
+  cv::Mat1f average = blur(values.mul(inside)) / cv::max(weight, kLeastWeight);
+  values.copyTo(average, weight <= kLeastWeight);
+  return average;
+}
+
+/// The same as `smoothed` for a wide blur, which needs no fine pixels.
+cv::Mat1f coarsely_smoothed(const cv::Mat1f& values, const cv::Mat1b& evidence, double sigma_px) {
   constexpr double kReduction = 8;
-  cv::Mat1f small;
-  cv::resize(values, small, {}, 1 / kReduction, 1 / kReduction, cv::INTER_AREA);
-  cv::Mat1f smooth;
-  cv::resize(smoothed(small, sigma_px / kReduction), smooth, values.size(), 0, 0, cv::INTER_LINEAR);
-  return smooth;
+  return weighted_average(values, evidence, [&](const cv::Mat1f& sharp) {
+    cv::Mat1f small;
+    cv::resize(sharp, small, {}, 1 / kReduction, 1 / kReduction, cv::INTER_AREA);
+    cv::GaussianBlur(small, small, {}, sigma_px / kReduction);
+    cv::Mat1f smooth;
+    cv::resize(small, smooth, sharp.size(), 0, 0, cv::INTER_LINEAR);
+    return smooth;
+  });
 }
 
 /// Terms of a quadratic surface over the frame, positions from -1 to 1.
@@ -175,17 +191,18 @@ cv::Mat1f backdrop_distance(const WorkingPicture& work) {
 
 }  // namespace
 
-cv::Mat1f smoothed(const cv::Mat1f& values, double sigma_px) {
-  cv::Mat1f smooth;
-  cv::GaussianBlur(values, smooth, {}, sigma_px);
-  return smooth;
+cv::Mat1f smoothed(const cv::Mat1f& values, const cv::Mat1b& evidence, double sigma_px) {
+  return weighted_average(values, evidence, [&](const cv::Mat1f& sharp) {
+    cv::Mat1f smooth;
+    cv::GaussianBlur(sharp, smooth, {}, sigma_px);
+    return smooth;
+  });
 }
 
-cv::Mat1f roughness(const cv::Mat1f& lightness, double sigma_px) {
-  const cv::Mat1f mean = smoothed(lightness, sigma_px);
-  const cv::Mat1f deviation = lightness - mean;
+cv::Mat1f roughness(const cv::Mat1f& lightness, const cv::Mat1b& evidence, double sigma_px) {
+  const cv::Mat1f deviation = lightness - smoothed(lightness, evidence, sigma_px);
   cv::Mat1f rough;
-  cv::sqrt(smoothed(deviation.mul(deviation), sigma_px), rough);
+  cv::sqrt(smoothed(deviation.mul(deviation), evidence, sigma_px), rough);
   return rough;
 }
 
@@ -223,19 +240,22 @@ std::vector<Segmentation> blind_segmentations(const WorkingPicture& work) {
     found.push_back(
         by_threshold(std::move(name), values, otsu_threshold(values, work.evidence), backdrop));
   };
-  add_otsu("otsu lightness", smoothed(lab[0], 0.8));
-  add_otsu("otsu red-green", smoothed(lab[1], 1.5));
-  add_otsu("otsu yellow-blue", smoothed(lab[2], 1.5));
-  add_otsu("backdrop model", smoothed(backdrop_distance(work), 0.8));
-  const cv::Mat1f local_mean = coarsely_smoothed(lab[0], work.frame.width / 8.0);
-  add_otsu("adaptive lightness", smoothed(lab[0] - local_mean, 0.8));
+  const auto soft = [&](const cv::Mat1f& values, double sigma_px) {
+    return smoothed(values, work.evidence, sigma_px);
+  };
+  add_otsu("otsu lightness", soft(lab[0], 0.8));
+  add_otsu("otsu red-green", soft(lab[1], 1.5));
+  add_otsu("otsu yellow-blue", soft(lab[2], 1.5));
+  add_otsu("backdrop model", soft(backdrop_distance(work), 0.8));
+  const cv::Mat1f local_mean = coarsely_smoothed(lab[0], work.evidence, work.frame.width / 8.0);
+  add_otsu("adaptive lightness", soft(lab[0] - local_mean, 0.8));
   return found;
 }
 
 Segmentation rough_segmentation(const WorkingPicture& work) {
   cv::Mat1f lightness;
   cv::extractChannel(work.lab, lightness, 0);
-  const cv::Mat1f rough = roughness(lightness, 3);
+  const cv::Mat1f rough = roughness(lightness, work.evidence, 3);
   return by_threshold("roughness", rough, otsu_threshold(rough, work.evidence),
                       backdrop_strip(work));
 }

@@ -54,7 +54,7 @@ double side_95(const FlankFit& flank, double ground_rad, double disagreement_rad
 
 Uncertainty uncertainty_of(const Choice& choice) {
   const Reading& best = choice.best;
-  const double ground = best.body.ground_deviation_rad;
+  const double ground = best.body.ground.deviation_rad;
   Uncertainty u;
   u.left_rad = side_95(best.left, ground, choice.left_disagreement_rad);
   u.right_rad = side_95(best.right, ground, choice.right_disagreement_rad);

@@ -121,7 +121,7 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
     return "the crest lies outside the picture, so the heap's height is unknown. Fix: step back or "
            "tilt the camera until the whole heap is in the frame.";
   }
-  const double pitch = pitch_from_bow(best.body.base_bow);
+  const double pitch = pitch_from_bow(best.body.ground.bow.value_or(0));
   if (options.camera_pitch_rad == 0 && pitch > kLargestPitch_rad) {
     return fmt::format(
         "the base bows downwards as if the camera looked down by about {:.0f} degrees, which "
@@ -190,26 +190,27 @@ void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions
 
 void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
   const Reading& best = choice.best;
-  const double pitch = pitch_from_bow(best.body.base_bow);
+  const Ground& ground = best.body.ground;
+  const double pitch = pitch_from_bow(ground.bow.value_or(0));
   if (options.camera_pitch_rad == 0 && pitch > kDoubtfulPitch_rad) {
     flag(result, "base_bows",
          fmt::format("The base bows as if the camera looked down by about {:.0f} degrees; give "
                      "--pitch-deg if it did.",
                      degrees(pitch)));
   }
-  if (options.camera_pitch_rad != 0 &&
+  if (options.camera_pitch_rad != 0 && ground.bow &&
       std::abs(pitch - std::max(0.0, options.camera_pitch_rad)) > kPitchTolerance_rad) {
     flag(result, "pitch_disagrees",
          fmt::format("The base bows as for a pitch of {:.0f} degrees, not of the {:.0f} given.",
                      degrees(pitch), degrees(options.camera_pitch_rad)));
   }
-  if (std::abs(best.body.ground.tilt_rad()) > kTilted_rad) {
+  if (std::abs(ground.tilt_rad()) > kTilted_rad) {
     note(result, "tilted_picture",
          fmt::format("The ground is tilted by {:.1f} degrees in the picture; angles are measured "
                      "from it.",
-                     degrees(best.body.ground.tilt_rad())));
+                     degrees(ground.tilt_rad())));
   }
-  if (best.body.mirrored) {
+  if (ground.mirrored) {
     note(result, "mirror", "The ground line is the axis of the heap's reflection.");
   }
   if (result.strays > 0) {
