@@ -5,7 +5,6 @@
 
 #include "cli/arguments.h"
 #include "cli/exit_code.h"
-#include "cli/measure.h"
 #include "cli/output.h"
 
 namespace repose::cli {
@@ -17,7 +16,7 @@ ExitCode run(int count, const char* const* words) {
     fmt::print(stderr, "repose: {}\n", arguments.fault);
     return ExitCode::bad_input;
   }
-  if (arguments.measure) return run_measure(*arguments.measure);
+  if (arguments.run) return arguments.run();
   write_output(std::string(kStandardOutput), arguments.text);
   return ExitCode::done;
 }

@@ -1,9 +1,26 @@
 #pragma once
 
-#include "cli/arguments.h"
+#include <string>
+#include <vector>
+
 #include "cli/exit_code.h"
 
 namespace repose::cli {
+
+/// What `repose measure` is asked to do, as typed.
+struct MeasureArguments {
+  std::vector<std::string> pictures;  ///< files and folders
+  std::string method;
+  std::string window;
+  std::vector<std::string> exclude;
+  std::string pitch_deg;
+  std::string threads;
+  std::string overlay_folder;
+  std::string json_file;
+  std::string csv_file;
+  std::string summary_file;
+  bool shows_definitions = false;
+};
 
 /// Carries out `repose measure`.
 ExitCode run_measure(const MeasureArguments& arguments);

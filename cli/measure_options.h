@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments.h"
+#include "cli/measure.h"
 #include "vision/repose_angle.h"
 
 namespace repose::cli {

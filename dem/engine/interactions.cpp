@@ -99,7 +99,9 @@ std::size_t ContactStep::find_touching(NeighbourList& list, std::size_t from, st
     const PlacedSphere& a = bodies.spheres[static_cast<std::size_t>(list.spheres[k].a)];
     const PlacedSphere& b = bodies.spheres[static_cast<std::size_t>(list.spheres[k].b)];
     const double reach = a.radius + b.radius;
-    const bool touches = (b.centre - a.centre).squaredNorm() < reach * reach;
+    const double distance2 = (b.centre - a.centre).squaredNorm();
+    // Spheres of one centre have no normal to push along: the audit stops such a run.
+    const bool touches = distance2 < reach * reach && distance2 > 0;
     if (!touches && list.memories[k].radius > 0) list.memories[k] = {};  // what has parted forgets
     touching[count] = k;
     count += touches ? 1 : 0;  // no branch: there is no pattern in who touches

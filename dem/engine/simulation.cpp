@@ -174,6 +174,13 @@ int Simulation::add(const Grain& grain) {
   if (grain.kind < 0 || static_cast<std::size_t>(grain.kind) >= s.setup.kinds.size()) {
     throw std::invalid_argument(fmt::format("grain kind {} does not exist", grain.kind));
   }
+  if (!grain.position.allFinite() || !grain.velocity.allFinite() || !grain.spin.allFinite() ||
+      !(std::abs(grain.orientation.norm() - 1) < 1e-6)) {
+    throw std::invalid_argument(
+        fmt::format("grain {}: position, velocity and spin must be numbers, and the orientation a "
+                    "quaternion of length 1. Fix: check what placed it.",
+                    grain_count()));
+  }
   const GrainKind& kind = s.setup.kinds[static_cast<std::size_t>(grain.kind)];
   add_body(s.bodies, grain, kind, s.setup.contacts.material(kind.material).density_kg_m3);
   s.bodies.force.back() = s.bodies.mass.back() * s.setup.gravity;

@@ -83,6 +83,8 @@ class Simulation {
   explicit Simulation(SimulationSetup setup);
   Simulation(SimulationSetup setup, const Checkpoint& from);
   ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 

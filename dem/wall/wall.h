@@ -47,11 +47,11 @@ struct Motion {
 
 /// A wall as set up: what it is, where it is at time 0 and how it moves.
 struct Wall {
-  WallShape shape;
+  WallShape shape = Plane{};
   int material = 0;
-  Pose pose;
-  std::vector<Motion> motions;  ///< stretches in time that do not overlap
-  bool is_present = true;       ///< a wall that was taken out keeps its number
+  Pose pose = {};
+  std::vector<Motion> motions = {};  ///< stretches in time that do not overlap
+  bool is_present = true;            ///< a wall that was taken out keeps its number
 };
 
 /// Where a wall is at one time, and how its points move.

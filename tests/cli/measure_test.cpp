@@ -38,7 +38,8 @@ class Measure : public ::testing::Test {
     vision::write_picture(folder_.path() / name, heap);
   }
   void draw_plain(const std::string& name, int width = 300, std::uint8_t brightness = 0) const {
-    const auto bytes = std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
+    const auto bytes =
+        std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
     vision::write_picture(
         folder_.path() / name,
         {.width = width, .height = width, .bgr = std::vector<std::uint8_t>(bytes, brightness)});

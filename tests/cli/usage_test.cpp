@@ -35,10 +35,14 @@ TEST(Usage, TheProgramAlonePrintsItsHelp) {
 
 TEST(Usage, HelpDescribesTheMethodsAndFitsATerminal) {
   const TemporaryFolder folder;
-  for (const auto& words : {std::vector<std::string>{"--help"}, {"measure", "--help"}}) {
+  for (const auto& words : {std::vector<std::string>{"--help"},
+                            {"measure", "--help"},
+                            {"shape", "--help"},
+                            {"simulate", "--help"},
+                            {"verify", "--help"}}) {
     const Finished run = run_repose(folder, words);
     EXPECT_EQ(run.exit_code, 0);
-    EXPECT_LE(longest_line(run.out), 80U);
+    EXPECT_LE(longest_line(run.out), 80U) << words.front();
   }
   EXPECT_THAT(run_repose(folder, {"measure", "--help"}).out,
               AllOf(HasSubstr("auto "), HasSubstr("paper "), HasSubstr("Otsu"),
@@ -70,6 +74,13 @@ TEST(Usage, UnguessableWordsHaveNoGuess) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("--frobnicate"), HasSubstr("repose measure --help")));
   EXPECT_EQ(run.err.find("Did you mean"), std::string::npos);
+}
+
+TEST(Usage, SimulatingNothingIsSaid) {
+  const TemporaryFolder folder;
+  const Finished run = run_repose(folder, {"simulate", "heap"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("study file"), HasSubstr("Fix: ")));
 }
 
 TEST(Usage, NoPictureNamedIsSaid) {

@@ -1,0 +1,167 @@
+#include "cli/commands.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/measure.h"
+#include "cli/shape.h"
+#include "cli/simulate.h"
+#include "cli/verify.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr const char* kMeasureNotes = R"(
+PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP. A folder stands
+for the pictures in it. FILE may be - for standard output.
+
+Methods:
+  auto   Several ways to part the heap from its background are tried and the
+         most convincing silhouette is taken. Its ground line is found; thin
+         aprons at the toe, the crest and stray grains are left out. A robust
+         line is fitted to each side within the window. Angles are measured
+         from the ground line.
+  paper  The chain of the published hazelnut study: grey picture, Otsu
+         threshold, holes filled, edge, ordinary least squares through each
+         side's edge over the whole window, mean of the two sides' absolute
+         slopes.
+
+Window: the stretch of each side that is fitted, in parts of the heap's
+height. Sides are hollow at the toe and round at the crest, so the window is
+part of the result: always state it. The other definitions in use (height
+over base, half-height tangent, whole flank, other windows) are listed by
+--definitions and in the JSON.
+
+Uncertainties are half-widths of 95 % intervals. Several pictures give a mean
+of those with status ok. A number with status flagged has a warning that a
+person must look at; a refused picture has a reason instead of a number.
+)";
+
+constexpr const char* kShapeNotes = R"(
+Turns a scan (STL, OBJ, PLY) or calliper sizes into a clump: a rigid grain of
+overlapping spheres for a discrete element program. Volume, mass and inertia
+come from the surface, never from the spheres. Small faults of a scan are
+mended and named; others are refused with the way to mend them.
+
+Volume error: what the spheres leave out and what of them sticks out, as a
+share of the body's volume.
+
+Examples:
+  repose shape nut.stl --spheres 11 --out nut.json --mesh nut.glb
+  repose shape --size-mm 22.48,18.23,17.46 --tip .5 --density-kg-m3 851
+)";
+
+constexpr const char* kSimulateNotes = R"(
+EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, degrees),
+roll (distance along the flat, mm) or heap (angle of repose, degrees). STUDY
+is a study file: samples/hazelnut/study.toml explains all of its keys.
+
+Each repeat has its own seed: --seed, and those that follow. The same seed
+gives the same result at any number of threads.
+
+Examples:
+  repose simulate drop study.toml --repeats 10
+  repose simulate heap study.toml --set contact.particle_wall.restitution=.3
+)";
+
+Command measure_command(CLI::App& app) {
+  const auto given = std::make_shared<MeasureArguments>();
+  MeasureArguments& arguments = *given;
+  CLI::App* measure = app.add_subcommand("measure", "Measure heaps in pictures");
+  measure->add_option("pictures", arguments.pictures, "Pictures, or folders of pictures")
+      ->option_text("PICTURE|FOLDER ...")
+      ->required();
+  measure->add_option("--method", arguments.method, "How to measure (auto)")
+      ->option_text("auto|paper");
+  measure->add_option("--window", arguments.window, "Part of the height (0.2,0.8)")
+      ->option_text("FROM,TO");
+  measure->add_option("--exclude", arguments.exclude, "Box in pixels to leave out; repeatable")
+      ->option_text("X,Y,W,H")
+      ->allow_extra_args(false);
+  measure->add_option("--pitch-deg", arguments.pitch_deg, "Camera's downward pitch (0)")
+      ->option_text("DEGREES");
+  measure->add_option("--overlay", arguments.overlay_folder, "Draw what was measured")
+      ->option_text("FOLDER");
+  measure->add_option("--json", arguments.json_file, "Everything, for programs")
+      ->option_text("FILE|-");
+  measure->add_option("--csv", arguments.csv_file, "A row for each picture")->option_text("FILE|-");
+  measure->add_option("--summary", arguments.summary_file, "Mean and interval, as JSON")
+      ->option_text("FILE|-");
+  measure->add_option("--threads", arguments.threads, "Pictures at a time (all cores)")
+      ->option_text("N");
+  measure->add_flag("--definitions", arguments.shows_definitions, "List other definitions too");
+  measure->footer(kMeasureNotes);
+  return {measure, [given] { return run_measure(*given); },
+          "no picture is named. Fix: repose measure PICTURE, or a folder of pictures."};
+}
+
+Command shape_command(CLI::App& app) {
+  const auto given = std::make_shared<ShapeArguments>();
+  ShapeArguments& arguments = *given;
+  CLI::App* shape = app.add_subcommand("shape", "Turn a scan or sizes into a clump of spheres");
+  shape->add_option("scan", arguments.scan, "Surface of one grain")->option_text("SCAN");
+  shape->add_option("--size-mm", arguments.size_mm, "Length, width, thickness, without a scan")
+      ->option_text("L,W,T");
+  shape->add_option("--tip", arguments.tip, "Pointedness of one end, 0 to 1 (0)")
+      ->option_text("SHARE");
+  shape->add_option("--unit", arguments.unit, "Unit of the scan (mm)")->option_text("mm|m");
+  shape->add_option("--spheres", arguments.spheres, "How many spheres (11)")->option_text("N");
+  shape->add_option("--volume-error", arguments.volume_error, "As many as this error takes")
+      ->option_text("P%");
+  shape->add_option("--density-kg-m3", arguments.density_kg_m3, "For the mass")->option_text("D");
+  shape->add_option("--out", arguments.out_file, "Clump file")->option_text("FILE.json");
+  shape->add_option("--mesh", arguments.mesh_file, "Surface and spheres, to look at")
+      ->option_text("FILE.glb|FILE.stl");
+  shape->add_option("--json", arguments.json_file, "Everything, for programs")
+      ->option_text("FILE|-");
+  shape->footer(kShapeNotes);
+  return {shape, [given] { return run_shape(*given); }, ""};
+}
+
+Command simulate_command(CLI::App& app) {
+  const auto given = std::make_shared<SimulateArguments>();
+  SimulateArguments& arguments = *given;
+  CLI::App* simulate = app.add_subcommand("simulate", "Run a bench experiment of a study");
+  simulate->add_option("experiment", arguments.experiment, "Which experiment")
+      ->option_text("drop|tilt|roll|heap")
+      ->required();
+  simulate->add_option("study", arguments.study, "Study file")
+      ->option_text("STUDY.toml")
+      ->required();
+  simulate->add_option("--set", arguments.settings, "Replace a value of the study; repeatable")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
+  simulate->add_option("--seed", arguments.seed, "Of the first repeat")->option_text("N");
+  simulate->add_option("--repeats", arguments.repeats, "How many, each with its own seed")
+      ->option_text("N");
+  simulate->add_option("--threads", arguments.threads, "At a time (all cores)")->option_text("N");
+  simulate->add_option("--out", arguments.out_folder, "States for ParaView, and result.json")
+      ->option_text("FOLDER");
+  simulate->add_option("--trajectory-s", arguments.trajectory_s, "Write states this often, s")
+      ->option_text("DT");
+  simulate->add_option("--json", arguments.json_file, "Everything, for programs")
+      ->option_text("FILE|-");
+  simulate->footer(kSimulateNotes);
+  return {simulate, [given] { return run_simulate(*given); },
+          "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml."};
+}
+
+Command verify_command(CLI::App& app) {
+  const auto given = std::make_shared<VerifyArguments>();
+  CLI::App* verify =
+      app.add_subcommand("verify", "Prove the contact physics: expected and computed");
+  verify->add_option("--json", given->json_file, "The table, for programs")->option_text("FILE|-");
+  return {verify, [given] { return run_verify(*given); }, ""};
+}
+
+}  // namespace
+
+std::vector<Command> add_commands(CLI::App& app) {
+  std::vector<Command> commands = {measure_command(app), shape_command(app), simulate_command(app),
+                                   verify_command(app)};
+  for (const Command& command : commands) command.app->get_formatter()->column_width(32);
+  return commands;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.h"
+
+namespace CLI {
+class App;
+}
+
+namespace repose::cli {
+
+/// A subcommand: its options, and what carries it out once they are parsed.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<ExitCode()> run;
+  std::string missing;  ///< said when something required is not given
+};
+
+std::vector<Command> add_commands(CLI::App& app);
+
+}  // namespace repose::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "dem/shape/clump_file.h"
+
+namespace repose::cli {
+
+/// The table for people.
+std::string shape_table(const dem::ClumpFile& clump, std::optional<double> density_kg_m3);
+
+/// Everything, for programs.
+std::string shape_json(const dem::ClumpFile& clump, std::optional<double> density_kg_m3);
+
+}  // namespace repose::cli

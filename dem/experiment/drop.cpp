@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/course.h"
+#include "dem/experiment/experiment.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/random.h"
+
+namespace repose::dem {
+namespace {
+
+/// A rebound goes with the square of the restitution: what is accurate to .005 elsewhere would be 3
+/// % of the height. A drop costs next to nothing.
+constexpr double kTimestepShare = .1;
+/// Steps between two looks: many to an impact, which lasts hundreds of
+/// steps.
+constexpr std::int64_t kStepsBetweenLooks = 4;
+constexpr int kLooksBetweenReports = 256;
+
+void check(const Bench& bench, const DropProtocol& protocol) {
+  Faults faults;
+  find_faults(bench, faults);
+  faults.require(std::isfinite(protocol.height_m) && protocol.height_m > 0,
+                 fmt::format("drop.height_m is {:g}. Rule: above 0. Fix: the height of the drop "
+                             "test, such as 0.5.",
+                             protocol.height_m));
+  faults.require(protocol.grains >= 1,
+                 fmt::format("drop.grains is {}. Rule: 1 or more. Fix: 10.", protocol.grains));
+  faults.throw_if_any();
+}
+
+/// How one grain's bounce goes.
+struct Bounce {
+  double first_touch_m = 0;  ///< height of the centroid
+  double lowest_m = 0;       ///< lowest height of the centroid so far
+  bool is_rising = false;
+  bool is_over = false;
+  double rise_m = 0;
+  double above_first_touch_m = 0;
+  double lowest_point_m = 0;
+};
+
+/// At the top of its first flight a grain stops rising and nothing touches it. One that stops while
+/// it stands on the wall is toppling, and still bouncing.
+void follow(Bounce& bounce, const Simulation& simulation, int number) {
+  const Grain grain = simulation.grain(number);
+  const double height = grain.position.z();
+  bounce.lowest_m = std::min(bounce.lowest_m, height);
+  if (grain.velocity.z() > 0) {
+    bounce.is_rising = true;
+    return;
+  }
+  if (!bounce.is_rising) return;
+  bounce.is_rising = false;
+  const SimulationSetup& setup = simulation.setup();
+  const Vector weight = simulation.mass_kg(number) * setup.gravity;
+  if ((simulation.force_n(number) - weight).norm() > 1e-9 * weight.norm()) return;
+  bounce.is_over = true;
+  bounce.rise_m = height - bounce.lowest_m;
+  bounce.above_first_touch_m = height - bounce.first_touch_m;
+  bounce.lowest_point_m = lowest_m(setup.kinds.front().shape, grain);
+}
+
+/// The grains just above the wall, as fast as the fall made them: sqrt(2 g h) from rest, and far
+/// enough from each other not to meet.
+std::vector<Bounce> drop_grains(Simulation& simulation, const DropProtocol& protocol,
+                                double speed_m_s, std::uint64_t seed) {
+  Random random(seed);
+  const ClumpShape& shape = simulation.setup().kinds.front().shape;
+  const double spacing = 8 * (protocol.height_m + shape.reach_m());
+  std::vector<Bounce> bounces;
+  for (int k = 0; k < protocol.grains; ++k) {
+    Grain grain{.orientation = random.orientation(), .velocity = {0, 0, -speed_m_s}};
+    const double height = reach_towards(shape, grain.orientation, -Vector::UnitZ());
+    grain.position = {k * spacing, 0, height};
+    simulation.add(grain);
+    bounces.push_back({.first_touch_m = height, .lowest_m = height});
+  }
+  return bounces;
+}
+
+double mean_mm(const std::vector<Bounce>& bounces, double Bounce::*reading) {
+  double sum = 0;
+  for (const Bounce& bounce : bounces) sum += bounce.*reading;
+  return 1e3 * sum / static_cast<double>(bounces.size());
+}
+
+std::map<std::string, double> readings_of(const std::vector<Bounce>& bounces) {
+  const double mean = mean_mm(bounces, &Bounce::rise_m);
+  double squares = 0;
+  double never_rose = 0;
+  for (const Bounce& bounce : bounces) {
+    squares += std::pow(1e3 * bounce.rise_m - mean, 2);
+    never_rose += bounce.is_over ? 0 : 1;
+  }
+  const auto others = static_cast<double>(std::max<std::size_t>(2, bounces.size()) - 1);
+  return {{"above_first_touch_mm", mean_mm(bounces, &Bounce::above_first_touch_m)},
+          {"lowest_point_rise_mm", mean_mm(bounces, &Bounce::lowest_point_m)},
+          {"sd_mm", std::sqrt(squares / others)},
+          {"never_rose", never_rose}};
+}
+
+}  // namespace
+
+Repeat run_drop(const Bench& bench, const DropProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report) {
+  check(bench, protocol);
+  const double speed = std::sqrt(2 * kStandardGravity_m_s2 * protocol.height_m);
+  Course course(
+      Simulation(bench_setup(bench, bench.grain, {bench_wall(Plane{})}, speed, kTimestepShare)),
+      report);
+  std::vector<Bounce> bounces = drop_grains(course.simulation(), protocol, speed, seed);
+  // No flight takes longer than the fall did; a grain that has not left the wall within as long
+  // again and the time to topple lies still.
+  const double longest_s = 2 * speed / kStandardGravity_m_s2 +
+                           4 * std::sqrt(2 * bench.grain.reach_m() / kStandardGravity_m_s2);
+  bool are_over = false;
+  for (int look = 0; !are_over && course.simulation().time_s() < longest_s; ++look) {
+    course.advance(kStepsBetweenLooks);
+    are_over = true;
+    for (int k = 0; k < protocol.grains; ++k) {
+      Bounce& bounce = bounces[static_cast<std::size_t>(k)];
+      if (!bounce.is_over) follow(bounce, course.simulation(), k);
+      are_over = are_over && bounce.is_over;
+    }
+    if (look % kLooksBetweenReports == 0) course.tell(course.simulation().time_s() / longest_s);
+  }
+  return course.finish(mean_mm(bounces, &Bounce::rise_m), seed, readings_of(bounces));
+}
+
+}  // namespace repose::dem

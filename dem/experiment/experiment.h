@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "dem/contact/material.h"
+#include "dem/engine/simulation.h"
+#include "dem/shape/clump_shape.h"
+
+namespace repose::dem {
+
+/// What all four experiments share: grain, materials, coefficients, and how to compute.
+struct Bench {
+  ClumpShape grain;
+  Material grain_material;
+  Material wall_material;
+  PairCoefficients grain_wall;
+  PairCoefficients grain_grain;
+  RollingModel rolling = RollingModel::constant_torque;
+  /// Both Young's moduli are multiplied by this: 1 is the real material. Softening shortens runs
+  /// and changes results: stated with each.
+  double stiffness_factor = 1;
+  /// Time step as a share of the longest that is accurate; see time_step.h.
+  double timestep_fraction = 1;
+  /// Instead of the engine's choice, s. Refused when it is not safe.
+  std::optional<double> timestep_s;
+  int threads = 1;
+};
+
+/// Single grains dropped on a flat wall in random poses.
+///
+/// Value: how far the centroid rises from its lowest place during the bounce to the top of the
+/// first flight after it, mm, mean of the grains; 0 for a grain that never leaves the wall. It is
+/// what a camera sees. Readings: "above_first_touch_mm" (the same from the height of the centroid
+/// at first touch: less, below 0 for a grain that topples), "lowest_point_rise_mm" (of the lowest
+/// surface point over the wall at the top), "sd_mm" (scatter of the value between grains),
+/// "never_rose" (how many).
+struct DropProtocol {
+  double height_m = .5;  ///< of the lowest point above the wall
+  int grains = 10;       ///< in random poses, each on its own: one repeat is their mean
+};
+
+/// Grains bonded side by side, on a plate that tilts until they slide.
+///
+/// The grains touch, long axes parallel and level, shortest axes upright. The plate turns about
+/// the direction of the long axes: down the slope lies the line from grain to grain, the one way in
+/// which they can neither roll nor rock. A single grain rolls.
+///
+/// Value: the plate's angle at the onset of sliding, degrees. Slip grows as the cube of the time
+/// since the onset; the line through its cube root is followed back to no slip. Readings:
+/// "half_mm_slip_deg" (the plate's angle once the body has slipped half a millimetre; what others
+/// report) and "begin_deg" (where the turning began). Throws NoReading for a body that tips or
+/// rolls, or holds up to 89 degrees. There is no chance in it: the seed changes nothing.
+struct TiltProtocol {
+  int bonded = 2;
+  double rate_deg_s = 2;
+  /// At least. The plate begins later, 3 degrees short of where the body slides or tips, since a
+  /// body that does not move has no history: Tilt.DoesNotDependOnWhereItBegins.
+  double start_deg = 0;
+};
+
+/// One grain let go on an incline that ends on a flat plate.
+///
+/// It lies on the incline, long axis parallel to it, and otherwise turned at random. Value: how far
+/// along the flat its centroid lies from the foot once it is at rest, mm. A grain that stays on the
+/// incline has a value below 0: less its distance up the incline. Readings: "lateral_mm" (aside),
+/// "stopped_on_incline" (0 or 1), "time_s". Throws NoReading for a grain that does not stop.
+struct RollProtocol {
+  double incline_deg = 20;
+  double release_m = .15;  ///< from the foot of the incline, along it
+};
+
+/// A tube filled with grains and lifted off a plate.
+///
+/// Value: the heap's angle as measure_surface() defines it (surface_profile.h), degrees. Grains
+/// that spread in a layer too low to be a heap (below 2.5 grain diameters) have the reading
+/// "no_heap" 1; the value is then that layer's own small angle, or 0 if it has none. Readings:
+/// "grains" (when the lift began), "grains_on_plate", "grains_off_plate", "height_mm",
+/// "base_radius_mm", "between_views_deg" (scatter between directions), "angle_xz_deg" (seen along
+/// y), "no_heap", "at_rest" (0: still creeping 5 s after the tube was away, as constant torques let
+/// heaps do), "time_s" (of lift and settling). Throws NoReading when the grains stay in the tube or
+/// leave the plate.
+struct HeapProtocol {
+  double tube_diameter_m = .1;  ///< inner
+  double tube_height_m = .4;
+  double tube_thickness_m = .002;
+  double lift_speed_m_s = .03;
+  double plate_m = .4;  ///< side of the square plate
+  double plate_thickness_m = .002;
+  std::optional<int> grains;  ///< or as many as fill the tube, levelled at its rim
+};
+
+/// One repeat of an experiment.
+struct Repeat {
+  double value = 0;  ///< drop mm, tilt deg, roll mm, heap deg
+  std::uint64_t seed = 0;
+  std::int64_t steps = 0;
+  double timestep_s = 0;
+  double clump_steps = 0;  ///< grains times steps, summed
+  /// Other readings, named with their unit: "lowest_point_rise_mm", "grains_off_plate".
+  std::map<std::string, double> readings;
+  /// The end of the run, to look at; shared because a simulation cannot be copied.
+  std::shared_ptr<const Simulation> state;
+};
+
+/// Hears now and then how far a run is (0 ... 1); returns false to break it off.
+using ProgressReport = std::function<bool(double share, const Simulation&)>;
+
+/// Thrown when a ProgressReport asked for it.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Thrown when the experiment ran and what it measures did not happen: says what happened instead.
+class NoReading : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Each runs one repeat. The same seed gives the same bytes at any number of threads. They throw
+// std::invalid_argument for a protocol that cannot be run (every fault at once), UnstableRun for a
+// run that went wrong, NoReading and Interrupted as said there.
+Repeat run_drop(const Bench& bench, const DropProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report = {});
+Repeat run_tilt(const Bench& bench, const TiltProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report = {});
+Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report = {});
+Repeat run_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report = {});
+
+}  // namespace repose::dem

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace repose::dem {
+
+/// One side of a heap's silhouette, from the crest outwards, a column apart. Heights in m.
+struct Flank {
+  std::vector<double> height;
+  std::vector<double> smooth;  ///< the same, averaged over some columns
+};
+
+struct GrainSize {
+  double height_m = 0;
+  double columns = 0;
+};
+
+struct FlankLine {
+  double at_crest = 0;  ///< m, where the line passes the crest's column
+  double fall = 0;      ///< m per column, above 0
+};
+
+/// The line through a flank between two heights, `low` and `high`.
+///
+/// The ends are put where the fitted line, not the bumpy edge, has those heights; an apron, the
+/// thin layer that runs out from the foot, is left out: it begins where the slope over two grains
+/// has sunk under a third of the upper half's, or where less than two grains of height are left and
+/// the foot is still twice as far as that slope would take. Least squares, then Tukey's biweight
+/// (Huber & Ronchetti 2009, Robust Statistics, sec. 4.8). It is what photographs are measured with.
+/// None where there are too few columns, or where the line does not fall.
+std::optional<FlankLine> fit_flank_line(const Flank& flank, double low, double high,
+                                        const GrainSize& grain);
+
+}  // namespace repose::dem

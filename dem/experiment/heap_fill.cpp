@@ -1,0 +1,184 @@
+#include "dem/experiment/heap_fill.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/random.h"
+#include "dem/experiment/rest_test.h"
+
+namespace repose::dem {
+namespace {
+
+/// Share of the course that filling is taken to be.
+constexpr double kFillShare = .35;
+/// What has not come to rest in the tube by then creeps, and the tube holds it all the same.
+constexpr double kLongestSettling_s = 5;
+/// Places tried for each layer: more would find few.
+constexpr int kTriesPerLayer = 400;
+/// Filling only makes a random packing: it may take steps twice as long as what is measured.
+constexpr double kFillTimestepShare = 2;
+/// How far the rain is taken to have fallen, in reaches of a grain.
+constexpr double kFall = 4;
+/// How far grains are heaped over the rim before they are levelled, in reaches of a grain.
+constexpr double kHeaped = 4;
+
+double rain_speed_m_s(double reach_m) {
+  return std::sqrt(2 * kStandardGravity_m_s2 * kFall * reach_m);
+}
+
+Wall plate_of(const HeapProtocol& protocol) {
+  const double half = .5 * protocol.plate_m;
+  const double half_thickness = .5 * protocol.plate_thickness_m;
+  return bench_wall(Box{.half_size = {half, half, half_thickness}},
+                    {.position = {0, 0, -half_thickness}});
+}
+
+Wall tube_of(const HeapProtocol& protocol, double height_m) {
+  return bench_wall(Tube{.inner_radius = .5 * protocol.tube_diameter_m,
+                         .thickness = protocol.tube_thickness_m,
+                         .height = height_m});
+}
+
+/// Grains whose centres lie above the rim.
+std::vector<int> above_rim(const Simulation& simulation, double rim_m) {
+  std::vector<int> above;
+  for (int k = 0; k < simulation.grain_count(); ++k) {
+    if (simulation.grain(k).position.z() > rim_m) above.push_back(k);
+  }
+  return above;
+}
+
+/// Rains grains into a tube that is tall enough for all that fall.
+class Rain {
+ public:
+  Rain(const HeapProtocol& protocol, double reach_m, std::uint64_t seed)
+      : protocol_(protocol), reach_m_(reach_m), random_(seed) {}
+
+  void fill(Course& course);
+
+ private:
+  int left(const Simulation& simulation) const {
+    return protocol_.grains ? *protocol_.grains - simulation.grain_count()
+                            : std::numeric_limits<int>::max();
+  }
+  void rain_up_to(Course& course, double height_m);
+  void add_layer(Course& course, double height_m);
+  void settle(Course& course) const;
+
+  const HeapProtocol& protocol_;
+  double reach_m_;
+  Random random_;
+};
+
+double highest_point_m(const Course& course) {
+  double highest = 0;
+  for (int k = 0; k < course.simulation().grain_count(); ++k) {
+    highest = std::max(highest, highest_m(course.shape(), course.simulation().grain(k)));
+  }
+  return highest;
+}
+
+/// Adds grains at random places, no nearer to each other or the tube than they can reach.
+void Rain::add_layer(Course& course, double height_m) {
+  const double room = .5 * protocol_.tube_diameter_m - reach_m_;
+  std::vector<Vector> taken;
+  for (int k = 0; k < kTriesPerLayer && left(course.simulation()) > 0; ++k) {
+    const double radius = room * std::sqrt(random_.uniform());
+    const double turn = 2 * std::numbers::pi * random_.uniform();
+    const Vector place(radius * std::cos(turn), radius * std::sin(turn), height_m);
+    const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const Vector& other) {
+      return (place - other).norm() > 2 * reach_m_;
+    });
+    if (!is_free) continue;
+    taken.push_back(place);
+    course.simulation().add({.position = place,
+                             .orientation = random_.orientation(),
+                             .velocity = {0, 0, -rain_speed_m_s(reach_m_)}});
+  }
+}
+
+void Rain::settle(Course& course) const {
+  RestTest rest(course.simulation().setup());
+  const std::int64_t steps = course.steps_of(rest.interval_s());
+  const double until_s = course.simulation().time_s() + kLongestSettling_s;
+  while (!rest.is_at_rest(course.simulation()) && course.simulation().time_s() < until_s) {
+    course.advance(steps);
+    course.tell(kFillShare);
+  }
+}
+
+/// A layer at a time goes in just above the last one, which by then has fallen by its own height
+/// or lies on the grains below.
+void Rain::rain_up_to(Course& course, double height_m) {
+  const std::int64_t steps = course.steps_of(2 * reach_m_ / rain_speed_m_s(reach_m_));
+  for (double highest = 0; highest < height_m && left(course.simulation()) > 0;
+       highest = highest_point_m(course)) {
+    add_layer(course, highest + 1.01 * reach_m_);
+    course.advance(steps);
+    course.tell(kFillShare * highest / height_m);
+  }
+}
+
+void Rain::fill(Course& course) {
+  do {
+    rain_up_to(course, protocol_.tube_height_m + kHeaped * reach_m_);
+    settle(course);
+  } while (left(course.simulation()) > 0 &&
+           above_rim(course.simulation(), protocol_.tube_height_m).empty());
+}
+
+/// The grains up to the rim, and their contacts but those with the tube above it.
+Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
+  const ClumpShape& shape = filled.setup().kinds.front().shape;
+  Checkpoint now = filled.checkpoint();
+  now.step = 0;
+  for (const int grain : above_rim(filled, protocol.tube_height_m)) {
+    now.is_present[static_cast<std::size_t>(grain)] = false;
+  }
+  std::erase_if(now.contacts, [&](const ContactState& contact) {
+    const auto a = static_cast<std::size_t>(contact.grain_a);
+    if (!now.is_present[a]) return true;
+    if (contact.grain_b >= 0) return !now.is_present[static_cast<std::size_t>(contact.grain_b)];
+    const bool is_tube = -1 - contact.grain_b == kHeapTube;
+    return is_tube && highest_m(shape, now.grains[a]) > protocol.tube_height_m;
+  });
+  return now;
+}
+
+}  // namespace
+
+Course fill_tube(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
+                 const ProgressReport& report) {
+  const double reach = bench.grain.reach_m();
+  const double speed = std::sqrt(2) * rain_speed_m_s(reach);
+  const double tall = protocol.tube_height_m + 10 * kHeaped * reach;
+  Course filling(
+      Simulation(bench_setup(bench, bench.grain, {plate_of(protocol), tube_of(protocol, tall)},
+                             speed, kFillTimestepShare)),
+      report);
+  Rain(protocol, reach, seed).fill(filling);
+  const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
+  if (protocol.grains && over > 0) {
+    throw std::invalid_argument(fmt::format(
+        "heap.grains is {}. Rule: at most what fits into the tube, {}. Fix: fewer grains, a taller "
+        "or wider tube, or leave the number out to fill it.",
+        *protocol.grains, static_cast<std::size_t>(filling.simulation().grain_count()) - over));
+  }
+  SimulationSetup setup = bench_setup(
+      bench, bench.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)}, speed);
+  // Grains that fall off the plate are gone once they are well below it.
+  setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
+  return {Simulation(std::move(setup), levelled(protocol, filling.simulation())), report,
+          filling.work()};
+}
+
+}  // namespace repose::dem

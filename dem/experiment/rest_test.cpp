@@ -1,0 +1,53 @@
+#include "dem/experiment/rest_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace repose::dem {
+namespace {
+
+constexpr double kEnergyShare = 1e-6;
+constexpr double kMotionShare = 1e-3;
+constexpr double kWindowFalls = 2;
+
+/// Kinetic energy by mass.
+double energy_m2_s2(const Grain& grain, const Vector& gyration_m2) {
+  const Vector own_spin = grain.orientation.conjugate() * grain.spin;
+  return .5 * (grain.velocity.squaredNorm() + own_spin.cwiseAbs2().dot(gyration_m2));
+}
+
+}  // namespace
+
+RestTest::RestTest(const SimulationSetup& setup) : gravity_m_s2_(setup.gravity.norm()) {
+  for (const GrainKind& kind : setup.kinds) reach_m_ = std::max(reach_m_, kind.shape.reach_m());
+  window_s_ = kWindowFalls * std::sqrt(2 * reach_m_ / gravity_m_s2_);
+}
+
+bool RestTest::is_at_rest(const Simulation& simulation) {
+  const SimulationSetup& setup = simulation.setup();
+  std::vector<Vector> centres;
+  double energy = 0;
+  for (int k = 0; k < simulation.grain_count(); ++k) {
+    if (!simulation.is_present(k)) continue;
+    const Grain grain = simulation.grain(k);
+    energy +=
+        energy_m2_s2(grain, setup.kinds[static_cast<std::size_t>(grain.kind)].shape.gyration_m2);
+    centres.push_back(grain.position);
+  }
+  const auto count = static_cast<double>(centres.size());
+  const bool is_quiet = energy <= count * kEnergyShare * gravity_m_s2_ * reach_m_;
+  if (!is_quiet || before_.size() != centres.size()) {
+    before_ = std::move(centres);
+    since_s_ = simulation.time_s();
+    return false;
+  }
+  if (simulation.time_s() - since_s_ < window_s_) return false;
+  double moved = 0;
+  for (std::size_t k = 0; k < centres.size(); ++k) moved += (centres[k] - before_[k]).squaredNorm();
+  before_ = std::move(centres);
+  since_s_ = simulation.time_s();
+  return moved <= count * kMotionShare * kMotionShare * reach_m_ * reach_m_;
+}
+
+}  // namespace repose::dem

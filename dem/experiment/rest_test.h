@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "dem/engine/simulation.h"
+
+namespace repose::dem {
+
+/// Tells when grains have come to rest, by energy and by motion, whatever the time that takes.
+///
+/// With t the time in which a grain falls by its own reach r from rest, and m its mass: for 2 t on
+/// end the mean kinetic energy of the grains must be below 1e-6 m g r, and after that their centres
+/// must be within 1e-3 r of where they were (root mean square). A grain that creeps by more than
+/// about r / 100 in a second is not at rest.
+class RestTest {
+ public:
+  explicit RestTest(const SimulationSetup& setup);
+
+  /// Looks at the grains now; to be called every few milliseconds.
+  bool is_at_rest(const Simulation& simulation);
+  /// Time between two looks, s.
+  double interval_s() const { return window_s_ / 20; }
+
+ private:
+  double reach_m_ = 0;
+  double gravity_m_s2_ = 0;
+  double window_s_ = 0;
+  double since_s_ = 0;          ///< when the window at hand began
+  std::vector<Vector> before_;  ///< the centres then; empty before the first look
+};
+
+}  // namespace repose::dem

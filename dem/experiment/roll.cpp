@@ -1,0 +1,112 @@
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/course.h"
+#include "dem/experiment/experiment.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/random.h"
+#include "dem/experiment/rest_test.h"
+
+namespace repose::dem {
+namespace {
+
+constexpr double kLongestRun_s = 60;
+
+void check(const Bench& bench, const RollProtocol& protocol) {
+  Faults faults;
+  find_faults(bench, faults);
+  faults.require(protocol.incline_deg > 0 && protocol.incline_deg < 90,
+                 fmt::format("roll.incline_deg is {:g}. Rule: above 0, below 90. Fix: the slope of "
+                             "the bench, such as 20.",
+                             protocol.incline_deg));
+  faults.require(
+      std::isfinite(protocol.release_m) && protocol.release_m > 0,
+      fmt::format("roll.release_m is {:g}. Rule: above 0. Fix: the distance of the grain "
+                  "from the foot of the incline, such as 0.15.",
+                  protocol.release_m));
+  faults.throw_if_any();
+}
+
+/// The incline: its foot is the y axis, and down it goes +x.
+struct Incline {
+  Quaternion orientation = Quaternion::Identity();  ///< x down the slope, z away from it
+  Vector down = Vector::UnitX();
+  Vector normal = Vector::UnitZ();
+};
+
+Incline incline(const RollProtocol& protocol) {
+  const double angle = protocol.incline_deg * std::numbers::pi / 180;
+  Incline slope{.orientation = Quaternion(Eigen::AngleAxisd(angle, Vector::UnitY()))};
+  slope.down = slope.orientation * Vector::UnitX();
+  slope.normal = slope.orientation * Vector::UnitZ();
+  return slope;
+}
+
+/// A flat without end, and on it a box whose upper face meets it at the foot, without a step.
+std::vector<Wall> walls_of(const RollProtocol& protocol, const Incline& slope, double reach_m) {
+  const double length = protocol.release_m + 10 * reach_m;
+  const double thickness = 4 * reach_m;
+  const double width = 20 * (protocol.release_m + reach_m);
+  const Vector centre = -.5 * length * slope.down - .5 * thickness * slope.normal;
+  return {bench_wall(Plane{}), bench_wall(Box{.half_size = .5 * Vector(length, width, thickness)},
+                                          {.position = centre, .orientation = slope.orientation})};
+}
+
+/// Lying on the incline, turned at random about the incline's normal and about its own long axis.
+Grain released(const ClumpShape& shape, const RollProtocol& protocol, const Incline& slope,
+               std::uint64_t seed) {
+  Random random(seed);
+  const double about_normal = 2 * std::numbers::pi * random.uniform();
+  const double about_long_axis = 2 * std::numbers::pi * random.uniform();
+  Grain grain;
+  grain.orientation =
+      slope.orientation * Quaternion(Eigen::AngleAxisd(about_normal, Vector::UnitZ())) *
+      Quaternion(Eigen::AngleAxisd(about_long_axis, Vector::UnitY())) * lying_pose(shape);
+  grain.position = -protocol.release_m * slope.down +
+                   reach_towards(shape, grain.orientation, -slope.normal) * slope.normal;
+  return grain;
+}
+
+void roll_to_rest(Course& course) {
+  RestTest rest(course.simulation().setup());
+  const std::int64_t steps = course.steps_of(rest.interval_s());
+  while (!rest.is_at_rest(course.simulation())) {
+    if (course.simulation().time_s() > kLongestRun_s) {
+      throw NoReading(fmt::format(
+          "roll: the grain still moves after {:g} s, {:.2f} m from the foot. Fix: a rolling "
+          "friction above 0; grains of several spheres may do without.",
+          kLongestRun_s, course.simulation().grain(0).position.x()));
+    }
+    course.advance(steps);
+    course.tell(course.simulation().time_s() / kLongestRun_s);
+  }
+}
+
+}  // namespace
+
+Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report) {
+  check(bench, protocol);
+  const Incline slope = incline(protocol);
+  const double reach = bench.grain.reach_m();
+  // No part of the grain meets a wall faster than by a free fall from where it is let go.
+  const double speed =
+      std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
+  Course course(
+      Simulation(bench_setup(bench, bench.grain, walls_of(protocol, slope, reach), speed)), report);
+  course.simulation().add(released(bench.grain, protocol, slope, seed));
+  roll_to_rest(course);
+  const Vector end = course.simulation().grain(0).position;
+  const bool stopped_on_incline = end.x() < 0;
+  const double along = stopped_on_incline ? end.dot(slope.down) : end.x();
+  return course.finish(1e3 * along, seed,
+                       {{"lateral_mm", 1e3 * end.y()},
+                        {"stopped_on_incline", stopped_on_incline ? 1 : 0},
+                        {"time_s", course.simulation().time_s()}});
+}
+
+}  // namespace repose::dem

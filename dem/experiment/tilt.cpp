@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/bonded.h"
+#include "dem/experiment/course.h"
+#include "dem/experiment/experiment.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/rest_test.h"
+
+namespace repose::dem {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kPlate = 0;
+constexpr double kSteepest_deg = 89;
+/// The onset comes out within .01 degrees up to here, and half a degree low at 50.
+constexpr double kFastest_deg_s = 10;
+/// How far short of sliding or tipping the plate begins.
+constexpr double kLead_deg = 3;
+/// Slip that the onset is read from, as shares of the grain's reach: from well above the springs'
+/// stretch to where the plate has turned by less than a degree or so.
+constexpr double kLeastSlip = .002;
+constexpr double kMostSlip = .1;
+constexpr double kReportedSlip_m = .5e-3;
+/// A body that has turned by this much against the plate tips or rolls.
+constexpr double kTipped_deg = 5;
+constexpr double kLongestSettling_s = 2;
+
+void check(const Bench& bench, const TiltProtocol& protocol) {
+  Faults faults;
+  find_faults(bench, faults);
+  faults.require(protocol.bonded >= 1,
+                 fmt::format("tilt.bonded is {}. Rule: 1 or more. Fix: 2.", protocol.bonded));
+  faults.require(protocol.rate_deg_s > 0 && protocol.rate_deg_s <= kFastest_deg_s,
+                 fmt::format("tilt.rate_deg_s is {:g}. Rule: above 0, at most {:g}: faster, the "
+                             "plate's own motion throws the grains. Fix: the rate of the bench, "
+                             "such as 2.",
+                             protocol.rate_deg_s, kFastest_deg_s));
+  faults.require(protocol.start_deg >= 0 && protocol.start_deg < kSteepest_deg,
+                 fmt::format("tilt.start_deg is {:g}. Rule: 0 or more, below {:g}. Fix: 0.",
+                             protocol.start_deg, kSteepest_deg));
+  faults.throw_if_any();
+}
+
+/// Slope at which a lying body tips over the lowest of its spheres farthest down the slope (+x).
+double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
+  const double height = reach_towards(body, pose, -Vector::UnitZ());
+  double foot = 0;
+  for (const ClumpSphere& sphere : body.spheres) {
+    const Vector centre = pose * sphere.centre;
+    const bool is_low = centre.z() - sphere.radius < -height + .01 * body.reach_m();
+    if (is_low) foot = std::max(foot, centre.x());
+  }
+  return std::atan2(foot, height) / kDegree;
+}
+
+/// Turned by an angle about y: what pointed along +x points down the slope.
+Quaternion slope(double angle_deg) {
+  return Quaternion(Eigen::AngleAxisd(angle_deg * kDegree, Vector::UnitY()));
+}
+
+/// The body as the plate sees it.
+struct OnPlate {
+  double down_slope_m = 0;
+  Quaternion orientation = Quaternion::Identity();
+};
+
+OnPlate on_plate(const Simulation& simulation) {
+  const Quaternion from_world = simulation.wall(kPlate).pose.orientation.conjugate();
+  const Grain body = simulation.grain(0);
+  return {.down_slope_m = (from_world * body.position).x(),
+          .orientation = from_world * body.orientation};
+}
+
+/// What is noted while the body slides.
+struct Slide {
+  std::vector<double> angle_deg;  ///< of the plate, within the slip that the onset is read from
+  std::vector<double> slip_m;
+  std::optional<double> reported_deg;  ///< at kReportedSlip_m
+};
+
+/// Angle at which the slip began.
+///
+/// Just past the onset theta0 (t0) the body's acceleration along the plate is
+/// g (sin theta - mu cos theta) = g sin(theta - theta0) / cos theta0 = c (t - t0) for a plate that
+/// turns steadily, so slip = c (t - t0)^3 / 6: its cube root is a line that leaves 0 at t0.
+/// Proved by Tilt.SlidesAtTheAngleOfFriction in tests/dem/experiment_tilt_test.cpp.
+double onset_deg(const Slide& slide) {
+  const auto count = static_cast<double>(slide.slip_m.size());
+  double mean_angle = 0;
+  double mean_root = 0;
+  for (std::size_t k = 0; k < slide.slip_m.size(); ++k) {
+    mean_angle += slide.angle_deg[k] / count;
+    mean_root += std::cbrt(slide.slip_m[k]) / count;
+  }
+  double square = 0;
+  double product = 0;
+  for (std::size_t k = 0; k < slide.slip_m.size(); ++k) {
+    const double off = slide.angle_deg[k] - mean_angle;
+    square += off * off;
+    product += off * (std::cbrt(slide.slip_m[k]) - mean_root);
+  }
+  return mean_angle - mean_root * square / product;
+}
+
+/// Lays the body on the plate at its first angle and waits until it rests there.
+void settle(Course& course, double begin_deg) {
+  RestTest rest(course.simulation().setup());
+  const std::int64_t steps = course.steps_of(rest.interval_s());
+  while (!rest.is_at_rest(course.simulation())) {
+    if (course.simulation().time_s() > kLongestSettling_s) {
+      throw NoReading(
+          fmt::format("tilt: the body does not lie still on the plate at {:.2f} degrees "
+                      "in {:g} s: it rolls, or it slides from the start. Fix: bond 2 "
+                      "grains or more, and begin at 0 degrees.",
+                      begin_deg, kLongestSettling_s));
+    }
+    course.advance(steps);
+  }
+}
+
+/// Time between two looks: a hundred or so for the slip that the onset is read from, by the law of
+/// onset_deg() on a level plate.
+double look_interval_s(const ClumpShape& grain, double rate_deg_s) {
+  const double jerk_m_s3 = kStandardGravity_m_s2 * rate_deg_s * kDegree;
+  return .01 * std::cbrt(6 * kMostSlip * grain.reach_m() / jerk_m_s3);
+}
+
+/// Turns the plate until the body has slipped far enough.
+Slide slide_off(Course& course, const ClumpShape& grain, double begin_deg, double rate_deg_s) {
+  Simulation& simulation = course.simulation();
+  const double begin_s = simulation.time_s();
+  const OnPlate before = on_plate(simulation);
+  simulation.set_motions(kPlate,
+                         {{.spin = rate_deg_s * kDegree * Vector::UnitY(), .start_s = begin_s}});
+  const double least = kLeastSlip * grain.reach_m();
+  const double most = kMostSlip * grain.reach_m();
+  const std::int64_t steps = course.steps_of(look_interval_s(grain, rate_deg_s));
+  Slide slide;
+  for (double slip = 0; slip <= std::max(most, kReportedSlip_m);) {
+    course.advance(steps);
+    const double angle = begin_deg + rate_deg_s * (simulation.time_s() - begin_s);
+    const OnPlate now = on_plate(simulation);
+    slip = now.down_slope_m - before.down_slope_m;
+    if (slip > least && slip <= most) {
+      slide.angle_deg.push_back(angle);
+      slide.slip_m.push_back(slip);
+    }
+    if (slip > kReportedSlip_m && !slide.reported_deg) slide.reported_deg = angle;
+    if (now.orientation.angularDistance(before.orientation) > kTipped_deg * kDegree) {
+      throw NoReading(
+          fmt::format("tilt: the body tipped or rolled at {:.2f} degrees instead of "
+                      "sliding. Fix: bond more grains, or lower the sliding friction.",
+                      angle));
+    }
+    if (angle > kSteepest_deg) {
+      throw NoReading(
+          fmt::format("tilt: the body did not slide up to {:g} degrees", kSteepest_deg));
+    }
+    course.tell(angle / kSteepest_deg);
+  }
+  return slide;
+}
+
+}  // namespace
+
+Repeat run_tilt(const Bench& bench, const TiltProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report) {
+  check(bench, protocol);
+  const ClumpShape body = bonded_shape(bench.grain, protocol.bonded);
+  const Quaternion lying = lying_pose(bench.grain);
+  const double hold_deg =
+      std::min(std::atan(bench.grain_wall.sliding_friction) / kDegree, tipping_deg(body, lying));
+  const double begin_deg = std::max(protocol.start_deg, hold_deg - kLead_deg);
+  // The body meets the plate no faster than by a fall through a hundredth of its reach.
+  const double speed = std::sqrt(2 * kStandardGravity_m_s2 * .01 * body.reach_m());
+  const Wall plate = bench_wall(Plane{}, {.orientation = slope(begin_deg)});
+  Course course(Simulation(bench_setup(bench, body, {plate}, speed)), report);
+  const Vector normal = slope(begin_deg) * Vector::UnitZ();
+  const Quaternion orientation = slope(begin_deg) * lying;
+  course.simulation().add(
+      {.position = normal * reach_towards(body, orientation, -normal), .orientation = orientation});
+  settle(course, begin_deg);
+  const Slide slide = slide_off(course, bench.grain, begin_deg, protocol.rate_deg_s);
+  return course.finish(
+      onset_deg(slide), seed,
+      {{"half_mm_slip_deg", slide.reported_deg.value_or(0)}, {"begin_deg", begin_deg}});
+}
+
+}  // namespace repose::dem

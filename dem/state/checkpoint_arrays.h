@@ -1,0 +1,18 @@
+#pragma once
+
+#include "dem/engine/simulation.h"
+#include "dem/state/array_list.h"
+#include "dem/state/vtk_file.h"
+
+/// The moving part of a simulation as points and arrays, and back.
+namespace repose::dem {
+
+/// Grains that are present become points, the others arrays of the field data.
+void add_checkpoint(const Checkpoint& checkpoint, const Simulation& simulation, VtkPoints& points,
+                    ArrayWriter& fields);
+
+/// `setup` tells which kinds and walls there are.
+/// @throws std::invalid_argument  naming the array that is missing or does not fit.
+Checkpoint checkpoint_in(const VtkPoints& points, const SimulationSetup& setup);
+
+}  // namespace repose::dem

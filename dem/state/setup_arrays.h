@@ -1,0 +1,24 @@
+#pragma once
+
+#include "dem/engine/simulation.h"
+#include "dem/state/array_list.h"
+
+/// A simulation's setup as named arrays, and back.
+namespace repose::dem {
+
+void add_setup(ArrayWriter& arrays, const SimulationSetup& setup);
+/// @throws std::invalid_argument  naming the array that is missing or does not fit.
+SimulationSetup setup_in(const ArrayReader& arrays);
+
+void add_walls(ArrayWriter& arrays, const std::vector<Wall>& walls);
+std::vector<Wall> walls_in(const ArrayReader& arrays);
+
+void add_kinds(ArrayWriter& arrays, const std::vector<GrainKind>& kinds);
+std::vector<GrainKind> kinds_in(const ArrayReader& arrays);
+
+/// Meshes one after the other: how many corners and triangles each has, then all of them.
+void add_meshes(ArrayWriter& arrays, const std::string& name,
+                const std::vector<const Mesh*>& meshes);
+std::vector<Mesh> meshes_in(const ArrayReader& arrays, const std::string& name);
+
+}  // namespace repose::dem

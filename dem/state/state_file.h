@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "dem/engine/simulation.h"
+
+/// The state of a simulation in a file that ParaView opens and that a run can go on from.
+///
+/// VTK XML PolyData (.vtp), a point for each grain that is present: orientation (w x y z),
+/// velocity, spin, force, torque, angular_momentum, rolling_limit, mass (SI units, world axes),
+/// grain (its number) and kind. All else that a run needs (walls, kinds, materials, contacts,
+/// grains that have left) is in arrays of the field data. Doubles are kept to the last bit.
+namespace repose::dem {
+
+struct SavedState {
+  SimulationSetup setup;  ///< for 1 thread: how many computed it does not show in a state
+  Checkpoint checkpoint;
+  std::string provenance_json;
+};
+
+/// The file's text. The same state gives the same bytes.
+/// @param provenance_json  where the state comes from; kept as it is. Without zero bytes.
+std::string state_text(const Simulation& simulation, const std::string& provenance_json);
+
+/// Writes it whole or not at all.
+/// @throws std::invalid_argument  the place cannot be written.
+void write_state(const std::filesystem::path& file, const Simulation& simulation,
+                 const std::string& provenance_json);
+
+/// `Simulation(state.setup, state.checkpoint)` then goes on bit for bit.
+/// @throws std::invalid_argument  no such file, no state of repose, cut short, or edited so that it
+/// does not hold together.
+SavedState read_state(const std::filesystem::path& file);
+
+}  // namespace repose::dem

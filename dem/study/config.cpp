@@ -1,0 +1,135 @@
+#include "dem/study/config.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include <toml++/toml.h>
+
+namespace repose::dem {
+namespace {
+
+using Kind = ConfigValue::Kind;
+
+/// Where in a line the letter number `column` (from 1) of UTF-8 starts.
+std::size_t byte_of(std::string_view line, std::size_t column) {
+  std::size_t at = 0;
+  for (std::size_t letter = 1; at < line.size(); ++at) {
+    const bool starts_letter = (static_cast<unsigned char>(line[at]) & 0xC0) != 0x80;
+    if (starts_letter && letter++ == column) break;
+  }
+  return at;
+}
+
+/// A text whose parts can be shown as they were typed.
+class SourceText {
+ public:
+  SourceText(std::string text, Place file) : text_(std::move(text)), file_(std::move(file)) {}
+
+  const std::string& text() const { return text_; }
+  Place place(const toml::source_region& source) const {
+    Place place = file_;
+    place.line = static_cast<int>(source.begin.line);
+    place.column = static_cast<int>(source.begin.column);
+    return place;
+  }
+  /// The first line of what stands there.
+  std::string shown(const toml::source_region& source) const {
+    std::istringstream lines(text_);
+    std::string line;
+    for (std::size_t k = 0; k < source.begin.line; ++k) std::getline(lines, line);
+    const std::size_t start = byte_of(line, source.begin.column);
+    if (source.end.line != source.begin.line) return line.substr(start) + " ...";
+    return line.substr(start, byte_of(line, source.end.column) - start);
+  }
+
+ private:
+  std::string text_;
+  Place file_;
+};
+
+ConfigValue converted(const toml::node& node, const std::string& name, const SourceText& source) {
+  ConfigValue value;
+  value.name = name;
+  value.place = source.place(node.source());
+  value.shown = source.shown(node.source());
+  node.visit([&](const auto& actual) {
+    using Node = std::decay_t<decltype(actual)>;
+    if constexpr (std::is_same_v<Node, toml::table>) {
+      value.kind = Kind::table;
+      value.is_inline = actual.is_inline();
+      if (!value.is_inline) value.shown = "a section";
+      for (const auto& [key, item] : actual) {
+        value.items.push_back(converted(item, std::string(key.str()), source));
+      }
+    } else if constexpr (std::is_same_v<Node, toml::array>) {
+      value.kind = Kind::array;
+      for (const toml::node& item : actual) value.items.push_back(converted(item, {}, source));
+    } else if constexpr (std::is_same_v<Node, toml::value<std::string>>) {
+      value.kind = Kind::text;
+      value.text = actual.get();
+    } else if constexpr (std::is_same_v<Node, toml::value<std::int64_t>>) {
+      value.kind = Kind::integer;
+      value.integer = actual.get();
+      value.number = static_cast<double>(actual.get());
+    } else if constexpr (std::is_same_v<Node, toml::value<double>>) {
+      value.kind = Kind::number;
+      value.number = actual.get();
+    } else {
+      value.kind = std::is_same_v<Node, toml::value<bool>> ? Kind::boolean : Kind::time;
+    }
+  });
+  return value;
+}
+
+/// Sections are merged, all else is replaced.
+void lay_over(ConfigValue& below, const ConfigValue& above) {
+  for (const ConfigValue& item : above.items) {
+    const auto same = std::find_if(below.items.begin(), below.items.end(),
+                                   [&](const ConfigValue& one) { return one.name == item.name; });
+    if (same == below.items.end()) {
+      below.items.push_back(item);
+    } else if (item.kind == Kind::table && !item.is_inline && same->kind == Kind::table) {
+      lay_over(*same, item);
+    } else {
+      *same = item;
+    }
+  }
+}
+
+ConfigValue parsed(const SourceText& source, const std::string& fix, StudyFaults& faults) {
+  try {
+    return converted(toml::parse(std::string_view(source.text())), {}, source);
+  } catch (const toml::parse_error& error) {
+    ConfigValue nothing;
+    nothing.place = source.place(error.source());
+    faults.add(nothing.place, std::string(error.description()),
+               "the text must be TOML (https://toml.io)", fix);
+    return nothing;
+  }
+}
+
+}  // namespace
+
+const ConfigValue* ConfigValue::find(const std::string& key) const {
+  if (kind != Kind::table) return nullptr;
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const ConfigValue& item) { return item.name == key; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+ConfigValue parse_config(const std::string& file, const std::string& text,
+                         const std::vector<std::string>& settings, StudyFaults& faults) {
+  ConfigValue config = parsed({text, {.file = file}}, "correct this line", faults);
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    const Place place{.file = "--set", .setting = static_cast<int>(k) + 1};
+    const std::string fix =
+        "write " + settings[k] +
+        " as key.path=value, text in quotes of its own: --set 'particle.scan=\"nut.stl\"'";
+    lay_over(config, parsed({settings[k], place}, fix, faults));
+  }
+  return config;
+}
+
+}  // namespace repose::dem

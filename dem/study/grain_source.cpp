@@ -1,0 +1,43 @@
+#include "dem/study/grain_source.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace repose::dem {
+namespace {
+
+std::string text_of(const CalliperSizes& sizes) {
+  constexpr double kMillimetres = 1e3;
+  return fmt::format("calliper sizes {:g} x {:g} x {:g} mm, tip {:g}",
+                     sizes.length_m * kMillimetres, sizes.width_m * kMillimetres,
+                     sizes.thickness_m * kMillimetres, sizes.tip_share);
+}
+
+ClumpFile filled(const Mesh& surface, const FillOptions& options) {
+  FilledClump filled = clump_of(surface, options);
+  return {.source = {}, .repairs = {}, .shape = std::move(filled.shape), .errors = filled.errors};
+}
+
+}  // namespace
+
+ClumpFile build_grain(const GrainSource& source) {
+  if (source.clump) return read_clump_file(*source.clump);
+  if (source.scan) {
+    Scan scan = read_scan(*source.scan, source.scan_unit);
+    ClumpFile clump = filled(scan.surface, source.fill);
+    clump.source = source.scan->filename().string();
+    clump.repairs = std::move(scan.repairs);
+    return clump;
+  }
+  if (!source.sizes) {
+    throw std::invalid_argument(
+        "the grain has no shape. Fix: give a scan, calliper sizes or a clump file.");
+  }
+  ClumpFile clump = filled(calliper_surface(*source.sizes), source.fill);
+  clump.source = text_of(*source.sizes);
+  return clump;
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,109 @@
+#include "dem/study/read_contact.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "dem/study/rolling_name.h"
+
+namespace repose::dem {
+namespace {
+
+// What ContactTable accepts; textbook restitutions below .01 cannot be told from 0.
+constexpr Range kRestitution = from_to(.01, 1);
+constexpr Range kFriction = from_to(0, 100);
+
+void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
+                 const std::string& example, Coefficient& coefficient) {
+  if (bounds.has("value")) {
+    bounds.faults().add(whole.place, fmt::format("{} = {}", bounds.path(), whole.shown),
+                        "either a number or bounds, not both", "for example " + example);
+    return;
+  }
+  const auto min = bounds.number("min", range, example);
+  const auto max = bounds.number("max", range, example);
+  for (const char* key : {"min", "max"}) {
+    if (bounds.has(key)) continue;
+    bounds.faults().add(bounds.place(), fmt::format("{}.{} is missing", bounds.path(), key),
+                        "both bounds, or a number", "for example " + example);
+  }
+  bounds.refuse_others();
+  if (!min || !max) return;
+  coefficient.min = *min;
+  coefficient.max = *max;
+  if (*min >= *max) {
+    bounds.faults().add(bounds.place(), fmt::format("{} = {}", bounds.path(), whole.shown),
+                        "min below max", "swap them, or give one number");
+  }
+}
+
+Coefficient read_coefficient(Section& pair, const std::string& key, const Range& range,
+                             const std::string& number) {
+  const std::string bounds = fmt::format("{} = {{ min = 0.1, max = 0.6 }}", key);
+  const std::string rule = range.rule() + ", or bounds to find it in";
+  const std::string example = fmt::format("{} = {} or {}", key, number, bounds);
+  Coefficient coefficient;
+  const ConfigValue* value = pair.value(key);
+  if (value == nullptr) {
+    if (pair.exists()) pair.missing(key, rule, example);
+  } else if (value->kind == ConfigValue::Kind::table) {
+    read_bounds(pair.section(key), *value, range, example, coefficient);
+  } else {
+    coefficient.value = pair.number(key, range, example);
+  }
+  return coefficient;
+}
+
+/// A pair that is missing is told once, not key by key.
+CoefficientSet read_pair(Section& contact, const std::string& key) {
+  if (contact.exists() && !contact.has(key)) {
+    contact.faults().add(
+        contact.place(), fmt::format("section [{}] is missing", contact.full(key)),
+        "every pair has its coefficients, known or to be found",
+        fmt::format("add [{}] with restitution, sliding_friction and rolling_friction, each a "
+                    "number or {{ min = 0.1, max = 0.6 }}",
+                    contact.full(key)));
+  }
+  Section pair = contact.section(key);
+  CoefficientSet set{
+      .restitution = read_coefficient(pair, "restitution", kRestitution, "0.3"),
+      .sliding_friction = read_coefficient(pair, "sliding_friction", kFriction, "0.4"),
+      .rolling_friction = read_coefficient(pair, "rolling_friction", kFriction, "0.04")};
+  pair.refuse_others();
+  return set;
+}
+
+PairCoefficients values_of(const CoefficientSet& set) {
+  constexpr double kOpen = std::numeric_limits<double>::quiet_NaN();
+  return {.restitution = set.restitution.value.value_or(kOpen),
+          .sliding_friction = set.sliding_friction.value.value_or(kOpen),
+          .rolling_friction = set.rolling_friction.value.value_or(kOpen)};
+}
+
+void read_rolling_model(Section& contact, Study& study) {
+  std::string names;
+  for (const auto& [model, name] : kRollingNames) {
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
+  }
+  const auto name = contact.text("rolling_model", "rolling_model = \"constant_torque\"");
+  if (!name) return;
+  const auto model = rolling_model_named(*name);
+  if (!model) {
+    contact.wrong(*contact.value("rolling_model"), "one of " + names,
+                  "for example rolling_model = \"constant_torque\"");
+  }
+  study.bench.rolling = model.value_or(study.bench.rolling);
+}
+
+}  // namespace
+
+void read_contact(Section contact, Study& study) {
+  read_rolling_model(contact, study);
+  study.particle_wall = read_pair(contact, "particle_wall");
+  study.particle_particle = read_pair(contact, "particle_particle");
+  study.bench.grain_wall = values_of(study.particle_wall);
+  study.bench.grain_grain = values_of(study.particle_particle);
+  contact.refuse_others();
+}
+
+}  // namespace repose::dem

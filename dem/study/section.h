@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem/study/config.h"
+#include "dem/study/study_faults.h"
+
+namespace repose::dem {
+
+/// Which numbers are allowed.
+struct Range {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+  bool excludes_from = false;
+  bool excludes_to = false;
+
+  bool contains(double value) const;  ///< never NaN or infinite
+  std::string rule() const;           ///< "a number above 0 and at most 100"
+};
+
+constexpr Range above(double from, double to = std::numeric_limits<double>::infinity()) {
+  return {.from = from, .to = to, .excludes_from = true};
+}
+constexpr Range from_to(double from, double to) { return {.from = from, .to = to}; }
+constexpr Range from_to_below(double from, double to) {
+  return {.from = from, .to = to, .excludes_to = true};
+}
+
+/// One table of a study, read key by key. StudyFaults are noted, not thrown; a value at fault reads
+/// as if it were not there.
+class Section {
+ public:
+  /// @param table  null when the study does not have it.
+  Section(const ConfigValue* table, std::string path, const Place& otherwise, StudyFaults& faults);
+
+  bool exists() const { return table_ != nullptr; }
+  const Place& place() const { return place_; }
+  const std::string& path() const { return path_; }
+  StudyFaults& faults() const { return *faults_; }
+
+  /// @param example  what a right line looks like: "height_mm = 500"
+  std::optional<double> number(const std::string& key, const Range& range,
+                               const std::string& example);
+  std::optional<std::int64_t> integer(const std::string& key, std::int64_t from, std::int64_t to,
+                                      const std::string& example);
+  std::optional<std::string> text(const std::string& key, const std::string& example);
+  std::optional<std::vector<double>> numbers(const std::string& key, const Range& range,
+                                             const std::string& example);
+  std::optional<std::vector<std::string>> texts(const std::string& key, const std::string& example);
+  /// A fault when it is missing.
+  double needed_number(const std::string& key, const Range& range, const std::string& example);
+
+  /// A section within this one.
+  Section section(const std::string& key);
+  /// Any value; null when it is not there.
+  const ConfigValue* value(const std::string& key);
+  bool has(const std::string& key) const;
+
+  void missing(const std::string& key, const std::string& rule, const std::string& example) const;
+  void wrong(const ConfigValue& value, const std::string& rule, const std::string& fix) const;
+  std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+  /// To be called when all keys have been asked for: the others are faults.
+  void refuse_others() const;
+
+ private:
+  bool is_number(const ConfigValue& value, const Range& range, const std::string& example) const;
+
+  const ConfigValue* table_;
+  std::string path_;
+  Place place_;
+  StudyFaults* faults_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace repose::dem

@@ -1,0 +1,163 @@
+#include "dem/study/study.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dem/study/read_contact.h"
+#include "dem/study/read_experiments.h"
+#include "dem/study/read_particle.h"
+#include "dem/study/study_hash.h"
+
+namespace repose::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestStudy_bytes = 1 << 20;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string study_text(const fs::path& file) {
+  const auto refuse = [&file](const char* what, const char* fix) {
+    throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
+  };
+  std::error_code error;
+  if (!fs::exists(file, error)) refuse("there is no such file", "correct the name.");
+  if (!fs::is_regular_file(file, error)) refuse("is no file", "name a study file (TOML).");
+  if (fs::file_size(file, error) > kLargestStudy_bytes) {
+    refuse("is larger than 1 MiB, which no study file is", "name a study file (TOML).");
+  }
+  if (!std::ifstream(file)) refuse("cannot be read", "look at the file's permissions.");
+  return text_of(file);
+}
+
+/// A section that every study has.
+Section needed_section(Section& study, const std::string& key, const std::string& rule,
+                       const std::string& example) {
+  if (!study.has(key)) {
+    study.faults().add({.file = study.place().file, .line = 1, .column = 1},
+                       fmt::format("section [{}] is missing", key), rule, "add " + example);
+  }
+  return study.section(key);
+}
+
+void read_simulation(Section simulation, Study& study) {
+  const auto fraction =
+      simulation.number("timestep_fraction", above(0, 1), "timestep_fraction = 1");
+  study.bench.timestep_fraction = fraction.value_or(study.bench.timestep_fraction);
+  study.bench.timestep_s = simulation.number("timestep_s", above(0, 1), "timestep_s = 1e-5");
+  if (simulation.has("timestep_fraction") && simulation.has("timestep_s")) {
+    simulation.wrong(*simulation.value("timestep_s"), "timestep_fraction or timestep_s, not both",
+                     "take one of them out");
+  }
+  constexpr std::int64_t kMostReplicates = 100'000, kMostThreads = 1024;
+  if (const auto count = simulation.integer("replicates", 1, kMostReplicates, "replicates = 5")) {
+    study.replicates = static_cast<int>(*count);
+  }
+  if (const auto seed =
+          simulation.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), "seed = 1")) {
+    study.seed = static_cast<std::uint64_t>(*seed);
+  }
+  if (const auto threads = simulation.integer("threads", 1, kMostThreads, "threads = 2")) {
+    study.threads = static_cast<int>(*threads);
+    study.bench.threads = *study.threads;
+  }
+  simulation.refuse_others();
+}
+
+void read_sections(Section root, const fs::path& folder, Study& study) {
+  read_particle(needed_section(root, "particle", "a study has a particle",
+                               "[particle] with size_mm = [22.5, 18.2, 17.5] (or scan, or clump), "
+                               "density_kg_m3, young_modulus_pa and poisson_ratio"),
+                folder, study);
+  read_wall(needed_section(root, "wall", "a study has walls",
+                           "[wall] with young_modulus_pa = 2.1e11 and poisson_ratio = 0.3"),
+            study);
+  read_contact(needed_section(root, "contact", "a study has coefficients of contact",
+                              "[contact.particle_wall] and [contact.particle_particle], each with "
+                              "restitution, sliding_friction and rolling_friction"),
+               study);
+  Section experiments = needed_section(root, "experiment", "a study has an experiment or more",
+                                       "[experiment.drop], [experiment.tilt], [experiment.roll] or "
+                                       "[experiment.heap]; all their keys have usual values");
+  read_experiments(experiments, folder, study);
+  read_simulation(root.section("simulation"), study);
+  root.refuse_others();
+}
+
+/// "contact.particle_wall.restitution" and so on, for those without a value.
+void add_open(const CoefficientSet& set, const std::string& pair, std::vector<std::string>& names) {
+  for (const auto& [coefficient, name] : {std::pair(&set.restitution, "restitution"),
+                                          {&set.sliding_friction, "sliding_friction"},
+                                          {&set.rolling_friction, "rolling_friction"}}) {
+    if (!coefficient->value) names.push_back(fmt::format("contact.{}.{}", pair, name));
+  }
+}
+
+double stiffness_of(const Study& study, Experiment experiment) {
+  switch (experiment) {
+    case Experiment::drop:
+      return study.drop_stiffness;
+    case Experiment::tilt:
+      return study.tilt_stiffness;
+    case Experiment::roll:
+      return study.roll_stiffness;
+    case Experiment::heap:
+      break;
+  }
+  return study.heap_stiffness;
+}
+
+}  // namespace
+
+Study read_study(const fs::path& file, const std::vector<std::string>& settings) {
+  const std::string text = study_text(file);
+  StudyFaults faults;
+  const ConfigValue config = parse_config(file.string(), text, settings, faults);
+  faults.throw_if_any();  // with a file half read, every other key would be missing
+  Study study;
+  study.file = file;
+  read_sections({&config, {}, {.file = file.string()}, faults}, file.parent_path(), study);
+  faults.throw_if_any();
+
+  std::vector<std::string> parts = {text};
+  parts.insert(parts.end(), settings.begin(), settings.end());
+  for (const auto& shape : {study.grain.scan, study.grain.clump}) {
+    if (shape) parts.push_back(text_of(*shape));
+  }
+  study.hash = fingerprint(parts);
+  return study;
+}
+
+std::vector<std::string> open_coefficients(const Study& study, Experiment experiment) {
+  std::vector<std::string> names;
+  add_open(study.particle_wall, "particle_wall", names);
+  if (experiment == Experiment::heap) add_open(study.particle_particle, "particle_particle", names);
+  return names;
+}
+
+Bench bench_for(const Study& study, Experiment experiment) {
+  Bench bench = study.bench;
+  bench.stiffness_factor = stiffness_of(study, experiment);
+  if (experiment != Experiment::heap) {
+    const auto close = [](double& open, double value) {
+      if (std::isnan(open)) open = value;
+    };
+    close(bench.grain_grain.restitution, bench.grain_wall.restitution);
+    close(bench.grain_grain.sliding_friction, bench.grain_wall.sliding_friction);
+    close(bench.grain_grain.rolling_friction, bench.grain_wall.rolling_friction);
+  }
+  return bench;
+}
+
+}  // namespace repose::dem

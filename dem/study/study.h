@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem/experiment/experiment.h"
+#include "dem/study/grain_source.h"
+
+namespace repose::dem {
+
+/// A coefficient that is known, or one to be found between two bounds.
+struct Coefficient {
+  std::optional<double> value;
+  double min = 0;  ///< of use only without a value
+  double max = 0;
+};
+
+struct CoefficientSet {
+  Coefficient restitution;
+  Coefficient sliding_friction;
+  Coefficient rolling_friction;
+};
+
+/// What was measured on the bench: readings, or their mean and scatter, or pictures to measure.
+/// All empty: nothing was. In the unit of the experiment (mm or degrees).
+struct Measured {
+  std::vector<double> values;
+  std::optional<double> mean;
+  std::optional<double> sd;
+  std::optional<int> count;
+  std::vector<std::filesystem::path> pictures;
+};
+
+enum class Experiment { drop, tilt, roll, heap };
+
+/// A study file: the particle, the walls, what is known and what is sought, the experiments.
+struct Study {
+  std::filesystem::path file;
+  /// Fingerprint of the text, the settings and the scan or clump file: a UUID made from their bytes
+  /// (RFC 4122, version 5). The same study, the same fingerprint.
+  std::string hash;
+  /// Coefficients that are to be found are NaN in it. `bench.grain` is empty: reading takes no
+  /// time, making spheres does; `study.bench.grain = build_grain(study.grain).shape` when needed.
+  Bench bench;
+  GrainSource grain;
+  CoefficientSet particle_wall;
+  CoefficientSet particle_particle;
+  std::optional<DropProtocol> drop;
+  std::optional<TiltProtocol> tilt;
+  std::optional<RollProtocol> roll;
+  std::optional<HeapProtocol> heap;
+  Measured drop_measured, tilt_measured, roll_measured, heap_measured;
+  /// Stiffness factor of each experiment; 1 unless the file says otherwise.
+  double drop_stiffness = 1, tilt_stiffness = 1, roll_stiffness = 1, heap_stiffness = 1;
+  int replicates = 1;
+  std::uint64_t seed = 1;
+  std::optional<int> threads;  ///< when the file says how many
+};
+
+/// Reads a study file (TOML). `settings` are "key.path=value" pairs that replace or add values, the
+/// value as in TOML; files named in them are looked for beside the study file, like all others.
+///
+/// Throws std::invalid_argument with every fault of the file: line, column, value, rule, fix. Those
+/// of a setting are called "--set:N:column", N counting the settings from 1.
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+/// Names ("contact.particle_wall.restitution") of the coefficients that an experiment needs and the
+/// study leaves to be found. Grains touch each other only in a heap; the others need no
+/// coefficients between grains.
+std::vector<std::string> open_coefficients(const Study& study, Experiment experiment);
+
+/// The bench as one experiment needs it: its stiffness factor, and coefficients without effect in
+/// it (see open_coefficients) set to something where the study leaves them open.
+Bench bench_for(const Study& study, Experiment experiment);
+
+}  // namespace repose::dem

@@ -1,0 +1,112 @@
+#include "dem/verify/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dem/verify/trial.h"
+
+namespace repose::dem {
+namespace {
+
+/// Top of the parabola through three equally spaced samples around the greatest.
+double peak_of(const std::vector<double>& samples) {
+  const auto top = std::max_element(samples.begin(), samples.end());
+  if (top == samples.begin() || top + 1 == samples.end()) return *top;
+  const double slope = (top[1] - top[-1]) / 2;
+  const double bend = top[1] - 2 * top[0] + top[-1];
+  return bend < 0 ? *top - slope * slope / (2 * bend) : *top;
+}
+
+}  // namespace
+
+SimulationSetup scene_of(const ClumpShape& shape, const Material& grain, const Material& wall,
+                         const PairCoefficients& pair, RollingModel rolling) {
+  return {.kinds = {{.shape = shape, .material = 0}},
+          .walls = {},
+          .contacts = ContactTable({grain, wall}, {pair, pair, pair, pair}, rolling),
+          .gravity = Vector::Zero()};
+}
+
+SimulationSetup ball_scene(const PairCoefficients& pair, RollingModel rolling) {
+  const Material rubber{
+      .name = "rubber", .density_kg_m3 = 1000, .young_modulus_pa = 5e7, .poisson_ratio = .3};
+  return scene_of(sphere_shape(kBallRadius_m), rubber, rubber, pair, rolling);
+}
+
+ClumpShape block_shape(const Vector& half_size, double sphere_radius) {
+  ClumpShape shape;
+  const Vector corner = half_size - Vector::Constant(sphere_radius);
+  for (const double x : {-corner.x(), corner.x()}) {
+    for (const double y : {-corner.y(), corner.y()}) {
+      for (const double z : {-corner.z(), corner.z()}) {
+        shape.spheres.push_back({.centre = {x, y, z}, .radius = sphere_radius});
+      }
+    }
+  }
+  shape.volume_m3 = 8 * half_size.prod();
+  const Vector squares = half_size.cwiseAbs2();
+  shape.gyration_m2 = (Vector::Constant(squares.sum()) - squares) / 3;
+  return shape;
+}
+
+Wall tilted_plane(double tilt_rad) {
+  Wall wall;
+  wall.shape = Plane{};
+  wall.material = 1;
+  wall.pose.orientation = Eigen::AngleAxisd(tilt_rad, Vector::UnitY());
+  return wall;
+}
+
+Grain resting_sphere(const SimulationSetup& setup, double tilt_rad) {
+  const ClumpShape& shape = setup.kinds[0].shape;
+  const double radius = shape.spheres[0].radius;
+  const double weight = shape.volume_m3 * setup.contacts.material(0).density_kg_m3 *
+                        setup.gravity.norm() * std::cos(tilt_rad);
+  const double young = setup.contacts.law(0, 1).reduced_young_pa;
+  const double overlap = std::pow(3 * weight / (4 * young * std::sqrt(radius)), 2.0 / 3);
+  const Vector up(std::sin(tilt_rad), 0, std::cos(tilt_rad));
+  Grain grain;
+  grain.position = up * (radius - overlap);
+  return grain;
+}
+
+Vector downhill(double tilt_rad) { return {std::cos(tilt_rad), 0, -std::sin(tilt_rad)}; }
+
+Collision collide(Simulation& simulation, const Vector& away, double radius) {
+  std::vector<double> overlaps = {0};
+  std::vector<double> pushes = {0};
+  do {
+    simulation.advance(1);
+    overlaps.push_back(simulation.deepest_overlap() * radius);
+    pushes.push_back(simulation.force_n(0).dot(away));
+  } while (overlaps.back() > 0 || overlaps.size() < 4);
+  // The first and the last overlap change as fast as those next to them.
+  const auto first = static_cast<std::size_t>(
+      std::find_if(overlaps.begin(), overlaps.end(), [](double overlap) { return overlap > 0; }) -
+      overlaps.begin());
+  const std::size_t last = overlaps.size() - 2;
+  const double before = overlaps[first] / (overlaps[first + 1] - overlaps[first]);
+  const double after = overlaps[last] / (overlaps[last - 1] - overlaps[last]);
+  const double steps = before + static_cast<double>(last - first) + after;
+  return {.after = simulation.grain(0),
+          .deepest_m = peak_of(overlaps),
+          .peak_n = peak_of(pushes),
+          .pull_n = std::max(0.0, -*std::min_element(pushes.begin(), pushes.end())),
+          .duration_s = steps * simulation.setup().timestep_s};
+}
+
+Collision strike_wall(Trial& trial, SimulationSetup setup, const Vector& velocity,
+                      const Vector& spin) {
+  setup.walls = {tilted_plane(0)};
+  const double radius = setup.kinds[0].shape.spheres[0].radius;
+  Simulation simulation = trial.simulate(setup, velocity.norm());
+  Grain grain;
+  grain.position.z() = radius;
+  grain.velocity = velocity;
+  grain.spin = spin;
+  simulation.add(grain);
+  return collide(simulation, Vector::UnitZ(), radius);
+}
+
+}  // namespace repose::dem

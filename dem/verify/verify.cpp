@@ -1,0 +1,61 @@
+#include "dem/verify/verify.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "dem/verify/cases.h"
+
+namespace repose::dem {
+namespace {
+
+std::vector<VerifyCase> all_cases() {
+  std::vector<VerifyCase> all;
+  for (const auto& topic : {impact_cases(), oblique_cases(), kharaz_cases(), motion_cases(),
+                            rolling_cases(), rotation_cases(), conservation_cases()}) {
+    all.insert(all.end(), topic.begin(), topic.end());
+  }
+  return all;
+}
+
+std::vector<CaseResult> run(const VerifyCase& which) {
+  std::vector<CaseResult> results;
+  for (const double share : {1.0, .5}) {
+    Trial trial(which, share);
+    which.run(trial);
+    results.insert(results.end(), trial.results().begin(), trial.results().end());
+  }
+  return results;
+}
+
+}  // namespace
+
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  for (const VerifyCase& each : all_cases()) names.push_back(each.name);
+  return names;
+}
+
+std::vector<CaseResult> run_case(const std::string& name) {
+  const std::vector<VerifyCase> cases = all_cases();
+  const auto found = std::find_if(cases.begin(), cases.end(),
+                                  [&name](const VerifyCase& each) { return each.name == name; });
+  if (found == cases.end()) {
+    throw std::invalid_argument("case " + name +
+                                ": there is none of this name. Fix: one of those "
+                                "that case_names() lists.");
+  }
+  return run(*found);
+}
+
+std::vector<CaseResult> run_cases(const ProgressCallback& progress) {
+  const std::vector<VerifyCase> cases = all_cases();
+  std::vector<CaseResult> results;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const std::vector<CaseResult> some = run(cases[k]);
+    results.insert(results.end(), some.begin(), some.end());
+    if (progress) progress(k + 1, cases.size());
+  }
+  return results;
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,262 @@
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/cli/run_program.h"
+
+namespace repose::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::UnorderedElementsAre;
+using Words = std::vector<std::string>;
+
+/// Soft, two spheres to a grain, short ways: a run takes a fraction of a second.
+constexpr const char* kStudy = R"([particle]
+size_mm = [22.5, 18.2, 17.5]
+spheres = 2
+density_kg_m3 = 850
+young_modulus_pa = 1e7
+poisson_ratio = 0.38
+[wall]
+young_modulus_pa = 1e9
+poisson_ratio = 0.3
+[contact.particle_wall]
+restitution = 0.5
+sliding_friction = 0.4
+rolling_friction = 0.1
+[contact.particle_particle]
+restitution = { min = 0.01, max = 0.4 }
+sliding_friction = 0.2
+rolling_friction = 0.04
+[experiment.drop]
+height_mm = 50
+grains = 2
+measured = { values = [9.1, 9.7, 9.4] }
+[experiment.roll]
+release_mm = 20
+[experiment.heap]
+grains = 40
+)";
+
+class Simulate : public ::testing::Test {
+ protected:
+  Simulate() { folder_.write("study.toml", std::string(kStudy)); }
+
+  Finished run(const Words& words) const {
+    Words all = {"simulate"};
+    all.insert(all.end(), words.begin(), words.end());
+    return run_repose(folder_, all);
+  }
+  /// The result without what a clock measured.
+  json result(Words words) const {
+    words.insert(words.end(), {"--json", "-"});
+    const Finished finished = run(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    json result = json::parse(finished.out);
+    for (json& repeat : result["repeats"]) {
+      repeat.erase("wall_s");
+      repeat.erase("clump_steps_per_s");
+    }
+    return result;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Simulate, ADropGivesAValueAndWhatItBelongsTo) {
+  const Finished finished = run({"drop", "study.toml", "--repeats", "2"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_THAT(finished.err, IsEmpty()) << "no progress where there is no terminal";
+  EXPECT_THAT(finished.out,
+              AllOf(HasSubstr("95 % interval of the mean"), HasSubstr("measured 9.400 mm"),
+                    HasSubstr("lowest_point_rise_mm"), HasSubstr("constant_torque"),
+                    HasSubstr("2 spheres"), HasSubstr("stiffness factor")));
+}
+
+TEST_F(Simulate, OneRepeatHasNoInterval) {
+  EXPECT_THAT(run({"roll", "study.toml"}).out,
+              AllOf(HasSubstr("n = 1, which has no scatter"), Not(HasSubstr("95 %"))));
+  EXPECT_TRUE(result({"roll", "study.toml"})["interval"].is_null());
+}
+
+TEST_F(Simulate, JsonHasTheContractsKeys) {
+  const Finished finished = run({"drop", "study.toml", "--repeats", "2", "--json", "-"});
+  const json drop = json::parse(finished.out);
+  EXPECT_EQ(drop["experiment"], "drop");
+  EXPECT_EQ(drop["unit"], "mm");
+  ASSERT_EQ(drop["repeats"].size(), 2U);
+  const double a = drop["repeats"][0]["value"], b = drop["repeats"][1]["value"];
+  EXPECT_NE(a, b) << "seeds differ";
+  EXPECT_DOUBLE_EQ(drop["value"].get<double>(), (a + b) / 2);
+  EXPECT_LT(drop["interval"][0], drop["value"]);
+  EXPECT_GT(drop["interval"][1], drop["value"]);
+  for (const char* key : {"seed", "value", "wall_s", "steps", "clump_steps_per_s", "timestep_s",
+                          "state", "readings"}) {
+    EXPECT_TRUE(drop["repeats"][0].contains(key)) << key;
+  }
+  EXPECT_TRUE(drop["repeats"][0]["state"].is_null());
+  EXPECT_EQ(drop["clump"]["spheres"], 2);
+  EXPECT_EQ(drop["stiffness_factor"], 1);
+  EXPECT_EQ(drop["rolling_model"], "constant_torque");
+  EXPECT_EQ(drop["measured"]["n"], 3);
+  EXPECT_NEAR(drop["measured"]["mean"].get<double>(), 9.4, 1e-12);
+  EXPECT_EQ(drop["study"]["hash"].get<std::string>().size(), 36U);
+  EXPECT_THAT(drop["program"].get<std::string>(), HasSubstr("repose "));
+}
+
+TEST_F(Simulate, ThreadsDoNotChangeTheResult) {
+  for (const char* repeats : {"1", "3"}) {
+    EXPECT_EQ(result({"roll", "study.toml", "--repeats", repeats, "--threads", "1"}),
+              result({"roll", "study.toml", "--repeats", repeats, "--threads", "3"}));
+  }
+}
+
+TEST_F(Simulate, RepeatsTakeSeedsThatFollow) {
+  const json both = result({"drop", "study.toml", "--seed", "8", "--repeats", "2"});
+  EXPECT_EQ(both["repeats"][0]["seed"], 8);
+  EXPECT_EQ(both["repeats"][1], result({"drop", "study.toml", "--seed", "9"})["repeats"][0]);
+}
+
+TEST_F(Simulate, SettingsReachTheRun) {
+  const json usual = result({"drop", "study.toml"});
+  const json hard = result({"drop", "study.toml", "--set", "contact.particle_wall.restitution=0.9",
+                            "--set", "contact.rolling_model=\"none\""});
+  EXPECT_GT(hard["value"], usual["value"]);
+  EXPECT_EQ(hard["rolling_model"], "none");
+  EXPECT_EQ(hard["study"]["settings"][0], "contact.particle_wall.restitution=0.9");
+  EXPECT_NE(hard["study"]["hash"], usual["study"]["hash"]);
+}
+
+TEST_F(Simulate, OutHoldsStatesAndTheResult) {
+  const json printed = result({"drop", "study.toml", "--repeats", "2", "--out", "new/runs"});
+  const auto runs = folder_.path() / "new" / "runs";
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(runs)) {
+    names.push_back(entry.path().filename());
+  }
+  EXPECT_THAT(names, UnorderedElementsAre("drop_seed_1.vtp", "drop_seed_2.vtp", "result.json"));
+  EXPECT_EQ(json::parse(text_of(runs / "result.json"))["value"], printed["value"]);
+  EXPECT_EQ(printed["repeats"][0]["state"], "new/runs/drop_seed_1.vtp");
+  EXPECT_THAT(text_of(runs / "drop_seed_1.vtp"), HasSubstr("type=\"PolyData\""));
+}
+
+TEST_F(Simulate, TrajectoriesAreSeriesOfStates) {
+  EXPECT_EQ(run({"roll", "study.toml", "--out", "runs", "--trajectory-s", "0.1"}).exit_code, 0);
+  EXPECT_THAT(text_of(folder_.path() / "runs/roll_seed_1/trajectory.pvd"),
+              HasSubstr("frame_00002.vtp"));
+}
+
+TEST_F(Simulate, AllFaultsAreToldAtOnce) {
+  const Finished finished = run({"spin", "none.toml", "--seed", "-1", "--repeats", "x", "--threads",
+                                 "0", "--trajectory-s", "0", "--json", "no/x.json"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.out, IsEmpty());
+  EXPECT_THAT(finished.err,
+              AllOf(HasSubstr("simulate spin: "), HasSubstr("none.toml: there is no such file"),
+                    HasSubstr("--seed -1"), HasSubstr("--repeats x"), HasSubstr("--threads 0"),
+                    HasSubstr("--trajectory-s 0"), HasSubstr("--json no/x.json")));
+  std::istringstream lines(finished.err);
+  for (std::string line; std::getline(lines, line);) EXPECT_THAT(line, HasSubstr("Fix: "));
+}
+
+TEST_F(Simulate, FaultsOfTheStudyHaveTheirPlace) {
+  const Finished finished = run({"drop", "study.toml", "--set", "particle.poisson_ratio=0.5"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("--set:1:24: particle.poisson_ratio = 0.5. Rule: "));
+}
+
+TEST_F(Simulate, ExperimentsThatAreNotDescribedAreRefused) {
+  const Finished finished = run({"tilt", "study.toml"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("section [experiment.tilt] is missing"),
+                                  HasSubstr("--set 'experiment.tilt={}'")));
+}
+
+TEST_F(Simulate, OpenCoefficientsAreRefusedWhereTheyMatter) {
+  const Finished finished = run({"heap", "study.toml"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("--set contact.particle_particle.restitution=0.3"));
+  EXPECT_EQ(run({"roll", "study.toml"}).exit_code, 0) << "one grain touches no other";
+}
+
+TEST_F(Simulate, ARunWithoutAReadingIsNoResult) {
+  // Sliding friction that holds up to 89 degrees: the grains never slide.
+  const Finished finished =
+      run({"tilt", "study.toml", "--set", "experiment.tilt={rate_deg_s=10}", "--set",
+           "contact.particle_wall.sliding_friction=90", "--out", "runs"});
+  EXPECT_EQ(finished.exit_code, 3) << finished.err;
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("seed 1: "), HasSubstr("no result; 0 of 1")));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "runs" / "result.json"));
+}
+
+TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
+  const Words words = {"drop",  "study.toml",
+                       "--set", "experiment.drop.height_mm=0.01",
+                       "--set", "contact.particle_wall.restitution=0.01"};
+  EXPECT_THAT(run(words).err, HasSubstr("2 of 2 grains did not rise again"));
+  EXPECT_EQ(result(words)["warnings"][0]["code"], "never_rose");
+}
+
+TEST_F(Simulate, AProtocolThatCannotBeRunIsToldOnce) {
+  const Finished finished =
+      run({"drop", "study.toml", "--repeats", "3", "--set", "simulation.timestep_s=0.5"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_EQ(finished.err.find("0.5"), finished.err.rfind("0.5")) << finished.err;
+}
+
+/// Starts the program in a folder and does not wait for it.
+pid_t start_repose(const std::filesystem::path& folder, Words words) {
+  words.insert(words.begin(), REPOSE_PROGRAM);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::chdir(folder.c_str()) == 0) ::execv(REPOSE_PROGRAM, pointers.data());
+    ::_exit(127);
+  }
+  return child;
+}
+
+TEST_F(Simulate, AnInterruptionLeavesNothingHalfWritten) {
+  // Far longer than the first frame takes to appear.
+  const pid_t program = start_repose(
+      folder_.path(),
+      {"simulate", "heap", "study.toml", "--out", "runs", "--trajectory-s", "0.001", "--set",
+       "contact.particle_particle.restitution=0.2", "--set", "particle.young_modulus_pa=1e9"});
+  const auto runs = folder_.path() / "runs";
+  int status = 0;
+  while (!std::filesystem::exists(runs / "heap_seed_1" / "frame_00001.vtp")) {
+    ASSERT_EQ(::waitpid(program, &status, WNOHANG), 0) << "ended by itself";
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_EQ(::kill(program, SIGINT), 0);
+  ::waitpid(program, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(runs)) {
+    const std::string name = entry.path().filename();
+    EXPECT_THAT(name, Not(HasSubstr(".part")));
+    EXPECT_NE(name, "result.json");
+    EXPECT_NE(name, "heap_seed_1.vtp");
+    if (entry.path().extension() == ".vtp") {
+      EXPECT_THAT(text_of(entry.path()), HasSubstr("</VTKFile>"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace repose::testing

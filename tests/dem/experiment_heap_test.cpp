@@ -1,0 +1,155 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/dem/experiment_bench.h"
+
+namespace repose::dem {
+namespace {
+
+/// Soft spheres that make a heap, and a small tube of them.
+Bench soft_bench() {
+  Bench bench = test::sphere_bench();
+  bench.stiffness_factor = 1e-3;
+  bench.grain_wall = {.31, .5, .2};
+  bench.grain_grain = {.11, .5, .2};
+  return bench;
+}
+
+HeapProtocol small_tube() {
+  HeapProtocol protocol;
+  protocol.tube_diameter_m = .07;
+  protocol.tube_height_m = .1;
+  protocol.lift_speed_m_s = .1;
+  protocol.plate_m = .3;
+  return protocol;
+}
+
+TEST(Heap, FillsTheTubeAndLiftsItOff) {
+  const Repeat repeat = run_heap(soft_bench(), small_tube(), 1);
+  const auto& readings = repeat.readings;
+  // Spheres of 19.3 mm in a tube of 70 mm fill it by .40 to .60.
+  const double share = readings.at("grains") * 3.746e-6 / (std::numbers::pi * .035 * .035 * .1);
+  EXPECT_GT(share, .4);
+  EXPECT_LT(share, .6);
+  EXPECT_EQ(readings.at("grains"),
+            readings.at("grains_on_plate") + readings.at("grains_off_plate"));
+  EXPECT_EQ(readings.at("at_rest"), 1);
+  EXPECT_GT(readings.at("height_mm"), 19);
+  EXPECT_GT(repeat.value, 3);
+  EXPECT_LT(repeat.value, 60);
+  EXPECT_GT(repeat.clump_steps, 0);
+  for (int k = 0; k < repeat.state->grain_count(); ++k) {
+    if (!repeat.state->is_present(k)) continue;
+    EXPECT_GT(repeat.state->grain(k).position.z(), .009);
+  }
+}
+
+TEST(Heap, SameSeedSameBytesOnAnyNumberOfThreads) {
+  Bench bench = soft_bench();
+  HeapProtocol protocol = small_tube();
+  protocol.tube_diameter_m = .08;
+  protocol.tube_height_m = .06;
+  const Repeat one = run_heap(bench, protocol, 3);
+  bench.threads = 2;
+  const Repeat two = run_heap(bench, protocol, 3);
+  EXPECT_TRUE(test::same_state(*one.state, *two.state));
+  EXPECT_EQ(one.value, two.value);
+  EXPECT_FALSE(test::same_state(*one.state, *run_heap(bench, protocol, 4).state));
+}
+
+TEST(Heap, TakesAsManyGrainsAsAskedFor) {
+  HeapProtocol protocol = small_tube();
+  protocol.grains = 12;
+  const Repeat repeat = run_heap(soft_bench(), protocol, 1);
+  EXPECT_EQ(repeat.readings.at("grains"), 12);
+  EXPECT_EQ(repeat.readings.at("no_heap"), 1);
+}
+
+TEST(Heap, RefusesMoreGrainsThanFitAndSaysHowManyDo) {
+  HeapProtocol protocol = small_tube();
+  protocol.tube_height_m = .05;
+  protocol.grains = 1000000;
+  const std::string message =
+      test::message_of<std::invalid_argument>([&] { run_heap(soft_bench(), protocol, 1); });
+  EXPECT_NE(message.find("heap.grains is 1000000"), std::string::npos) << message;
+  EXPECT_NE(message.find("at most what fits into the tube, 2"), std::string::npos) << message;
+}
+
+TEST(Heap, GrainsThatFallOffTheEdgeAreCounted) {
+  Bench bench = soft_bench();
+  bench.grain_wall = {.31, .2, .05};
+  bench.grain_grain = {.11, .1, .05};
+  HeapProtocol protocol = small_tube();
+  protocol.plate_m = .08;
+  const Repeat repeat = run_heap(bench, protocol, 1);
+  EXPECT_GT(repeat.readings.at("grains_off_plate"), 0);
+  EXPECT_EQ(repeat.readings.at("grains"),
+            repeat.readings.at("grains_on_plate") + repeat.readings.at("grains_off_plate"));
+}
+
+TEST(Heap, GrainsThatHangInTheTubeAreNoReading) {
+  HeapProtocol protocol = small_tube();
+  protocol.tube_height_m = .06;
+  // Of this seed three spheres make an arch, and go up with the tube.
+  const std::string message =
+      test::message_of<NoReading>([&] { run_heap(soft_bench(), protocol, 3); });
+  EXPECT_NE(message.find("hang in the tube"), std::string::npos) << message;
+}
+
+TEST(Heap, RougherGrainsHeapSteeper) {
+  Bench bench = soft_bench();
+  const Repeat rough = run_heap(bench, small_tube(), 1);
+  bench.grain_wall = {.31, .2, .02};
+  bench.grain_grain = {.11, .1, .01};
+  const Repeat smooth = run_heap(bench, small_tube(), 1);
+  EXPECT_GT(rough.readings.at("height_mm"), smooth.readings.at("height_mm"));
+  EXPECT_GT(rough.value, smooth.value);
+}
+
+TEST(Heap, MayBeBrokenOff) {
+  int reports = 0;
+  EXPECT_THROW(run_heap(soft_bench(), small_tube(), 1,
+                        [&](double share, const Simulation&) {
+                          EXPECT_GE(share, 0);
+                          EXPECT_LE(share, 1);
+                          return ++reports < 5;
+                        }),
+               Interrupted);
+  EXPECT_EQ(reports, 5);
+}
+
+TEST(Heap, TellsEveryFaultAtOnce) {
+  HeapProtocol protocol;
+  protocol.tube_diameter_m = .015;
+  protocol.tube_height_m = .01;
+  protocol.tube_thickness_m = std::nan("");
+  protocol.lift_speed_m_s = 0;
+  protocol.plate_m = -1;
+  protocol.grains = 0;
+  const std::string message =
+      test::message_of<std::invalid_argument>([&] { run_heap(soft_bench(), protocol, 1); });
+  for (const char* name :
+       {"heap.tube_diameter_m is 0.015. Rule: wider than a grain", "heap.tube_height_m",
+        "heap.tube_thickness_m", "heap.lift_speed_m_s", "heap.plate_m", "heap.grains"}) {
+    EXPECT_NE(message.find(name), std::string::npos) << name << " in:\n" << message;
+  }
+}
+
+TEST(Heap, RefusesATubeWiderThanThePlate) {
+  HeapProtocol protocol;
+  protocol.plate_m = .1;
+  const std::string message =
+      test::message_of<std::invalid_argument>([&] { run_heap(soft_bench(), protocol, 1); });
+  EXPECT_NE(message.find("stands on the plate"), std::string::npos) << message;
+}
+
+TEST(Heap, RefusesALiftThatNeverEnds) {
+  HeapProtocol protocol;
+  protocol.lift_speed_m_s = 1e-6;
+  EXPECT_THROW(run_heap(soft_bench(), protocol, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace repose::dem

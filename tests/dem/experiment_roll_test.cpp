@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "tests/dem/experiment_bench.h"
+
+namespace repose::dem {
+namespace {
+
+/// Where a sphere stops by its energy: L = S (sin - mu_r cos) / mu_r, nothing lost at the corner.
+double by_energy_mm(double release_m, double rolling_friction) {
+  const double angle = 20 * std::numbers::pi / 180;
+  return 1e3 * release_m * (std::sin(angle) - rolling_friction * std::cos(angle)) /
+         rolling_friction;
+}
+
+struct RollCase {
+  double rolling_friction;
+  double liggghts_mm;  ///< the same run there
+};
+
+class SphereRoll : public testing::TestWithParam<RollCase> {};
+
+TEST_P(SphereRoll, GoesAsFarAsInAnotherEngine) {
+  Bench bench = test::sphere_bench();
+  bench.grain_wall.rolling_friction = GetParam().rolling_friction;
+  const Repeat repeat = run_roll(bench, {}, 1);
+  EXPECT_NEAR(repeat.value, GetParam().liggghts_mm, .01 * GetParam().liggghts_mm);
+  EXPECT_LT(repeat.value, by_energy_mm(.15, GetParam().rolling_friction));
+  EXPECT_NEAR(repeat.readings.at("lateral_mm"), 0, 1e-3);
+  EXPECT_EQ(repeat.readings.at("stopped_on_incline"), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Roll, SphereRoll,
+                         testing::Values(RollCase{.04, 1013}, RollCase{.08, 437},
+                                         RollCase{.17, 135}));
+
+TEST(Roll, WhatTheCornerTakesIsSmallOnAGentleSlope) {
+  Bench bench = test::sphere_bench();
+  bench.grain_wall.rolling_friction = .02;
+  const Repeat repeat = run_roll(bench, {.incline_deg = 5, .release_m = .1}, 1);
+  const double angle = 5 * std::numbers::pi / 180;
+  const double energy_mm = 100 * (std::sin(angle) - .02 * std::cos(angle)) / .02;
+  EXPECT_NEAR(repeat.value, energy_mm, .02 * energy_mm);
+}
+
+TEST(Roll, AGrainThatStaysOnTheInclineHasANegativeValue) {
+  Bench bench = test::sphere_bench();
+  bench.grain_wall.rolling_friction = .5;  // above tan 20
+  const Repeat repeat = run_roll(bench, {}, 1);
+  EXPECT_EQ(repeat.readings.at("stopped_on_incline"), 1);
+  EXPECT_NEAR(repeat.value, -150, .5);
+}
+
+TEST(Roll, AGrainThatDoesNotStopIsNoReading) {
+  Bench bench = test::sphere_bench();
+  bench.stiffness_factor = .001;
+  bench.grain_wall.rolling_friction = 0;
+  const std::string message = test::message_of<NoReading>([&] { run_roll(bench, {}, 1); });
+  EXPECT_NE(message.find("still moves"), std::string::npos) << message;
+}
+
+TEST(Roll, ClumpsComeToRestWhereTheirSeedSays) {
+  Bench bench = test::clump_bench();
+  bench.grain_wall.rolling_friction = .17;
+  const Repeat one = run_roll(bench, {}, 1);
+  bench.threads = 2;
+  const Repeat again = run_roll(bench, {}, 1);
+  EXPECT_TRUE(test::same_state(*one.state, *again.state));
+  EXPECT_EQ(one.value, again.value);
+  EXPECT_NE(one.value, run_roll(bench, {}, 2).value);
+}
+
+TEST(Roll, TellsEveryFaultAtOnce) {
+  const std::string message = test::message_of<std::invalid_argument>(
+      [&] { run_roll(test::sphere_bench(), {.incline_deg = 90, .release_m = 0}, 1); });
+  for (const char* name : {"roll.incline_deg", "roll.release_m"}) {
+    EXPECT_NE(message.find(name), std::string::npos) << name << " in:\n" << message;
+  }
+}
+
+}  // namespace
+}  // namespace repose::dem

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "dem/verify/scene.h"
+
+namespace repose::dem {
+
+/// Blocks of two sizes in a tube that stands on a plate, each in a pose of its own.
+inline SimulationSetup packing_setup(RollingModel rolling = RollingModel::elastic_plastic) {
+  const Material soft{
+      .name = "soft", .density_kg_m3 = 1000, .young_modulus_pa = 5e6, .poisson_ratio = .3};
+  SimulationSetup setup =
+      scene_of(block_shape({.010, .007, .005}, .004), soft, soft,
+               {.restitution = .3, .sliding_friction = .5, .rolling_friction = .05}, rolling);
+  setup.kinds.push_back({.shape = block_shape({.006, .005, .004}, .003), .material = 0});
+  Wall plate;
+  plate.shape = Box{.half_size = {.1, .1, .01}};
+  plate.material = 1;
+  plate.pose.position.z() = -.01;
+  Wall tube;
+  tube.shape = Tube{.inner_radius = .03, .thickness = .003, .height = .2};
+  tube.material = 1;
+  setup.walls = {plate, tube};
+  setup.gravity = {0, 0, -kStandardGravity_m_s2};
+  setup.timestep_s = 2e-5;
+  return setup;
+}
+
+/// Grain number k of a loose column, clear of the others.
+inline Grain loose_grain(int k) {
+  const Vector turn(std::sin(1.0 + k), std::sin(2.1 * k), std::cos(3.3 * k));
+  const double angle = 2.4 * k;
+  Grain grain;
+  grain.kind = k % 2;
+  grain.position = {.013 * std::cos(angle), .013 * std::sin(angle), .014 + .008 * k};
+  grain.orientation = Eigen::AngleAxisd(k, turn.normalized());
+  grain.velocity = .1 * turn;
+  grain.spin = 5 * turn;
+  return grain;
+}
+
+inline Simulation loose_packing(SimulationSetup setup, int grains) {
+  Simulation simulation(std::move(setup));
+  for (int k = 0; k < grains; ++k) simulation.add(loose_grain(k));
+  return simulation;
+}
+
+}  // namespace repose::dem

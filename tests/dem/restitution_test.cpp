@@ -1,0 +1,133 @@
+#include "dem/contact/restitution.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "dem/engine/time_step.h"
+#include "dem/verify/scene.h"
+
+namespace repose::dem {
+namespace {
+
+constexpr double kRadius = .004;
+constexpr double kSpeed = 1.5;
+
+SimulationSetup glass_on_wall(double restitution) {
+  const Material glass{
+      .name = "glass", .density_kg_m3 = 2500, .young_modulus_pa = 6e10, .poisson_ratio = .24};
+  SimulationSetup setup =
+      scene_of(sphere_shape(kRadius), glass, glass, {.restitution = restitution});
+  setup.walls = {tilted_plane(0)};
+  return setup;
+}
+
+/// A central impact whose first contact falls `late` of a step after the start.
+Collision impact(const SimulationSetup& setup, double late) {
+  Simulation simulation(setup);
+  Grain grain;
+  grain.position.z() = kRadius + late * setup.timestep_s * kSpeed;
+  grain.velocity.z() = -kSpeed;
+  simulation.add(grain);
+  return collide(simulation, Vector::UnitZ(), kRadius);
+}
+
+/// The factor -2 sqrt(5/6) ln e / sqrt(pi^2 + ln^2 e) of a contact that may pull.
+double textbook_factor(double restitution) {
+  const double log = std::log(restitution);
+  return -2 * std::sqrt(5.0 / 6) * log / std::hypot(std::numbers::pi, log);
+}
+
+TEST(Restitution, FactorAndRestitutionAreInverse) {
+  for (double e = .01; e <= 1; e += .01) {
+    EXPECT_NEAR(restitution_of(damping_factor(e)), e, 1e-6) << e;
+  }
+}
+
+TEST(Restitution, ElasticContactIsNotDamped) {
+  EXPECT_EQ(damping_factor(1), 0);
+  EXPECT_NEAR(restitution_of(0), 1, 1e-6);
+}
+
+TEST(Restitution, LessRestitutionNeedsMoreDamping) {
+  for (double e = .02; e <= 1; e += .01) EXPECT_LT(damping_factor(e), damping_factor(e - .01));
+}
+
+TEST(Restitution, OutOfRangeIsRefused) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double e : {-1.0, 0.0, .0099, 1.0001, kNan, kInfinity}) {
+    EXPECT_THROW(damping_factor(e), std::invalid_argument) << e;
+  }
+  try {
+    damping_factor(1.5);
+  } catch (const std::invalid_argument& fault) {
+    EXPECT_THAT(fault.what(), testing::HasSubstr("1.5"));
+    EXPECT_THAT(fault.what(), testing::HasSubstr("Fix:"));
+  }
+}
+
+// Why the factor is worked out anew: with the pull cut off, the textbook's returns too much.
+TEST(Restitution, TextbookFactorReturnsTooMuch) {
+  EXPECT_NEAR(restitution_of(textbook_factor(.1)), .25, .01);
+  EXPECT_NEAR(restitution_of(textbook_factor(.3)), .40, .01);
+  EXPECT_NEAR(restitution_of(textbook_factor(.5)), .55, .01);
+}
+
+TEST(Restitution, ComesOutAtEveryAcceptedTimestep) {
+  for (const double e : {.05, .1, .2, .3, .4, .5, .6, .7, .8, .9, 1.0}) {
+    SimulationSetup setup = glass_on_wall(e);
+    const double longest = accurate_timestep_s(setup, kSpeed);
+    for (const double share : {1.0, .6, .3}) {
+      setup.timestep_s = share * longest;
+      for (const double late : {0.0, .25, .5, .75}) {
+        EXPECT_NEAR(impact(setup, late).after.velocity.z() / kSpeed, e, .005)
+            << "share " << share << ", late " << late;
+      }
+    }
+  }
+}
+
+TEST(Restitution, ConvergesWithTheTimestep) {
+  for (const double e : {.05, .3, .7}) {
+    SimulationSetup setup = glass_on_wall(e);
+    setup.timestep_s = .01 * accurate_timestep_s(setup, kSpeed);
+    EXPECT_NEAR(impact(setup, .5).after.velocity.z() / kSpeed, e, 1e-4);
+  }
+}
+
+// Four equal contacts side by side: four times the stiffness and the damper, so twice the factor.
+TEST(Restitution, BlockThatLandsOnFourSpheresRisesLess) {
+  const Material wood{
+      .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e8, .poisson_ratio = .3};
+  for (const double e : {.3, .5, .8}) {
+    SimulationSetup setup =
+        scene_of(block_shape({.02, .02, .01}, .005), wood, wood, {.restitution = e});
+    setup.walls = {tilted_plane(0)};
+    setup.timestep_s = .1 * accurate_timestep_s(setup, 1);
+    Simulation simulation(setup);
+    Grain block;
+    block.position.z() = .01;
+    block.velocity.z() = -1;
+    simulation.add(block);
+    const double out = collide(simulation, Vector::UnitZ(), .005).after.velocity.z();
+    EXPECT_NEAR(out, restitution_of(2 * damping_factor(e)), .002);
+    EXPECT_LT(out, e - .05);
+  }
+}
+
+TEST(Restitution, ContactNeverPulls) {
+  for (const double e : {.05, .2, .5, .9, 1.0}) {
+    SimulationSetup setup = glass_on_wall(e);
+    for (const double share : {1.0, .3}) {
+      setup.timestep_s = share * accurate_timestep_s(setup, kSpeed);
+      EXPECT_EQ(impact(setup, .3).pull_n, 0) << e;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace repose::dem

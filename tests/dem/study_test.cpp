@@ -1,0 +1,347 @@
+#include "dem/study/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace repose::dem {
+namespace {
+
+using repose::testing::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+const std::string kParticle = R"([particle]
+size_mm = [22.48, 18.23, 17.46]
+density_kg_m3 = 851
+young_modulus_pa = 1.254e9
+poisson_ratio = 0.38
+)";
+const std::string kWall = R"([wall]
+young_modulus_pa = 2.1e11
+poisson_ratio = 0.3
+)";
+const std::string kContact = R"([contact.particle_wall]
+restitution = 0.31
+sliding_friction = 0.39
+rolling_friction = 0.04
+[contact.particle_particle]
+restitution = 0.11
+sliding_friction = 0.21
+rolling_friction = 0.04
+)";
+const std::string kDrop = "[experiment.drop]\n";
+const std::string kStudy = kParticle + kWall + kContact + kDrop;
+
+using Settings = std::vector<std::string>;
+
+class StudyFile : public ::testing::Test {
+ protected:
+  Study read(const std::string& text, const Settings& settings = {}) const {
+    return read_study(folder_.write("study.toml", text), settings);
+  }
+  /// What is wrong, without the folder's name; empty when nothing is.
+  std::string faults(const std::string& text, const Settings& settings = {}) const {
+    try {
+      read(text, settings);
+    } catch (const std::invalid_argument& fault) {
+      std::string all = fault.what();
+      const std::string folder = folder_.path().string() + "/";
+      for (std::size_t at = 0; (at = all.find(folder)) != std::string::npos;) {
+        all.erase(at, folder.size());
+      }
+      return all;
+    }
+    return {};
+  }
+  TemporaryFolder folder_;
+};
+
+std::size_t lines(const std::string& text) {
+  return text.empty() ? 0
+                      : static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+}
+
+TEST_F(StudyFile, TheSmallestStudyHasTheUsualValues) {
+  const Study study = read(kStudy);
+  EXPECT_DOUBLE_EQ(study.grain.sizes->length_m, .02248);
+  EXPECT_DOUBLE_EQ(study.grain.sizes->tip_share, 0);
+  EXPECT_EQ(study.grain.fill.spheres, 11);
+  EXPECT_EQ(study.bench.rolling, RollingModel::constant_torque);
+  EXPECT_EQ(study.bench.grain_wall.restitution, .31);
+  EXPECT_EQ(study.bench.grain_grain.sliding_friction, .21);
+  EXPECT_DOUBLE_EQ(study.drop->height_m, .5);
+  EXPECT_FALSE(study.heap);
+  EXPECT_TRUE(study.drop_measured.values.empty() && !study.drop_measured.mean);
+  EXPECT_EQ(study.replicates, 1);
+  EXPECT_EQ(study.seed, 1U);
+  EXPECT_FALSE(study.threads);
+}
+
+TEST_F(StudyFile, EveryKeyReachesItsPlaceInSiUnits) {
+  folder_.write("nut.stl", std::string("solid"));
+  const Study study = read(R"(
+[particle]
+name = "nut"
+scan = "nut.stl"
+unit = "m"
+volume_error = 0.04
+density_kg_m3 = 851
+young_modulus_pa = 1e9
+poisson_ratio = 0.38
+[wall]
+name = "steel"
+density_kg_m3 = 7000
+young_modulus_pa = 2e11
+poisson_ratio = 0
+[contact]
+rolling_model = "elastic_plastic"
+particle_wall = { restitution = 0.01, sliding_friction = 0, rolling_friction = { min = 0, max = 0.2 } }
+particle_particle = { restitution = 1, sliding_friction = 2, rolling_friction = 0.1 }
+[experiment]
+drop = { height_mm = 250, grains = 3, stiffness_factor = 0.5, measured = { values = [9, 9.5] } }
+tilt = { bonded = 3, rate_deg_s = 1, start_deg = 5, measured = { mean = 22.7, sd = 1, n = 10 } }
+roll = { incline_deg = 15, release_mm = 100 }
+[experiment.heap]
+tube_diameter_mm = 80
+tube_height_mm = 300
+tube_thickness_mm = 3
+lift_speed_mm_s = 20
+plate_mm = 350
+plate_thickness_mm = 4
+grains = 50
+measured = { pictures = ["nut.stl"] }
+[simulation]
+timestep_s = 1e-6
+replicates = 4
+seed = 9
+threads = 3
+)");
+  EXPECT_EQ(study.grain.scan, folder_.path() / "nut.stl") << "beside the study file";
+  EXPECT_EQ(study.grain.scan_unit, ScanUnit::metre);
+  EXPECT_EQ(study.grain.fill.volume_error, .04);
+  EXPECT_EQ(study.bench.wall_material.name, "steel");
+  EXPECT_EQ(study.bench.rolling, RollingModel::elastic_plastic);
+  EXPECT_EQ(study.particle_wall.rolling_friction.max, .2);
+  EXPECT_TRUE(std::isnan(study.bench.grain_wall.rolling_friction)) << "to be found";
+  EXPECT_DOUBLE_EQ(study.drop->height_m, .25);
+  EXPECT_EQ(study.drop->grains, 3);
+  EXPECT_EQ(study.drop_stiffness, .5);
+  EXPECT_THAT(study.drop_measured.values, ElementsAre(9, 9.5));
+  EXPECT_EQ(study.tilt->bonded, 3);
+  EXPECT_EQ(study.tilt->start_deg, 5);
+  EXPECT_EQ(study.tilt_measured.count, 10);
+  EXPECT_DOUBLE_EQ(study.roll->release_m, .1);
+  EXPECT_DOUBLE_EQ(study.heap->tube_diameter_m, .08);
+  EXPECT_DOUBLE_EQ(study.heap->lift_speed_m_s, .02);
+  EXPECT_DOUBLE_EQ(study.heap->plate_thickness_m, .004);
+  EXPECT_EQ(study.heap->grains, 50);
+  EXPECT_THAT(study.heap_measured.pictures, ElementsAre(folder_.path() / "nut.stl"));
+  EXPECT_EQ(study.bench.timestep_s, 1e-6);
+  EXPECT_EQ(study.replicates, 4);
+  EXPECT_EQ(study.threads, 3);
+}
+
+TEST_F(StudyFile, AllFaultsAreToldAtOnceInOrderWithLineAndColumn) {
+  const std::string all = faults(R"([particle]
+size_mm = [22.48, -1, nan]
+density_kg_m3 = 0
+young_modulus_pa = "soft"
+poisson_ratio = 0.5
+[wall]
+young_modulus_pa = inf
+[contact.particle_wall]
+restitution = 1.01
+sliding_friction = -0.1
+rolling_friction = { min = 0.2, max = 0.1 }
+[experiment.drop]
+grains = 2.5
+[simulation]
+timestep_fraction = 0
+seed = -1
+)");
+  EXPECT_THAT(
+      all,
+      AllOf(HasSubstr("study.toml:2:19: particle.size_mm = -1. Rule: "),
+            HasSubstr("study.toml:2:23: particle.size_mm = nan. Rule: "),
+            HasSubstr("study.toml:3:17: particle.density_kg_m3 = 0. Rule: a number above 0. Fix: "),
+            HasSubstr("study.toml:4:20: particle.young_modulus_pa = \"soft\". Rule: a number"),
+            HasSubstr("study.toml:5:17: particle.poisson_ratio = 0.5. Rule: a number of at least 0 "
+                      "and below 0.5. Fix: "),
+            HasSubstr("study.toml:7:20: wall.young_modulus_pa = inf")));
+  EXPECT_THAT(
+      all, AllOf(HasSubstr("study.toml:6:1: wall.poisson_ratio is missing"),
+                 HasSubstr("study.toml:9:15: contact.particle_wall.restitution = 1.01"),
+                 HasSubstr("study.toml:10:20: contact.particle_wall.sliding_friction = -0.1"),
+                 HasSubstr("study.toml:11:20: contact.particle_wall.rolling_friction = { min = "
+                           "0.2, max = 0.1 }. Rule: "),
+                 HasSubstr("section [contact.particle_particle] is missing"),
+                 HasSubstr("study.toml:13:10: experiment.drop.grains = 2.5. Rule: a whole number"),
+                 HasSubstr("study.toml:15:21: simulation.timestep_fraction = 0"),
+                 HasSubstr("study.toml:16:8: simulation.seed = -1")));
+  EXPECT_EQ(lines(all), 14U) << all;
+  EXPECT_LT(all.find(":2:19"), all.find(":16:8"));
+}
+
+TEST_F(StudyFile, EveryFaultSaysHowToMendIt) {
+  const std::string all = faults("[particle]\nspheres = 0\n[walls]\nx = 1\n");
+  std::istringstream stream(all);
+  for (std::string line; std::getline(stream, line);) {
+    EXPECT_THAT(line, AllOf(HasSubstr("study.toml:"), HasSubstr(". Rule: "), HasSubstr(". Fix: ")));
+  }
+}
+
+TEST_F(StudyFile, UnknownKeysAreRefusedWithTheLikelyOne) {
+  const std::string all =
+      faults(kStudy + "heigth_mm = 3\nqqq = 1\n[simulation]\ntimestep = 1\n[extra]\na = 1\n");
+  EXPECT_THAT(all, AllOf(HasSubstr("did you mean height_mm?"),
+                         HasSubstr("experiment.drop.qqq = 1: there is no such key. Rule: keys of "
+                                   "[experiment.drop] are height_mm"),
+                         HasSubstr("did you mean timestep_s?"), HasSubstr("extra = a section")));
+  EXPECT_EQ(lines(all), 4U) << all;
+}
+
+TEST_F(StudyFile, MissingSectionsSayWhatToAdd) {
+  const std::string all = faults("");
+  EXPECT_THAT(
+      all, AllOf(HasSubstr("section [particle] is missing"), HasSubstr("section [wall] is missing"),
+                 HasSubstr("section [contact] is missing"),
+                 HasSubstr("section [experiment] is missing"), HasSubstr("Fix: add ")));
+  EXPECT_EQ(lines(all), 4U) << all;
+}
+
+TEST_F(StudyFile, ShapesAreExactlyOne) {
+  EXPECT_THAT(faults(kStudy, {"particle.clump = \"study.toml\""}),
+              HasSubstr("one shape only, and there is size_mm already"));
+  EXPECT_THAT(faults("[particle]\ndensity_kg_m3 = 1\nyoung_modulus_pa = 1\npoisson_ratio = 0\n" +
+                     kWall + kContact + kDrop),
+              HasSubstr("particle has no shape"));
+  EXPECT_THAT(faults(kStudy, {"particle.spheres = 3", "particle.volume_error = 0.1"}),
+              HasSubstr("spheres or volume_error, not both"));
+  EXPECT_THAT(faults(kStudy, {"particle.unit = \"mm\""}), HasSubstr("only a scan has a unit"));
+  EXPECT_THAT(faults(kStudy, {"particle.size_mm = [1, 2]"}),
+              HasSubstr("length, width and thickness"));
+}
+
+TEST_F(StudyFile, FilesThatAreNotThereAreSaid) {
+  std::string text = kStudy;
+  text.replace(text.find("size_mm"), text.find('\n', text.find("size_mm")) - text.find("size_mm"),
+               "scan = \"none.stl\"");
+  EXPECT_THAT(faults(text), AllOf(HasSubstr("study.toml:2:8: particle.scan = \"none.stl\". Rule: "),
+                                  HasSubstr("particle.unit is missing")));
+  EXPECT_THROW(read_study(folder_.path() / "no.toml"), std::invalid_argument);
+  EXPECT_THROW(read_study(folder_.path()), std::invalid_argument);
+}
+
+TEST_F(StudyFile, ValueAndBoundsTogetherAreRefused) {
+  const std::string key = "contact.particle_wall.restitution = ";
+  EXPECT_THAT(faults(kStudy, {key + "{ value = 0.3, min = 0.1, max = 0.6 }"}),
+              HasSubstr("either a number or bounds, not both"));
+  EXPECT_THAT(faults(kStudy, {key + "{ min = 0.1 }"}), HasSubstr("restitution.max is missing"));
+  EXPECT_THAT(faults(kStudy, {key + "{ min = 0, max = 0.6 }"}), HasSubstr("restitution.min = 0"));
+  EXPECT_THAT(faults(kStudy, {key + "{ min = 0.1, max = 0.1 }"}), HasSubstr("min below max"));
+}
+
+TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
+  const std::string key = "experiment.drop.measured = ";
+  EXPECT_THAT(faults(kStudy, {key + "{ values = [9], mean = 9 }"}),
+              HasSubstr("more than one kind"));
+  EXPECT_THAT(faults(kStudy, {key + "{ }"}), HasSubstr("has no values"));
+  EXPECT_THAT(faults(kStudy, {key + "{ values = [9], sd = 1 }"}), HasSubstr("belong to a mean"));
+  EXPECT_THAT(faults(kStudy, {key + "{ mean = 9, sd = -1, n = 0 }"}),
+              AllOf(HasSubstr("measured.sd = -1"), HasSubstr("measured.n = 0")));
+  EXPECT_THAT(faults(kStudy, {key + "{ pictures = [\"study.toml\"] }"}), HasSubstr("only heaps"));
+  EXPECT_THAT(faults(kStudy, {key + "9.42"}), HasSubstr("a section with keys"));
+}
+
+TEST_F(StudyFile, TextThatIsNoTomlIsSaidWithItsPlace) {
+  EXPECT_THAT(faults("[particle]\nsize_mm = [1, 2\nname = 'x'\n"),
+              AllOf(HasSubstr("study.toml:3:"), HasSubstr("Rule: the text must be TOML")));
+  EXPECT_THAT(faults(kStudy + kDrop), HasSubstr("study.toml:18:")) << "a section given twice";
+  EXPECT_NE(faults(std::string("\0\xff\xfe", 3)), "");
+}
+
+TEST_F(StudyFile, SettingsReplaceAndAddValues) {
+  const Study study = read(
+      kStudy, {"contact.particle_wall.restitution = { min = 0.1, max = 0.5 }",
+               "contact.particle_wall.restitution.min = 0.2", "experiment.heap.grains=30",
+               "contact.rolling_model=\"none\"", "simulation.seed = 1", "simulation.seed = 7"});
+  EXPECT_FALSE(study.particle_wall.restitution.value);
+  EXPECT_EQ(study.particle_wall.restitution.min, .2);
+  EXPECT_EQ(study.particle_wall.restitution.max, .5);
+  EXPECT_EQ(study.heap->grains, 30);
+  EXPECT_TRUE(study.drop) << "the file's own sections stay";
+  EXPECT_EQ(study.bench.rolling, RollingModel::none);
+  EXPECT_EQ(study.seed, 7U) << "the last one counts";
+}
+
+TEST_F(StudyFile, FaultsOfSettingsAreCalledBySetting) {
+  EXPECT_THAT(faults(kStudy, {"simulation.seed = 3", "simulation.replicates = 0"}),
+              HasSubstr("--set:2:25: simulation.replicates = 0. Rule: "));
+  EXPECT_THAT(faults(kStudy, {"contact.rolling_model = none"}),
+              AllOf(HasSubstr("--set:1:"), HasSubstr("in quotes"), Not(HasSubstr("missing"))));
+  EXPECT_THAT(faults(kStudy, {"particle"}), HasSubstr("--set:1:"));
+  EXPECT_THAT(faults(kStudy, {"particle.densty_kg_m3 = 1"}),
+              HasSubstr("did you mean density_kg_m3?"));
+  EXPECT_THAT(faults(kStudy, {"particle.density_kg_m3.x = 1"}), HasSubstr("Rule: "));
+}
+
+TEST_F(StudyFile, FingerprintsTellStudiesApart) {
+  const std::string hash = read(kStudy).hash;
+  EXPECT_EQ(hash.size(), 36U);
+  EXPECT_EQ(read(kStudy).hash, hash);
+  EXPECT_NE(read(kStudy + " ").hash, hash);
+  EXPECT_NE(read(kStudy, {"simulation.seed = 1"}).hash, hash);
+}
+
+TEST_F(StudyFile, OpenCoefficientsAreNamedWhereTheyMatter) {
+  const Study study = read(kStudy, {"contact.particle_wall.restitution = { min = 0.1, max = 0.5 }",
+                                    "contact.particle_particle.sliding_friction = {min=0,max=1}"});
+  EXPECT_THAT(open_coefficients(study, Experiment::drop),
+              ElementsAre("contact.particle_wall.restitution"));
+  EXPECT_THAT(open_coefficients(study, Experiment::heap),
+              ElementsAre("contact.particle_wall.restitution",
+                          "contact.particle_particle.sliding_friction"));
+  EXPECT_FALSE(std::isnan(bench_for(study, Experiment::roll).grain_grain.sliding_friction));
+  EXPECT_TRUE(std::isnan(bench_for(study, Experiment::heap).grain_grain.sliding_friction));
+}
+
+TEST(HazelnutStudy, IsThePublishedOne) {
+  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  const Study study = read_study(root / "samples/hazelnut/study.toml");
+  EXPECT_EQ(study.bench.grain_material.density_kg_m3, 851);
+  EXPECT_EQ(study.bench.grain_wall.restitution, .31);
+  EXPECT_EQ(study.bench.grain_grain.restitution, .11);
+  EXPECT_EQ(study.drop_measured.mean, 9.42);
+  EXPECT_EQ(study.tilt_measured.mean, 22.70);
+  EXPECT_EQ(study.roll_measured.mean, 322.81);
+  EXPECT_EQ(study.heap_measured.sd, .72);
+  EXPECT_EQ(study.heap->grains, 455);
+  for (const Experiment experiment :
+       {Experiment::drop, Experiment::tilt, Experiment::roll, Experiment::heap}) {
+    EXPECT_THAT(open_coefficients(study, experiment), IsEmpty());
+  }
+}
+
+TEST_F(StudyFile, GrainsAreBuiltFromSizes) {
+  const Study study = read(kStudy, {"particle.spheres = 3"});
+  const ClumpFile grain = build_grain(study.grain);
+  EXPECT_EQ(grain.shape.spheres.size(), 3U);
+  // An ellipsoid of these sizes, less what the polyhedron lacks.
+  EXPECT_NEAR(grain.shape.volume_m3, M_PI / 6 * 22.48e-3 * 18.23e-3 * 17.46e-3, 2e-8);
+  EXPECT_THAT(grain.source, HasSubstr("22.48 x 18.23 x 17.46 mm"));
+  EXPECT_THROW(build_grain({}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace repose::dem

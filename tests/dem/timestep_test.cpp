@@ -1,0 +1,162 @@
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "dem/engine/time_step.h"
+#include "dem/engine/unstable_run.h"
+#include "tests/dem/packing.h"
+
+namespace repose::dem {
+namespace {
+
+using testing::HasSubstr;
+
+SimulationSetup ball_on_plane(double friction) {
+  SimulationSetup setup = ball_scene({.restitution = .5, .sliding_friction = friction});
+  setup.walls = {tilted_plane(0)};
+  setup.gravity = {0, 0, -kStandardGravity_m_s2};
+  setup.timestep_s = 1e-6;
+  return setup;
+}
+
+/// What advancing throws, or "".
+std::string instability(Simulation& simulation, std::int64_t steps) {
+  try {
+    simulation.advance(steps);
+  } catch (const UnstableRun& fault) {
+    return fault.what();
+  }
+  return {};
+}
+
+TEST(AccurateTimestep, FallsWithSpeedAndStiffnessAsTheHertzDurationDoes) {
+  const SimulationSetup setup = ball_on_plane(.5);
+  const double one = accurate_timestep_s(setup, .1);
+  EXPECT_NEAR(accurate_timestep_s(setup, 3.2) / one, .5, 1e-9);  // v^-1/5
+  Material stiff = setup.contacts.material(0);
+  stiff.young_modulus_pa *= 32;
+  const SimulationSetup hard =
+      scene_of(setup.kinds[0].shape, stiff, stiff, setup.contacts.pair(0, 0));
+  EXPECT_NEAR(accurate_timestep_s(hard, .1) / one, .25, 1e-9);  // E^-2/5
+}
+
+TEST(AccurateTimestep, SmallestGrainDecides) {
+  SimulationSetup setup = ball_on_plane(.5);
+  const double one = accurate_timestep_s(setup, .1);
+  setup.kinds.push_back({.shape = sphere_shape(kBallRadius_m / 4), .material = 0});
+  EXPECT_NEAR(accurate_timestep_s(setup, .1) / one, .25, 1e-9);  // proportional to the radius
+}
+
+TEST(AccurateTimestep, LongerStepsAreRefused) {
+  const SimulationSetup setup = ball_on_plane(.5);
+  const double longest = accurate_timestep_s(setup, .1);
+  EXPECT_NO_THROW(check_timestep(longest, setup, .1));
+  try {
+    check_timestep(1.01 * longest, setup, .1);
+    FAIL() << "was accepted";
+  } catch (const std::invalid_argument& fault) {
+    EXPECT_THAT(fault.what(),
+                AllOf(HasSubstr("timestep_s is"), HasSubstr("Rule: at most"), HasSubstr("Fix:")));
+  }
+}
+
+TEST(StableTimestep, NoContactsSetNoLimit) {
+  Simulation simulation(ball_on_plane(.5));
+  Grain ball;
+  ball.position.z() = 1;
+  simulation.add(ball);
+  simulation.advance(1);
+  EXPECT_FALSE(simulation.stable_timestep_s().has_value());
+}
+
+TEST(StableTimestep, BallOnAFrictionlessPlaneSwingsAsHertzSays) {
+  const SimulationSetup setup = ball_on_plane(0);
+  Simulation simulation(setup);
+  simulation.add(resting_sphere(setup, 0));
+  simulation.advance(1);
+  const double overlap = simulation.deepest_overlap() * kBallRadius_m;
+  const double stiffness =
+      2 * setup.contacts.law(0, 1).reduced_young_pa * std::sqrt(kBallRadius_m * overlap);
+  EXPECT_NEAR(*simulation.stable_timestep_s(), 2 / std::sqrt(stiffness / simulation.mass_kg(0)),
+              1e-12);
+}
+
+// Tangentially a ball swings about its contact: 1/m_eff = 1/m + r^2 / (2/5 m r^2) = 7/2 / m.
+TEST(StableTimestep, FrictionAddsTheSwingAboutTheContact) {
+  const SimulationSetup setup = ball_on_plane(.5);
+  Simulation simulation(setup);
+  simulation.add(resting_sphere(setup, 0));
+  simulation.advance(1);
+  const double overlap = simulation.deepest_overlap() * kBallRadius_m;
+  const double stiffness =
+      8 * setup.contacts.law(0, 1).reduced_shear_pa * std::sqrt(kBallRadius_m * overlap);
+  const double expected = 2 / std::sqrt(3.5 * stiffness / simulation.mass_kg(0));
+  EXPECT_NEAR(*simulation.stable_timestep_s(), expected, 2e-3 * expected);
+}
+
+TEST(StableTimestep, SettledPackingStaysAtRestAtTheAcceptedStep) {
+  SimulationSetup setup = packing_setup();
+  setup.timestep_s = accurate_timestep_s(setup, 1);
+  Simulation simulation = loose_packing(setup, 16);
+  const double fall_j = simulation.mass_kg(0) * kStandardGravity_m_s2 * .001;
+  const auto settle = [&simulation](double until_s, double rest_j) {
+    do {
+      simulation.advance(100);
+    } while (simulation.time_s() < until_s && simulation.energies().kinetic_j > rest_j);
+    return simulation.time_s();
+  };
+  const double settled = settle(3, 1e-9 * fall_j);
+  ASSERT_LT(settled, 3);
+  ASSERT_GT(simulation.contacts().size(), 30U);
+  EXPECT_GT(*simulation.stable_timestep_s(), setup.timestep_s);
+  std::vector<Vector> rest;
+  for (int k = 0; k < 16; ++k) rest.push_back(simulation.grain(k).position);
+  settle(settled + .3, 0);
+  EXPECT_LT(simulation.energies().kinetic_j, 1e-9 * fall_j);
+  for (int k = 0; k < 16; ++k) {
+    EXPECT_LT((simulation.grain(k).position - rest[static_cast<std::size_t>(k)]).norm(), 1e-6);
+  }
+}
+
+TEST(Audit, TooLongAStepIsCaughtByItsContacts) {
+  SimulationSetup setup = ball_on_plane(.5);
+  Simulation probe(setup);
+  probe.add(resting_sphere(setup, 0));
+  probe.advance(1);
+  setup.timestep_s = 1.2 * *probe.stable_timestep_s();
+  setup.audit_steps = 1;
+  Simulation simulation(setup);
+  simulation.add(resting_sphere(setup, 0));
+  EXPECT_THAT(instability(simulation, 100), HasSubstr("Fix: a shorter time step"));
+}
+
+TEST(Audit, PackingAtTooLongAStepIsCaught) {
+  SimulationSetup setup = packing_setup();
+  setup.timestep_s = 20 * accurate_timestep_s(setup, 1);
+  setup.audit_steps = 20;
+  Simulation simulation = loose_packing(setup, 16);
+  EXPECT_THAT(instability(simulation, 20000), HasSubstr("the run went unstable"));
+}
+
+TEST(Audit, DeepOverlapIsCaught) {
+  SimulationSetup setup = ball_on_plane(.5);
+  setup.audit_steps = 1;
+  Simulation simulation(setup);
+  Grain ball;
+  ball.position.z() = .6 * kBallRadius_m;
+  simulation.add(ball);
+  EXPECT_THAT(instability(simulation, 1), HasSubstr("% of a radius"));
+}
+
+TEST(Audit, QuietRunPasses) {
+  SimulationSetup setup = packing_setup();
+  setup.timestep_s = accurate_timestep_s(setup, 1);
+  setup.audit_steps = 10;
+  Simulation simulation = loose_packing(setup, 8);
+  EXPECT_EQ(instability(simulation, 5000), "");
+}
+
+}  // namespace
+}  // namespace repose::dem
