@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "dem/contact/contact_table.h"
 #include "dem/vector.h"
@@ -20,11 +21,11 @@ struct Touch {
   Vector normal;       ///< unit, from a to b
   double overlap = 0;  ///< m, > 0
   double reduced_radius = 0;
-  double reduced_mass = 0;  ///< of the whole bodies
-  int touching = 1;         ///< contacts that these two bodies have at once
-  Vector half_velocity;     ///< half a step back: what the springs were stretched by
-  Vector velocity;          ///< now: what the dampers feel
-  double twist = 0;         ///< mean spin of both about the normal, rad/s
+  double reduced_mass = 0;      ///< of the whole bodies
+  double damper_limit = 1e300;  ///< see damper_limit(), N s/m
+  Vector half_velocity;         ///< half a step back: what the springs were stretched by
+  Vector velocity;              ///< now: what the dampers feel
+  double twist = 0;             ///< mean spin of both about the normal, rad/s
 };
 
 /// The force on a; b gets the opposite.
@@ -33,9 +34,15 @@ struct ContactForce {
   Vector total;       ///< N
 };
 
-/// All dampers of two bodies together take at most this share of the relative velocity in a step.
-/// One contact stays below it at every accepted time step; a dozen sphere pairs of two clumps that
-/// lie side by side would not. Across the contact spin counts too: 1/m_eff = 3.5/m* for spheres.
+/// The damper that would take all of the relative velocity in one step, shared by the `touching`
+/// contacts of two bodies: an explicit damper must stay below it, or it overshoots.
+inline double damper_limit(double reduced_mass, double timestep, std::size_t touching) {
+  return reduced_mass / (timestep * static_cast<double>(touching));
+}
+
+/// All dampers of two bodies together are at most this share of the limit. One contact stays below
+/// it at every accepted time step; a dozen sphere pairs of two clumps that lie side by side would
+/// not. Across the contact spin counts too: 1/m_eff = 3.5/m* for spheres.
 inline constexpr double kNormalDamperShare = .8;
 inline constexpr double kTangentialDamperShare = .25;
 
@@ -77,11 +84,10 @@ inline constexpr double kTangentialDamperShare = .25;
   const double normal_stiffness = 2 * law.reduced_young_pa * a;
   const double tangential_stiffness = 8 * law.reduced_shear_pa * a;
   const double root = std::sqrt(normal_stiffness * touch.reduced_mass);
-  // An explicit damper overshoots when a step takes more than all of the velocity.
-  const double share = touch.reduced_mass / (timestep * touch.touching);
-  const double normal_damper = std::min(law.normal_damping * root, kNormalDamperShare * share);
+  const double normal_damper =
+      std::min(law.normal_damping * root, kNormalDamperShare * touch.damper_limit);
   const double tangential_damper =
-      std::min(law.tangential_damping * root, kTangentialDamperShare * share);
+      std::min(law.tangential_damping * root, kTangentialDamperShare * touch.damper_limit);
 
   const double approach = -touch.velocity.dot(n);
   ContactForce force;

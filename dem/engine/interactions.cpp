@@ -1,5 +1,7 @@
 #include "dem/engine/interactions.h"
 
+#include <boost/container/static_vector.hpp>
+
 #include "dem/engine/contact_force.h"
 #include "dem/engine/parallel.h"
 #include "dem/engine/rolling.h"
@@ -124,13 +126,13 @@ void ContactStep::add_contacts(const NearGrains& pair, std::span<const std::size
   Vector sum = Vector::Zero();
   Touch touch;
   touch.reduced_mass = reduced(bodies.mass[a], bodies.mass[b]);
-  touch.touching = static_cast<int>(touching.size());
+  touch.damper_limit = damper_limit(touch.reduced_mass, timestep_s, touching.size());
   for (const std::size_t k : touching) {
     const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(list.spheres[k].a)];
     const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(list.spheres[k].b)];
     const Vector apart = sphere_b.centre - sphere_a.centre;
     const double distance = apart.norm();
-    touch.normal = apart / distance;
+    touch.normal = apart * (1 / distance);
     touch.overlap = sphere_a.radius + sphere_b.radius - distance;
     touch.reduced_radius = reduced(sphere_a.radius, sphere_b.radius);
     const Vector arm =
@@ -169,20 +171,20 @@ WallLoad ContactStep::load(const NearWall& pair, NeighbourList& list) const {
   if (walls.has_facets(pair.wall)) hand_over_memories(pair, list);
   const auto first = static_cast<std::size_t>(pair.first);
   const auto end = first + static_cast<std::size_t>(pair.count);
-  std::array<WallTouch, kBatch> touching;
-  for (std::size_t from = first; from < end; from += kBatch) {
-    std::size_t count = 0;
-    for (std::size_t k = from; k < std::min(end, from + kBatch); ++k) {
+  boost::container::static_vector<WallTouch, kWallBatch> touching;
+  for (std::size_t from = first; from < end; from += kWallBatch) {
+    touching.clear();
+    for (std::size_t k = from; k < std::min(end, from + kWallBatch); ++k) {
       const auto at = static_cast<std::size_t>(list.facets[k].sphere);
       const FacetContact facet =
           walls.contact(pair.wall, list.facets[k].facet, bodies.spheres[at].centre);
       if (facet.distance < bodies.spheres[at].radius) {
-        touching[count++] = {.near = k, .facet = facet};
+        touching.push_back({.near = k, .facet = facet});
       } else if (list.wall_memories[k].radius > 0) {
         list.wall_memories[k] = {};  // what has parted forgets
       }
     }
-    add_contacts(pair, {touching.data(), count}, list, load);
+    if (!touching.empty()) add_contacts(pair, {touching.data(), touching.size()}, list, load);
   }
   return load;
 }
@@ -218,7 +220,7 @@ void ContactStep::add_contacts(const NearWall& pair, std::span<const WallTouch> 
   const Vector centre = bodies.position[a];
   Touch touch;
   touch.reduced_mass = bodies.mass[a];
-  touch.touching = static_cast<int>(touching.size());
+  touch.damper_limit = damper_limit(touch.reduced_mass, timestep_s, touching.size());
   for (const auto& [near, facet] : touching) {
     const PlacedSphere& sphere = bodies.spheres[static_cast<std::size_t>(list.facets[near].sphere)];
     ContactMemory& memory = list.wall_memories[near];

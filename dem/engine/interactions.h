@@ -49,6 +49,7 @@ struct ContactStep {
 
  private:
   static constexpr std::size_t kBatch = 256;
+  static constexpr std::size_t kWallBatch = 32;
 
   int material(int body) const;
   /// Numbers of the near spheres from ... to - 1 that touch; returns how many.

@@ -43,6 +43,9 @@ Closest closest(const Tube& tube, const Vector& point) {
   const double from_axis = std::sqrt(point.x() * point.x() + point.y() * point.y());
   const Vector outwards =
       from_axis > 0 ? Vector(point.x() / from_axis, point.y() / from_axis, 0) : Vector::UnitX();
+  if (from_axis <= tube.inner_radius && point.z() >= 0 && point.z() <= tube.height) {
+    return {.distance = tube.inner_radius - from_axis, .normal = -outwards};
+  }
   const Point half(tube.thickness / 2, tube.height / 2);
   const Point middle(tube.inner_radius + half.x(), half.y());
   const auto [distance, normal] = nearest_on_box<Point>(half, Point(from_axis, point.z()) - middle);

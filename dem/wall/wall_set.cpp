@@ -11,6 +11,7 @@ WallSet::WallSet(std::vector<Wall> walls)
     : walls_(std::move(walls)),
       moments_(walls_.size()),
       axes_(walls_.size()),
+      is_turned_(walls_.size()),
       meshes_(walls_.size()) {
   for (std::size_t k = 0; k < walls_.size(); ++k) {
     if (const auto* surface = std::get_if<MeshSurface>(&walls_[k].shape)) {
@@ -24,6 +25,7 @@ void WallSet::move_to(double time_s) {
   for (std::size_t k = 0; k < walls_.size(); ++k) {
     moments_[k] = wall_at(walls_[k], time_s);
     axes_[k] = moments_[k].pose.orientation.toRotationMatrix();
+    is_turned_[k] = axes_[k] != Eigen::Matrix3d::Identity();
   }
 }
 
@@ -70,11 +72,14 @@ FacetContact WallSet::contact(int wall, int facet, const Vector& point) const {
         }
       },
       walls_[k].shape);
+  if (!is_turned_[k]) return {.distance = spot.distance, .normal = spot.normal};
   return {.distance = spot.distance, .normal = axes_[k] * spot.normal};
 }
 
 Vector WallSet::in_frame_of(std::size_t wall, const Vector& point) const {
-  return axes_[wall].transpose() * (point - moments_[wall].pose.position);
+  const Vector shifted = point - moments_[wall].pose.position;
+  if (!is_turned_[wall]) return shifted;
+  return axes_[wall].transpose() * shifted;
 }
 
 }  // namespace repose::dem

@@ -46,6 +46,7 @@ class WallSet {
   std::vector<Wall> walls_;
   std::vector<WallMoment> moments_;
   std::vector<Eigen::Matrix3d> axes_;
+  std::vector<char> is_turned_;  ///< whether the axes are others than the world's
   std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< empty for plain walls
 };
 
