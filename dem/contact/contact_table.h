@@ -8,10 +8,10 @@ namespace repose::dem {
 
 /// The constants of Hertz-Mindlin contact between two materials, worked out once.
 struct ContactLaw {
-  double reduced_young_pa = 0;         ///< E*: 1/E* = sum (1 - nu^2) / E
-  double reduced_shear_pa = 0;         ///< G*: 1/G* = sum 2 (2 - nu)(1 + nu) / E
-  double normal_damping = 0;           ///< factor on sqrt(S_n m*) v_n, S_n = 2 E* sqrt(R* delta)
-  double tangential_damping = 0;     ///< factor on sqrt(S_n m*) v_t
+  double reduced_young_pa = 0;    ///< E*: 1/E* = sum (1 - nu^2) / E
+  double reduced_shear_pa = 0;    ///< G*: 1/G* = sum 2 (2 - nu)(1 + nu) / E
+  double normal_damping = 0;      ///< factor on sqrt(S_n m*) v_n, S_n = 2 E* sqrt(R* delta)
+  double tangential_damping = 0;  ///< factor on sqrt(S_n m*) v_t
   double sliding_friction = 0;
   double rolling_friction = 0;
 };

@@ -29,7 +29,8 @@ const std::array<Module, 5> kModules = {{
 }};
 
 /// Libraries that users of an installed header need not have.
-constexpr std::array<std::string_view, 3> kHiddenLibraries = {"opencv2/", "ceres/", "tbb/"};
+constexpr std::array<std::string_view, 7> kHiddenLibraries = {
+    "opencv2/", "ceres/", "tbb/", "assimp/", "toml++/", "pugixml", "nlohmann/"};
 
 struct Include {
   int line = 0;

@@ -1,10 +1,13 @@
 #include <cstdint>
 #include <iostream>
 
+#include <repose/dem/engine/simulation.h>
 #include <repose/vision/repose_angle.h>
 
+namespace {
+
 /// A white picture holds no heap: the library must say so and give no number.
-int main() {
+bool refuses_a_blank_picture() {
   constexpr int kWidth = 320;
   constexpr int kHeight = 240;
   const repose::vision::Picture blank{
@@ -15,5 +18,25 @@ int main() {
   const repose::vision::ReposeAngle result = repose::vision::measure_repose_angle(blank);
   std::cout << "blank picture: " << result.reason << '\n';
   const bool refused = result.status == repose::vision::MeasureStatus::refused;
-  return refused && !result.angle_rad && !result.reason.empty() ? 0 : 1;
+  return refused && !result.angle_rad && !result.reason.empty();
 }
+
+/// A ball in free fall.
+bool falls() {
+  using namespace repose::dem;
+  const ContactTable contacts(
+      {{.name = "glass", .density_kg_m3 = 2500, .young_modulus_pa = 1e8, .poisson_ratio = .25}},
+      {PairCoefficients{}}, RollingModel::none);
+  SimulationSetup setup{.kinds = {{sphere_shape(.01), 0}}, .contacts = contacts};
+  setup.timestep_s = 1e-4;
+  Simulation simulation(setup);
+  simulation.add({});
+  simulation.advance(1000);
+  const double fallen_m = -simulation.grain(0).position.z();
+  std::cout << "fallen in .1 s: " << fallen_m << " m\n";
+  return fallen_m > .049 && fallen_m < .0491;
+}
+
+}  // namespace
+
+int main() { return refuses_a_blank_picture() && falls() ? 0 : 1; }

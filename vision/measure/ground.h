@@ -15,7 +15,7 @@ struct Ground : PictureLine {
   double deviation_rad = 0;        ///< standard uncertainty of its tilt
   std::optional<double> bow = {};  ///< how far the base bows downwards, as a share of its width;
                                    ///< empty when the base is not seen
-  bool mirrored = false;  ///< it is the axis of a reflection
+  bool mirrored = false;           ///< it is the axis of a reflection
 };
 
 /// Finds the ground below one region: bare ground beside the heap when the region holds the ground,
