@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
-#include "cli/suggestion.h"
+#include "dem/study/suggestion.h"
 
 namespace repose::cli {
 namespace {
@@ -46,7 +46,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
 std::string unknown_word(const CLI::App& app, const std::string& usage, const std::string& word) {
   const bool is_option = word.starts_with('-');
   const auto known = is_option ? option_names(app) : command_names(app);
-  const std::string guess = closest(word.substr(0, word.find('=')), known);
+  const std::string guess = dem::closest_word(word.substr(0, word.find('=')), known);
   return fmt::format("{} is no {} of {}. {}Fix: see {} --help.", word,
                      is_option ? "option" : "command", usage,
                      guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), usage);
