@@ -1,14 +1,13 @@
 #include "cli/measure.h"
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "cli/interrupt.h"
 #include "cli/measure_batch.h"
 #include "cli/measure_csv.h"
 #include "cli/measure_json.h"
@@ -20,19 +19,6 @@
 
 namespace repose::cli {
 namespace {
-
-std::atomic<bool> is_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
-
-/// The first Ctrl-C stops after the pictures at work, the second one at once.
-void on_interrupt(int signal) {
-  is_interrupted = true;
-  std::signal(signal, SIG_DFL);
-}
-
-void print_all(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) fmt::print(stderr, "repose: {}\n", line);
-}
 
 void print_faults(const std::vector<MeasuredPicture>& pictures) {
   for (const MeasuredPicture& picture : pictures) {
@@ -90,12 +76,11 @@ ExitCode exit_code(const std::vector<MeasuredPicture>& pictures) {
 
 ExitCode run_measure(const MeasureArguments& arguments) {
   const MeasurePlan plan = plan_measure(arguments);
-  print_all(plan.faults);
+  print_lines(plan.faults);
   if (!plan.faults.empty()) return ExitCode::bad_input;
-  print_all(plan.notes);
+  print_lines(plan.notes);
 
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const std::vector<MeasuredPicture> pictures = measure_batch(plan, is_interrupted);
   if (is_interrupted) {
     fmt::print(stderr, "repose: interrupted, no results were written\n");

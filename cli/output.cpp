@@ -4,6 +4,8 @@
 #include <span>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "vision/whole_file.h"
 
 namespace repose::cli {
@@ -19,6 +21,10 @@ void write_output(const std::string& file, std::string_view text) {
         "standard output: cannot be written. Fix: look whether the disk is full or the program "
         "that reads it has ended.");
   }
+}
+
+void print_lines(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) fmt::print(stderr, "repose: {}\n", line);
 }
 
 }  // namespace repose::cli

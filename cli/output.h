@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace repose::cli {
 
@@ -11,5 +12,8 @@ inline constexpr std::string_view kStandardOutput = "-";
 /// Writes to a file, whole or not at all, or to standard output.
 /// @throws std::invalid_argument  when it cannot be written.
 void write_output(const std::string& file, std::string_view text);
+
+/// Faults and notes: to standard error, each with the program's name before it.
+void print_lines(const std::vector<std::string>& lines);
 
 }  // namespace repose::cli

@@ -61,7 +61,7 @@ void write_results(const dem::ClumpFile& clump, const ShapeArguments& arguments,
 
 ExitCode run_shape(const ShapeArguments& arguments) {
   const ShapePlan plan = plan_shape(arguments);
-  for (const std::string& fault : plan.faults) fmt::print(stderr, "repose: {}\n", fault);
+  print_lines(plan.faults);
   if (!plan.faults.empty()) return ExitCode::bad_input;
 
   dem::Scan scan = grain(arguments, plan);

@@ -1,13 +1,12 @@
 #include "cli/simulate.h"
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <set>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/simulate_json.h"
 #include "cli/simulate_options.h"
@@ -18,19 +17,6 @@
 
 namespace repose::cli {
 namespace {
-
-std::atomic<bool> is_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
-
-/// The first Ctrl-C breaks the runs off in good order, the second one at once.
-void on_interrupt(int signal) {
-  is_interrupted = true;
-  std::signal(signal, SIG_DFL);
-}
-
-void print_all(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) fmt::print(stderr, "repose: {}\n", line);
-}
 
 std::size_t count(const std::vector<Run>& runs, RunOutcome outcome) {
   return static_cast<std::size_t>(std::count_if(
@@ -75,12 +61,11 @@ void write_results(const SimulatePlan& plan, const std::vector<Run>& runs) {
 
 ExitCode run_simulate(const SimulateArguments& arguments) {
   const SimulatePlan plan = plan_simulate(arguments);
-  print_all(plan.faults);
+  print_lines(plan.faults);
   if (!plan.faults.empty()) return ExitCode::bad_input;
-  print_all(plan.notes);
+  print_lines(plan.notes);
 
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const std::vector<Run> runs = run_repeats(plan, is_interrupted);
   const std::size_t done = count(runs, RunOutcome::done);
   if (is_interrupted && done < runs.size()) {
