@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 
 namespace repose::dem {
@@ -248,6 +249,26 @@ void Neighbours::index_by_body(std::size_t bodies) {
   }
 }
 
+void Neighbours::forget_grain(int grain) {
+  is_expired_ = true;
+  for (const NearGrains& pair : list_.grains) {
+    if (pair.a != grain && pair.b != grain) continue;
+    std::fill_n(list_.memories.begin() + pair.first, pair.count, ContactMemory{});
+  }
+  for (const NearWall& pair : list_.walls) {
+    if (pair.body != grain) continue;
+    std::fill_n(list_.wall_memories.begin() + pair.first, pair.count, ContactMemory{});
+  }
+}
+
+void Neighbours::forget_wall(int wall) {
+  is_expired_ = true;
+  for (const NearWall& pair : list_.walls) {
+    if (pair.wall != wall) continue;
+    std::fill_n(list_.wall_memories.begin() + pair.first, pair.count, ContactMemory{});
+  }
+}
+
 std::vector<ContactState> Neighbours::touching(const Bodies& bodies) const {
   std::vector<ContactState> contacts;
   const auto within = [&bodies](int sphere) {
@@ -317,6 +338,16 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
         list_.memories);
   carry(remembered.walls, remembered.facets, remembered.wall_memories, list_.walls, list_.facets,
         list_.wall_memories);
+  const auto touching = [](const std::vector<ContactMemory>& memories) {
+    return std::count_if(memories.begin(), memories.end(),
+                         [](const ContactMemory& memory) { return memory.radius > 0; });
+  };
+  if (touching(list_.memories) + touching(list_.wall_memories) !=
+      static_cast<std::ptrdiff_t>(contacts.size())) {
+    throw std::invalid_argument(
+        "checkpoint: some of its contacts are of spheres that are not near each other, or not in "
+        "order. Fix: go on from a checkpoint that was not changed.");
+  }
 }
 
 }  // namespace repose::dem

@@ -62,6 +62,10 @@ class Neighbours {
   /// The list must be made anew before the next step.
   void expire() { is_expired_ = true; }
 
+  /// A grain or a wall that is taken out touches nothing any more. Expires the list.
+  void forget_grain(int grain);
+  void forget_wall(int wall);
+
   /// The contacts that touched at the last step, in order.
   std::vector<ContactState> touching(const Bodies& bodies) const;
   /// Gives the contacts of a fresh list the memories that they had. Throws std::invalid_argument

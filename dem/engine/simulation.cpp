@@ -110,7 +110,7 @@ void Simulation::State::leave_through_floor() {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!bodies.present[k] || bodies.position[k].z() >= setup.floor_m) continue;
     bodies.present[k] = 0;
-    neighbours.expire();
+    neighbours.forget_grain(static_cast<int>(k));
     restart_energy_audit();
   }
 }
@@ -152,6 +152,16 @@ Simulation::Simulation(SimulationSetup setup) : state_(std::make_unique<State>(s
 
 Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
     : Simulation(std::move(setup)) {
+  const std::size_t count = from.grains.size();
+  for (const std::size_t size :
+       {from.angular_momentum.size(), from.force.size(), from.torque.size(),
+        from.rolling_limit.size(), from.is_present.size()}) {
+    if (size == count) continue;
+    throw std::invalid_argument(fmt::format(
+        "checkpoint: it has {} grains, but {} entries of one of their fields. Fix: go on "
+        "from a checkpoint that was not changed.",
+        count, size));
+  }
   State& s = *state_;
   for (const Grain& grain : from.grains) add(grain);
   s.step = from.step;
@@ -191,7 +201,7 @@ int Simulation::add(const Grain& grain) {
 
 void Simulation::remove(int grain) {
   state_->bodies.present.at(static_cast<std::size_t>(grain)) = 0;
-  state_->neighbours.expire();
+  state_->neighbours.forget_grain(grain);
   state_->restart_energy_audit();
 }
 
@@ -205,7 +215,7 @@ void Simulation::set_motions(int wall, std::vector<Motion> motions) {
 void Simulation::remove_wall(int wall) {
   state_->walls.remove(wall);
   state_->setup.walls.at(static_cast<std::size_t>(wall)).is_present = false;
-  state_->neighbours.expire();
+  state_->neighbours.forget_wall(wall);
   state_->restart_energy_audit();
 }
 

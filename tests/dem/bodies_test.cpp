@@ -64,6 +64,43 @@ INSTANTIATE_TEST_SUITE_P(All, RollingModels,
                                          RollingModel::relative_constant_torque,
                                          RollingModel::elastic_plastic));
 
+TEST(Checkpoint, IsTakenRightAfterAGrainWasTakenOut) {
+  Simulation simulation = loose_packing(packing_setup(), kGrains);
+  simulation.advance(8000);
+  ASSERT_FALSE(simulation.contacts().empty());
+  simulation.remove(simulation.contacts().front().grain_a);
+  Simulation restarted(packing_setup(), simulation.checkpoint());
+  simulation.advance(100);
+  restarted.advance(100);
+  expect_same(simulation, restarted);
+}
+
+TEST(Checkpoint, ThatWasChangedIsRefused) {
+  Simulation simulation = loose_packing(packing_setup(), kGrains);
+  simulation.advance(8000);
+  const Checkpoint whole = simulation.checkpoint();
+  ASSERT_FALSE(whole.contacts.empty());
+
+  Checkpoint short_of_forces = whole;
+  short_of_forces.force.pop_back();
+  EXPECT_THROW(Simulation(packing_setup(), short_of_forces), std::invalid_argument);
+
+  Checkpoint far_contact = whole;
+  far_contact.grains[static_cast<std::size_t>(whole.contacts.front().grain_a)].position.z() += 1;
+  EXPECT_THROW(Simulation(packing_setup(), far_contact), std::invalid_argument);
+}
+
+TEST(Bodies, GrainsThatAreNoNumbersAreRefused) {
+  Simulation simulation = loose_packing(packing_setup(), 0);
+  Grain nowhere = loose_grain(0);
+  nowhere.position.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(simulation.add(nowhere), std::invalid_argument);
+  Grain long_quaternion = loose_grain(0);
+  long_quaternion.orientation.coeffs() *= 2;
+  EXPECT_THROW(simulation.add(long_quaternion), std::invalid_argument);
+  EXPECT_EQ(simulation.grain_count(), 0);
+}
+
 TEST(Bodies, GrainsInTheAirFallAsGalileiSays) {
   Simulation simulation = loose_packing(packing_setup(), 1);
   Grain grain = loose_grain(0);
