@@ -83,7 +83,8 @@ PairLoad ContactStep::load(NearGrains& pair, NeighbourList& list) const {
 
   const auto first = static_cast<std::size_t>(pair.first);
   const auto end = first + static_cast<std::size_t>(pair.count);
-  std::array<std::size_t, kBatch> touching;
+  // Left as it is: no more than what is found is read.
+  std::array<std::size_t, kBatch> touching;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   pair.touched = false;
   for (std::size_t from = first; from < end; from += kBatch) {
     const std::size_t count = find_touching(list, from, std::min(end, from + kBatch), touching);
@@ -195,8 +196,8 @@ void ContactStep::hand_over_memories(const NearWall& pair, NeighbourList& list) 
     return walls.contact(pair.wall, list.facets[k].facet, bodies.spheres[sphere].centre).distance <
            bodies.spheres[sphere].radius;
   };
-  const auto end = static_cast<std::size_t>(pair.first + pair.count);
   auto first = static_cast<std::size_t>(pair.first);
+  const std::size_t end = first + static_cast<std::size_t>(pair.count);
   while (first < end) {
     std::size_t last = first + 1;
     while (last < end && list.facets[last].sphere == list.facets[first].sphere) ++last;

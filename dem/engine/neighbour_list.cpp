@@ -158,8 +158,10 @@ void Neighbours::find_near(const Bodies& bodies, int body) {
   for (int cz = std::max(z - 1, 0); cz <= std::min(z + 1, cells_.z() - 1); ++cz) {
     for (int cy = std::max(y - 1, 0); cy <= std::min(y + 1, cells_.y() - 1); ++cy) {
       const int row = (cz * cells_.y() + cy) * cells_.x();
-      const int begin = cell_start_[static_cast<std::size_t>(row + from_x)];
-      const int end = cell_start_[static_cast<std::size_t>(row + to_x) + 1];
+      const auto first = static_cast<std::size_t>(row) + static_cast<std::size_t>(from_x);
+      const auto last = static_cast<std::size_t>(row) + static_cast<std::size_t>(to_x);
+      const int begin = cell_start_[first];
+      const int end = cell_start_[last + 1];
       for (int at = begin; at < end; ++at) {
         const int other = cell_bodies_[static_cast<std::size_t>(at)];
         if (other <= body) continue;

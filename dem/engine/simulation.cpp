@@ -170,7 +170,8 @@ Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
   s.bodies.force = from.force;
   s.bodies.torque = from.torque;
   s.bodies.rolling_limit = from.rolling_limit;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) s.bodies.present[k] = from.is_present[k];
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    s.bodies.present[k] = from.is_present[k] ? 1 : 0;
   s.neighbours.update(s.bodies, s.walls, s.time_s(), s.setup.timestep_s, s.step);
   s.neighbours.restore(s.bodies, from.contacts);
 }

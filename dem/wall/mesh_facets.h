@@ -18,6 +18,7 @@ class MeshFacets {
  public:
   /// Throws std::invalid_argument for a mesh without triangles, or with one without area.
   explicit MeshFacets(const Mesh& mesh);
+  ~MeshFacets() = default;
   MeshFacets(const MeshFacets&) = delete;  // the tree refers to the mesh beside it
   MeshFacets& operator=(const MeshFacets&) = delete;
 

@@ -25,7 +25,7 @@ void WallSet::move_to(double time_s) {
   for (std::size_t k = 0; k < walls_.size(); ++k) {
     moments_[k] = wall_at(walls_[k], time_s);
     axes_[k] = moments_[k].pose.orientation.toRotationMatrix();
-    is_turned_[k] = axes_[k] != Eigen::Matrix3d::Identity();
+    is_turned_[k] = axes_[k] != Eigen::Matrix3d::Identity() ? 1 : 0;
   }
 }
 

@@ -46,7 +46,7 @@ struct Scene {
 Body body_of(const cv::Mat1b& mask) {
   Body body;
   body.mask = mask;
-  body.ground = {kGround, 0};
+  body.ground.y_at_0 = kGround;
   return body;
 }
 
@@ -121,7 +121,7 @@ TEST(GrabCutSegmentation, AFullOrEmptyBodyIsNotCut) {
   Body none = body_of(cv::Mat1b::zeros(400, 600));
   EXPECT_EQ(cv::countNonZero(grabcut_segmentation(scene.work, none, 1).inside > 0), 0);
   Body full = body_of(cv::Mat1b(400, 600, 255));
-  full.ground = {400, 0};
+  full.ground.y_at_0 = 400;
   EXPECT_EQ(cv::countNonZero(grabcut_segmentation(scene.work, full, 1).inside > 0), 0);
 }
 

@@ -211,7 +211,8 @@ Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
   }
   best.deviation_rad = std::hypot(best.deviation_rad, std::sqrt(squares / std::max(1, rivals)));
   if (evidence[chosen] >= kPlainEdge || best.mirrored) return best;
-  const Edge edge = edge_near({best, evidence[chosen]}, base, work);
+  const Edge edge =
+      edge_near({static_cast<const PictureLine&>(best), evidence[chosen]}, base, work);
   if (edge.evidence < kBetterEdge * evidence[chosen]) return best;
   const double change = edge.line.tilt_rad() - best.tilt_rad();
   best.deviation_rad = std::hypot(best.deviation_rad, change / 2);
