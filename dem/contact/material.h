@@ -26,7 +26,7 @@ enum class RollingModel {
 
 /// What two materials do to each other.
 struct PairCoefficients {
-  double restitution = 1;       ///< .05 ... 1: what comes out of a central impact of two spheres
+  double restitution = 1;       ///< .01 ... 1: what comes out of a central impact of two spheres
   double sliding_friction = 0;  ///< >= 0
   double rolling_friction = 0;  ///< >= 0
 };

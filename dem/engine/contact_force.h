@@ -40,9 +40,10 @@ inline double damper_limit(double reduced_mass, double timestep, std::size_t tou
   return reduced_mass / (timestep * static_cast<double>(touching));
 }
 
-/// All dampers of two bodies together are at most this share of the limit. One contact stays below
-/// it at every accepted time step; a dozen sphere pairs of two clumps that lie side by side would
-/// not. Across the contact spin counts too: 1/m_eff = 3.5/m* for spheres.
+/// All dampers of two bodies together are at most this share of the limit, but for normal ones in
+/// the first and last step of an impact. One contact stays below it at every accepted time step; a
+/// dozen sphere pairs of two clumps that lie side by side would not. Across the contact spin counts
+/// too: 1/m_eff = 3.5/m* for spheres.
 inline constexpr double kNormalDamperShare = .8;
 inline constexpr double kTangentialDamperShare = .25;
 
@@ -50,8 +51,8 @@ inline constexpr double kTangentialDamperShare = .25;
 ///
 /// In the first and the last step of an impact the surfaces travel farther than they overlap. The
 /// overlap's powers are then averaged over the part of the step's way, and of the one before or
-/// after, that lies within the contact: what comes out no longer depends on where in a step an
-/// impact begins.
+/// after, that lies within the contact: what comes out hardly depends on where in a step an impact
+/// begins. The damper's limit is not applied in these steps.
 [[gnu::always_inline]] inline double normal_force(const Touch& touch, const ContactLaw& law,
                                                   double timestep, double stiffness, double damper,
                                                   double approach) {

@@ -90,7 +90,7 @@ struct Slide {
 /// Just past the onset theta0 (t0) the body's acceleration along the plate is
 /// g (sin theta - mu cos theta) = g sin(theta - theta0) / cos theta0 = c (t - t0) for a plate that
 /// turns steadily, so slip = c (t - t0)^3 / 6: its cube root is a line that leaves 0 at t0.
-/// Proved by Tilt.SlidesAtTheAngleOfFriction in tests/dem/experiment_tilt_test.cpp.
+/// Proved by TiltFriction.IsTheAngleOfSliding in tests/dem/experiment_tilt_test.cpp.
 double onset_deg(const Slide& slide) {
   const auto count = static_cast<double>(slide.slip_m.size());
   double mean_angle = 0;
