@@ -58,7 +58,7 @@ Eigen::Matrix3d cross_matrix(const Vector& v) {
 /// Adds a contact's stiffness to a body's, in coordinates scaled by the roots of mass and inertia.
 void add_stiffness(const Bodies& bodies, std::size_t body, const Vector& point,
                    const Eigen::Matrix3d& stiffness, Matrix6& sum) {
-  const Eigen::Matrix3d& axes = bodies.axes[body];
+  const Eigen::Matrix3d axes = bodies.orientation_of(body).toRotationMatrix();
   const Vector roots = bodies.mobility[body].cwiseSqrt();
   Eigen::Matrix<double, 3, 6> motion;  // of the point, by the scaled coordinates
   motion.leftCols<3>() = Eigen::Matrix3d::Identity() / std::sqrt(bodies.mass[body]);
@@ -111,8 +111,9 @@ Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTa
                      const Vector& gravity) {
   Energies sum;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies.present[k]) continue;
-    const Vector own = bodies.axes[k].transpose() * bodies.angular_momentum[k];
+    if (!bodies.is_present(k)) continue;
+    const Eigen::Matrix3d axes = bodies.orientation_of(k).toRotationMatrix();
+    const Vector own = axes.transpose() * bodies.angular_momentum[k];
     sum.kinetic_j += .5 * bodies.mass[k] * bodies.velocity[k].squaredNorm() +
                      .5 * own.cwiseAbs2().dot(bodies.mobility[k]);
     sum.potential_j -= bodies.mass[k] * gravity.dot(bodies.position[k]);

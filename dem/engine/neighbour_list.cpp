@@ -9,9 +9,9 @@ namespace repose::dem {
 namespace {
 
 /// Margin of a grain at rest, as a share of its reach.
-constexpr double kRestMargin = .005;
+constexpr double kRestMargin = .002;
 /// A moving grain's margin lasts for about so many steps ...
-constexpr double kHorizonSteps = 20;
+constexpr double kHorizonSteps = 30;
 /// ... but is at most this share of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.
@@ -71,11 +71,12 @@ void Neighbours::update(const Bodies& bodies, const WallSet& walls, double time_
 bool Neighbours::is_due(const Bodies& bodies, std::int64_t step) const {
   if (is_expired_ || step >= due_step_) return true;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const double turned = bodies.orientation[k].dot(orientation_[k]);
+    double turned = 0;
+    for (std::size_t i = 0; i < 4; ++i) turned += bodies.orientation[i][k] * orientation_[i][k];
     const double by_turning = 2 * bodies.reach[k] * std::sqrt(std::max(0.0, 1 - turned * turned));
     const double left = margin_[k] - by_turning;
     if (left <= 0 || (bodies.position[k] - position_[k]).squaredNorm() > left * left) {
-      if (bodies.present[k]) return true;
+      if (bodies.is_present(k)) return true;
     }
   }
   return false;
@@ -88,11 +89,12 @@ void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double 
   margin_.resize(bodies.size());
   double farthest = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const double speed = bodies.velocity[k].norm() + bodies.reach[k] * bodies.spin[k].norm();
+    const double speed =
+        bodies.velocity[k].norm() + bodies.reach[k] * bodies.motion[k].spin.xyz.norm();
     margin_[k] = bodies.reach[k] *
                  std::min(kGreatestMargin,
                           kRestMargin + kHorizonSteps * timestep_s * speed / bodies.reach[k]);
-    if (bodies.present[k]) {
+    if (bodies.is_present(k)) {
       farthest = std::max(farthest, bodies.position[k].norm() + bodies.reach[k]);
     }
   }
@@ -107,7 +109,7 @@ void Neighbours::sort_into_cells(const Bodies& bodies) {
   double widest = 0;
   std::size_t present = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies.present[k]) continue;
+    if (!bodies.is_present(k)) continue;
     ++present;
     low = low.cwiseMin(bodies.position[k]);
     high = high.cwiseMax(bodies.position[k]);
@@ -128,7 +130,7 @@ void Neighbours::sort_into_cells(const Bodies& bodies) {
   cell_of_.assign(bodies.size(), -1);
   cell_start_.assign(static_cast<std::size_t>(cells_.prod()) + 1, 0);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies.present[k]) continue;
+    if (!bodies.is_present(k)) continue;
     const Eigen::Vector3i at =
         ((bodies.position[k] - corner_) / cell_size_).array().floor().cast<int>().matrix();
     cell_of_[k] = (at.z() * cells_.y() + at.y()) * cells_.x() + at.x();
@@ -179,7 +181,7 @@ void Neighbours::find_near(const Bodies& bodies, int body) {
 void Neighbours::list_grains(const Bodies& bodies) {
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
     const auto ka = static_cast<std::size_t>(a);
-    if (!bodies.present[ka]) continue;
+    if (!bodies.is_present(ka)) continue;
     find_near(bodies, a);
     for (const int b : near_) {
       const auto kb = static_cast<std::size_t>(b);
@@ -206,7 +208,7 @@ void Neighbours::list_grains(const Bodies& bodies) {
 void Neighbours::list_walls(const Bodies& bodies, const WallSet& walls) {
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
     const auto k = static_cast<std::size_t>(body);
-    if (!bodies.present[k]) continue;
+    if (!bodies.is_present(k)) continue;
     const double margin = margin_[k] + wall_margin_;
     for (int wall = 0; wall < walls.size(); ++wall) {
       if (!walls.is_present(wall)) continue;
@@ -310,8 +312,8 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
     const auto a = static_cast<std::size_t>(contact.grain_a);
     const int sphere_a = bodies.first_sphere.at(a) + contact.sphere_a;
     const ContactMemory memory{.tangential = contact.tangential_n,
-                               .rolling = contact.rolling_n_m,
-                               .radius = contact.contact_radius_m};
+                               .radius = contact.contact_radius_m,
+                               .rolling = contact.rolling_n_m};
     if (contact.grain_b >= 0) {
       const auto b = static_cast<std::size_t>(contact.grain_b);
       const auto first = static_cast<int>(remembered.spheres.size());

@@ -15,7 +15,6 @@ struct NearGrains {
   int b = 0;
   int first = 0;
   int count = 0;
-  bool touched = true;  ///< at the last step; true when not known
 };
 
 /// Two spheres that may touch before the list is made anew. Numbers of `Bodies::spheres`.
@@ -93,8 +92,8 @@ class Neighbours {
   std::int64_t due_step_ = 0;
   double wall_margin_ = 0;
   // Where the grains were when the list was made, and how far each may move.
-  std::vector<Vector> position_;
-  std::vector<Quaternion> orientation_;
+  VectorArray position_;
+  std::array<std::vector<double>, 4> orientation_;
   std::vector<double> margin_;
   // Grid of cubic cells that hold grains by their centres.
   Vector corner_ = Vector::Zero();

@@ -5,25 +5,28 @@
 namespace repose::dem {
 
 /// What rolling friction needs to know of a touching pair. Body b of a wall has no inertia.
+template <typename Number>
 struct Roll {
-  Vector normal;  ///< unit, from a to b
-  Vector spin;    ///< of a against b, rad/s
-  double normal_force = 0;
-  double overlap = 0;
-  double reduced_radius = 0;
-  double reduced_inertia = 0;  ///< of both bodies about their centres, kg m^2
-  double contact_inertia = 0;  ///< of both bodies about the contact, kg m^2
+  Triple<Number> normal;  ///< unit, from a to b
+  Triple<Number> spin;    ///< of a against b, rad/s
+  Number normal_force = {};
+  Number overlap = {};
+  Number reduced_radius = {};
+  Number reduced_inertia = {};  ///< of both bodies about their centres, kg m^2
+  Number contact_inertia = {};  ///< of both bodies about the contact, kg m^2
 };
 
 /// LIGGGHTS's `cdt`: mu_r F_n R* against the relative spin, less its part about the normal
 /// (LIGGGHTS-PUBLIC manual, "rolling_friction cdt"). It never takes more spin than there is.
 /// Proved by Rolling.* in tests/dem/rolling_test.cpp.
-inline Vector relative_constant_torque(const Roll& roll, const ContactLaw& law, double timestep) {
-  const double size = roll.spin.norm();
-  if (size == 0) return Vector::Zero();
-  const double torque = law.rolling_friction * roll.normal_force * roll.reduced_radius;
-  const double most = .5 * roll.reduced_inertia * size / timestep;
-  const Vector full = roll.spin * (-std::min(torque, most) / size);
+template <typename Number>
+REPOSE_INLINE Triple<Number> relative_constant_torque(const Roll<Number>& roll,
+                                                      const Law<Number>& law, double timestep) {
+  const Number size = root(roll.spin.squared_norm());
+  const Number torque = law.rolling_friction * roll.normal_force * roll.reduced_radius;
+  const Number most = .5 * roll.reduced_inertia * size / timestep;
+  const Number share = select(size > Number(0), Number(-least(torque, most) / size), Number{});
+  const Triple<Number> full = roll.spin * share;
   return full - roll.normal * roll.normal.dot(full);
 }
 
@@ -31,34 +34,25 @@ inline Vector relative_constant_torque(const Roll& roll, const ContactLaw& law, 
 /// limit a damper of .3 of the critical (Ai, Chen, Rotter, Ooi 2011, Powder Technology 206, model
 /// C, eqs. 27-33, with the stiffness of Jiang et al. 2005). Proved by Rolling.* in
 /// tests/dem/rolling_test.cpp.
-inline Vector elastic_plastic_torque(const Roll& roll, const ContactLaw& law, double timestep,
-                                     ContactMemory& memory) {
+/// @param spring  torque on a, N m, from step to step
+template <typename Number>
+REPOSE_INLINE Triple<Number> elastic_plastic_torque(const Roll<Number>& roll,
+                                                    const Law<Number>& law, double timestep,
+                                                    Triple<Number>& spring) {
   constexpr double kDampingRatio = .3;
-  const double arm = law.rolling_friction * roll.reduced_radius;
-  const double limit = arm * roll.normal_force;
-  const double a = std::sqrt(roll.reduced_radius * roll.overlap);
-  const double stiffness = 2.25 * (4.0 / 3) * law.reduced_young_pa * a * arm * arm;
-  const Vector& n = roll.normal;
-  const Vector spin = roll.spin - n * n.dot(roll.spin);
-  Vector spring = memory.rolling - n * n.dot(memory.rolling) - stiffness * timestep * spin;
-  const double size2 = spring.squaredNorm();
-  Vector torque = spring;
-  if (size2 >= limit * limit) {
-    spring *= size2 > 0 ? limit / std::sqrt(size2) : 0;
-    torque = spring;
-  } else {
-    torque -= 2 * kDampingRatio * std::sqrt(stiffness * roll.contact_inertia) * spin;
-  }
-  memory.rolling = spring;
-  return torque;
-}
-
-/// The torque on a of the models that work on the relative spin; b gets the opposite.
-inline Vector rolling_torque(RollingModel model, const Roll& roll, const ContactLaw& law,
-                             double timestep, ContactMemory& memory) {
-  return model == RollingModel::elastic_plastic
-             ? elastic_plastic_torque(roll, law, timestep, memory)
-             : relative_constant_torque(roll, law, timestep);
+  const Number arm = law.rolling_friction * roll.reduced_radius;
+  const Number limit = arm * roll.normal_force;
+  const Number a = root(roll.reduced_radius * roll.overlap);
+  const Number stiffness = 2.25 * (4.0 / 3) * law.reduced_young * a * arm * arm;
+  const Triple<Number>& n = roll.normal;
+  const Triple<Number> spin = roll.spin - n * n.dot(roll.spin);
+  spring = spring - n * n.dot(spring) - spin * (stiffness * timestep);
+  const Number size2 = spring.squared_norm();
+  const auto yields = size2 >= limit * limit;
+  const Number share = select(size2 > Number(0), Number(limit / root(size2)), Number{});
+  spring = spring * select(yields, share, Number(1));
+  const Number damper = 2 * kDampingRatio * root(stiffness * roll.contact_inertia);
+  return spring - spin * select(yields, Number{}, damper);
 }
 
 }  // namespace repose::dem

@@ -63,9 +63,8 @@ class Simulation::State {
   explicit State(SimulationSetup given)
       : setup(checked(std::move(given))), walls(setup.walls), arena(setup.threads) {}
 
-  const ClumpShape& shape(std::size_t body) const {
-    return setup.kinds[static_cast<std::size_t>(bodies.kind[body])].shape;
-  }
+  /// Throws std::out_of_range when there is no such grain.
+  std::size_t index(int grain) const;
   double time_s() const { return static_cast<double>(step) * setup.timestep_s; }
   ContactStep contact_step() const {
     return {bodies, walls, setup.contacts, setup.kinds, setup.timestep_s};
@@ -90,26 +89,28 @@ class Simulation::State {
   double wall_work_j = 0;
 };
 
+std::size_t Simulation::State::index(int grain) const {
+  const auto k = static_cast<std::size_t>(grain);
+  if (k < bodies.size()) return k;
+  throw std::out_of_range(fmt::format("grain {}: there are {}", grain, bodies.size()));
+}
+
 void Simulation::State::take_step() {
   const double timestep = setup.timestep_s;
-  for_each_index(bodies.size(), setup.threads, [&](std::size_t k) {
-    if (bodies.present[k]) start_step(bodies, k, shape(k), setup.gravity, timestep);
-  });
+  start_step(bodies, setup.kinds, setup.gravity, timestep, setup.threads);
   ++step;
   walls.move_to(time_s());
   neighbours.update(bodies, walls, time_s(), timestep, step);
   tally = interactions.apply(bodies, contact_step(), neighbours.list(), setup.threads);
   wall_work_j += tally.wall_power_w * timestep;
-  for_each_index(bodies.size(), setup.threads, [&](std::size_t k) {
-    if (bodies.present[k]) finish_step(bodies, k, timestep);
-  });
+  finish_step(bodies, timestep, setup.threads);
   leave_through_floor();
 }
 
 void Simulation::State::leave_through_floor() {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies.present[k] || bodies.position[k].z() >= setup.floor_m) continue;
-    bodies.present[k] = 0;
+    if (!bodies.is_present(k) || bodies.position[k].z() >= setup.floor_m) continue;
+    bodies.presence[k] = 0;
     neighbours.forget_grain(static_cast<int>(k));
     restart_energy_audit();
   }
@@ -124,7 +125,7 @@ void Simulation::State::audit() {
   };
   if (tally.deepest_overlap > kDeepestOverlap) {
     const auto body = static_cast<std::size_t>(tally.deepest_body);
-    const Vector& at = bodies.position[body];
+    const Vector at = bodies.position[body];
     stop(fmt::format("grain {} at ({:.4f}, {:.4f}, {:.4f}) m overlaps by {:.0f} % of a radius",
                      body, at.x(), at.y(), at.z(), 100 * tally.deepest_overlap));
   }
@@ -138,7 +139,7 @@ void Simulation::State::audit() {
   const double made = now.sum_j() - energy_mark_j - wall_work_j;
   double falls = 0;  // what a fall by a grain's size sets free
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (bodies.present[k]) falls += bodies.mass[k] * setup.gravity.norm() * bodies.reach[k];
+    if (bodies.is_present(k)) falls += bodies.mass[k] * setup.gravity.norm() * bodies.reach[k];
   }
   if (has_energy_mark && made > kEnergyTolerance * (now.kinetic_j + now.elastic_j + falls)) {
     stop(fmt::format("{:.3g} J came from nowhere ({:.3g} J are in motion)", made, now.kinetic_j));
@@ -166,12 +167,12 @@ Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
   for (const Grain& grain : from.grains) add(grain);
   s.step = from.step;
   s.walls.move_to(s.time_s());
-  s.bodies.angular_momentum = from.angular_momentum;
-  s.bodies.force = from.force;
-  s.bodies.torque = from.torque;
-  s.bodies.rolling_limit = from.rolling_limit;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    s.bodies.present[k] = from.is_present[k] ? 1 : 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    s.bodies.angular_momentum.set(k, from.angular_momentum[k]);
+    s.bodies.load[k] = {.force = {.xyz = from.force[k]},
+                        .torque = {.xyz = from.torque[k], .w = from.rolling_limit[k]}};
+    s.bodies.presence[k] = from.is_present[k] ? 1 : 0;
+  }
   s.neighbours.update(s.bodies, s.walls, s.time_s(), s.setup.timestep_s, s.step);
   s.neighbours.restore(s.bodies, from.contacts);
 }
@@ -194,14 +195,15 @@ int Simulation::add(const Grain& grain) {
   }
   const GrainKind& kind = s.setup.kinds[static_cast<std::size_t>(grain.kind)];
   add_body(s.bodies, grain, kind, s.setup.contacts.material(kind.material).density_kg_m3);
-  s.bodies.force.back() = s.bodies.mass.back() * s.setup.gravity;
+  s.bodies.load[s.bodies.size() - 1].force.xyz =
+      s.bodies.mass[s.bodies.size() - 1] * s.setup.gravity;
   s.neighbours.expire();
   s.restart_energy_audit();
   return static_cast<int>(s.bodies.size()) - 1;
 }
 
 void Simulation::remove(int grain) {
-  state_->bodies.present.at(static_cast<std::size_t>(grain)) = 0;
+  state_->bodies.presence[state_->index(grain)] = 0;
   state_->neighbours.forget_grain(grain);
   state_->restart_energy_audit();
 }
@@ -235,28 +237,25 @@ std::int64_t Simulation::step() const { return state_->step; }
 double Simulation::time_s() const { return state_->time_s(); }
 int Simulation::grain_count() const { return static_cast<int>(state_->bodies.size()); }
 bool Simulation::is_present(int grain) const {
-  return state_->bodies.present.at(static_cast<std::size_t>(grain)) != 0;
+  return state_->bodies.is_present(state_->index(grain));
 }
 
 Grain Simulation::grain(int grain) const {
   const Bodies& bodies = state_->bodies;
-  const auto k = static_cast<std::size_t>(grain);
-  const Vector own = bodies.axes.at(k).transpose() * bodies.angular_momentum[k];
+  const std::size_t k = state_->index(grain);
   return {.kind = bodies.kind[k],
           .position = bodies.position[k],
-          .orientation = bodies.orientation[k],
+          .orientation = bodies.orientation_of(k),
           .velocity = bodies.velocity[k],
-          .spin = bodies.axes[k] * own.cwiseProduct(bodies.mobility[k])};
+          .spin = bodies.spin_of(k)};
 }
 
-double Simulation::mass_kg(int grain) const {
-  return state_->bodies.mass.at(static_cast<std::size_t>(grain));
-}
+double Simulation::mass_kg(int grain) const { return state_->bodies.mass[state_->index(grain)]; }
 Vector Simulation::force_n(int grain) const {
-  return state_->bodies.force.at(static_cast<std::size_t>(grain));
+  return state_->bodies.load[state_->index(grain)].force.xyz;
 }
 Vector Simulation::torque_n_m(int grain) const {
-  return state_->bodies.torque.at(static_cast<std::size_t>(grain));
+  return state_->bodies.load[state_->index(grain)].torque.xyz;
 }
 WallMoment Simulation::wall(int wall) const { return state_->walls.moment(wall); }
 double Simulation::deepest_overlap() const { return state_->tally.deepest_overlap; }
@@ -283,14 +282,14 @@ Checkpoint Simulation::checkpoint() const {
   const State& s = *state_;
   Checkpoint now;
   now.step = s.step;
-  now.angular_momentum = s.bodies.angular_momentum;
-  now.force = s.bodies.force;
-  now.torque = s.bodies.torque;
-  now.rolling_limit = s.bodies.rolling_limit;
   now.contacts = contacts();
-  for (int k = 0; k < grain_count(); ++k) {
-    now.grains.push_back(grain(k));
-    now.is_present.push_back(is_present(k));
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    now.grains.push_back(grain(static_cast<int>(k)));
+    now.angular_momentum.push_back(s.bodies.angular_momentum[k]);
+    now.force.push_back(s.bodies.load[k].force.xyz);
+    now.torque.push_back(s.bodies.load[k].torque.xyz);
+    now.rolling_limit.push_back(s.bodies.load[k].torque.w);
+    now.is_present.push_back(s.bodies.is_present(k));
   }
   return now;
 }

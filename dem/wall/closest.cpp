@@ -41,8 +41,9 @@ Closest closest(const Box& box, const Vector& point) {
 Closest closest(const Tube& tube, const Vector& point) {
   using Point = Eigen::Vector2d;
   const double from_axis = std::sqrt(point.x() * point.x() + point.y() * point.y());
+  const double inverse = 1 / from_axis;
   const Vector outwards =
-      from_axis > 0 ? Vector(point.x() / from_axis, point.y() / from_axis, 0) : Vector::UnitX();
+      from_axis > 0 ? Vector(point.x() * inverse, point.y() * inverse, 0) : Vector::UnitX();
   if (from_axis <= tube.inner_radius && point.z() >= 0 && point.z() <= tube.height) {
     return {.distance = tube.inner_radius - from_axis, .normal = -outwards};
   }

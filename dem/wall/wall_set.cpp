@@ -72,8 +72,8 @@ FacetContact WallSet::contact(int wall, int facet, const Vector& point) const {
         }
       },
       walls_[k].shape);
-  if (!is_turned_[k]) return {.distance = spot.distance, .normal = spot.normal};
-  return {.distance = spot.distance, .normal = axes_[k] * spot.normal};
+  if (!is_turned_[k]) return {.normal = spot.normal, .distance = spot.distance};
+  return {.normal = axes_[k] * spot.normal, .distance = spot.distance};
 }
 
 Vector WallSet::in_frame_of(std::size_t wall, const Vector& point) const {

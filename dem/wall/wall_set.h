@@ -10,8 +10,8 @@ namespace repose::dem {
 
 /// Where a point is against one facet of a wall. World axes.
 struct FacetContact {
-  double distance = 0;             ///< m; without end when another facet has the contact
   Vector normal = Vector::Zero();  ///< unit, from the wall to the point
+  double distance = 0;             ///< m; without end when another facet has the contact
 };
 
 /// All walls of a simulation, placed for one moment.

@@ -12,15 +12,15 @@ namespace {
 
 constexpr double kTimestep = 1e-6;
 
-ContactLaw law_of(double rolling_friction) {
-  ContactLaw law;
-  law.reduced_young_pa = 1e9;
+Law<double> law_of(double rolling_friction) {
+  Law<double> law = {};
+  law.reduced_young = 1e9;
   law.rolling_friction = rolling_friction;
   return law;
 }
 
-Roll roll_of(const Vector& spin) {
-  return {.normal = Vector::UnitZ(),
+Roll<double> roll_of(const Triple<double>& spin) {
+  return {.normal = {0, 0, 1},
           .spin = spin,
           .normal_force = 2,
           .overlap = 1e-6,
@@ -30,53 +30,53 @@ Roll roll_of(const Vector& spin) {
 }
 
 TEST(Rolling, RelativeTorqueIsCoefficientTimesForceTimesReducedRadius) {
-  const Vector torque = relative_constant_torque(roll_of({0, 8, 0}), law_of(.1), kTimestep);
-  EXPECT_NEAR(torque.y(), -.1 * 2 * .005, 1e-15);
-  EXPECT_EQ(torque.x(), 0);
+  const Triple<double> torque = relative_constant_torque(roll_of({0, 8, 0}), law_of(.1), kTimestep);
+  EXPECT_NEAR(torque.y, -.1 * 2 * .005, 1e-15);
+  EXPECT_EQ(torque.x, 0);
 }
 
 TEST(Rolling, RelativeTorqueLeavesSpinAboutTheNormalAlone) {
-  const Vector torque = relative_constant_torque(roll_of({3, 0, 4}), law_of(.1), kTimestep);
-  EXPECT_NEAR(torque.x(), -.1 * 2 * .005 * 3 / 5, 1e-15);
-  EXPECT_EQ(torque.z(), 0);
+  const Triple<double> torque = relative_constant_torque(roll_of({3, 0, 4}), law_of(.1), kTimestep);
+  EXPECT_NEAR(torque.x, -.1 * 2 * .005 * 3 / 5, 1e-15);
+  EXPECT_EQ(torque.z, 0);
 }
 
 TEST(Rolling, RelativeTorqueNeverTakesMoreSpinThanThereIs) {
-  const Roll slow = roll_of({1e-9, 0, 0});
-  const Vector torque = relative_constant_torque(slow, law_of(.1), kTimestep);
-  EXPECT_LE(std::abs(torque.x()) * kTimestep / slow.reduced_inertia, 1e-9);
-  EXPECT_EQ(relative_constant_torque(roll_of(Vector::Zero()), law_of(.1), kTimestep).norm(), 0);
+  const Roll<double> slow = roll_of({1e-9, 0, 0});
+  const Triple<double> torque = relative_constant_torque(slow, law_of(.1), kTimestep);
+  EXPECT_LE(std::abs(torque.x) * kTimestep / slow.reduced_inertia, 1e-9);
+  EXPECT_EQ(relative_constant_torque(roll_of({}), law_of(.1), kTimestep).squared_norm(), 0);
 }
 
 TEST(Rolling, ElasticPlasticSpringHasItsStiffness) {
-  const ContactLaw law = law_of(.1);
-  const Roll roll = roll_of({1e-3, 0, 0});
-  ContactMemory memory;
-  elastic_plastic_torque(roll, law, kTimestep, memory);
+  const Law<double> law = law_of(.1);
+  const Roll<double> roll = roll_of({1e-3, 0, 0});
+  Triple<double> spring;
+  elastic_plastic_torque(roll, law, kTimestep, spring);
   const double a = std::sqrt(roll.reduced_radius * roll.overlap);
-  const double normal = 4.0 / 3 * law.reduced_young_pa * a;
+  const double normal = 4.0 / 3 * law.reduced_young * a;
   const double stiffness = 2.25 * normal * std::pow(.1 * roll.reduced_radius, 2);
-  EXPECT_NEAR(memory.rolling.x(), -stiffness * 1e-3 * kTimestep, 1e-12 * stiffness * 1e-9);
+  EXPECT_NEAR(spring.x, -stiffness * 1e-3 * kTimestep, 1e-12 * stiffness * 1e-9);
 }
 
 TEST(Rolling, ElasticPlasticTorqueYieldsAtTheLimitAndSpringsBack) {
-  const ContactLaw law = law_of(.1);
-  ContactMemory memory;
-  Vector torque;
+  const Law<double> law = law_of(.1);
+  Triple<double> spring;
+  Triple<double> torque;
   for (int k = 0; k < 100; ++k) {
-    torque = elastic_plastic_torque(roll_of({1e5, 0, 0}), law, kTimestep, memory);
+    torque = elastic_plastic_torque(roll_of({1e5, 0, 0}), law, kTimestep, spring);
   }
-  EXPECT_NEAR(torque.x(), -.1 * .005 * 2, 1e-15);
-  const Vector held = elastic_plastic_torque(roll_of(Vector::Zero()), law, kTimestep, memory);
-  EXPECT_NEAR(held.x(), -.1 * .005 * 2, 1e-15);  // a type A model would let go here
+  EXPECT_NEAR(torque.x, -.1 * .005 * 2, 1e-15);
+  const Triple<double> held = elastic_plastic_torque(roll_of({}), law, kTimestep, spring);
+  EXPECT_NEAR(held.x, -.1 * .005 * 2, 1e-15);  // a type A model would let go here
 }
 
 TEST(Rolling, ElasticPlasticTorqueHasNoPartAboutTheNormal) {
-  ContactMemory memory;
-  memory.rolling = Vector(0, 1e-6, 1e-6);
-  const Vector torque = elastic_plastic_torque(roll_of({1, 2, 30}), law_of(.1), kTimestep, memory);
-  EXPECT_EQ(torque.z(), 0);
-  EXPECT_EQ(memory.rolling.z(), 0);
+  Triple<double> spring = {0, 1e-6, 1e-6};
+  const Triple<double> torque =
+      elastic_plastic_torque(roll_of({1, 2, 30}), law_of(.1), kTimestep, spring);
+  EXPECT_EQ(torque.z, 0);
+  EXPECT_EQ(spring.z, 0);
 }
 
 /// Spin that two equal balls with opposite spins lose when they meet head-on without sliding

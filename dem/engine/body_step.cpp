@@ -1,0 +1,212 @@
+#include "dem/engine/bodies.h"
+#include "dem/engine/lanes.h"
+#include "dem/engine/parallel.h"
+
+// Four bodies at a time.
+
+namespace repose::dem {
+namespace {
+
+using Vectors = Triple<Lanes>;
+
+struct Quaternions {
+  Lanes x;
+  Lanes y;
+  Lanes z;
+  Lanes w;
+};
+
+/// The body's axes in the world's.
+struct Axes {
+  Vectors x;
+  Vectors y;
+  Vectors z;
+
+  REPOSE_INLINE Vectors to_world(const Vectors& v) const { return x * v.x + y * v.y + z * v.z; }
+  REPOSE_INLINE Vectors to_body(const Vectors& v) const { return {x.dot(v), y.dot(v), z.dot(v)}; }
+};
+
+REPOSE_INLINE Axes axes_of(const Quaternions& q) {
+  const Lanes two_x = 2 * q.x;
+  const Lanes two_y = 2 * q.y;
+  const Lanes two_z = 2 * q.z;
+  const Lanes xx = two_x * q.x;
+  const Lanes yy = two_y * q.y;
+  const Lanes zz = two_z * q.z;
+  const Lanes xy = two_x * q.y;
+  const Lanes xz = two_x * q.z;
+  const Lanes yz = two_y * q.z;
+  const Lanes wx = two_x * q.w;
+  const Lanes wy = two_y * q.w;
+  const Lanes wz = two_z * q.w;
+  return {{1 - (yy + zz), xy + wz, xz - wy},
+          {xy - wz, 1 - (xx + zz), yz + wx},
+          {xz + wy, yz - wx, 1 - (xx + yy)}};
+}
+
+/// Turns about the body's own axes by Cayley's map: by 2 atan(|turn| / 2) about `turn`.
+REPOSE_INLINE Quaternions turned_by(const Quaternions& q, const Vectors& turn) {
+  const Vectors half = turn * Lanes(.5);
+  const Quaternions r = {q.x + q.w * half.x + q.y * half.z - q.z * half.y,
+                         q.y + q.w * half.y + q.z * half.x - q.x * half.z,
+                         q.z + q.w * half.z + q.x * half.y - q.y * half.x,
+                         q.w - q.x * half.x - q.y * half.y - q.z * half.z};
+  const Lanes scale = 1 / root(r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w);
+  return {r.x * scale, r.y * scale, r.z * scale, r.w * scale};
+}
+
+REPOSE_INLINE Vectors load_vectors(const VectorArray& field, std::size_t k) {
+  return {load(field.coordinate(0) + k), load(field.coordinate(1) + k),
+          load(field.coordinate(2) + k)};
+}
+REPOSE_INLINE void store_vectors(const Vectors& values, VectorArray& field, std::size_t k) {
+  store(values.x, field.coordinate(0) + k);
+  store(values.y, field.coordinate(1) + k);
+  store(values.z, field.coordinate(2) + k);
+}
+REPOSE_INLINE Quaternions load_orientation(const Bodies& bodies, std::size_t k) {
+  return {load(&bodies.orientation[0][k]), load(&bodies.orientation[1][k]),
+          load(&bodies.orientation[2][k]), load(&bodies.orientation[3][k])};
+}
+
+/// One row of each of four structures.
+template <typename Structure>
+REPOSE_INLINE Columns load_rows(const Structure* first, const Row Structure::*row) {
+  return columns_of({{load_row(first[0].*row), load_row(first[1].*row), load_row(first[2].*row),
+                      load_row(first[3].*row)}});
+}
+template <typename Structure>
+REPOSE_INLINE void store_rows(const Vectors& xyz, const Lanes& w, Structure* first,
+                              Row Structure::*row) {
+  const Rows rows = rows_of(xyz, w);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) store_row(rows.row[lane], first[lane].*row);
+}
+
+/// Half a step of torque, then of constant-torque rolling friction as a dry brake on the spin: it
+/// takes at most what there is, so that a grain comes to rest instead of trembling.
+struct SpinKick {
+  Vectors momentum;
+  Vectors own_momentum;  ///< in the body's own axes
+};
+
+REPOSE_INLINE SpinKick kick_spin(const Vectors& old_momentum, const Axes& axes,
+                                 const Vectors& mobility, const Columns& torque,
+                                 double half_timestep) {
+  const Vectors pushed = old_momentum + torque.xyz * Lanes(half_timestep);
+  const Vectors own = axes.to_body(pushed);
+  const Lanes brake = half_timestep * torque.w;
+  if (!any(brake > Lanes(0))) return {pushed, own};
+  const Vectors spin = own.times(mobility);
+  const Lanes size2 = spin.squared_norm();
+  const Lanes size = root(size2);
+  // The brake slows the spin by brake (axis . I^-1 axis), axis = spin / |spin|.
+  const auto stops = brake * spin.times(spin).dot(mobility) >= size2 * size;
+  const Vectors braked = select(stops, Vectors{}, own - spin * Lanes(brake / size));
+  const auto is_braked = brake > Lanes(0);
+  return {select(is_braked, axes.to_world(braked), pushed), select(is_braked, braked, own)};
+}
+
+REPOSE_INLINE Vectors spin_by(const Vectors& momentum, const Axes& axes, const Vectors& mobility) {
+  return axes.to_world(axes.to_body(momentum).times(mobility));
+}
+
+REPOSE_INLINE void place_spheres(Bodies& bodies, std::size_t body, const ClumpShape& shape,
+                                 const Lanes& position, const Lanes& x_axis, const Lanes& y_axis,
+                                 const Lanes& z_axis) {
+  auto* placed = &bodies.spheres[static_cast<std::size_t>(bodies.first_sphere[body])];
+  const LaneMask is_radius = Lanes(Lanes::Vector4{0, 0, 0, 1}) > Lanes(0);
+  for (const ClumpSphere& sphere : shape.spheres) {
+    const Lanes radius = select(is_radius, load_row(sphere), Lanes(0));
+    store_row(position + radius + x_axis * sphere.centre.x() + y_axis * sphere.centre.y() +
+                  z_axis * sphere.centre.z(),
+              *placed++);
+  }
+}
+
+REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
+                                        const std::vector<GrainKind>& kinds, const Vector& gravity,
+                                        double timestep) {
+  const double half = timestep / 2;
+  const auto is_present = load(&bodies.presence[k]) > Lanes(0);
+  const Lanes mass = load(&bodies.mass[k]);
+  const Vectors mobility = load_vectors(bodies.mobility, k);
+  const Vectors old_velocity = load_vectors(bodies.velocity, k);
+  const Vectors old_position = load_vectors(bodies.position, k);
+  const Vectors old_momentum = load_vectors(bodies.angular_momentum, k);
+  const Quaternions old_q = load_orientation(bodies, k);
+  const Columns force = load_rows(&bodies.load[k], &BodyLoad::force);
+  const Columns torque = load_rows(&bodies.load[k], &BodyLoad::torque);
+
+  const Vectors velocity_kick = force.xyz * Lanes(half / mass);
+  const Vectors velocity = select(is_present, old_velocity + velocity_kick, old_velocity);
+  const Vectors position =
+      select(is_present, old_position + velocity * Lanes(timestep), old_position);
+  const SpinKick kick = kick_spin(old_momentum, axes_of(old_q), mobility, torque, half);
+  // Seen from the body the momentum turns: dl/dt = l x omega (Euler), here by half a step.
+  const Vectors middle =
+      kick.own_momentum + kick.own_momentum.cross(kick.own_momentum.times(mobility)) * Lanes(half);
+  const Quaternions moved = turned_by(old_q, middle.times(mobility) * Lanes(timestep));
+  const Quaternions q = {select(is_present, moved.x, old_q.x), select(is_present, moved.y, old_q.y),
+                         select(is_present, moved.z, old_q.z),
+                         select(is_present, moved.w, old_q.w)};
+  const Vectors momentum = select(is_present, kick.momentum, old_momentum);
+
+  const Axes axes = axes_of(q);
+  store_vectors(velocity, bodies.velocity, k);
+  store_vectors(position, bodies.position, k);
+  store_vectors(momentum, bodies.angular_momentum, k);
+  store(q.x, &bodies.orientation[0][k]);
+  store(q.y, &bodies.orientation[1][k]);
+  store(q.z, &bodies.orientation[2][k]);
+  store(q.w, &bodies.orientation[3][k]);
+  const Columns inertia = load_rows(&bodies.motion[k], &BodyMotion::spin_kick);
+  BodyMotion* motion = &bodies.motion[k];
+  store_rows(position, Lanes{}, motion, &BodyMotion::position);
+  store_rows(velocity, Lanes{}, motion, &BodyMotion::velocity);
+  store_rows(spin_by(momentum, axes, mobility), mass, motion, &BodyMotion::spin);
+  store_rows(velocity_kick, Lanes{}, motion, &BodyMotion::velocity_kick);
+  store_rows(spin_by(momentum - old_momentum, axes, mobility), inertia.w, motion,
+             &BodyMotion::spin_kick);
+
+  const Rows positions = rows_of(position, Lanes{});
+  const Rows x_axes = rows_of(axes.x, Lanes{});
+  const Rows y_axes = rows_of(axes.y, Lanes{});
+  const Rows z_axes = rows_of(axes.z, Lanes{});
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const std::size_t body = k + lane;
+    if (body >= bodies.size() || !bodies.is_present(body)) continue;
+    bodies.load[body] = {.force = {.xyz = bodies.mass[body] * gravity}, .torque = {}};
+    place_spheres(bodies, body, kinds[static_cast<std::size_t>(bodies.kind[body])].shape,
+                  positions.row[lane], x_axes.row[lane], y_axes.row[lane], z_axes.row[lane]);
+  }
+}
+
+REPOSE_FOR_EACH_MACHINE void finish_four(Bodies& bodies, std::size_t k, double timestep) {
+  const double half = timestep / 2;
+  const auto is_present = load(&bodies.presence[k]) > Lanes(0);
+  const Vectors velocity = load_vectors(bodies.velocity, k);
+  const Vectors momentum = load_vectors(bodies.angular_momentum, k);
+  const Columns force = load_rows(&bodies.load[k], &BodyLoad::force);
+  const Columns torque = load_rows(&bodies.load[k], &BodyLoad::torque);
+  const Vectors kicked = velocity + force.xyz * Lanes(half / load(&bodies.mass[k]));
+  const SpinKick kick = kick_spin(momentum, axes_of(load_orientation(bodies, k)),
+                                  load_vectors(bodies.mobility, k), torque, half);
+  store_vectors(select(is_present, kicked, velocity), bodies.velocity, k);
+  store_vectors(select(is_present, kick.momentum, momentum), bodies.angular_momentum, k);
+}
+
+}  // namespace
+
+void start_step(Bodies& bodies, const std::vector<GrainKind>& kinds, const Vector& gravity,
+                double timestep, int threads) {
+  for_each_index(bodies.presence.size() / kLanes, threads, [&](std::size_t four) {
+    start_four(bodies, kLanes * four, kinds, gravity, timestep);
+  });
+}
+
+void finish_step(Bodies& bodies, double timestep, int threads) {
+  for_each_index(bodies.presence.size() / kLanes, threads,
+                 [&](std::size_t four) { finish_four(bodies, kLanes * four, timestep); });
+}
+
+}  // namespace repose::dem

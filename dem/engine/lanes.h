@@ -1,0 +1,213 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "dem/vector.h"
+
+/// Four numbers in one: the inner loops work on four bodies or four contacts at once.
+///
+/// Formulas are templates on Number, which is double or Lanes. Each lane is rounded as a double is,
+/// whatever the machine's vectors are like, so that results do not depend on the machine nor on
+/// which four go together. Vectors of this kind are an extension of GCC and Clang.
+namespace repose::dem {
+
+inline constexpr std::size_t kLanes = 4;
+
+/// Functions of lanes are only fast as part of a loop.
+#define REPOSE_INLINE inline __attribute__((always_inline))
+
+/// Compiled twice, for machines with vectors of four (AVX2) and for all others; the better one
+/// runs.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define REPOSE_FOR_EACH_MACHINE __attribute__((target_clones("default", "avx2")))
+#else
+#define REPOSE_FOR_EACH_MACHINE
+#endif
+
+/// Yes or no in each lane.
+struct alignas(32) LaneMask {
+  long long __attribute__((vector_size(32))) bits;
+
+  REPOSE_INLINE bool operator[](std::size_t lane) const { return bits[lane] != 0; }
+  friend REPOSE_INLINE LaneMask operator&(const LaneMask& x, const LaneMask& y) {
+    return {x.bits & y.bits};
+  }
+};
+
+// Aligned by name: on its own a vector's alignment would differ from machine to machine.
+struct alignas(32) Lanes {
+  using Vector4 = double __attribute__((vector_size(32)));
+  Vector4 numbers = {};
+
+  Lanes() = default;
+  // By hand, so that structures of lanes too are copied as whole vectors and not in halves.
+  REPOSE_INLINE Lanes(const Lanes& from) : numbers(from.numbers) {}
+  REPOSE_INLINE Lanes& operator=(const Lanes& from) {
+    numbers = from.numbers;
+    return *this;
+  }
+  ~Lanes() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a vector of four is nothing else
+  REPOSE_INLINE Lanes(const Vector4& from) : numbers(from) {}
+  REPOSE_INLINE explicit Lanes(double of_all) : numbers(Vector4{} + of_all) {}
+
+  REPOSE_INLINE double operator[](std::size_t lane) const { return numbers[lane]; }
+  REPOSE_INLINE void set(std::size_t lane, double number) { numbers[lane] = number; }
+  REPOSE_INLINE Lanes operator-() const { return -numbers; }
+  REPOSE_INLINE Lanes& operator+=(const Lanes& y) { return *this = *this + y; }
+
+  friend REPOSE_INLINE Lanes operator+(const Lanes& x, const Lanes& y) {
+    return x.numbers + y.numbers;
+  }
+  friend REPOSE_INLINE Lanes operator-(const Lanes& x, const Lanes& y) {
+    return x.numbers - y.numbers;
+  }
+  friend REPOSE_INLINE Lanes operator*(const Lanes& x, const Lanes& y) {
+    return x.numbers * y.numbers;
+  }
+  friend REPOSE_INLINE Lanes operator/(const Lanes& x, const Lanes& y) {
+    return x.numbers / y.numbers;
+  }
+  friend REPOSE_INLINE Lanes operator*(double x, const Lanes& y) { return x * y.numbers; }
+  friend REPOSE_INLINE Lanes operator*(const Lanes& x, double y) { return x.numbers * y; }
+  friend REPOSE_INLINE Lanes operator/(double x, const Lanes& y) { return x / y.numbers; }
+  friend REPOSE_INLINE Lanes operator/(const Lanes& x, double y) { return x.numbers / y; }
+  friend REPOSE_INLINE Lanes operator+(double x, const Lanes& y) { return x + y.numbers; }
+  friend REPOSE_INLINE Lanes operator-(double x, const Lanes& y) { return x - y.numbers; }
+  friend REPOSE_INLINE LaneMask operator<(const Lanes& x, const Lanes& y) {
+    return {x.numbers < y.numbers};
+  }
+  friend REPOSE_INLINE LaneMask operator>(const Lanes& x, const Lanes& y) {
+    return {x.numbers > y.numbers};
+  }
+  friend REPOSE_INLINE LaneMask operator<=(const Lanes& x, const Lanes& y) {
+    return {x.numbers <= y.numbers};
+  }
+  friend REPOSE_INLINE LaneMask operator>=(const Lanes& x, const Lanes& y) {
+    return {x.numbers >= y.numbers};
+  }
+};
+
+REPOSE_INLINE double root(double value) { return std::sqrt(value); }
+REPOSE_INLINE Lanes root(const Lanes& values) {
+  Lanes roots;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) roots.set(lane, std::sqrt(values[lane]));
+  return roots;
+}
+
+REPOSE_INLINE bool any(bool value) { return value; }
+REPOSE_INLINE bool any(const LaneMask& mask) {
+  return (mask.bits[0] | mask.bits[1] | mask.bits[2] | mask.bits[3]) != 0;
+}
+
+REPOSE_INLINE double select(bool mask, double yes, double no) { return mask ? yes : no; }
+REPOSE_INLINE Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no) {
+  return mask.bits ? yes.numbers : no.numbers;
+}
+template <typename Number>
+REPOSE_INLINE Number least(const Number& x, const Number& y) {
+  return select(x < y, x, y);
+}
+template <typename Number>
+REPOSE_INLINE Number greatest(const Number& x, const Number& y) {
+  return select(x > y, x, y);
+}
+template <typename Number>
+REPOSE_INLINE Number size_of(const Number& x) {
+  return greatest(x, -x);
+}
+
+/// Four numbers anywhere in memory. (memcpy would move them in halves.)
+using FourNumbers = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+REPOSE_INLINE Lanes load(const double* from) {
+  return Lanes(Lanes::Vector4(*reinterpret_cast<const FourNumbers*>(from)));
+}
+REPOSE_INLINE void store(const Lanes& lanes, double* to) {
+  *reinterpret_cast<FourNumbers*>(to) = lanes.numbers;
+}
+
+/// A vector of space, in each lane.
+template <typename Number>
+struct Triple {
+  Number x = {};
+  Number y = {};
+  Number z = {};
+
+  REPOSE_INLINE Number dot(const Triple& v) const { return x * v.x + y * v.y + z * v.z; }
+  REPOSE_INLINE Number squared_norm() const { return dot(*this); }
+  REPOSE_INLINE Triple cross(const Triple& v) const {
+    return {y * v.z - z * v.y, z * v.x - x * v.z, x * v.y - y * v.x};
+  }
+  /// Coordinate by coordinate.
+  REPOSE_INLINE Triple times(const Triple& v) const { return {x * v.x, y * v.y, z * v.z}; }
+  REPOSE_INLINE Triple operator-() const { return {-x, -y, -z}; }
+  REPOSE_INLINE Triple& operator+=(const Triple& v) { return *this = *this + v; }
+  REPOSE_INLINE Triple& operator-=(const Triple& v) { return *this = *this - v; }
+
+  friend REPOSE_INLINE Triple operator+(const Triple& u, const Triple& v) {
+    return {u.x + v.x, u.y + v.y, u.z + v.z};
+  }
+  friend REPOSE_INLINE Triple operator-(const Triple& u, const Triple& v) {
+    return {u.x - v.x, u.y - v.y, u.z - v.z};
+  }
+  friend REPOSE_INLINE Triple operator*(const Triple& v, const Number& factor) {
+    return {v.x * factor, v.y * factor, v.z * factor};
+  }
+};
+
+inline Triple<double> triple_of(const Vector& v) { return {v.x(), v.y(), v.z()}; }
+inline Vector vector_of(const Triple<double>& v) { return {v.x, v.y, v.z}; }
+
+template <typename Mask, typename Number>
+REPOSE_INLINE Triple<Number> select(const Mask& mask, const Triple<Number>& yes,
+                                    const Triple<Number>& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+/// A vector and a number beside it, as long as Lanes.
+struct Row {
+  Vector xyz = Vector::Zero();
+  double w = 0;
+};
+
+/// The first four numbers of a structure of doubles: a Row, say.
+template <typename Structure>
+REPOSE_INLINE Lanes load_row(const Structure& from) {
+  static_assert(sizeof(Structure) >= sizeof(Lanes));
+  return load(reinterpret_cast<const double*>(&from));
+}
+template <typename Structure>
+REPOSE_INLINE void store_row(const Lanes& lanes, Structure& to) {
+  static_assert(sizeof(Structure) >= sizeof(Lanes));
+  store(lanes, reinterpret_cast<double*>(&to));
+}
+
+/// Four rows: by lane, or by coordinate.
+struct Rows {
+  Lanes row[kLanes];
+};
+struct Columns {
+  Triple<Lanes> xyz;
+  Lanes w;
+};
+
+REPOSE_INLINE Rows turned(const Rows& r) {
+  using Vector4 = Lanes::Vector4;
+  const Vector4 a = __builtin_shufflevector(r.row[0].numbers, r.row[1].numbers, 0, 4, 2, 6);
+  const Vector4 b = __builtin_shufflevector(r.row[0].numbers, r.row[1].numbers, 1, 5, 3, 7);
+  const Vector4 c = __builtin_shufflevector(r.row[2].numbers, r.row[3].numbers, 0, 4, 2, 6);
+  const Vector4 d = __builtin_shufflevector(r.row[2].numbers, r.row[3].numbers, 1, 5, 3, 7);
+  return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
+           __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
+}
+REPOSE_INLINE Columns columns_of(const Rows& rows) {
+  const Rows columns = turned(rows);
+  return {{columns.row[0], columns.row[1], columns.row[2]}, columns.row[3]};
+}
+REPOSE_INLINE Rows rows_of(const Triple<Lanes>& xyz, const Lanes& w) {
+  return turned({{xyz.x, xyz.y, xyz.z, w}});
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "dem/engine/contact_step.h"
+#include "dem/engine/four_contacts.h"
+#include "dem/engine/neighbour_list.h"
+
+namespace repose::dem {
+
+/// Works out the contacts of pairs `first` ... of the list, as many as there are `loads`, and
+/// brings their memories up to date. Each pair's load is the sum over its contacts in the list's
+/// order.
+void find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t first,
+                     std::span<PairLoad> loads);
+
+}  // namespace repose::dem
