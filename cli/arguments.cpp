@@ -20,6 +20,7 @@ Examples:
   repose measure heap.jpg
   repose measure photos/ --overlay checked/ --csv angles.csv
   repose measure photos/ --method paper --json -
+  repose compare photo.jpg render.png --overlay both.png
   repose shape nut.stl --spheres 11 --out nut.json
   repose simulate heap samples/hazelnut/study.toml
   repose verify

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/compare.h"
 #include "cli/measure.h"
 #include "cli/shape.h"
 #include "cli/simulate.h"
@@ -38,6 +39,26 @@ of those with status ok. A number with status flagged has a warning that a
 person must look at; a refused picture has a reason instead of a number.
 )";
 
+constexpr const char* kCompareNotes = R"(
+Each PICTURE is a level side view of one heap: a photograph or a rendered
+silhouette. Both are measured like repose measure does, turned until their
+ground is level, and put above each other: axis on axis, ground on ground. The
+axis is the middle of the silhouette between 20 and 80 % of its height; where
+a side is missing, crest is put on crest. All differences are the first minus
+the second.
+
+Verdict on the angles, from the 95 % interval of their difference:
+  equivalent   the interval lies within the margin
+  different    it does not, and it leaves out 0
+  cannot tell  neither
+It is about these two heaps. Heaps of the same grains differ, too: pour and
+photograph several, and compare the means of repose measure.
+
+Scale: mm of a pixel, or the known width of the base. One value is for both
+pictures, A,B is one for each. Without a scale only shapes are compared, and
+lengths are in parts of the square root of a silhouette's area.
+)";
+
 constexpr const char* kShapeNotes = R"(
 Turns a scan (STL, OBJ, PLY) or calliper sizes into a clump: a rigid grain of
 overlapping spheres for a discrete element program. Volume, mass and inertia
@@ -58,7 +79,8 @@ roll (distance along the flat, mm) or heap (angle of repose, degrees). STUDY
 is a study file: samples/hazelnut/study.toml explains all of its keys.
 
 Each repeat has its own seed: --seed, and those that follow. The same seed
-gives the same result at any number of threads.
+gives the same result at any number of threads. With --out, the same command
+goes on with what was interrupted.
 
 Examples:
   repose simulate drop study.toml --repeats 10
@@ -94,6 +116,44 @@ Command measure_command(CLI::App& app) {
   measure->footer(kMeasureNotes);
   return {measure, [given] { return run_measure(*given); },
           "no picture is named. Fix: repose measure PICTURE, or a folder of pictures."};
+}
+
+Command compare_command(CLI::App& app) {
+  const auto given = std::make_shared<CompareArguments>();
+  CompareArguments& arguments = *given;
+  constexpr int kPictures = 2;
+  CLI::App* compare = app.add_subcommand("compare", "Compare the heaps in two pictures");
+  compare->add_option("pictures", arguments.pictures, "The two pictures")
+      ->option_text("PICTURE PICTURE")
+      ->required()
+      ->expected(kPictures);
+  compare->add_option("--mm-per-px", arguments.mm_per_px, "Scale: mm of a pixel")
+      ->option_text("A[,B]");
+  compare->add_option("--base-mm", arguments.base_mm, "Scale: known width of the base")
+      ->option_text("A[,B]");
+  compare->add_option("--grain-mm", arguments.grain_mm, "Grain size, to count in grains too")
+      ->option_text("D");
+  compare->add_option("--margin-deg", arguments.margin_deg, "Difference that does not matter (2)")
+      ->option_text("DEGREES");
+  compare->add_option("--method", arguments.method, "How to measure (auto)")
+      ->option_text("auto|paper");
+  compare->add_option("--window", arguments.window, "Part of the height (0.2,0.8)")
+      ->option_text("FROM,TO");
+  compare->add_option("--pitch-deg", arguments.pitch_deg, "Cameras' downward pitch (0)")
+      ->option_text("A[,B]");
+  compare->add_option("--exclude-first", arguments.exclude_first, "Box to leave out; repeatable")
+      ->option_text("X,Y,W,H")
+      ->allow_extra_args(false);
+  compare->add_option("--exclude-second", arguments.exclude_second, "Box to leave out; repeatable")
+      ->option_text("X,Y,W,H")
+      ->allow_extra_args(false);
+  compare->add_option("--overlay", arguments.overlay_file, "Draw both outlines")
+      ->option_text("FILE.png");
+  compare->add_option("--json", arguments.json_file, "Everything, for programs")
+      ->option_text("FILE|-");
+  compare->footer(kCompareNotes);
+  return {compare, [given] { return run_compare(*given); },
+          "two pictures are needed. Fix: repose compare PICTURE PICTURE."};
 }
 
 Command shape_command(CLI::App& app) {
@@ -136,9 +196,10 @@ Command simulate_command(CLI::App& app) {
   simulate->add_option("--repeats", arguments.repeats, "How many, each with its own seed")
       ->option_text("N");
   simulate->add_option("--threads", arguments.threads, "At a time (all cores)")->option_text("N");
-  simulate->add_option("--out", arguments.out_folder, "States for ParaView, and result.json")
+  simulate->add_option("--out", arguments.out_folder, "States, result.json; to go on from")
       ->option_text("FOLDER");
-  simulate->add_option("--trajectory-s", arguments.trajectory_s, "Write states this often, s")
+  simulate
+      ->add_option("--trajectory-s", arguments.trajectory_s, "A frame each DT of simulated time, s")
       ->option_text("DT");
   simulate->add_option("--json", arguments.json_file, "Everything, for programs")
       ->option_text("FILE|-");
@@ -158,8 +219,8 @@ Command verify_command(CLI::App& app) {
 }  // namespace
 
 std::vector<Command> add_commands(CLI::App& app) {
-  std::vector<Command> commands = {measure_command(app), shape_command(app), simulate_command(app),
-                                   verify_command(app)};
+  std::vector<Command> commands = {measure_command(app), compare_command(app), shape_command(app),
+                                   simulate_command(app), verify_command(app)};
   for (const Command& command : commands) command.app->get_formatter()->column_width(32);
   return commands;
 }

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "cli/picture_list.h"
 #include "cli/progress.h"
 #include "vision/overlay.h"
 #include "vision/picture.h"
@@ -27,11 +28,6 @@ void draw(const vision::Picture& picture, const MeasurePlan& plan, std::size_t i
   }
 }
 
-/// Faults of the measuring do not name the file, those of the reading do.
-std::string with_name(const std::string& file, const std::string& fault) {
-  return fault.starts_with(file + ": ") ? fault : file + ": " + fault;
-}
-
 MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
   MeasuredPicture measured;
   measured.file = plan.pictures[index].string();
@@ -40,14 +36,15 @@ MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
     measured.angle = vision::measure_repose_angle(picture, plan.options);
     if (!plan.overlays.empty()) draw(picture, plan, index, measured);
     measured.angle.outline = {};
+    measured.angle.upper_edge = {};
     measured.angle.left.edge = {};
     measured.angle.right.edge = {};
   } catch (const std::invalid_argument& fault) {
     measured.outcome = Outcome::bad_input;
-    measured.fault = with_name(measured.file, fault.what());
+    measured.fault = naming_file(measured.file, fault.what());
   } catch (const std::exception& error) {
     measured.outcome = Outcome::internal_error;
-    measured.fault = with_name(measured.file, error.what());
+    measured.fault = naming_file(measured.file, error.what());
   }
   return measured;
 }

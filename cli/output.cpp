@@ -1,18 +1,17 @@
 #include "cli/output.h"
 
 #include <cstdio>
-#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "vision/whole_file.h"
+#include "io/whole_file.h"
 
 namespace repose::cli {
 
 void write_output(const std::string& file, std::string_view text) {
   if (file != kStandardOutput) {
-    vision::write_whole_file(file, std::as_bytes(std::span(text)));
+    io::write_whole_file(file, text);
     return;
   }
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();

@@ -58,6 +58,10 @@ void drop_repeated(PictureList& list) {
 
 }  // namespace
 
+std::string naming_file(const std::string& file, const std::string& fault) {
+  return fault.starts_with(file + ": ") ? fault : file + ": " + fault;
+}
+
 fs::path identity(const fs::path& file) {
   std::error_code error;
   // Made absolute first: of a relative name that does not exist nothing would be resolved.

@@ -9,6 +9,9 @@ namespace repose::cli {
 /// The same for all names of one file, whether it exists or not.
 std::filesystem::path identity(const std::filesystem::path& file);
 
+/// "FILE: what. Fix: ...": faults of measuring a picture do not name it, those of reading it do.
+std::string naming_file(const std::string& file, const std::string& fault);
+
 /// What the names on the command line come down to.
 struct PictureList {
   std::vector<std::filesystem::path> files;

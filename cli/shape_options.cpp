@@ -12,7 +12,7 @@
 
 #include "cli/number.h"
 #include "cli/output.h"
-#include "vision/whole_file.h"
+#include "io/whole_file.h"
 
 namespace repose::cli {
 namespace {
@@ -145,7 +145,7 @@ void check_output_files(const ShapeArguments& arguments, ShapePlan& plan) {
     }
     if (*file == kStandardOutput) continue;
     try {
-      vision::check_can_write(*file);
+      io::check_can_write(*file);
     } catch (const std::invalid_argument& fault) {
       plan.faults.push_back(fmt::format("{} {}", option, fault.what()));
     }

@@ -32,6 +32,12 @@ std::string finished_text(const SimulatePlan& plan, const std::vector<Run>& runs
                          : "");
 }
 
+/// How an interrupted batch goes on.
+std::string continue_text(const SimulatePlan& plan) {
+  return plan.out_folder.empty() ? "With --out FOLDER it could be gone on with."
+                                 : "The same command again goes on from here.";
+}
+
 /// Says why there is no result. What is wrong with the input is so for every seed, and told once.
 ExitCode fail(const SimulatePlan& plan, const std::vector<Run>& runs) {
   std::set<std::string> told;
@@ -69,13 +75,14 @@ ExitCode run_simulate(const SimulateArguments& arguments) {
   const std::vector<Run> runs = run_repeats(plan, is_interrupted);
   const std::size_t done = count(runs, RunOutcome::done);
   if (is_interrupted && done < runs.size()) {
-    fmt::print(stderr, "repose: interrupted, no result was written; {}\n",
-               finished_text(plan, runs));
+    fmt::print(stderr, "repose: interrupted, no result was written; {}. {}\n",
+               finished_text(plan, runs), continue_text(plan));
     return ExitCode::interrupted;
   }
   if (done < runs.size()) return fail(plan, runs);
   for (const RunWarning& warning : warnings_of(plan, runs)) {
-    fmt::print(stderr, "repose: seed {}: {}\n", warning.seed, warning.message);
+    fmt::print(stderr, "repose: {}{}\n",
+               warning.seed ? fmt::format("seed {}: ", *warning.seed) : "", warning.message);
   }
   write_results(plan, runs);
   return summarise(runs) ? ExitCode::done : ExitCode::nothing_measurable;

@@ -139,8 +139,9 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
   for (const Run& run : runs) json["repeats"].push_back(run_json(run));
   json["warnings"] = Json::array();
   for (const RunWarning& warning : warnings_of(plan, runs)) {
-    json["warnings"].push_back(
-        {{"code", warning.code}, {"seed", warning.seed}, {"message", warning.message}});
+    json["warnings"].push_back({{"code", warning.code},
+                                {"seed", warning.seed ? Json(*warning.seed) : Json(nullptr)},
+                                {"message", warning.message}});
   }
   json["measured"] = measured_json(measured_in(plan.study, plan.experiment));
   add_context(plan, json);

@@ -13,8 +13,9 @@
 
 #include "cli/number.h"
 #include "cli/output.h"
+#include "cli/simulate_kept.h"
 #include "cli/simulate_names.h"
-#include "vision/whole_file.h"
+#include "io/whole_file.h"
 
 namespace repose::cli {
 namespace {
@@ -105,7 +106,7 @@ void check_study(SimulatePlan& plan) {
 void check_places(SimulatePlan& plan) {
   const auto check = [&plan](const std::string& option, const fs::path& file) {
     try {
-      vision::check_can_write(file);
+      io::check_can_write(file);
     } catch (const std::invalid_argument& fault) {
       plan.faults.push_back(fmt::format("{} {}", option, fault.what()));
     }
@@ -123,6 +124,17 @@ void check_places(SimulatePlan& plan) {
   check("--out", plan.out_folder / "result.json");
 }
 
+/// What the folder holds may be gone on with, if it is of the same run.
+void check_kept(SimulatePlan& plan) {
+  const std::string fault = fault_of_kept(plan);
+  if (!fault.empty()) {
+    plan.faults.push_back(fault);
+    return;
+  }
+  const std::string kept = kept_text(plan);
+  if (!kept.empty()) plan.notes.push_back(kept);
+}
+
 void build_bench(SimulatePlan& plan) {
   try {
     plan.grain = dem::build_grain(plan.study.grain);
@@ -135,8 +147,6 @@ void build_bench(SimulatePlan& plan) {
   }
   plan.bench = dem::bench_for(plan.study, plan.experiment);
   plan.bench.grain = plan.grain.shape;
-  // Several repeats share the threads, one each; a single one has them all.
-  plan.bench.threads = plan.seeds.size() == 1 ? plan.threads : 1;
 }
 
 }  // namespace
@@ -163,6 +173,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   read_numbers(arguments, plan);
   if (is_read && experiment) check_study(plan);
   check_places(plan);
+  if (is_read && experiment) check_kept(plan);
   if (plan.faults.empty()) build_bench(plan);
   return plan;
 }

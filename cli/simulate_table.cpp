@@ -41,6 +41,10 @@ std::string mean_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
   const auto summary = summarise(runs);
   const std::string unit = unit_sign(plan);
   if (!summary) return "no mean: a repeat gave no number\n";
+  if (!summary->sd && summary->n > 1) {
+    return fmt::format("mean {:.3f}{} n = {}, all the same: no scatter and no interval\n",
+                       summary->mean, unit, summary->n);
+  }
   if (!summary->sd || !summary->mean_uncertainty) {
     return fmt::format("mean {:.3f}{} n = 1, which has no scatter and no interval: --repeats 5\n",
                        summary->mean, unit);

@@ -1,5 +1,8 @@
 #include "cli/simulate_warnings.h"
 
+#include <cmath>
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace repose::cli {
@@ -10,10 +13,54 @@ double reading_of(const Run& run, const std::string& name, double otherwise) {
   return found == run.repeat.readings.end() ? otherwise : found->second;
 }
 
+RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
+  std::string message = fmt::format(
+      "all {} repeats gave the same value: they tell nothing about scatter, and there is no "
+      "interval.",
+      repeats);
+  if (plan.experiment == dem::Experiment::tilt) {
+    message +=
+        " Nothing in this experiment is left to chance: its seed has no effect. Fix: one repeat; "
+        "what scatters on the bench is the sliding friction, so vary that: --set "
+        "contact.particle_wall.sliding_friction=...";
+  }
+  return {"no_scatter", {}, message};
+}
+
+/// The stretch that is fitted matters more than chance does: than the interval of the mean, or for
+/// a single heap, which has none, than its scatter between directions.
+std::optional<RunWarning> window_matters(const vision::Repeats& summary,
+                                         const std::vector<Run>& runs) {
+  double inner = 0, between_views = 0;
+  for (const Run& run : runs) {
+    if (reading_of(run, "no_heap", 0) != 0) return std::nullopt;  // a warning that says more
+    const auto count = static_cast<double>(runs.size());
+    inner += reading_of(run, "inner_window_deg", run.repeat.value) / count;
+    between_views += reading_of(run, "between_views_deg", 0) / count;
+  }
+  const double yardstick = summary.mean_uncertainty.value_or(between_views);
+  if (std::abs(summary.mean - inner) <= yardstick) return std::nullopt;
+  return RunWarning{
+      "window",
+      {},
+      fmt::format("the angle depends on the stretch that is fitted: {:.2f} degrees between 20 and "
+                  "80 % of the height, {:.2f} between 30 and 70 %, more apart than {} ({:.2f}). "
+                  "Measure pictures in the same stretch, and name it.",
+                  summary.mean, inner,
+                  summary.mean_uncertainty ? "the half-width of the interval"
+                                           : "directions of view scatter",
+                  yardstick)};
+}
+
 }  // namespace
 
 std::vector<RunWarning> warnings_of(const SimulatePlan& plan, const std::vector<Run>& runs) {
   std::vector<RunWarning> warnings;
+  const auto summary = summarise(runs);
+  if (summary && summary->n > 1 && !summary->sd) warnings.push_back(no_scatter(plan, runs.size()));
+  if (summary && plan.experiment == dem::Experiment::heap) {
+    if (auto warning = window_matters(*summary, runs)) warnings.push_back(*std::move(warning));
+  }
   for (const Run& run : runs) {
     const std::uint64_t seed = run.repeat.seed;
     if (plan.experiment == dem::Experiment::heap) {

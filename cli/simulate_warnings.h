@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +11,9 @@ namespace repose::cli {
 
 /// A value that a person must look at before using it.
 struct RunWarning {
-  std::string code;  ///< fixed word
-  std::uint64_t seed = 0;
-  std::string message;  ///< sentence
+  std::string code;                   ///< fixed word
+  std::optional<std::uint64_t> seed;  ///< none: of all repeats together
+  std::string message;                ///< sentence
 };
 
 /// What the readings of finished repeats tell against their values.

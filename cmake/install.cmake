@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/repose)
 
 # Users write <repose/vision/repose_angle.h>; the headers name each other "vision/picture.h".
-install(TARGETS repose_vision repose_dem
+install(TARGETS repose_io repose_vision repose_dem
   EXPORT reposeTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/repose

@@ -12,6 +12,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "io/whole_file.h"
 #include "vision/codec/bmp.h"
 #include "vision/codec/jpeg.h"
 #include "vision/codec/png.h"
@@ -19,7 +20,6 @@
 #include "vision/codec/upright.h"
 #include "vision/codec/webp.h"
 #include "vision/mat_of_picture.h"
-#include "vision/whole_file.h"
 
 namespace repose::vision {
 namespace {
@@ -139,7 +139,7 @@ void write_picture(const fs::path& file, const Picture& picture) {
   cv::imencode(is_jpeg ? ".jpg" : ".png", mat_of(picture), content,
                is_jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, kJpegQuality}
                        : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, kPngCompression});
-  write_whole_file(file, std::as_bytes(std::span(content)));
+  io::write_whole_file(file, std::as_bytes(std::span(content)));
 }
 
 }  // namespace repose::vision

@@ -58,6 +58,8 @@ Flank flank_of(const Reading& reading, Side side, double shrink, double half_wid
   Flank flank;
   flank.status = fit.status;
   flank.reason = fit.reason;
+  flank.leaves_frame =
+      side == Side::left ? reading.profile.leaves_frame_left : reading.profile.leaves_frame_right;
   if (fit.status != FlankStatus::ok) return flank;
   const auto level = [&](double apparent) { return angle_without_pitch(apparent, pitch_rad); };
   flank.angle_rad = level(fit.angle_rad);
@@ -121,6 +123,12 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   result.ground = Segment{to_picture(ground.picture(best.profile.along.front(), 0), work.shrink),
                           to_picture(ground.picture(best.profile.along.back(), 0), work.shrink)};
   result.outline = outline_of(best.body.mask, work.shrink);
+  for (std::size_t i = 0; i < best.profile.size(); ++i) {
+    const Point edge = ground.picture(best.profile.along[i], best.profile.height[i]);
+    result.upper_edge.push_back(to_picture(edge, work.shrink));
+  }
+  const double crest = best.profile.along[best.profile.crest];
+  result.crest = to_picture(ground.picture(crest, best.profile.crest_height), work.shrink);
   result.height_px = best.profile.crest_height * work.shrink;
   result.base_px = (best.profile.along.back() - best.profile.along.front()) * work.shrink;
   if (best.grain) result.grain_px = *best.grain * work.shrink;

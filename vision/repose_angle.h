@@ -60,6 +60,7 @@ struct WindowAngle {
 struct Flank {
   FlankStatus status = FlankStatus::absent;
   std::string reason;                       ///< why it is absent or truncated
+  bool leaves_frame = false;                ///< the picture's edge hides its foot
   std::optional<double> angle_rad;          ///< the method's angle of this side
   std::optional<double> uncertainty_rad;    ///< 95 % half-width
   std::optional<double> least_squares_rad;  ///< ordinary least squares, y on x
@@ -96,11 +97,13 @@ struct ReposeAngle {
   std::string segmentation;  ///< name of the segmentation that was chosen
   double confidence = 0;     ///< 0 to 1
   std::vector<Warning> warnings;
-  std::vector<Point> outline;           ///< silhouette of the heap's body, closed [px]
-  std::optional<double> height_px;      ///< crest above the ground line
-  std::optional<double> base_px;        ///< width of the base along the ground line
-  std::optional<double> grain_px;       ///< typical grain size, from the body's pattern
-  int strays = 0;                       ///< grains lying apart from the body
+  std::vector<Point> outline;       ///< silhouette of the heap's body, closed [px]
+  std::vector<Point> upper_edge;    ///< ... its upper side, left to right, finer than 1 px [px]
+  std::optional<Point> crest;       ///< middle of the highest part, on the lightly smoothed edge
+  std::optional<double> height_px;  ///< crest above the ground line
+  std::optional<double> base_px;    ///< width of the base along the ground line
+  std::optional<double> grain_px;   ///< typical grain size, from the body's pattern
+  int strays = 0;                   ///< grains lying apart from the body
   std::vector<NamedAngle> definitions;  ///< height over base, half-height tangent, ...
 };
 

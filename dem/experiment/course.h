@@ -8,35 +8,41 @@
 
 namespace repose::dem {
 
-/// What a run has cost so far.
-struct Work {
-  std::int64_t steps = 0;
-  double clump_steps = 0;
+/// Who is told what on the way.
+struct Watch {
+  const ProgressReport& report;
+  const RunRecord& record;
 };
 
-/// A simulation on its way through an experiment: counts its steps and reports them.
+/// A simulation on its way through an experiment: counts its steps, reports and records them.
 class Course {
  public:
-  Course(Simulation simulation, const ProgressReport& report, Work before = {});
+  Course(Simulation simulation, const Watch& watch, HeapProgress progress = {});
 
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
-  const Work& work() const { return work_; }
+  HeapProgress& progress() { return progress_; }
+  const Watch& watch() const { return watch_; }
   const ClumpShape& shape() const { return simulation_.setup().kinds.front().shape; }
 
   /// Steps that take this long, at least one.
   std::int64_t steps_of(double duration_s) const;
+  /// Reports by itself when the steps take long. The bytes do not depend on who watches.
   void advance(std::int64_t steps);
-  /// Throws Interrupted when the report asks for it.
-  void tell(double share) const;
+  /// Throws Interrupted when the report asks for it, with a restart point kept.
+  void tell(double share);
 
   /// Ends the course: its simulation goes into the result.
   Repeat finish(double value, std::uint64_t seed, std::map<std::string, double> readings);
 
  private:
+  std::int64_t next_frame_step() const;
+  void look() const;
+
   Simulation simulation_;
-  const ProgressReport& report_;
-  Work work_;
+  Watch watch_;
+  HeapProgress progress_;
+  double share_ = 0;  ///< as last told
 };
 
 }  // namespace repose::dem

@@ -13,13 +13,8 @@
 namespace repose::dem {
 namespace {
 
-/// A rebound goes with the square of the restitution: what is accurate to .005 elsewhere would be 3
-/// % of the height. A drop costs next to nothing.
-constexpr double kTimestepShare = .1;
-/// Steps between two looks: many to an impact, which lasts hundreds of
-/// steps.
-constexpr std::int64_t kStepsBetweenLooks = 4;
-constexpr int kLooksBetweenReports = 256;
+/// Steps between two reports; every step is looked at, since an impact is some 48 steps long.
+constexpr int kStepsBetweenReports = 1024;
 
 void check(const Bench& bench, const DropProtocol& protocol) {
   Faults faults;
@@ -107,27 +102,26 @@ std::map<std::string, double> readings_of(const std::vector<Bounce>& bounces) {
 }  // namespace
 
 Repeat run_drop(const Bench& bench, const DropProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report) {
+                const ProgressReport& report, const RunRecord& record) {
   check(bench, protocol);
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * protocol.height_m);
-  Course course(
-      Simulation(bench_setup(bench, bench.grain, {bench_wall(Plane{})}, speed, kTimestepShare)),
-      report);
+  Course course(Simulation(bench_setup(bench, bench.grain, {bench_wall(Plane{})}, speed)),
+                {report, record});
   std::vector<Bounce> bounces = drop_grains(course.simulation(), protocol, speed, seed);
   // No flight takes longer than the fall did; a grain that has not left the wall within as long
   // again and the time to topple lies still.
   const double longest_s = 2 * speed / kStandardGravity_m_s2 +
                            4 * std::sqrt(2 * bench.grain.reach_m() / kStandardGravity_m_s2);
   bool are_over = false;
-  for (int look = 0; !are_over && course.simulation().time_s() < longest_s; ++look) {
-    course.advance(kStepsBetweenLooks);
+  for (int step = 0; !are_over && course.simulation().time_s() < longest_s; ++step) {
+    course.advance(1);
     are_over = true;
     for (int k = 0; k < protocol.grains; ++k) {
       Bounce& bounce = bounces[static_cast<std::size_t>(k)];
       if (!bounce.is_over) follow(bounce, course.simulation(), k);
       are_over = are_over && bounce.is_over;
     }
-    if (look % kLooksBetweenReports == 0) course.tell(course.simulation().time_s() / longest_s);
+    if (step % kStepsBetweenReports == 0) course.tell(course.simulation().time_s() / longest_s);
   }
   return course.finish(mean_mm(bounces, &Bounce::rise_m), seed, readings_of(bounces));
 }

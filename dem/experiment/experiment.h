@@ -10,6 +10,7 @@
 
 #include "dem/contact/material.h"
 #include "dem/engine/simulation.h"
+#include "dem/experiment/heap_progress.h"
 #include "dem/shape/clump_shape.h"
 
 namespace repose::dem {
@@ -56,6 +57,10 @@ struct DropProtocol {
 /// "half_mm_slip_deg" (the plate's angle once the body has slipped half a millimetre; what others
 /// report) and "begin_deg" (where the turning began). Throws NoReading for a body that tips or
 /// rolls, or holds up to 89 degrees. There is no chance in it: the seed changes nothing.
+/// Nor would chance be of use: as long as the body slides, its angle is that of friction whatever
+/// its pose, and with the row across the slope ellipsoids roll over their ends once
+/// tan(angle) = (a^2 - b^2) / 2ab (half-axes a > b: 14 degrees for a hazelnut), before they slide.
+/// The scatter of a bench is that of its surfaces.
 struct TiltProtocol {
   int bonded = 2;
   double rate_deg_s = 2;
@@ -82,9 +87,10 @@ struct RollProtocol {
 /// "no_heap" 1; the value is then that layer's own small angle, or 0 if it has none. Readings:
 /// "grains" (when the lift began), "grains_on_plate", "grains_off_plate", "height_mm",
 /// "base_radius_mm", "between_views_deg" (scatter between directions), "angle_xz_deg" (seen along
-/// y), "no_heap", "at_rest" (0: still creeping 5 s after the tube was away, as constant torques let
-/// heaps do), "time_s" (of lift and settling). Throws NoReading when the grains stay in the tube or
-/// leave the plate.
+/// y), "inner_window_deg" (as the value, but fitted from 30 to 70 % of the height instead of 20 to
+/// 80: low heaps are hollow at the foot, and the stretch moves their angle), "no_heap", "at_rest"
+/// (0: still creeping 5 s after the tube was away, as constant torques let heaps do), "time_s" (of
+/// lift and settling). Throws NoReading when the grains stay in the tube or leave the plate.
 struct HeapProtocol {
   double tube_diameter_m = .1;  ///< inner
   double tube_height_m = .4;
@@ -111,6 +117,19 @@ struct Repeat {
 /// Hears now and then how far a run is (0 ... 1); returns false to break it off.
 using ProgressReport = std::function<bool(double share, const Simulation&)>;
 
+/// What a run hands out on its way, beside its reports; each may be left out.
+struct RunRecord {
+  /// Is shown each simulation of the run at its beginning, and then at the steps nearest to the
+  /// multiples of `frame_interval_s` (above 0) of its time.
+  std::function<void(const Simulation&)> frame;
+  double frame_interval_s = 0;
+  /// Heaps only, the others take seconds: is handed what resume_heap() needs, whenever
+  /// `is_restart_due` says so, which is asked every some million grain steps, and when the run is
+  /// broken off.
+  std::function<void(const Simulation&, const HeapProgress&)> keep_restart;
+  std::function<bool()> is_restart_due;
+};
+
 /// Thrown when a ProgressReport asked for it.
 class Interrupted : public std::runtime_error {
  public:
@@ -127,12 +146,18 @@ class NoReading : public std::runtime_error {
 // std::invalid_argument for a protocol that cannot be run (every fault at once), UnstableRun for a
 // run that went wrong, NoReading and Interrupted as said there.
 Repeat run_drop(const Bench& bench, const DropProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {});
+                const ProgressReport& report = {}, const RunRecord& record = {});
 Repeat run_tilt(const Bench& bench, const TiltProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {});
+                const ProgressReport& report = {}, const RunRecord& record = {});
 Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {});
+                const ProgressReport& report = {}, const RunRecord& record = {});
 Repeat run_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {});
+                const ProgressReport& report = {}, const RunRecord& record = {});
+
+/// Goes on with a heap that was broken off, to the same bytes as one that was not. `from` must be
+/// of the same bench, protocol and seed, which is not checked.
+Repeat resume_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
+                   const HeapRestart& from, const ProgressReport& report = {},
+                   const RunRecord& record = {});
 
 }  // namespace repose::dem

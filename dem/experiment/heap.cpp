@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "dem/experiment/course.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/heap_fill.h"
+#include "dem/experiment/heap_settling.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
 #include "dem/experiment/surface_profile.h"
@@ -16,9 +18,6 @@ namespace repose::dem {
 namespace {
 
 constexpr double kLongestLift_s = 600;
-/// Once the tube is away, for heaps that creep: with the lift, about the 8 s that a bench heap is
-/// given before its picture is taken.
-constexpr double kLongestSettling_s = 5;
 /// Heaps lower than this many grain diameters are layers.
 constexpr double kLowestHeap = 2.5;
 /// Shares of the course when the lift begins and when the tube is away.
@@ -87,15 +86,24 @@ double highest_point_m(const Course& course) {
   return highest;
 }
 
-/// Lifts the tube until no grain reaches up to its lower rim, and takes it away.
-void lift(Course& course, const HeapProtocol& protocol) {
+void begin_lift(Course& course, const HeapProtocol& protocol) {
   Simulation& simulation = course.simulation();
   simulation.set_motions(kHeapTube, {{.velocity = protocol.lift_speed_m_s * Vector::UnitZ(),
                                       .start_s = simulation.time_s()}});
+  HeapProgress& progress = course.progress();
+  progress.stage = HeapStage::lift;
+  progress.grains = count_present(simulation);
+  progress.start_m = highest_point_m(course);
+}
+
+/// Lifts the tube until no grain reaches up to its lower rim, and takes it away.
+void lift(Course& course) {
+  Simulation& simulation = course.simulation();
   const RestTest rest(simulation.setup());
   const std::int64_t steps = course.steps_of(rest.interval_s());
-  const double start = highest_point_m(course);
-  for (double highest = start;; highest = highest_point_m(course)) {
+  const double start = course.progress().start_m;
+  for (;;) {
+    const double highest = highest_point_m(course);
     const double rim = simulation.wall(kHeapTube).pose.position.z();
     if (rim > highest) break;
     // Grains that are not carried along stay below where the highest was.
@@ -111,27 +119,21 @@ void lift(Course& course, const HeapProtocol& protocol) {
   simulation.remove_wall(kHeapTube);
 }
 
-bool settle(Course& course) {
-  RestTest rest(course.simulation().setup());
-  const std::int64_t steps = course.steps_of(rest.interval_s());
-  const double until_s = course.simulation().time_s() + kLongestSettling_s;
-  while (!rest.is_at_rest(course.simulation())) {
-    if (course.simulation().time_s() > until_s) return false;
-    course.advance(steps);
-    course.tell(kLiftTo);
-  }
-  return true;
+Course filled(Course filling, const Bench& bench, const HeapProtocol& protocol,
+              std::uint64_t seed) {
+  Course course = fill_tube(std::move(filling), bench, protocol, seed);
+  begin_lift(course, protocol);
+  return course;
 }
 
-}  // namespace
-
-Repeat run_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report) {
-  check(bench, protocol);
-  Course course = fill_tube(bench, protocol, seed, report);
-  const int grains = count_present(course.simulation());
-  lift(course, protocol);
-  const bool is_at_rest = settle(course);
+/// From the lift on, or from where it was broken off after that.
+Repeat finish_heap(Course course, const Bench& bench, std::uint64_t seed) {
+  if (course.progress().stage == HeapStage::lift) {
+    lift(course);
+    begin_settling(course, HeapStage::settle);
+  }
+  const bool is_at_rest = settle(course, kLiftTo);
+  const int grains = course.progress().grains;
   const int on_plate = count_present(course.simulation());
   if (on_plate == 0) {
     throw NoReading(
@@ -139,7 +141,9 @@ Repeat run_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t 
                     "friction.",
                     grains));
   }
-  const SurfaceReading surface = measure_surface(placed_spheres(course.simulation()));
+  const std::vector<ClumpSphere> spheres = placed_spheres(course.simulation());
+  const SurfaceReading surface = measure_surface(spheres);
+  const SurfaceReading inner = measure_surface(spheres, {.window_from = .3, .window_to = .7});
   const bool is_layer = surface.height_m < kLowestHeap * diameter_m(bench.grain);
   return course.finish(surface.angle_deg, seed,
                        {{"grains", grains},
@@ -149,9 +153,31 @@ Repeat run_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t 
                         {"base_radius_mm", 1e3 * surface.base_radius_m},
                         {"between_views_deg", surface.between_views_deg},
                         {"angle_xz_deg", surface.first_view_deg},
+                        {"inner_window_deg", inner.angle_deg},
                         {"no_heap", is_layer ? 1 : 0},
                         {"at_rest", is_at_rest ? 1 : 0},
                         {"time_s", course.simulation().time_s()}});
+}
+
+}  // namespace
+
+Repeat run_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report, const RunRecord& record) {
+  check(bench, protocol);
+  return finish_heap(filled(empty_tube(bench, protocol, {report, record}), bench, protocol, seed),
+                     bench, seed);
+}
+
+Repeat resume_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
+                   const HeapRestart& from, const ProgressReport& report, const RunRecord& record) {
+  check(bench, protocol);
+  SimulationSetup setup = from.setup;
+  setup.threads = bench.threads;
+  Course course(Simulation(std::move(setup), from.checkpoint), {report, record}, from.progress);
+  course.advance(from.progress.steps_left);
+  const bool is_full = from.progress.stage > HeapStage::settle_in_tube;
+  return finish_heap(is_full ? std::move(course) : filled(std::move(course), bench, protocol, seed),
+                     bench, seed);
 }
 
 }  // namespace repose::dem

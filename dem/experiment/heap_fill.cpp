@@ -11,17 +11,15 @@
 #include <fmt/format.h>
 
 #include "dem/experiment/bench_setup.h"
+#include "dem/experiment/heap_settling.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
-#include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
 namespace {
 
 /// Share of the course that filling is taken to be.
 constexpr double kFillShare = .35;
-/// What has not come to rest in the tube by then creeps, and the tube holds it all the same.
-constexpr double kLongestSettling_s = 5;
 /// Places tried for each layer: more would find few.
 constexpr int kTriesPerLayer = 400;
 /// Filling only makes a random packing: it may take steps twice as long as what is measured.
@@ -34,6 +32,9 @@ constexpr double kHeaped = 4;
 double rain_speed_m_s(double reach_m) {
   return std::sqrt(2 * kStandardGravity_m_s2 * kFall * reach_m);
 }
+
+/// Of the impacts that the time step is chosen for.
+double fastest_m_s(double reach_m) { return std::sqrt(2) * rain_speed_m_s(reach_m); }
 
 Wall plate_of(const HeapProtocol& protocol) {
   const double half = .5 * protocol.plate_m;
@@ -60,8 +61,9 @@ std::vector<int> above_rim(const Simulation& simulation, double rim_m) {
 /// Rains grains into a tube that is tall enough for all that fall.
 class Rain {
  public:
-  Rain(const HeapProtocol& protocol, double reach_m, std::uint64_t seed)
-      : protocol_(protocol), reach_m_(reach_m), random_(seed) {}
+  /// `draws`: of the rain that this one goes on from.
+  Rain(const HeapProtocol& protocol, double reach_m, std::uint64_t seed, std::uint64_t draws)
+      : protocol_(protocol), reach_m_(reach_m), random_(seed, draws) {}
 
   void fill(Course& course);
 
@@ -72,7 +74,6 @@ class Rain {
   }
   void rain_up_to(Course& course, double height_m);
   void add_layer(Course& course, double height_m);
-  void settle(Course& course) const;
 
   const HeapProtocol& protocol_;
   double reach_m_;
@@ -104,24 +105,15 @@ void Rain::add_layer(Course& course, double height_m) {
                              .orientation = random_.orientation(),
                              .velocity = {0, 0, -rain_speed_m_s(reach_m_)}});
   }
-}
-
-void Rain::settle(Course& course) const {
-  RestTest rest(course.simulation().setup());
-  const std::int64_t steps = course.steps_of(rest.interval_s());
-  const double until_s = course.simulation().time_s() + kLongestSettling_s;
-  while (!rest.is_at_rest(course.simulation()) && course.simulation().time_s() < until_s) {
-    course.advance(steps);
-    course.tell(kFillShare);
-  }
+  course.progress().random_draws = random_.draws();
 }
 
 /// A layer at a time goes in just above the last one, which by then has fallen by its own height
 /// or lies on the grains below.
 void Rain::rain_up_to(Course& course, double height_m) {
   const std::int64_t steps = course.steps_of(2 * reach_m_ / rain_speed_m_s(reach_m_));
-  for (double highest = 0; highest < height_m && left(course.simulation()) > 0;
-       highest = highest_point_m(course)) {
+  for (double highest = highest_point_m(course);
+       highest < height_m && left(course.simulation()) > 0; highest = highest_point_m(course)) {
     add_layer(course, highest + 1.01 * reach_m_);
     course.advance(steps);
     course.tell(kFillShare * highest / height_m);
@@ -129,9 +121,14 @@ void Rain::rain_up_to(Course& course, double height_m) {
 }
 
 void Rain::fill(Course& course) {
+  HeapStage& stage = course.progress().stage;
   do {
-    rain_up_to(course, protocol_.tube_height_m + kHeaped * reach_m_);
-    settle(course);
+    if (stage == HeapStage::rain) {
+      rain_up_to(course, protocol_.tube_height_m + kHeaped * reach_m_);
+      begin_settling(course, HeapStage::settle_in_tube);
+    }
+    settle(course, kFillShare);
+    stage = HeapStage::rain;
   } while (left(course.simulation()) > 0 &&
            above_rim(course.simulation(), protocol_.tube_height_m).empty());
 }
@@ -156,16 +153,18 @@ Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
 
 }  // namespace
 
-Course fill_tube(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
-                 const ProgressReport& report) {
+Course empty_tube(const Bench& bench, const HeapProtocol& protocol, const Watch& watch) {
   const double reach = bench.grain.reach_m();
-  const double speed = std::sqrt(2) * rain_speed_m_s(reach);
   const double tall = protocol.tube_height_m + 10 * kHeaped * reach;
-  Course filling(
-      Simulation(bench_setup(bench, bench.grain, {plate_of(protocol), tube_of(protocol, tall)},
-                             speed, kFillTimestepShare)),
-      report);
-  Rain(protocol, reach, seed).fill(filling);
+  return {Simulation(bench_setup(bench, bench.grain, {plate_of(protocol), tube_of(protocol, tall)},
+                                 fastest_m_s(reach), kFillTimestepShare)),
+          watch};
+}
+
+Course fill_tube(Course filling, const Bench& bench, const HeapProtocol& protocol,
+                 std::uint64_t seed) {
+  const double reach = bench.grain.reach_m();
+  Rain(protocol, reach, seed, filling.progress().random_draws).fill(filling);
   const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
   if (protocol.grains && over > 0) {
     throw std::invalid_argument(fmt::format(
@@ -174,11 +173,13 @@ Course fill_tube(const Bench& bench, const HeapProtocol& protocol, std::uint64_t
         *protocol.grains, static_cast<std::size_t>(filling.simulation().grain_count()) - over));
   }
   SimulationSetup setup = bench_setup(
-      bench, bench.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)}, speed);
+      bench, bench.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
+      fastest_m_s(reach));
   // Grains that fall off the plate are gone once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
-  return {Simulation(std::move(setup), levelled(protocol, filling.simulation())), report,
-          filling.work()};
+  return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),
+          filling.watch(),
+          {.work = filling.progress().work}};
 }
 
 }  // namespace repose::dem

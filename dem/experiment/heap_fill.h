@@ -9,12 +9,15 @@ namespace repose::dem {
 inline constexpr int kHeapPlate = 0;
 inline constexpr int kHeapTube = 1;
 
-/// A simulation of the tube on its plate, full of grains at rest, its time set back to 0.
+/// The tube on its plate, made taller to be heaped over, and empty.
+Course empty_tube(const Bench& bench, const HeapProtocol& protocol, const Watch& watch);
+
+/// The tube, full of grains at rest, its time set back to 0.
 ///
 /// The grains rain in layers, each a little above what is there: places and poses are random. What
-/// lies above the rim in the end is taken off. Throws std::invalid_argument when
-/// `protocol.grains` are more than fit.
-Course fill_tube(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
-                 const ProgressReport& report);
+/// lies above the rim in the end is taken off. `filling` is empty, or was broken off while it was
+/// filled. Throws std::invalid_argument when `protocol.grains` are more than fit.
+Course fill_tube(Course filling, const Bench& bench, const HeapProtocol& protocol,
+                 std::uint64_t seed);
 
 }  // namespace repose::dem

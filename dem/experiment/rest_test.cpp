@@ -19,7 +19,8 @@ double energy_m2_s2(const Grain& grain, const Vector& gyration_m2) {
 
 }  // namespace
 
-RestTest::RestTest(const SimulationSetup& setup) : gravity_m_s2_(setup.gravity.norm()) {
+RestTest::RestTest(const SimulationSetup& setup, RestMemory memory)
+    : gravity_m_s2_(setup.gravity.norm()), memory_(std::move(memory)) {
   for (const GrainKind& kind : setup.kinds) reach_m_ = std::max(reach_m_, kind.shape.reach_m());
   window_s_ = kWindowFalls * std::sqrt(2 * reach_m_ / gravity_m_s2_);
 }
@@ -37,16 +38,17 @@ bool RestTest::is_at_rest(const Simulation& simulation) {
   }
   const auto count = static_cast<double>(centres.size());
   const bool is_quiet = energy <= count * kEnergyShare * gravity_m_s2_ * reach_m_;
-  if (!is_quiet || before_.size() != centres.size()) {
-    before_ = std::move(centres);
-    since_s_ = simulation.time_s();
+  if (!is_quiet || memory_.before.size() != centres.size()) {
+    memory_.before = std::move(centres);
+    memory_.since_s = simulation.time_s();
     return false;
   }
-  if (simulation.time_s() - since_s_ < window_s_) return false;
+  if (simulation.time_s() - memory_.since_s < window_s_) return false;
   double moved = 0;
-  for (std::size_t k = 0; k < centres.size(); ++k) moved += (centres[k] - before_[k]).squaredNorm();
-  before_ = std::move(centres);
-  since_s_ = simulation.time_s();
+  for (std::size_t k = 0; k < centres.size(); ++k)
+    moved += (centres[k] - memory_.before[k]).squaredNorm();
+  memory_.before = std::move(centres);
+  memory_.since_s = simulation.time_s();
   return moved <= count * kMotionShare * kMotionShare * reach_m_ * reach_m_;
 }
 

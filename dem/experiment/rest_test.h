@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "dem/engine/simulation.h"
+#include "dem/experiment/heap_progress.h"
 
 namespace repose::dem {
 
@@ -14,19 +13,20 @@ namespace repose::dem {
 /// about r / 100 in a second is not at rest.
 class RestTest {
  public:
-  explicit RestTest(const SimulationSetup& setup);
+  /// `memory`: of a test that this one goes on from.
+  explicit RestTest(const SimulationSetup& setup, RestMemory memory = {});
 
   /// Looks at the grains now; to be called every few milliseconds.
   bool is_at_rest(const Simulation& simulation);
   /// Time between two looks, s.
   double interval_s() const { return window_s_ / 20; }
+  const RestMemory& memory() const { return memory_; }
 
  private:
   double reach_m_ = 0;
   double gravity_m_s2_ = 0;
   double window_s_ = 0;
-  double since_s_ = 0;          ///< when the window at hand began
-  std::vector<Vector> before_;  ///< the centres then; empty before the first look
+  RestMemory memory_;
 };
 
 }  // namespace repose::dem

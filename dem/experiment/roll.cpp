@@ -89,7 +89,7 @@ void roll_to_rest(Course& course) {
 }  // namespace
 
 Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report) {
+                const ProgressReport& report, const RunRecord& record) {
   check(bench, protocol);
   const Incline slope = incline(protocol);
   const double reach = bench.grain.reach_m();
@@ -97,7 +97,8 @@ Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t 
   const double speed =
       std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
   Course course(
-      Simulation(bench_setup(bench, bench.grain, walls_of(protocol, slope, reach), speed)), report);
+      Simulation(bench_setup(bench, bench.grain, walls_of(protocol, slope, reach), speed)),
+      {report, record});
   course.simulation().add(released(bench.grain, protocol, slope, seed));
   roll_to_rest(course);
   const Vector end = course.simulation().grain(0).position;

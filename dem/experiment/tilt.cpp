@@ -171,7 +171,7 @@ Slide slide_off(Course& course, const ClumpShape& grain, double begin_deg, doubl
 }  // namespace
 
 Repeat run_tilt(const Bench& bench, const TiltProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report) {
+                const ProgressReport& report, const RunRecord& record) {
   check(bench, protocol);
   const ClumpShape body = bonded_shape(bench.grain, protocol.bonded);
   const Quaternion lying = lying_pose(bench.grain);
@@ -181,7 +181,7 @@ Repeat run_tilt(const Bench& bench, const TiltProtocol& protocol, std::uint64_t 
   // The body meets the plate no faster than by a fall through a hundredth of its reach.
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * .01 * body.reach_m());
   const Wall plate = bench_wall(Plane{}, {.orientation = slope(begin_deg)});
-  Course course(Simulation(bench_setup(bench, body, {plate}, speed)), report);
+  Course course(Simulation(bench_setup(bench, body, {plate}, speed)), {report, record});
   const Vector normal = slope(begin_deg) * Vector::UnitZ();
   const Quaternion orientation = slope(begin_deg) * lying;
   course.simulation().add(

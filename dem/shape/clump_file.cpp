@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "dem/shape/sphere_groups.h"
+
 namespace repose::dem {
 namespace {
 
@@ -105,6 +107,8 @@ class Reader {
     return kEmpty;
   }
 
+  bool has_faults() const { return !faults_.empty(); }
+
   void throw_faults() const {
     std::string text;
     for (const std::string& fault : faults_) text += (text.empty() ? "" : "\n") + fault;
@@ -143,6 +147,15 @@ void read_spheres(const Json& root, Reader& reader, ClumpShape& shape) {
         {.centre = reader.vector(reader.value(spheres[i], "centre_m"), where + ".centre_m"),
          .radius = reader.positive(reader.value(spheres[i], "radius_m"), where + ".radius_m")});
   }
+}
+
+void check_hangs_together(const ClumpShape& shape, Reader& reader) {
+  const int groups = sphere_groups(shape.spheres);
+  if (groups == 1) return;
+  reader.fault("spheres", "they fall into " + std::to_string(groups) +
+                              " groups that do not touch each other; other grains could pass "
+                              "between them. Fix: correct the sphere that was moved, or fill the "
+                              "body with more: repose shape --spheres N.");
 }
 
 void read_gyration(const Json& root, Reader& reader, ClumpShape& shape) {
@@ -225,6 +238,7 @@ ClumpFile parse_clump_json(const std::string& text, const std::string& name) {
     clump.errors.*member = reader.number(reader.value(errors, key), std::string("errors.") + key);
   }
   read_surface(root, reader, clump.shape.surface);
+  if (!reader.has_faults()) check_hangs_together(clump.shape, reader);
   reader.throw_faults();
   return clump;
 }

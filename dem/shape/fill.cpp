@@ -10,6 +10,7 @@
 #include "dem/shape/mass_properties.h"
 #include "dem/shape/relocation.h"
 #include "dem/shape/sphere_fit.h"
+#include "dem/shape/sphere_groups.h"
 #include "dem/shape/surface_distance.h"
 #include "dem/shape/surface_samples.h"
 
@@ -51,15 +52,16 @@ std::vector<ClumpSphere> fitted_spheres(const Mesh& mesh, int count, double smal
   return spheres;
 }
 
+FillReport filled(const Mesh& mesh, int count, double smallest_radius_share) {
+  FillReport report{.spheres = fitted_spheres(mesh, count, smallest_radius_share), .errors = {}};
+  report.errors = clump_errors(mesh, report.spheres);
+  return report;
+}
+
 /// The fewest spheres that reach the error: doubled until they do, then halved in between.
 FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_radius_share) {
-  const auto filled = [&](int count) {
-    FillReport report{.spheres = fitted_spheres(mesh, count, smallest_radius_share), .errors = {}};
-    report.errors = clump_errors(mesh, report.spheres);
-    return report;
-  };
   int too_few = 0, enough = 1;
-  FillReport best = filled(enough);
+  FillReport best = filled(mesh, enough, smallest_radius_share);
   double least_error = best.errors.volume_error;
   while (best.errors.volume_error > volume_error) {
     if (enough == kMostSpheres) {
@@ -71,12 +73,12 @@ FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_
     }
     too_few = enough;
     enough = std::min(2 * enough, kMostSpheres);
-    best = filled(enough);
+    best = filled(mesh, enough, smallest_radius_share);
     least_error = std::min(least_error, best.errors.volume_error);
   }
   while (enough - too_few > 1) {
     const int between = (too_few + enough) / 2;
-    FillReport report = filled(between);
+    FillReport report = filled(mesh, between, smallest_radius_share);
     if (report.errors.volume_error <= volume_error) {
       best = std::move(report);
       enough = between;
@@ -85,6 +87,29 @@ FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_
     }
   }
   return best;
+}
+
+/// The fit of few spheres to a slender body may end in ones that the body could lie in.
+void check_sizes(const Mesh& mesh, const FillReport& report) {
+  const Vector centroid = mass_properties(mesh).centroid;
+  double reach = 0;
+  for (const Vector& vertex : mesh.vertices) reach = std::max(reach, (vertex - centroid).norm());
+  for (const ClumpSphere& sphere : report.spheres) {
+    if (sphere.radius <= reach) continue;
+    throw std::invalid_argument("spheres: " + std::to_string(report.spheres.size()) +
+                                " cannot follow this surface, one came out larger than all of it. "
+                                "Fix: more spheres.");
+  }
+}
+
+void check_hangs_together(const FillReport& report) {
+  const int groups = sphere_groups(report.spheres);
+  if (groups <= 1) return;
+  throw std::invalid_argument(
+      "spheres: these " + std::to_string(report.spheres.size()) + " fall into " +
+      std::to_string(groups) +
+      " groups that do not touch each other; other grains could pass between them. Fix: more "
+      "spheres, or a smaller volume error.");
 }
 
 }  // namespace
@@ -113,12 +138,12 @@ FillReport fill(const Mesh& mesh, const FillOptions& options) {
     for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
     throw std::invalid_argument(text);
   }
-  if (options.volume_error) {
-    return fill_to_error(mesh, *options.volume_error, options.smallest_radius_share);
-  }
-  FillReport report{.spheres = fitted_spheres(mesh, options.spheres, options.smallest_radius_share),
-                    .errors = {}};
-  report.errors = clump_errors(mesh, report.spheres);
+  FillReport report =
+      options.volume_error
+          ? fill_to_error(mesh, *options.volume_error, options.smallest_radius_share)
+          : filled(mesh, options.spheres, options.smallest_radius_share);
+  check_sizes(mesh, report);
+  check_hangs_together(report);
   return report;
 }
 

@@ -38,8 +38,8 @@ struct FillReport {
 /// centre of mass. Several start inscribed, are fitted to the surface, and then, one at a time,
 /// those that matter least are moved to where the error is largest, as long as that helps. The same
 /// mesh gives the same spheres.
-/// @throws std::invalid_argument  the options are not usable, or the volume error cannot be
-/// reached.
+/// @throws std::invalid_argument  the options are not usable, the volume error cannot be reached,
+/// or so few spheres do not hang together or do not follow the surface.
 FillReport fill(const Mesh& mesh, const FillOptions& options);
 
 /// A grain of the engine: mass properties of the surface, spheres to touch with.

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "dem/state/atomic_file.h"
 #include "dem/state/checkpoint_arrays.h"
 #include "dem/state/setup_arrays.h"
 #include "dem/state/vtk_file.h"
+#include "io/whole_file.h"
 
 namespace repose::dem {
 namespace {
@@ -55,7 +55,7 @@ std::string state_text(const Simulation& simulation, const std::string& provenan
 
 void write_state(const fs::path& file, const Simulation& simulation,
                  const std::string& provenance_json) {
-  write_atomically(file, state_text(simulation, provenance_json));
+  io::write_whole_file(file, state_text(simulation, provenance_json));
 }
 
 SavedState read_state(const fs::path& file) {

@@ -7,25 +7,24 @@
 
 #include <fmt/format.h>
 
-#include "dem/state/atomic_file.h"
 #include "dem/state/state_file.h"
+#include "io/whole_file.h"
 
 namespace repose::dem {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Times are sums of steps: a frame may be early by this share of the interval.
-constexpr double kRounding = 1e-6;
-
 std::string frame_name(std::size_t number) { return fmt::format("frame_{:05}.vtp", number); }
 
 }  // namespace
 
-TrajectoryWriter::TrajectoryWriter(fs::path folder, double interval_s, std::string provenance_json)
+TrajectoryWriter::TrajectoryWriter(fs::path folder, double interval_s, std::string provenance_json,
+                                   Film film)
     : folder_(std::move(folder)),
       interval_s_(interval_s),
-      provenance_json_(std::move(provenance_json)) {
+      provenance_json_(std::move(provenance_json)),
+      film_(std::move(film)) {
   if (!(interval_s > 0) || !std::isfinite(interval_s)) {
     throw std::invalid_argument(fmt::format(
         "time between two frames = {:g} s. Rule: above 0. Fix: for example 0.1.", interval_s));
@@ -39,15 +38,12 @@ TrajectoryWriter::TrajectoryWriter(fs::path folder, double interval_s, std::stri
   }
 }
 
-void TrajectoryWriter::offer(const Simulation& simulation) {
+void TrajectoryWriter::add(const Simulation& simulation) {
   const double now_s = simulation.time_s();
-  if (now_s < last_s_) start_s_ += last_s_ + interval_s_;
-  last_s_ = now_s;
-  const double film_s = start_s_ + now_s;
-  const bool is_due = times_s_.empty() || film_s - times_s_.back() >= interval_s_ * (1 - kRounding);
-  if (!is_due) return;
-  write_state(folder_ / frame_name(times_s_.size() + 1), simulation, provenance_json_);
-  times_s_.push_back(film_s);
+  if (now_s < film_.last_s) film_.start_s += film_.last_s + interval_s_;
+  film_.last_s = now_s;
+  write_state(folder_ / frame_name(film_.times_s.size() + 1), simulation, provenance_json_);
+  film_.times_s.push_back(film_.start_s + now_s);
   write_collection();
 }
 
@@ -55,11 +51,11 @@ void TrajectoryWriter::write_collection() const {
   std::string text =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
-  for (std::size_t k = 0; k < times_s_.size(); ++k) {
-    text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times_s_[k],
+  for (std::size_t k = 0; k < film_.times_s.size(); ++k) {
+    text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", film_.times_s[k],
                         frame_name(k + 1));
   }
-  write_atomically(folder_ / "trajectory.pvd", text + "</Collection>\n</VTKFile>\n");
+  io::write_whole_file(folder_ / "trajectory.pvd", text + "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace repose::dem

@@ -8,20 +8,28 @@
 
 namespace repose::dem {
 
+/// The times of a film's frames so far.
+struct Film {
+  std::vector<double> times_s;
+  double start_s = 0;  ///< of the simulation at hand, in the film
+  double last_s = 0;   ///< of the simulation when last added
+};
+
 /// A film of a run: frame_00001.vtp, ... (state files) and trajectory.pvd, which ParaView opens as
 /// a series in time. All is whole at any moment.
 class TrajectoryWriter {
  public:
-  /// The folder is made when it is missing.
+  /// The folder is made when it is missing. `film`: of a writer that this one goes on from.
   /// @throws std::invalid_argument  interval_s is not above 0, or the folder cannot be made.
-  TrajectoryWriter(std::filesystem::path folder, double interval_s, std::string provenance_json);
+  TrajectoryWriter(std::filesystem::path folder, double interval_s, std::string provenance_json,
+                   Film film = {});
 
-  /// Writes a frame when `interval_s` has passed since the last one, and the first time. A
-  /// simulation that starts from time 0 again is shown after the one before.
+  /// Writes a frame. A simulation that starts from time 0 again is shown `interval_s` after the one
+  /// before.
   /// @throws std::invalid_argument  it cannot be written.
-  void offer(const Simulation& simulation);
+  void add(const Simulation& simulation);
 
-  int frames() const { return static_cast<int>(times_s_.size()); }
+  const Film& film() const { return film_; }
 
  private:
   void write_collection() const;
@@ -29,9 +37,7 @@ class TrajectoryWriter {
   std::filesystem::path folder_;
   double interval_s_;
   std::string provenance_json_;
-  std::vector<double> times_s_;  ///< of the frames, in the film
-  double start_s_ = 0;           ///< of the simulation at hand, in the film
-  double last_s_ = 0;            ///< of the simulation when last offered
+  Film film_;
 };
 
 }  // namespace repose::dem

@@ -18,6 +18,20 @@ struct Finished {
   std::string err;
 };
 
+/// Starts the built program in a folder and does not wait for it.
+inline pid_t start_repose(const TemporaryFolder& folder, std::vector<std::string> words) {
+  words.insert(words.begin(), REPOSE_PROGRAM);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::chdir(folder.path().c_str()) == 0) ::execv(REPOSE_PROGRAM, pointers.data());
+    ::_exit(127);
+  }
+  return child;
+}
+
 /// Starts the built program in `folder`, as a user would, and waits for it. Its output goes to
 /// files, so it is no terminal to it.
 inline Finished run_repose(const TemporaryFolder& folder,

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <sstream>
@@ -92,6 +93,21 @@ TEST_F(Simulate, OneRepeatHasNoInterval) {
   EXPECT_TRUE(result({"roll", "study.toml"})["interval"].is_null());
 }
 
+TEST_F(Simulate, RepeatsThatAreTheSameHaveNoInterval) {
+  const Words words = {"tilt",      "study.toml", "--set", "experiment.tilt={rate_deg_s=10}",
+                       "--repeats", "2"};
+  const Finished finished = run(words);
+  EXPECT_THAT(finished.out,
+              AllOf(HasSubstr("n = 2, all the same: no scatter"), Not(HasSubstr("95 %"))));
+  EXPECT_THAT(finished.err, HasSubstr("repose: all 2 repeats gave the same value"));
+  const json tilt = result(words);
+  EXPECT_TRUE(tilt["value"].is_number());
+  EXPECT_TRUE(tilt["interval"].is_null());
+  EXPECT_TRUE(tilt["sd"].is_null());
+  EXPECT_EQ(tilt["warnings"][0]["code"], "no_scatter");
+  EXPECT_TRUE(tilt["warnings"][0]["seed"].is_null());
+}
+
 TEST_F(Simulate, JsonHasTheContractsKeys) {
   const Finished finished = run({"drop", "study.toml", "--repeats", "2", "--json", "-"});
   const json drop = json::parse(finished.out);
@@ -120,7 +136,8 @@ TEST_F(Simulate, JsonHasTheContractsKeys) {
 TEST_F(Simulate, ThreadsDoNotChangeTheResult) {
   for (const char* repeats : {"1", "3"}) {
     EXPECT_EQ(result({"roll", "study.toml", "--repeats", repeats, "--threads", "1"}),
-              result({"roll", "study.toml", "--repeats", repeats, "--threads", "3"}));
+              result({"roll", "study.toml", "--repeats", repeats, "--threads", "7"}))
+        << "seven threads for three repeats: two each";
   }
 }
 
@@ -147,7 +164,8 @@ TEST_F(Simulate, OutHoldsStatesAndTheResult) {
   for (const auto& entry : std::filesystem::directory_iterator(runs)) {
     names.push_back(entry.path().filename());
   }
-  EXPECT_THAT(names, UnorderedElementsAre("drop_seed_1.vtp", "drop_seed_2.vtp", "result.json"));
+  EXPECT_THAT(names, UnorderedElementsAre("drop_seed_1.vtp", "drop_seed_2.vtp", "drop_seed_1.json",
+                                          "drop_seed_2.json", "run.json", "result.json"));
   EXPECT_EQ(json::parse(text_of(runs / "result.json"))["value"], printed["value"]);
   EXPECT_EQ(printed["repeats"][0]["state"], "new/runs/drop_seed_1.vtp");
   EXPECT_THAT(text_of(runs / "drop_seed_1.vtp"), HasSubstr("type=\"PolyData\""));
@@ -210,6 +228,37 @@ TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
   EXPECT_EQ(result(words)["warnings"][0]["code"], "never_rose");
 }
 
+TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
+  const Words rough = {"heap",
+                       "study.toml",
+                       "--set",
+                       "particle.young_modulus_pa=1e6",
+                       "--set",
+                       "contact.particle_particle={restitution=0.2,sliding_friction=0.6,"
+                       "rolling_friction=0.3}",
+                       "--set",
+                       "contact.particle_wall.sliding_friction=0.8",
+                       "--set",
+                       "experiment.heap.lift_speed_mm_s=100"};
+  int warned = 0;
+  for (const char* seed : {"1", "2", "3"}) {
+    Words words = rough;
+    words.insert(words.end(), {"--seed", seed});
+    const json heap = result(words);
+    const json& readings = heap["repeats"][0]["readings"];
+    const double apart =
+        std::abs(heap["value"].get<double>() - readings["inner_window_deg"].get<double>());
+    const bool is_heap = readings["no_heap"] == 0;
+    bool is_told = false;
+    for (const json& warning : heap["warnings"]) {
+      is_told = is_told || warning["code"] == "window";
+    }
+    EXPECT_EQ(is_told, is_heap && apart > readings["between_views_deg"]) << heap;
+    warned += is_told ? 1 : 0;
+  }
+  EXPECT_GT(warned, 0) << "forty grains: some heap is that low";
+}
+
 TEST_F(Simulate, AProtocolThatCannotBeRunIsToldOnce) {
   const Finished finished =
       run({"drop", "study.toml", "--repeats", "3", "--set", "simulation.timestep_s=0.5"});
@@ -217,26 +266,12 @@ TEST_F(Simulate, AProtocolThatCannotBeRunIsToldOnce) {
   EXPECT_EQ(finished.err.find("0.5"), finished.err.rfind("0.5")) << finished.err;
 }
 
-/// Starts the program in a folder and does not wait for it.
-pid_t start_repose(const std::filesystem::path& folder, Words words) {
-  words.insert(words.begin(), REPOSE_PROGRAM);
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::chdir(folder.c_str()) == 0) ::execv(REPOSE_PROGRAM, pointers.data());
-    ::_exit(127);
-  }
-  return child;
-}
-
 TEST_F(Simulate, AnInterruptionLeavesNothingHalfWritten) {
   // Far longer than the first frame takes to appear.
-  const pid_t program = start_repose(
-      folder_.path(),
-      {"simulate", "heap", "study.toml", "--out", "runs", "--trajectory-s", "0.001", "--set",
-       "contact.particle_particle.restitution=0.2", "--set", "particle.young_modulus_pa=1e9"});
+  const pid_t program =
+      start_repose(folder_, {"simulate", "heap", "study.toml", "--out", "runs", "--trajectory-s",
+                             "0.001", "--set", "contact.particle_particle.restitution=0.2", "--set",
+                             "particle.young_modulus_pa=1e9"});
   const auto runs = folder_.path() / "runs";
   int status = 0;
   while (!std::filesystem::exists(runs / "heap_seed_1" / "frame_00001.vtp")) {

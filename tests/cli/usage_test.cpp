@@ -37,6 +37,7 @@ TEST(Usage, HelpDescribesTheMethodsAndFitsATerminal) {
   const TemporaryFolder folder;
   for (const auto& words : {std::vector<std::string>{"--help"},
                             {"measure", "--help"},
+                            {"compare", "--help"},
                             {"shape", "--help"},
                             {"simulate", "--help"},
                             {"verify", "--help"}}) {

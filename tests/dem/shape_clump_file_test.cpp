@@ -8,6 +8,7 @@
 #include "dem/shape/clump_file.h"
 #include "dem/shape/scan.h"
 #include "dem/shape/shape_export.h"
+#include "dem/shape/sphere_groups.h"
 #include "tests/dem/shapes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -26,7 +27,8 @@ ClumpFile small_clump() {
   ClumpFile clump;
   clump.source = "nut \"a\".stl";
   clump.repairs = {"holes filled: 1"};
-  clump.shape.spheres = {{{0.1, -1.0 / 3, 1e-300}, 0.1 + 0.2}, {{-0.0, 5e-324, 2e22}, M_PI}};
+  clump.shape.spheres = {
+      {{0.1, -1.0 / 3, 1e-300}, 0.1 + 0.2}, {{-0.0, 5e-324, 2.0 / 3}, M_PI}, {{2e22, 0, 0}, 3e22}};
   clump.shape.volume_m3 = 1.0 / 7;
   clump.shape.gyration_m2 = {1.0 / 3, 0.4, 0.6};
   clump.shape.surface = corner_tetrahedron(0.1, 0.7, 1.0 / 9);
@@ -49,8 +51,8 @@ TEST(ClumpFile, ComesBackToTheLastBit) {
   const ClumpFile back = dem::parse_clump_json(text, "clump");
   EXPECT_EQ(back.source, clump.source);
   EXPECT_EQ(back.repairs, clump.repairs);
-  ASSERT_EQ(back.shape.spheres.size(), 2U);
-  for (std::size_t i = 0; i < 2; ++i) {
+  ASSERT_EQ(back.shape.spheres.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(back.shape.spheres[i].centre, clump.shape.spheres[i].centre);
     EXPECT_EQ(back.shape.spheres[i].radius, clump.shape.spheres[i].radius);
   }
@@ -83,6 +85,26 @@ TEST(ClumpFile, NamesAllThatIsWrongAtOnce) {
                             HasSubstr("spheres[1].radius_m: is -1"),
                             HasSubstr("no body has these principal moments"),
                             HasSubstr("surface.triangles[0]: names corner 4 of 4"))));
+}
+
+TEST(ClumpFile, RefusesSpheresThatDoNotHangTogether) {
+  ClumpFile clump = small_clump();
+  clump.shape.spheres = {{{0, 0, 0}, 1}, {{2, 0, 0}, 1}, {{3.5, 0, 0}, .5}};
+  dem::parse_clump_json(dem::clump_json(clump), "touching is enough");
+  clump.shape.spheres[1].centre.x() = 2.001;
+  EXPECT_THAT(
+      [&] { dem::parse_clump_json(dem::clump_json(clump), "nut.json"); },
+      refused(AllOf(HasSubstr("nut.json: spheres: they fall into 2 groups"), HasSubstr("Fix: "))));
+}
+
+TEST(SphereGroups, AreCounted) {
+  EXPECT_EQ(dem::sphere_groups({}), 0);
+  EXPECT_EQ(dem::sphere_groups({{{0, 0, 0}, 1}}), 1);
+  // A chain whose links are listed out of order, and two by themselves.
+  EXPECT_EQ(
+      dem::sphere_groups(
+          {{{0, 0, 0}, 1}, {{6, 0, 0}, 1.5}, {{0, 9, 0}, 1}, {{3, 0, 0}, 2}, {{0, 0, 20}, 1}}),
+      3);
 }
 
 TEST(ClumpFile, RefusesOtherFilesAndOtherVersions) {

@@ -51,6 +51,18 @@ TEST(Fill, BeatsTheInscribedFillingOfTheSameCount) {
   EXPECT_LT(fitted.inertia_error, inscribed.inertia_error / 20);
 }
 
+TEST(Fill, SpheresThatAreNoGrainAreRefused) {
+  const Mesh needle =
+      dem::calliper_surface({.length_m = .04, .width_m = .004, .thickness_m = .004});
+  EXPECT_THAT([&] { dem::fill(needle, {.spheres = 4}); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("these 4 fall into"), HasSubstr("Fix: more spheres"))));
+  EXPECT_THAT([&] { dem::fill(needle, {.spheres = 2}); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("one came out larger"), HasSubstr("Fix: more spheres"))));
+  EXPECT_THAT(dem::fill(needle, {.spheres = 24}).spheres, SizeIs(24)) << "the fix helps";
+}
+
 TEST(Fill, FollowsTheNutWithinATenthOfAMillimetre) {
   const FillReport& report = filled_nut();
   EXPECT_THAT(report.spheres, SizeIs(11));

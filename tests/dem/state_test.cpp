@@ -15,6 +15,8 @@ namespace {
 using repose::testing::TemporaryFolder;
 using repose::testing::text_of;
 using ::testing::AllOf;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
@@ -271,11 +273,11 @@ TEST(Trajectory, IsASeriesOfStatesInTime) {
   const TemporaryFolder folder;
   TrajectoryWriter writer(folder.path() / "film", .01, "{}");
   Simulation simulation = heap(1);
-  for (int k = 0; k < 20; ++k) {
-    writer.offer(simulation);
-    simulation.advance(100);  // 2 ms
+  for (int k = 0; k < 4; ++k) {
+    writer.add(simulation);
+    simulation.advance(500);  // 10 ms
   }
-  EXPECT_EQ(writer.frames(), 4);
+  EXPECT_THAT(writer.film().times_s, ElementsAre(0, DoubleEq(.01), DoubleEq(.02), DoubleEq(.03)));
   const std::string series = text_of(folder.path() / "film" / "trajectory.pvd");
   EXPECT_THAT(series, AllOf(HasSubstr("type=\"Collection\""),
                             HasSubstr("timestep=\"0\" part=\"0\" file=\"frame_00001.vtp\""),
@@ -288,9 +290,21 @@ TEST(Trajectory, ASecondSimulationIsShownAfterTheFirst) {
   TrajectoryWriter writer(folder.path(), .01, "{}");
   Simulation first = heap(1);
   first.advance(1000);  // 20 ms
-  writer.offer(first);
-  writer.offer(heap(1));
+  writer.add(first);
+  writer.add(heap(1));
   EXPECT_THAT(text_of(folder.path() / "trajectory.pvd"), HasSubstr("timestep=\"0.03\""));
+}
+
+TEST(Trajectory, GoesOnFromAnotherWriter) {
+  const TemporaryFolder folder;
+  Simulation simulation = heap(1);
+  TrajectoryWriter before(folder.path(), .01, "{}");
+  before.add(simulation);
+  simulation.advance(500);
+  TrajectoryWriter(folder.path(), .01, "{}", before.film()).add(simulation);
+  EXPECT_THAT(text_of(folder.path() / "trajectory.pvd"),
+              AllOf(HasSubstr("timestep=\"0\" part=\"0\" file=\"frame_00001.vtp\""),
+                    HasSubstr("timestep=\"0.01\" part=\"0\" file=\"frame_00002.vtp\"")));
 }
 
 TEST(Trajectory, ImpossibleOnesAreRefused) {

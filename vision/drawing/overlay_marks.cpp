@@ -9,69 +9,13 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/drawing/canvas.h"
 #include "vision/drawing/overlay_style.h"
 
 namespace repose::vision {
 namespace {
 
-using Path = std::vector<cv::Point2d>;
-
-constexpr int kFractionBits = 4;  // OpenCV draws at sixteenths of a pixel
-constexpr double kDimmed = 0.7;   // what is left of the light outside the heap
-
-/// The image with the sizes of strokes and letters that suit it.
-class Canvas {
- public:
-  Canvas(cv::Mat& image, double scale)
-      : image_(image),
-        scale_(scale),
-        size_(std::sqrt(static_cast<double>(image.cols) * image.rows)) {}
-
-  cv::Mat& image() const { return image_; }
-  cv::Point2d at(const Point& point) const { return {point.x * scale_, point.y * scale_}; }
-  int stroke(double weight) const { return std::max(1, cvRound(weight * size_ / 350)); }
-  double length(double part) const { return part * size_; }
-
-  Path path_of(const std::vector<Point>& points) const {
-    Path path;
-    path.reserve(points.size());
-    for (const Point& point : points) path.push_back(at(point));
-    return path;
-  }
-
-  /// A line that shows on any ground: its dark halo is drawn first.
-  void draw(const Path& path, const cv::Scalar& colour, double weight, bool closed = false) const {
-    const int halo = stroke(weight) + 2 * std::max(1, stroke(weight) / 3);
-    draw_once(path, kDark, halo, closed);
-    draw_once(path, colour, stroke(weight), closed);
-  }
-
-  void draw_dashed(cv::Point2d from, cv::Point2d to, const cv::Scalar& colour,
-                   double weight) const {
-    const double dash = length(0.012);
-    const double whole = cv::norm(to - from);
-    for (double at = 0; at < whole; at += 2 * dash) {
-      const double end = std::min(at + dash, whole);
-      draw({from + (to - from) * (at / whole), from + (to - from) * (end / whole)}, colour, weight);
-    }
-  }
-
- private:
-  void draw_once(const Path& path, const cv::Scalar& colour, int thickness, bool closed) const {
-    std::vector<cv::Point> points;
-    points.reserve(path.size());
-    for (const cv::Point2d& point : path) {
-      // OpenCV counts from the centre of the first pixel, we from its corner.
-      points.emplace_back(cvRound((point.x - 0.5) * (1 << kFractionBits)),
-                          cvRound((point.y - 0.5) * (1 << kFractionBits)));
-    }
-    cv::polylines(image_, points, closed, colour, thickness, cv::LINE_AA, kFractionBits);
-  }
-
-  cv::Mat& image_;
-  double scale_;
-  double size_;
-};
+constexpr double kDimmed = 0.7;  // what is left of the light outside the heap
 
 void dim_outside(const Canvas& canvas, const std::vector<Point>& outline) {
   if (outline.size() < 3) return;
@@ -158,8 +102,8 @@ void draw_line(const Canvas& canvas, const FlankLine& flank, const std::optional
   if (met && has_angle) {
     draw_angle(canvas, flank, foot, canvas.at(ground->to) - canvas.at(ground->from));
   }
-  canvas.draw_dashed(flank.low, foot, flank.colour, 0.7);
-  canvas.draw_dashed(flank.high, flank.high + 0.3 * along, flank.colour, 0.7);
+  canvas.draw_dashed({flank.low, foot}, flank.colour, 0.7);
+  canvas.draw_dashed({flank.high, flank.high + 0.3 * along}, flank.colour, 0.7);
   canvas.draw({flank.low, flank.high}, flank.colour, 1.1);
   const cv::Point2d tick =
       cv::Point2d(-along.y, along.x) * (canvas.length(0.014) / std::max(1.0, cv::norm(along)));

@@ -1,16 +1,14 @@
-#include "vision/whole_file.h"
+#include "io/whole_file.h"
 
 #include <filesystem>
-#include <span>
 #include <stdexcept>
-#include <string_view>
 
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
 
-namespace repose::vision {
+namespace repose::io {
 namespace {
 
 using ::testing::AllOf;
@@ -19,20 +17,16 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
-std::span<const std::byte> bytes_of(std::string_view text) {
-  return std::as_bytes(std::span(text));
-}
-
 TEST(WholeFile, ReplacesTheOldContentAndLeavesNothingElse) {
   const testing::TemporaryFolder folder;
   const auto file = folder.write("table.csv", std::string("a much longer old content"));
-  write_whole_file(file, bytes_of("new"));
+  write_whole_file(file, "new");
   EXPECT_EQ(testing::text_of(file), "new");
   EXPECT_THAT(folder.names(), ElementsAre("table.csv"));
 }
 
 TEST(WholeFile, AFullDiskIsSaidAndTheDeviceStays) {
-  EXPECT_THAT([] { write_whole_file("/dev/full", bytes_of("text")); },
+  EXPECT_THAT([] { write_whole_file("/dev/full", "text"); },
               ThrowsMessage<std::invalid_argument>(
                   AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("Fix: "))));
   EXPECT_FALSE(std::filesystem::is_regular_file("/dev/full"));
@@ -58,4 +52,4 @@ TEST(WholeFile, CheckingFindsALockedFolder) {
 }
 
 }  // namespace
-}  // namespace repose::vision
+}  // namespace repose::io

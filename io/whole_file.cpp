@@ -1,4 +1,4 @@
-#include "vision/whole_file.h"
+#include "io/whole_file.h"
 
 #include <atomic>
 #include <cerrno>
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace repose::vision {
+namespace repose::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,6 +100,10 @@ void write_whole_file(const fs::path& file, std::span<const std::byte> content) 
   if (error) refuse(file, fmt::format("cannot be written ({})", error.message()), kFixPlace);
 }
 
+void write_whole_file(const fs::path& file, std::string_view text) {
+  write_whole_file(file, std::as_bytes(std::span(text)));
+}
+
 void check_can_write(const fs::path& file) {
   check_place(file);
   if (is_device(file)) return;
@@ -109,4 +113,4 @@ void check_can_write(const fs::path& file) {
   }
 }
 
-}  // namespace repose::vision
+}  // namespace repose::io

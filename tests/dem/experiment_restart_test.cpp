@@ -1,0 +1,138 @@
+#include <map>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "dem/state/state_file.h"
+#include "tests/dem/experiment_bench.h"
+
+namespace repose::dem {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// Soft spheres that creep, in a small tube: a heap of a second's work.
+Bench soft_bench() {
+  Bench bench = test::sphere_bench();
+  bench.stiffness_factor = 1e-2;
+  bench.grain_wall = {.31, .5, .2};
+  bench.grain_grain = {.11, .5, .2};
+  return bench;
+}
+
+HeapProtocol small_tube() {
+  HeapProtocol protocol;
+  protocol.tube_diameter_m = .07;
+  protocol.tube_height_m = .1;
+  protocol.lift_speed_m_s = .1;
+  protocol.plate_m = .1;  // some fall off
+  return protocol;
+}
+
+std::string bits(const Repeat& repeat) { return state_text(*repeat.state, "{}"); }
+
+/// Some of the restart points of each stage, as a file would hold them.
+std::map<HeapStage, std::vector<HeapRestart>> restart_points(Repeat& whole) {
+  std::map<HeapStage, std::vector<HeapRestart>> points;
+  int looks = 0;
+  RunRecord record;
+  record.is_restart_due = [&] { return ++looks % 7 == 0; };
+  record.keep_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
+    points[progress.stage].push_back({simulation.setup(), simulation.checkpoint(), progress});
+  };
+  whole = run_heap(soft_bench(), small_tube(), 1, {}, record);
+  return points;
+}
+
+TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
+  Repeat whole;
+  const auto points = restart_points(whole);
+  for (const HeapStage stage :
+       {HeapStage::rain, HeapStage::settle_in_tube, HeapStage::lift, HeapStage::settle}) {
+    ASSERT_TRUE(points.contains(stage)) << "stage " << static_cast<int>(stage);
+    for (const HeapRestart* from : {&points.at(stage).front(), &points.at(stage).back()}) {
+      Bench bench = soft_bench();
+      bench.threads = from == &points.at(stage).front() ? 1 : 2;
+      const Repeat resumed = resume_heap(bench, small_tube(), 1, *from);
+      EXPECT_EQ(bits(resumed), bits(whole)) << "stage " << static_cast<int>(stage);
+      EXPECT_EQ(resumed.value, whole.value);
+      EXPECT_EQ(resumed.readings, whole.readings);
+      EXPECT_EQ(resumed.steps, whole.steps);
+      EXPECT_EQ(resumed.clump_steps, whole.clump_steps);
+    }
+  }
+}
+
+TEST(HeapRestart, GoesOnFromWithinALongStretch) {
+  // So many grains' steps lie between two looks that some are taken within a stretch.
+  Repeat whole;
+  RunRecord record;
+  std::vector<HeapRestart> within;
+  record.is_restart_due = [] { return true; };
+  record.keep_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
+    if (progress.steps_left > 0) {
+      within.push_back({simulation.setup(), simulation.checkpoint(), progress});
+    }
+  };
+  whole = run_heap(soft_bench(), small_tube(), 1, {}, record);
+  ASSERT_THAT(within, Not(IsEmpty()));
+  EXPECT_EQ(bits(resume_heap(soft_bench(), small_tube(), 1, within.front())), bits(whole));
+}
+
+TEST(HeapRestart, IsKeptWhenTheRunIsBrokenOff) {
+  int kept = 0;
+  RunRecord record;
+  record.keep_restart = [&](const Simulation&, const HeapProgress&) { ++kept; };
+  EXPECT_THROW(
+      run_heap(
+          soft_bench(), small_tube(), 1, [](double, const Simulation&) { return false; }, record),
+      Interrupted);
+  EXPECT_EQ(kept, 1);
+}
+
+/// Times of the frames of a run, apart for each of its simulations.
+struct Frames {
+  std::vector<std::vector<double>> times_s;
+
+  RunRecord record(double interval_s) {
+    RunRecord record;
+    record.frame_interval_s = interval_s;
+    record.frame = [this](const Simulation& simulation) {
+      if (simulation.step() == 0) times_s.emplace_back();
+      times_s.back().push_back(simulation.time_s());
+    };
+    return record;
+  }
+};
+
+TEST(Frames, AreTakenAtTheirTimesToAStep) {
+  Frames frames;
+  // Less than the time between two reports, and no multiple of the time step.
+  const double interval_s = 1.2345e-3;
+  const Repeat repeat = run_heap(soft_bench(), small_tube(), 1, {}, frames.record(interval_s));
+  ASSERT_EQ(frames.times_s.size(), 2U) << "filling, then lift and settling";
+  for (const auto& times_s : frames.times_s) {
+    ASSERT_GT(times_s.size(), 100U);
+    for (std::size_t k = 0; k < times_s.size(); ++k) {
+      // The filling's steps are twice as long; half of one to either side.
+      EXPECT_NEAR(times_s[k], static_cast<double>(k) * interval_s, 1.01 * repeat.timestep_s);
+    }
+  }
+  EXPECT_NEAR(repeat.readings.at("time_s"), frames.times_s[1].back(), interval_s);
+}
+
+TEST(Frames, DoNotShowInTheResult) {
+  Frames frames;
+  const RollProtocol roll{.release_m = .02};
+  const Repeat watched = run_roll(soft_bench(), roll, 1, {}, frames.record(1e-9));
+  const Repeat alone = run_roll(soft_bench(), roll, 1);
+  EXPECT_EQ(bits(watched), bits(alone));
+  EXPECT_EQ(watched.steps, alone.steps);
+  ASSERT_EQ(frames.times_s.size(), 1U);
+  EXPECT_EQ(frames.times_s[0].size(), static_cast<std::size_t>(alone.steps) + 1)
+      << "shorter than a step: every step, once";
+}
+
+}  // namespace
+}  // namespace repose::dem

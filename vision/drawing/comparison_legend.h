@@ -1,0 +1,14 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "vision/drawing/lettering.h"
+#include "vision/heap_comparison_overlay.h"
+
+namespace repose::vision {
+
+/// A white bar of `width` pixels: which line is which heap, the numbers, the verdict, the warnings.
+cv::Mat draw_legend(int width, const HeapComparison& comparison,
+                    const ComparisonOverlayNotes& notes, const Lettering& lettering);
+
+}  // namespace repose::vision
