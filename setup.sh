@@ -14,6 +14,7 @@ root=$(dirname -- "$(readlink -f -- "$0")")
 needed="g++ cmake ninja-build pkg-config
   libopencv-dev libceres-dev libeigen3-dev libboost-dev libtbb-dev
   libassimp-dev libtomlplusplus-dev libpugixml-dev
+  libosmesa6-dev libmeshoptimizer-dev libgif-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev"

@@ -12,8 +12,8 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kAbout =
-    "Measures heaps of grains in photographs, and simulates the bench experiments\n"
-    "that give contact parameters.";
+    "Measures heaps of grains in photographs, simulates the bench experiments that\n"
+    "give contact parameters, and draws what it simulates.";
 
 constexpr const char* kExamples = R"(
 Examples:
@@ -22,7 +22,8 @@ Examples:
   repose measure photos/ --method paper --json -
   repose compare photo.jpg render.png --overlay both.png
   repose shape nut.stl --spheres 11 --out nut.json
-  repose simulate heap samples/hazelnut/study.toml
+  repose simulate heap samples/hazelnut/study.toml --out heaps
+  repose render heaps/heap_seed_1.vtp --out heap.png
   repose verify
 
 Exit codes: 0 done, 1 internal error, 2 bad usage or input,

@@ -6,6 +6,7 @@
 
 #include "cli/compare.h"
 #include "cli/measure.h"
+#include "cli/render.h"
 #include "cli/shape.h"
 #include "cli/simulate.h"
 #include "cli/verify.h"
@@ -85,6 +86,30 @@ goes on with what was interrupted.
 Examples:
   repose simulate drop study.toml --repeats 10
   repose simulate heap study.toml --set contact.particle_wall.restitution=.3
+)";
+
+constexpr const char* kRenderNotes = R"(
+STATE is a .vtp file that repose simulate --out wrote, or the trajectory.pvd of
+a run for a film.
+
+Styles:
+  silhouette  Black grains on white, every pixel one or the other.
+  photo       What a camera in a laboratory sees: soft light, shadows, a plate
+              before a backdrop, depth of field, noise.
+
+Without --camera all depths have the same scale. With it there is a lens on a
+stand: distance_mm from the grains' middle, height_mm above the ground,
+focal_mm for a picture 36 mm wide, pitch_deg (down), roll_deg, k1 and k2
+(distortion). What is left out makes it level and the grains fit.
+
+--truth: camera, mm to a pixel, the ground line and the heap's upper edge, in
+pixels from the top left corner.
+
+Examples:
+  repose render heaps/heap_seed_1.vtp --out heap.png
+  repose render heap.vtp --style photo --camera distance_mm=1500 --out heap.jpg
+  repose render heap.vtp --turntable 72 --out heap.mp4
+  repose render heap.vtp --out heap.glb
 )";
 
 Command measure_command(CLI::App& app) {
@@ -208,6 +233,40 @@ Command simulate_command(CLI::App& app) {
           "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml."};
 }
 
+Command render_command(CLI::App& app) {
+  const auto given = std::make_shared<RenderArguments>();
+  RenderArguments& arguments = *given;
+  CLI::App* render = app.add_subcommand("render", "Draw a simulated state");
+  render->add_option("state", arguments.state, "State, or trajectory.pvd")
+      ->option_text("STATE")
+      ->required();
+  render->add_option("--view", arguments.view, "From where (xz)")->option_text("xz|DEGREES");
+  render->add_option("--style", arguments.style, "What it looks like (silhouette)")
+      ->option_text("silhouette|photo");
+  render->add_option("--size", arguments.size, "Pixels (1920,1080)")->option_text("W,H");
+  render->add_option("--mm-per-px", arguments.mm_per_px, "Scale (all grains fit)")
+      ->option_text("MM");
+  render->add_option("--camera", arguments.camera, "A lens; keys below")
+      ->option_text("KEY=NUMBER,...");
+  render->add_option("--show", arguments.show, "What of a grain (mesh)")
+      ->option_text("mesh|spheres|both");
+  render->add_option("--seed", arguments.seed, "Of a photo's looks and noise (1)")
+      ->option_text("N");
+  render->add_option("--passes", arguments.passes, "Of a photo; more: smoother shadows (24)")
+      ->option_text("N");
+  render->add_option("--mask", arguments.mask_file, "Grains white, all else black")
+      ->option_text("FILE.png");
+  render->add_option("--truth", arguments.truth_file, "What is exact about the picture")
+      ->option_text("FILE.json");
+  render->add_option("--turntable", arguments.turntable, "A film from all around")
+      ->option_text("FRAMES");
+  render->add_option("--out", arguments.out_file, "Picture .png .jpg, model .glb, film .mp4 .gif")
+      ->option_text("FILE");
+  render->footer(kRenderNotes);
+  return {render, [given] { return run_render(*given); },
+          "no state is named. Fix: repose render STATE.vtp --out heap.png."};
+}
+
 Command verify_command(CLI::App& app) {
   const auto given = std::make_shared<VerifyArguments>();
   CLI::App* verify =
@@ -219,8 +278,9 @@ Command verify_command(CLI::App& app) {
 }  // namespace
 
 std::vector<Command> add_commands(CLI::App& app) {
-  std::vector<Command> commands = {measure_command(app), compare_command(app), shape_command(app),
-                                   simulate_command(app), verify_command(app)};
+  std::vector<Command> commands = {measure_command(app), compare_command(app),
+                                   shape_command(app),   simulate_command(app),
+                                   render_command(app),  verify_command(app)};
   for (const Command& command : commands) command.app->get_formatter()->column_width(32);
   return commands;
 }

@@ -18,7 +18,7 @@ bool same_file(const fs::path& a, const fs::path& b) { return identity(a) == ide
 }  // namespace
 
 void check_output_places(const std::vector<OutputPlace>& places,
-                         const std::vector<fs::path>& pictures, std::vector<std::string>& faults) {
+                         const std::vector<fs::path>& inputs, std::vector<std::string>& faults) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto& [option, file] = places[i];
     if (file.empty()) continue;
@@ -28,11 +28,10 @@ void check_output_places(const std::vector<OutputPlace>& places,
                                    places[j].option, option, file));
     }
     if (file == kStandardOutput) continue;
-    for (const fs::path& picture : pictures) {
-      if (!same_file(picture, file)) continue;
+    for (const fs::path& input : inputs) {
+      if (input.empty() || !same_file(input, file)) continue;
       faults.push_back(fmt::format(
-          "{} {}: would overwrite a picture that is measured. Fix: choose another name.", option,
-          file));
+          "{} {}: would overwrite a file that is read. Fix: choose another name.", option, file));
     }
     try {
       io::check_can_write(file);

@@ -12,10 +12,10 @@ struct OutputPlace {
   std::string file;
 };
 
-/// Adds a fault for two outputs in one place, a picture that is read and would be overwritten, and
-/// a place that cannot be written.
+/// Adds a fault for two outputs in one place, an input that would be overwritten, and a place that
+/// cannot be written.
 void check_output_places(const std::vector<OutputPlace>& places,
-                         const std::vector<std::filesystem::path>& pictures,
+                         const std::vector<std::filesystem::path>& inputs,
                          std::vector<std::string>& faults);
 
 }  // namespace repose::cli

@@ -15,7 +15,8 @@ constexpr const char* kClearLine = "\r\033[K";
 
 }  // namespace
 
-Progress::Progress(std::size_t total) : total_(total), is_shown_(total > 1 && is_terminal(stderr)) {
+Progress::Progress(std::size_t total, const char* done_word)
+    : total_(total), done_word_(done_word), is_shown_(total > 1 && is_terminal(stderr)) {
   if (is_shown_) show();
 }
 
@@ -31,7 +32,7 @@ void Progress::advance() {
 }
 
 void Progress::show() const {
-  std::string line = fmt::format("{}measured {} of {}", kClearLine, done_, total_);
+  std::string line = fmt::format("{}{} {} of {}", kClearLine, done_word_, done_, total_);
   if (done_ > 0) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
     const double left_s =

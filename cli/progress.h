@@ -10,7 +10,7 @@ namespace repose::cli {
 /// away with the object. advance() may be called from any thread.
 class Progress {
  public:
-  explicit Progress(std::size_t total);
+  explicit Progress(std::size_t total, const char* done_word = "measured");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -23,6 +23,7 @@ class Progress {
   void show() const;
 
   const std::size_t total_;
+  const char* const done_word_;
   const bool is_shown_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;

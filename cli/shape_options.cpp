@@ -1,23 +1,16 @@
 #include "cli/shape_options.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/number.h"
-#include "cli/output.h"
-#include "io/whole_file.h"
+#include "cli/output_places.h"
 
 namespace repose::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 void read_sizes(const ShapeArguments& arguments, ShapePlan& plan) {
   const auto sizes = numbers_in<double, 3>(arguments.size_mm);
@@ -126,32 +119,6 @@ void read_mesh_format(const std::string& file, ShapePlan& plan) {
   }
 }
 
-/// Faults of places to write to: two outputs in one, the scan overwritten, not writable.
-void check_output_files(const ShapeArguments& arguments, ShapePlan& plan) {
-  const std::array<std::pair<const char*, const std::string*>, 4> places{
-      {{"the scan", &arguments.scan},
-       {"--out", &arguments.out_file},
-       {"--mesh", &arguments.mesh_file},
-       {"--json", &arguments.json_file}}};
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    const auto& [option, file] = places[i];
-    if (file->empty()) continue;
-    for (std::size_t j = 0; j < i; ++j) {
-      const std::string& other = *places[j].second;
-      if (other.empty() || fs::weakly_canonical(other) != fs::weakly_canonical(*file)) continue;
-      plan.faults.push_back(
-          fmt::format("{} and {} are the same file, {}. Fix: choose another name.", places[j].first,
-                      option, *file));
-    }
-    if (*file == kStandardOutput) continue;
-    try {
-      io::check_can_write(*file);
-    } catch (const std::invalid_argument& fault) {
-      plan.faults.push_back(fmt::format("{} {}", option, fault.what()));
-    }
-  }
-}
-
 }  // namespace
 
 ShapePlan plan_shape(const ShapeArguments& arguments) {
@@ -160,7 +127,10 @@ ShapePlan plan_shape(const ShapeArguments& arguments) {
   read_fill(arguments, plan);
   read_density(arguments.density_kg_m3, plan);
   read_mesh_format(arguments.mesh_file, plan);
-  check_output_files(arguments, plan);
+  check_output_places({{"--out", arguments.out_file},
+                       {"--mesh", arguments.mesh_file},
+                       {"--json", arguments.json_file}},
+                      {arguments.scan}, plan.faults);
   return plan;
 }
 

@@ -1,12 +1,12 @@
 # `cmake --install`: the program, the libraries with their public headers, and a CMake package:
-# find_package(repose) gives the targets repose::vision and repose::dem.
+# find_package(repose) gives the targets repose::vision, repose::dem, repose::render.
 
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/repose)
 
 # Users write <repose/vision/repose_angle.h>; the headers name each other "vision/picture.h".
-install(TARGETS repose_io repose_vision repose_dem
+install(TARGETS repose_io repose_vision repose_dem repose_render
   EXPORT reposeTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/repose

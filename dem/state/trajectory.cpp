@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <pugixml.hpp>
 
 #include "dem/state/state_file.h"
 #include "io/whole_file.h"
@@ -56,6 +57,25 @@ void TrajectoryWriter::write_collection() const {
                         frame_name(k + 1));
   }
   io::write_whole_file(folder_ / "trajectory.pvd", text + "</Collection>\n</VTKFile>\n");
+}
+
+std::vector<TrajectoryFrame> read_trajectory(const fs::path& file) {
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_file(file.c_str());
+  std::vector<TrajectoryFrame> frames;
+  for (const pugi::xml_node& frame : document.child("VTKFile").child("Collection").children()) {
+    const std::string name = frame.attribute("file").as_string();
+    if (name.empty()) continue;
+    frames.push_back(
+        {.time_s = frame.attribute("timestep").as_double(), .file = file.parent_path() / name});
+  }
+  if (frames.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{}: no film of states ({}). Fix: name the trajectory.pvd that repose simulate "
+                    "--trajectory-s wrote.",
+                    file.string(), parsed ? "it names none" : parsed.description()));
+  }
+  return frames;
 }
 
 }  // namespace repose::dem

@@ -40,4 +40,14 @@ class TrajectoryWriter {
   Film film_;
 };
 
+/// One state of a film.
+struct TrajectoryFrame {
+  double time_s = 0;           ///< in the film
+  std::filesystem::path file;  ///< state file
+};
+
+/// The frames that a trajectory.pvd names, in its order; none of them is looked at.
+/// @throws std::invalid_argument  no such file, no collection, or one without frames.
+std::vector<TrajectoryFrame> read_trajectory(const std::filesystem::path& file);
+
 }  // namespace repose::dem

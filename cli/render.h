@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "cli/exit_code.h"
+
+namespace repose::cli {
+
+/// What `repose render` is asked to do, as typed.
+struct RenderArguments {
+  std::string state;  ///< .vtp, or .pvd for a film
+  std::string view;   ///< xz or an azimuth in degrees
+  std::string style;  ///< silhouette|photo
+  std::string size;   ///< W,H in pixels
+  std::string mm_per_px;
+  std::string camera;  ///< KEY=VALUE,...
+  std::string show;    ///< mesh|spheres|both
+  std::string seed;
+  std::string passes;
+  std::string turntable;  ///< frames
+  std::string mask_file;
+  std::string truth_file;
+  std::string out_file;
+};
+
+/// Carries out `repose render`.
+ExitCode run_render(const RenderArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "dem/vector.h"
+
+/// Where the picture is taken from.
+///
+/// At azimuth 0 the camera looks along +y: x is to the right and z upwards, the view that is called
+/// XZ. A rising azimuth walks the camera counter-clockwise round the heap, seen from above.
+namespace repose::render {
+
+struct PictureSize {
+  int width = 1920;
+  int height = 1080;
+};
+
+/// Level, parallel rays: all depths have the same scale.
+struct OrthographicCamera {
+  double azimuth_rad = 0;
+  /// Millimetres to a pixel; without it all grains fit into the picture.
+  std::optional<double> mm_per_px = {};
+  /// What is in the middle of the picture; without it the middle of the grains.
+  std::optional<dem::Vector> middle_m = {};
+};
+
+/// A laboratory camera with a lens.
+struct PerspectiveCamera {
+  dem::Vector position_m = dem::Vector::Zero();  ///< of the lens
+  double azimuth_rad = 0;                        ///< which way it looks
+  double pitch_rad = 0;                          ///< > 0 looks down
+  double roll_rad = 0;   ///< > 0 lowers the ground's right end in the picture
+  double focal_mm = 85;  ///< for a picture 36 mm wide, as of 35 mm film
+  /// Radial distortion: a point at distance r from the axis (in focal lengths) is seen at
+  /// r (1 + k1 r^2 + k2 r^4). Below 0: barrel. Source: Brown, Photogrammetric Engineering 37 (1971)
+  /// 855-866, without its tangential part. Proved by Projection.* in
+  /// tests/render/projection_test.cpp.
+  double k1 = 0;
+  double k2 = 0;
+};
+
+using Camera = std::variant<OrthographicCamera, PerspectiveCamera>;
+
+/// A camera on a tripod before the grains' middle.
+struct LabStand {
+  double azimuth_rad = 0;
+  double distance_m = 1.5;               ///< from the grains' middle, along the floor
+  std::optional<double> height_m = {};   ///< above the ground; without it the axis meets the middle
+  std::optional<double> pitch_rad = {};  ///< without it level
+  std::optional<double> focal_mm = {};   ///< without it the grains fit into the picture
+};
+
+struct Scene;
+
+/// The camera on that stand.
+/// @throws std::invalid_argument  no grains, or a distance that is not above 0.
+PerspectiveCamera camera_on(const LabStand& stand, const Scene& scene, const PictureSize& size);
+
+/// The same camera with its scale and middle set, so that all grains fit into the picture from any
+/// azimuth: for pictures of a heap from all around.
+/// @throws std::invalid_argument  no grains.
+OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Scene& scene,
+                                     const PictureSize& size);
+
+}  // namespace repose::render

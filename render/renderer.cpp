@@ -1,0 +1,116 @@
+#include "render/renderer.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "render/develop.h"
+#include "render/gl/context.h"
+#include "render/hidden.h"
+#include "render/mask.h"
+#include "render/photo.h"
+#include "render/silhouette.h"
+#include "render/stage.h"
+#include "render/view.h"
+
+namespace repose::render {
+
+namespace {
+
+/// @throws std::invalid_argument
+void check(const PhotoStyle& style) {
+  const auto require = [](const char* name, double value, double least, double most) {
+    if (value >= least && value <= most) return;
+    throw std::invalid_argument(
+        fmt::format("photo: {} is {:g}. Rule: from {:g} to {:g}. Fix: leave it as it is.", name,
+                    value, least, most));
+  };
+  for (const Colour& colour : {style.grain, style.spot, style.plate, style.table, style.backdrop}) {
+    for (const double channel : colour) require("a colour's channel", channel, 0, 1);
+  }
+  require("brightness_spread", style.brightness_spread, 0, 1);
+  require("pattern", style.pattern, 0, 2);
+  require("gloss", style.gloss, 0, 1);
+  require("key_softness_rad", style.key_softness_rad, 0, 1);
+  require("key_share", style.key_share, 0, 1);
+  require("aperture_mm", style.aperture_mm, 0, 1000);
+  require("blur_px", style.blur_px, 0, 100);
+  require("noise", style.noise, 0, 1);
+  require("vignette", style.vignette, 0, 1);
+  require("passes", style.passes, 1, 1000);
+}
+
+}  // namespace
+
+class Renderer::Studio {
+ public:
+  Studio() : gl_(context_.use()), hand_(gl_), mask_(gl_) { context_.release(); }
+  ~Studio() { context_.use(); }
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
+  Studio(Studio&&) = delete;
+  Studio& operator=(Studio&&) = delete;
+
+  Rendered draw(const Scene& scene, const Camera& camera, const PictureSize& size,
+                const Style& style) {
+    const View view = view_of(scene, camera, size);
+    const InUse in_use(context_);
+    if (const auto* silhouette = std::get_if<SilhouetteStyle>(&style)) {
+      Rendered rendered{.picture = {}, .grain_mask = silhouette_mask(scene, view, *silhouette)};
+      rendered.picture = silhouette_of(scene, view, *silhouette, rendered.grain_mask);
+      return rendered;
+    }
+    const auto& photo = std::get<PhotoStyle>(style);
+    check(photo);
+    const Stage stage = hand_.set(scene, view, photo.shown, photo.seed);
+    // Most users never take a photo: its shaders are compiled when one is asked for.
+    if (!photo_) photo_ = std::make_unique<PhotoPainter>(gl_);
+    return {.picture = developed(photo_->paint(scene, view, stage, photo), photo),
+            .grain_mask = mask_.paint(view, stage, true)};
+  }
+
+ private:
+  std::vector<std::uint8_t> silhouette_mask(const Scene& scene, const View& view,
+                                            const SilhouetteStyle& style) {
+    Inner inner = inner_part(scene, view, style.shown);
+    if (inner.visible.empty()) return std::move(inner.mask);
+    const Scene outer{.shapes = scene.shapes, .grains = std::move(inner.visible), .walls = {}};
+    const Stage stage = hand_.set(outer, view, style.shown, 0);
+    std::vector<std::uint8_t> mask = mask_.paint(view, stage, false);
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] |= inner.mask[k];
+    return mask;
+  }
+
+  /// The context is this thread's only while something is drawn.
+  class InUse {
+   public:
+    explicit InUse(gl::Context& context) : context_(context) { context_.use(); }
+    ~InUse() { context_.release(); }
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
+    InUse(InUse&&) = delete;
+    InUse& operator=(InUse&&) = delete;
+
+   private:
+    gl::Context& context_;
+  };
+
+  gl::Context context_;
+  const gl::Functions& gl_;
+  StageHand hand_;
+  MaskPainter mask_;
+  std::unique_ptr<PhotoPainter> photo_;
+};
+
+Renderer::Renderer() : studio_(std::make_unique<Studio>()) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Rendered Renderer::draw(const Scene& scene, const Camera& camera, const PictureSize& size,
+                        const Style& style) {
+  return studio_->draw(scene, camera, size, style);
+}
+
+}  // namespace repose::render

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/scene.h"
+#include "render/style.h"
+#include "vision/picture.h"
+
+namespace repose::render {
+
+struct Rendered {
+  vision::Picture picture;
+  /// A byte a pixel, rows from the top: 255 where the pixel's middle shows a grain, else 0.
+  std::vector<std::uint8_t> grain_mask;
+};
+
+/// Draws scenes off the screen, on the processor.
+///
+/// Same scene, camera, size and style: same bytes, at any number of threads of the driver, on the
+/// same kind of processor. (Another one may round differently: some edge pixels change.) Use one
+/// object in one thread at a time; several objects in several threads are fine.
+class Renderer {
+ public:
+  /// @throws std::runtime_error  the machine's OSMesa cannot draw.
+  Renderer();
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// @throws std::invalid_argument  the picture cannot be taken: its size, the camera's numbers, a
+  /// camera inside the heap, a scene without grains.
+  Rendered draw(const Scene& scene, const Camera& camera, const PictureSize& size,
+                const Style& style);
+
+ private:
+  class Studio;
+  std::unique_ptr<Studio> studio_;
+};
+
+}  // namespace repose::render

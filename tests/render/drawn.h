@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include "render/renderer.h"
+
+namespace repose::render {
+
+/// One renderer for all tests of a program: making one takes a while.
+inline Renderer& renderer() {
+  static Renderer shared;
+  return shared;
+}
+
+/// What a mask shows: how many pixels, and their middle.
+struct Blob {
+  double pixels = 0;
+  double x = 0;
+  double y = 0;
+};
+
+inline Blob blob_of(const Rendered& rendered) {
+  Blob blob;
+  const int width = rendered.picture.width;
+  std::size_t at = 0;
+  for (int y = 0; y < rendered.picture.height; ++y) {
+    for (int x = 0; x < width; ++x, ++at) {
+      if (rendered.grain_mask[at] == 0) continue;
+      blob.pixels += 1;
+      blob.x += x + .5;
+      blob.y += y + .5;
+    }
+  }
+  blob.x /= blob.pixels;
+  blob.y /= blob.pixels;
+  return blob;
+}
+
+/// What a call throws as a fault of the user, as text; empty when it throws nothing.
+template <typename Call>
+std::string fault_of(const Call& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+}  // namespace repose::render

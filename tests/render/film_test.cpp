@@ -1,0 +1,84 @@
+#include "render/film.h"
+
+#include <gmock/gmock.h>
+#include <opencv2/core/mat.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "tests/render/drawn.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::render {
+namespace {
+
+using repose::testing::TemporaryFolder;
+using repose::testing::text_of;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+vision::Picture grey_picture(int width, int height, int grey) {
+  return {.width = width,
+          .height = height,
+          .bgr = std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height),
+                                           static_cast<std::uint8_t>(grey))};
+}
+
+TEST(Film, KeepsEveryFrameInItsOrder) {
+  const TemporaryFolder folder;
+  for (const char* name : {"film.mp4", "film.gif"}) {
+    const auto file = folder.path() / name;
+    Film film(file, 10);
+    for (int k = 0; k < 5; ++k) film.add(grey_picture(65, 48, 40 + 40 * k));
+    film.close();
+    cv::VideoCapture film_again(file.string(), cv::CAP_FFMPEG);
+    ASSERT_TRUE(film_again.isOpened()) << name;
+    cv::Mat frame;
+    for (int k = 0; k < 5; ++k) {
+      ASSERT_TRUE(film_again.read(frame)) << name << k;
+      EXPECT_NEAR(frame.at<cv::Vec3b>(20, 20)[1], 40 + 40 * k, 4) << name << k;
+    }
+    EXPECT_FALSE(film_again.read(frame)) << name;
+  }
+}
+
+TEST(Film, AGifRepeatsForEver) {
+  const TemporaryFolder folder;
+  Film film(folder.path() / "film.gif", 10);
+  film.add(grey_picture(8, 8, 100));
+  film.close();
+  EXPECT_THAT(text_of(folder.path() / "film.gif"), HasSubstr("NETSCAPE2.0"));
+}
+
+TEST(Film, WithoutAnEndNothingIsLeft) {
+  const TemporaryFolder folder;
+  for (const char* name : {"film.mp4", "film.gif"}) {
+    Film film(folder.path() / name, 10);
+    film.add(grey_picture(64, 48, 100));
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Film, FaultsAreNamed) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(fault_of([&] { Film film(folder.path() / "film.avi", 10); }), HasSubstr(".mp4"));
+  EXPECT_THAT(fault_of([&] {
+                Film film(folder.path() / "film.gif", 10);
+                film.close();
+              }),
+              HasSubstr("no pictures"));
+  EXPECT_THAT(fault_of([&] {
+                Film film(folder.path() / "film.gif", 10);
+                film.add(grey_picture(8, 8, 0));
+                film.add(grey_picture(8, 9, 0));
+              }),
+              HasSubstr("one size"));
+  EXPECT_THAT(fault_of([&] {
+                Film film(folder.path() / "no" / "film.mp4", 10);
+                film.add(grey_picture(64, 48, 0));
+                film.close();
+              }),
+              HasSubstr("film.mp4"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace repose::render
