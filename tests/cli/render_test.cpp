@@ -34,7 +34,7 @@ class RenderCommand : public ::testing::Test {
     for (int k = 0; k < 3; ++k) run.add({.position = {.021 * k, 0, .02}});
     dem::TrajectoryWriter film(folder_.path() / "film", .01, "{}");
     for (int k = 0; k < 3; ++k) {
-      film.offer(run);
+      film.add(run);
       run.advance(100);
     }
     dem::write_state(folder_.path() / "state.vtp", run, "{}");
