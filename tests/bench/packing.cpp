@@ -89,13 +89,16 @@ dem::ClumpShape spheroid_nut(int spheres) {
   return shape;
 }
 
-dem::Simulation tube_of_clumps(int grains, int threads) {
+dem::SimulationSetup tube_setup(int threads) {
   const dem::Wall floor;  // a plane
   dem::Wall tube;
   tube.shape = dem::Tube{kTubeRadius_m, .002, 100};
+  return setup_of(spheroid_nut(11), {floor, tube}, threads);
+}
+
+dem::Simulation tube_of_clumps(int grains, int threads) {
   const double room = kTubeRadius_m - 1.02 * kHalfLength_m;
-  return poured(setup_of(spheroid_nut(11), {floor, tube}, threads), grains, 2.1 * kHalfLength_m,
-                kTubeRadius_m,
+  return poured(tube_setup(threads), grains, 2.1 * kHalfLength_m, kTubeRadius_m,
                 [room](const Vector& at) { return std::hypot(at.x(), at.y()) <= room; });
 }
 
@@ -111,6 +114,26 @@ dem::Simulation box_of_spheres(int grains, int threads) {
   return poured(
       setup_of(sphere, walls, threads), grains, 2.06 * radius, half,
       [room](const Vector& at) { return std::max(std::abs(at.x()), std::abs(at.y())) <= room; });
+}
+
+dem::Simulation wide_box_of_spheres(int grains, int threads) {
+  constexpr int kTiles = 9;
+  const dem::Simulation tile = box_of_spheres((grains + kTiles - 1) / kTiles, threads);
+  dem::SimulationSetup setup = tile.setup();
+  const double half = std::abs(setup.walls.back().pose.position.y());
+  for (dem::Wall& wall : setup.walls) wall.pose.position *= 3;
+  dem::Simulation simulation(setup);
+  for (const int i : {-1, 0, 1}) {
+    for (const int j : {-1, 0, 1}) {
+      for (int k = 0; k < tile.grain_count(); ++k) {
+        Vector at = tile.grain(k).position;
+        if (i != 0) at.x() = 2 * i * half - at.x();
+        if (j != 0) at.y() = 2 * j * half - at.y();
+        simulation.add({.position = at});
+      }
+    }
+  }
+  return simulation;
 }
 
 }  // namespace repose::testing
