@@ -229,17 +229,12 @@ TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
 }
 
 TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
-  const Words rough = {"heap",
-                       "study.toml",
-                       "--set",
-                       "particle.young_modulus_pa=1e6",
-                       "--set",
-                       "contact.particle_particle={restitution=0.2,sliding_friction=0.6,"
-                       "rolling_friction=0.3}",
-                       "--set",
-                       "contact.particle_wall.sliding_friction=0.8",
-                       "--set",
-                       "experiment.heap.lift_speed_mm_s=100"};
+  const std::string coefficients = "{restitution=0.2,sliding_friction=0.6,rolling_friction=0.3}";
+  const Words rough = {"heap",  "study.toml",
+                       "--set", "particle.young_modulus_pa=1e6",
+                       "--set", "contact.particle_particle=" + coefficients,
+                       "--set", "contact.particle_wall.sliding_friction=0.8",
+                       "--set", "experiment.heap.lift_speed_mm_s=100"};
   int warned = 0;
   for (const char* seed : {"1", "2", "3"}) {
     Words words = rough;
