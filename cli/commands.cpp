@@ -79,13 +79,19 @@ EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, degrees),
 roll (distance along the flat, mm) or heap (angle of repose, degrees). STUDY
 is a study file: samples/hazelnut/study.toml explains all of its keys.
 
+A heap's final state is drawn as silhouettes from --views sides, equally spaced
+over half a turn, each measured as repose measure does: 1 is the XZ view alone,
+0 draws none. Where at least half of the views of every repeat could be
+measured their mean is the value, else the angle from the grains' positions;
+both are told.
+
 Each repeat has its own seed: --seed, and those that follow. The same seed
 gives the same result at any number of threads. With --out, the same command
 goes on with what was interrupted.
 
 Examples:
   repose simulate drop study.toml --repeats 10
-  repose simulate heap study.toml --set contact.particle_wall.restitution=.3
+  repose simulate heap study.toml --set contact.particle_wall.restitution=0.3
 )";
 
 constexpr const char* kRenderNotes = R"(
@@ -226,6 +232,8 @@ Command simulate_command(CLI::App& app) {
   simulate
       ->add_option("--trajectory-s", arguments.trajectory_s, "A frame each DT of simulated time, s")
       ->option_text("DT");
+  simulate->add_option("--views", arguments.views, "Pictures of each heap, from all around (18)")
+      ->option_text("N");
   simulate->add_option("--json", arguments.json_file, "Everything, for programs")
       ->option_text("FILE|-");
   simulate->footer(kSimulateNotes);

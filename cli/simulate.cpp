@@ -10,8 +10,10 @@
 #include "cli/output.h"
 #include "cli/simulate_json.h"
 #include "cli/simulate_options.h"
+#include "cli/simulate_pictures.h"
 #include "cli/simulate_runs.h"
 #include "cli/simulate_table.h"
+#include "cli/simulate_values.h"
 #include "cli/simulate_warnings.h"
 #include "cli/terminal.h"
 
@@ -72,14 +74,16 @@ ExitCode run_simulate(const SimulateArguments& arguments) {
   print_lines(plan.notes);
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
-  const std::vector<Run> runs = run_repeats(plan, is_interrupted);
+  std::vector<Run> runs = run_repeats(plan, is_interrupted);
   const std::size_t done = count(runs, RunOutcome::done);
-  if (is_interrupted && done < runs.size()) {
+  const bool is_all_done = done == runs.size();
+  if (is_all_done) take_pictures(plan, runs, is_interrupted);
+  if (is_interrupted && (!is_all_done || plan.views > 0)) {
     fmt::print(stderr, "repose: interrupted, no result was written; {}. {}\n",
                finished_text(plan, runs), continue_text(plan));
     return ExitCode::interrupted;
   }
-  if (done < runs.size()) return fail(plan, runs);
+  if (!is_all_done) return fail(plan, runs);
   for (const RunWarning& warning : warnings_of(plan, runs)) {
     fmt::print(stderr, "repose: {}{}\n",
                warning.seed ? fmt::format("seed {}: ", *warning.seed) : "", warning.message);

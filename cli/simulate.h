@@ -18,6 +18,7 @@ struct SimulateArguments {
   std::string out_folder;
   std::string json_file;
   std::string trajectory_s;
+  std::string views;
 };
 
 /// Carries out `repose simulate`.

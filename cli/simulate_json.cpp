@@ -5,8 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/degrees.h"
 #include "cli/simulate_names.h"
+#include "cli/simulate_values.h"
 #include "cli/simulate_warnings.h"
+#include "cli/status_name.h"
 #include "dem/study/rolling_name.h"
 
 namespace repose::cli {
@@ -71,18 +74,57 @@ void add_context(const SimulatePlan& plan, Json& json) {
   json["program"] = "repose " REPOSE_VERSION;
 }
 
-Json run_json(const Run& run) {
+Json optional_number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+/// A heap's angle from both sources, and each view of it.
+void add_pictures(const Run& run, Json& json) {
+  const HeapPictures& pictures = *run.pictures;
+  const auto seen = angle_deg(pictures);
+  json["angle_from_pictures_deg"] = seen ? number(seen->mean) : Json(nullptr);
+  json["sd_between_views_deg"] = seen ? optional_number(seen->sd) : Json(nullptr);
+  json["angle_from_positions_deg"] = number(run.repeat.value);
+  json["overlay"] = pictures.overlay_file.empty() ? Json(nullptr) : Json(pictures.overlay_file);
+  json["views"] = Json::array();
+  for (const HeapView& view : pictures.views) {
+    json["views"].push_back(
+        {{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
+         {"status", name_of(view.status)},
+         {"angle_deg", view.angle_rad ? Json(rounded_degrees(*view.angle_rad)) : Json(nullptr)}});
+  }
+}
+
+/// The same for all repeats together.
+void add_sources(const std::vector<Run>& runs, Json& json) {
+  const auto angles = heap_angles(runs);
+  if (!angles) return;
+  json["source"] = is_from_pictures(runs) ? "pictures" : "positions";
+  const auto& pictures = angles->pictures;
+  json["angle_from_pictures_deg"] = pictures ? Json(pictures->mean) : Json(nullptr);
+  json["angle_from_positions_deg"] = number(angles->positions.mean);
+  json["sd_from_pictures_deg"] = pictures ? optional_number(pictures->sd) : Json(nullptr);
+  json["sd_from_positions_deg"] = optional_number(angles->positions.sd);
+  json["sd_between_views_deg"] = optional_number(angles->between_views_pictures);
+  json["views"] = angles->views;
+  json["views_refused"] = angles->refused;
+  json["views_flagged"] = angles->flagged;
+}
+
+Json run_json(const Run& run, double value) {
   const dem::Repeat& repeat = run.repeat;
   Json readings = Json::object();
   for (const auto& [name, value] : repeat.readings) readings[name] = number(value);
-  return {{"seed", repeat.seed},
-          {"value", number(repeat.value)},
-          {"wall_s", run.wall_s},
-          {"steps", repeat.steps},
-          {"clump_steps_per_s", number(repeat.clump_steps / run.wall_s)},
-          {"timestep_s", repeat.timestep_s},
-          {"state", run.state_file.empty() ? Json(nullptr) : Json(run.state_file)},
-          {"readings", readings}};
+  Json json{{"seed", repeat.seed},
+            {"value", number(value)},
+            {"wall_s", run.wall_s},
+            {"steps", repeat.steps},
+            {"clump_steps_per_s", number(repeat.clump_steps / run.wall_s)},
+            {"timestep_s", repeat.timestep_s},
+            {"state", run.state_file.empty() ? Json(nullptr) : Json(run.state_file)},
+            {"readings", readings}};
+  if (run.pictures) add_pictures(run, json);
+  return json;
 }
 
 Json measured_json(const dem::Measured& measured) {
@@ -136,7 +178,11 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
                           summary->mean + *summary->mean_uncertainty};
     }
   }
-  for (const Run& run : runs) json["repeats"].push_back(run_json(run));
+  add_sources(runs, json);
+  const std::vector<double> values = values_of(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    json["repeats"].push_back(run_json(runs[k], values[k]));
+  }
   json["warnings"] = Json::array();
   for (const RunWarning& warning : warnings_of(plan, runs)) {
     json["warnings"].push_back({{"code", warning.code},

@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr int kMostRepeats = 100'000;
 constexpr int kMostThreads = 1024;
+constexpr int kUsualViews = 18;
+constexpr int kMostViews = 360;
 
 /// The whole text as a number from `least` to `most`; a fault otherwise. None when it is empty.
 template <typename Number>
@@ -57,6 +59,16 @@ void read_numbers(const SimulateArguments& arguments, SimulatePlan& plan) {
   if (!arguments.trajectory_s.empty() && arguments.out_folder.empty()) {
     plan.faults.emplace_back(
         "--trajectory-s: there is no place for its frames. Fix: add --out FOLDER.");
+  }
+}
+
+void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
+  if (plan.experiment == dem::Experiment::heap) {
+    plan.views = number_of("--views", arguments.views, 0, kMostViews,
+                           "--views 18, or 1 for the XZ view alone", plan)
+                     .value_or(kUsualViews);
+  } else if (!arguments.views.empty()) {
+    plan.faults.emplace_back("--views: only heaps are measured in pictures. Fix: leave it out.");
   }
 }
 
@@ -171,6 +183,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
     add_lines(fault.what(), plan.faults);
   }
   read_numbers(arguments, plan);
+  if (experiment) read_views(arguments, plan);
   if (is_read && experiment) check_study(plan);
   check_places(plan);
   if (is_read && experiment) check_kept(plan);

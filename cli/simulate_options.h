@@ -23,6 +23,7 @@ struct SimulatePlan {
   std::filesystem::path out_folder;  ///< empty: none
   std::string json_file;
   std::optional<double> trajectory_s;
+  int views = 0;  ///< pictures of each heap
 
   std::vector<std::string> faults;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know

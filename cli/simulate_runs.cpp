@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <stdexcept>
 
@@ -121,7 +120,7 @@ class Batch {
       write_state(run.state_file, *run.repeat.state, provenance);
       keep_finished(plan_, run);
     }
-    run.repeat.state.reset();
+    if (plan_.views == 0) run.repeat.state.reset();
     run.outcome = RunOutcome::done;
     progress_.tell(index, 1);
   }
@@ -169,22 +168,6 @@ std::vector<Run> run_repeats(const SimulatePlan& plan, const std::atomic<bool>& 
                       [&](std::size_t k) { runs[open[k]] = batch.run(open[k]); });
   });
   return runs;
-}
-
-std::optional<vision::Repeats> summarise(const std::vector<Run>& runs) {
-  std::vector<double> values;
-  for (const Run& run : runs) {
-    if (run.outcome == RunOutcome::done && std::isfinite(run.repeat.value)) {
-      values.push_back(run.repeat.value);
-    }
-  }
-  if (values.empty() || values.size() != runs.size()) return std::nullopt;
-  vision::Repeats repeats = vision::summarise(values);
-  if (std::equal(values.begin() + 1, values.end(), values.begin())) {
-    repeats.sd.reset();
-    repeats.mean_uncertainty.reset();
-  }
-  return repeats;
 }
 
 }  // namespace repose::cli

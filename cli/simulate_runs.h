@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/heap_pictures.h"
 #include "cli/simulate_options.h"
-#include "vision/repeats.h"
 
 namespace repose::cli {
 
@@ -21,19 +21,15 @@ enum class RunOutcome {
 /// One repeat, done or not.
 struct Run {
   RunOutcome outcome = RunOutcome::not_run;
-  dem::Repeat repeat;      ///< counts when done; its state is in the file
+  dem::Repeat repeat;      ///< counts when done; has its state only as long as pictures need it
   std::string state_file;  ///< empty: none was asked for
   double wall_s = 0;       ///< of all calls that worked on it
   std::string fault;       ///< why it is not done
+  std::optional<HeapPictures> pictures;  ///< none: none were asked for
 };
 
 /// Runs all repeats that the --out folder does not hold already, several at a time, and writes each
 /// one's state when it is done. The first that fails, or an interruption, breaks the others off.
 std::vector<Run> run_repeats(const SimulatePlan& plan, const std::atomic<bool>& is_interrupted);
-
-/// Mean and scatter of the repeats' values; none when one of them is no number. Values that are all
-/// the same to the last bit, as where nothing is left to chance, have a mean but no scatter: an
-/// interval of no width would claim what was not found out.
-std::optional<vision::Repeats> summarise(const std::vector<Run>& runs);
 
 }  // namespace repose::cli

@@ -8,6 +8,7 @@
 
 #include "cli/simulate_json.h"
 #include "cli/simulate_names.h"
+#include "cli/simulate_values.h"
 #include "cli/terminal.h"
 #include "dem/study/rolling_name.h"
 
@@ -28,11 +29,12 @@ std::string repeats_text(const SimulatePlan& plan, const std::vector<Run>& runs)
   text += fmt::format("{:>{}}{:>14}{:>12}{:>10}{:>10}{:>12}\n", "seed", width,
                       fmt::format("value [{}]", names.unit), "steps", "step [us]", "time [s]",
                       "Mclump-st/s");
-  for (const Run& run : runs) {
-    text +=
-        fmt::format("{:>{}}{:>14.3f}{:>12}{:>10.3f}{:>10.1f}{:>12.3f}\n", run.repeat.seed, width,
-                    run.repeat.value, run.repeat.steps, run.repeat.timestep_s * kMicroseconds,
-                    run.wall_s, run.repeat.clump_steps / run.wall_s / kMillion);
+  const std::vector<double> values = values_of(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Run& run = runs[k];
+    text += fmt::format("{:>{}}{:>14.3f}{:>12}{:>10.3f}{:>10.1f}{:>12.3f}\n", run.repeat.seed,
+                        width, values[k], run.repeat.steps, run.repeat.timestep_s * kMicroseconds,
+                        run.wall_s, run.repeat.clump_steps / run.wall_s / kMillion);
   }
   return text;
 }
@@ -54,6 +56,31 @@ std::string mean_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
       " (Student)\n",
       summary->mean, unit, *summary->sd, unit, summary->n,
       summary->mean - *summary->mean_uncertainty, summary->mean + *summary->mean_uncertainty, unit);
+}
+
+std::string number_or_dash(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "–";
+}
+
+/// A heap's angle from its pictures and from where its grains lie.
+std::string sources_text(const std::vector<Run>& runs) {
+  const auto angles = heap_angles(runs);
+  if (!angles) return {};
+  const auto row = [](const char* source, const std::optional<vision::Repeats>& repeats,
+                      const std::optional<double>& between_views, bool is_value) {
+    const auto mean = repeats ? std::optional(repeats->mean) : std::nullopt;
+    const auto sd = repeats ? repeats->sd : std::nullopt;
+    return fmt::format("  {}{:>9}{:>15}{:>15}{}\n", padded(source, 14), number_or_dash(mean),
+                       number_or_dash(sd), number_or_dash(between_views),
+                       is_value ? "   the value" : "");
+  };
+  const bool is_pictured = is_from_pictures(runs);
+  return fmt::format("\n  {}{:>9}{:>15}{:>15}\n", padded("angle [deg]", 14), "mean",
+                     "sd of repeats", "sd of views") +
+         row("pictures", angles->pictures, angles->between_views_pictures, is_pictured) +
+         row("positions", angles->positions, angles->between_views_positions, !is_pictured) +
+         fmt::format("  {} {}: {} refused, {} flagged\n", angles->views,
+                     angles->views == 1 ? "picture" : "pictures", angles->refused, angles->flagged);
 }
 
 /// "measured 9.420 mm, n = 10; simulated - measured = -0.290 mm (-3.1 %)"
@@ -155,6 +182,7 @@ std::string simulate_table(const SimulatePlan& plan, const std::vector<Run>& run
   for (const std::string& line : {mean_text(plan, runs), measured_text(plan, runs)}) {
     for (const std::string& part : wrapped(line, width)) text += part + '\n';
   }
+  text += sources_text(runs);
   text += readings_text(runs) + '\n';
   return text + belongs_to_text(plan, width);
 }

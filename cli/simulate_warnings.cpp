@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/simulate_values.h"
+
 namespace repose::cli {
 namespace {
 
@@ -31,25 +33,55 @@ RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
 /// a single heap, which has none, than its scatter between directions.
 std::optional<RunWarning> window_matters(const vision::Repeats& summary,
                                          const std::vector<Run>& runs) {
-  double inner = 0, between_views = 0;
+  double usual = 0, inner = 0, between_views = 0;
   for (const Run& run : runs) {
     if (reading_of(run, "no_heap", 0) != 0) return std::nullopt;  // a warning that says more
     const auto count = static_cast<double>(runs.size());
+    usual += run.repeat.value / count;
     inner += reading_of(run, "inner_window_deg", run.repeat.value) / count;
     between_views += reading_of(run, "between_views_deg", 0) / count;
   }
   const double yardstick = summary.mean_uncertainty.value_or(between_views);
-  if (std::abs(summary.mean - inner) <= yardstick) return std::nullopt;
+  if (std::abs(usual - inner) <= yardstick) return std::nullopt;
   return RunWarning{
       "window",
       {},
       fmt::format("the angle depends on the stretch that is fitted: {:.2f} degrees between 20 and "
                   "80 % of the height, {:.2f} between 30 and 70 %, more apart than {} ({:.2f}). "
                   "Measure pictures in the same stretch, and name it.",
-                  summary.mean, inner,
+                  usual, inner,
                   summary.mean_uncertainty ? "the half-width of the interval"
                                            : "directions of view scatter",
                   yardstick)};
+}
+
+/// What keeps the pictures from being the value, or should be looked at in them.
+std::optional<RunWarning> pictures_tell(const std::vector<Run>& runs) {
+  if (runs.empty() || !runs.front().pictures) return std::nullopt;
+  const std::string& fault = runs.front().pictures->fault;
+  if (!fault.empty()) {
+    return RunWarning{"no_pictures",
+                      {},
+                      fmt::format("no pictures could be drawn: {}. The value is the angle from the "
+                                  "grains' positions.",
+                                  fault)};
+  }
+  if (is_from_pictures(runs)) return std::nullopt;
+  std::size_t most = 0, views = 0;
+  std::uint64_t seed = 0;
+  for (const Run& run : runs) {
+    const auto refused =
+        static_cast<std::size_t>(count(*run.pictures, vision::MeasureStatus::refused));
+    if (refused < most) continue;
+    most = refused;
+    views = run.pictures->views.size();
+    seed = run.repeat.seed;
+  }
+  return RunWarning{"pictures_refused",
+                    {},
+                    fmt::format("{} of {} pictures of seed {} could not be measured: the value is "
+                                "the angle from the grains' positions.",
+                                most, views, seed)};
 }
 
 }  // namespace
@@ -60,6 +92,7 @@ std::vector<RunWarning> warnings_of(const SimulatePlan& plan, const std::vector<
   if (summary && summary->n > 1 && !summary->sd) warnings.push_back(no_scatter(plan, runs.size()));
   if (summary && plan.experiment == dem::Experiment::heap) {
     if (auto warning = window_matters(*summary, runs)) warnings.push_back(*std::move(warning));
+    if (auto warning = pictures_tell(runs)) warnings.push_back(*std::move(warning));
   }
   for (const Run& run : runs) {
     const std::uint64_t seed = run.repeat.seed;

@@ -95,15 +95,31 @@ Window window_between(const Flank& flank, double low, double high) {
   return window;
 }
 
+/// What counts for a grain's size, m.
+double grain_m(const Flank& flank, const Window& window) {
+  constexpr double kLargest = .125;  // of the crest's height
+  const FlankLine line = plain_line(flank.height, window);
+  const auto is_above = [&](std::size_t k) {
+    return flank.height[k] >= line.at_crest - line.fall * static_cast<double>(k);
+  };
+  int crossings = 0;
+  for (std::size_t k = window.first + 1; k < window.last; ++k) {
+    crossings += !is_above(k - 1) && is_above(k) ? 1 : 0;
+  }
+  const double length_m = static_cast<double>(window.size() - 1) * flank.column_m;
+  return std::min(length_m / std::max(1, crossings), kLargest * flank.crest_m);
+}
+
 /// Column where the apron begins; the window's end without one.
-std::size_t apron_start(const Flank& flank, const Window& window, const GrainSize& grain) {
+std::size_t apron_start(const Flank& flank, const Window& window) {
   const FlankLine upper =
       plain_line(flank.height, {window.first, window.first + window.size() / 2});
   if (upper.fall <= 0) return window.last;
-  const auto two_grains = static_cast<std::size_t>(2 * grain.columns);
+  const double two_grains_m = 2 * grain_m(flank, window);
+  const auto two_grains = static_cast<std::size_t>(two_grains_m / flank.column_m);
   for (std::size_t k = window.first + window.size() / 2; k < window.last; ++k) {
     const auto to_foot = static_cast<double>(flank.height.size() - 1 - k);
-    const bool is_thin = flank.smooth[k] < 2 * grain.height_m;
+    const bool is_thin = flank.smooth[k] < two_grains_m;
     if (is_thin && to_foot * upper.fall > 2 * flank.smooth[k]) return k;
     const std::size_t half = std::min(k, std::max({two_grains, window.size() / 8, std::size_t{4}}));
     if (k + half >= flank.height.size()) break;
@@ -114,11 +130,10 @@ std::size_t apron_start(const Flank& flank, const Window& window, const GrainSiz
 
 }  // namespace
 
-std::optional<FlankLine> fit_flank_line(const Flank& flank, double low, double high,
-                                        const GrainSize& grain) {
+std::optional<FlankLine> fit_flank_line(const Flank& flank, double low, double high) {
   Window window = window_between(flank, low, high);
   if (window.size() < kFewestColumns) return std::nullopt;
-  const std::size_t cut = apron_start(flank, window, grain);
+  const std::size_t cut = apron_start(flank, window);
   if (cut > window.first + kFewestColumns) window.last = std::min(window.last, cut);
   const FlankLine line = robust_line(flank.height, window);
   return line.fall > 0 ? std::optional(line) : std::nullopt;

@@ -9,11 +9,8 @@ namespace repose::dem {
 struct Flank {
   std::vector<double> height;
   std::vector<double> smooth;  ///< the same, averaged over some columns
-};
-
-struct GrainSize {
-  double height_m = 0;
-  double columns = 0;
+  double column_m = 0;         ///< how wide a column is
+  double crest_m = 0;          ///< height of the heap's crest
 };
 
 struct FlankLine {
@@ -26,10 +23,11 @@ struct FlankLine {
 /// The ends are put where the fitted line, not the bumpy edge, has those heights; an apron, the
 /// thin layer that runs out from the foot, is left out: it begins where the slope over two grains
 /// has sunk under a third of the upper half's, or where less than two grains of height are left and
-/// the foot is still twice as far as that slope would take. Least squares, then Tukey's biweight
-/// (Huber & Ronchetti 2009, Robust Statistics, sec. 4.8). It is what photographs are measured with.
+/// the foot is still twice as far as that slope would take. A silhouette does not show its grains:
+/// for one counts the mean distance between the edge's upward crossings of the line, at most an
+/// eighth of the crest's height. Least squares, then Tukey's biweight (Huber & Ronchetti 2009,
+/// Robust Statistics, sec. 4.8). It is what silhouettes are measured with.
 /// None where there are too few columns, or where the line does not fall.
-std::optional<FlankLine> fit_flank_line(const Flank& flank, double low, double high,
-                                        const GrainSize& grain);
+std::optional<FlankLine> fit_flank_line(const Flank& flank, double low, double high);
 
 }  // namespace repose::dem

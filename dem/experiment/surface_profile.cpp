@@ -20,6 +20,7 @@ constexpr double kColumnsPerRadius = 20;
 struct Silhouette {
   std::vector<double> height;  ///< of the columns, m
   std::size_t crest = 0;
+  double crest_m = 0;  ///< its height, smoothed
   double column_m = 0;
 };
 
@@ -76,9 +77,12 @@ Silhouette silhouette(const std::vector<ClumpSphere>& spheres, const Vector& acr
   return view;
 }
 
-/// As wide as the smoothing of photographs' profiles.
-std::vector<double> moving_average(const std::vector<double>& values) {
-  const std::size_t half = std::max<std::size_t>(3, values.size() / 60) / 2;
+/// Over as many columns as pictures' profiles are smoothed over, to find the crest and the window.
+constexpr std::size_t kCrestParts = 40;
+constexpr std::size_t kFlankParts = 60;
+
+std::vector<double> moving_average(const std::vector<double>& values, std::size_t parts) {
+  const std::size_t half = std::max<std::size_t>(3, values.size() / parts) / 2;
   std::vector<double> smooth(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::size_t reach = std::min({half, k, values.size() - 1 - k});
@@ -108,7 +112,7 @@ Flank flank_from(const Silhouette& outline, const std::vector<double>& smooth, b
     if (!to_the_left) return std::vector<double>(all.begin() + crest, all.end());
     return std::vector<double>(std::make_reverse_iterator(all.begin() + crest + 1), all.rend());
   };
-  return {part(outline.height), part(smooth)};
+  return {part(outline.height), part(smooth), outline.column_m, outline.crest_m};
 }
 
 /// What one view gives.
@@ -122,16 +126,16 @@ struct View {
 View measure_view(const std::vector<ClumpSphere>& spheres, const Vector& across,
                   const SurfaceOptions& options) {
   Silhouette outline = silhouette(spheres, across);
-  const std::vector<double> smooth = moving_average(outline.height);
-  const double crest_m = *std::max_element(smooth.begin(), smooth.end());
-  outline.crest = crest_of(smooth, crest_m);
-  const double grain_m = 2 * mean_radius(spheres);
+  const std::vector<double> for_crest = moving_average(outline.height, kCrestParts);
+  outline.crest_m = *std::max_element(for_crest.begin(), for_crest.end());
+  outline.crest = crest_of(for_crest, outline.crest_m);
+  const std::vector<double> smooth = moving_average(outline.height, kFlankParts);
   View view;
   view.height_m = *std::max_element(outline.height.begin(), outline.height.end());
   for (const bool to_the_left : {true, false}) {
     const std::optional<FlankLine> line =
-        fit_flank_line(flank_from(outline, smooth, to_the_left), options.window_from * crest_m,
-                       options.window_to * crest_m, {grain_m, grain_m / outline.column_m});
+        fit_flank_line(flank_from(outline, smooth, to_the_left),
+                       options.window_from * outline.crest_m, options.window_to * outline.crest_m);
     if (!line) continue;
     ++view.flanks;
     view.angle_deg += std::atan(line->fall / outline.column_m) * 180 / std::numbers::pi;

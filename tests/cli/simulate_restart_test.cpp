@@ -82,7 +82,8 @@ class SimulateRestart : public ::testing::Test {
         content.erase("wall_s");
         if (content.contains("repeats")) {
           for (json& repeat : content["repeats"]) {
-            for (const char* key : {"wall_s", "clump_steps_per_s", "state"}) repeat.erase(key);
+            for (const char* key : {"wall_s", "clump_steps_per_s", "state", "overlay"})
+              repeat.erase(key);
           }
         }
         text = content.dump();
@@ -94,8 +95,8 @@ class SimulateRestart : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-const Words kHeap = {"heap", "study.toml",     "--repeats", "2",     "--threads",
-                     "1",    "--trajectory-s", "0.01",      "--out", "runs"};
+const Words kHeap = {"heap",           "study.toml", "--repeats", "2", "--threads", "1",
+                     "--trajectory-s", "0.01",       "--views",   "1", "--out",     "runs"};
 
 TEST_F(SimulateRestart, AnInterruptedHeapGoesOnToTheSameBytes) {
   // Some frames are of the filling, later ones of the lift.

@@ -234,7 +234,8 @@ TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
                        "--set", "particle.young_modulus_pa=1e6",
                        "--set", "contact.particle_particle=" + coefficients,
                        "--set", "contact.particle_wall.sliding_friction=0.8",
-                       "--set", "experiment.heap.lift_speed_mm_s=100"};
+                       "--set", "experiment.heap.lift_speed_mm_s=100",
+                       "--views", "0"};
   int warned = 0;
   for (const char* seed : {"1", "2", "3"}) {
     Words words = rough;

@@ -1,0 +1,147 @@
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_program.h"
+#include "vision/picture.h"
+
+namespace repose::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+/// A heap five grains high of soft, rough grains: some seconds of work.
+constexpr const char* kStudy = R"([particle]
+size_mm = [22.5, 18.2, 17.5]
+spheres = 2
+density_kg_m3 = 850
+young_modulus_pa = 1e6
+poisson_ratio = 0.38
+[wall]
+young_modulus_pa = 1e9
+poisson_ratio = 0.3
+[contact.particle_wall]
+restitution = 0.3
+sliding_friction = 0.8
+rolling_friction = 0.3
+[contact.particle_particle]
+restitution = 0.2
+sliding_friction = 0.5
+rolling_friction = 0.1
+[experiment.drop]
+height_mm = 50
+grains = 2
+[experiment.heap]
+grains = 240
+lift_speed_mm_s = 150
+)";
+
+/// Later calls in the same folder go on from the heap that is there, and only take pictures.
+class SimulatePictures : public ::testing::Test {
+ protected:
+  SimulatePictures() { folder_.write("study.toml", std::string(kStudy)); }
+
+  Finished run(Words words) const {
+    words.insert(words.begin(), {"simulate", "heap", "study.toml"});
+    return run_repose(folder_, words);
+  }
+  /// The result without what a clock measured.
+  json result(Words words) const {
+    words.insert(words.end(), {"--out", "runs", "--json", "-"});
+    const Finished finished = run(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    json result = json::parse(finished.out);
+    for (const char* key : {"wall_s", "clump_steps_per_s"}) result["repeats"][0].erase(key);
+    return result;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
+  const json heap = result({"--views", "4", "--threads", "1"});
+  const json& repeat = heap["repeats"][0];
+  EXPECT_EQ(heap["source"], "pictures");
+  ASSERT_EQ(repeat["views"].size(), 4U);
+  double sum = 0;
+  int measured = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const json& view = repeat["views"][k];
+    EXPECT_NEAR(view["azimuth_deg"].get<double>(), 45.0 * static_cast<double>(k), 1e-5);
+    EXPECT_EQ(view["angle_deg"].is_null(), view["status"] == "refused");
+    if (view["angle_deg"].is_null()) continue;
+    sum += view["angle_deg"].get<double>();
+    ++measured;
+  }
+  ASSERT_GE(measured, 2);
+  EXPECT_NEAR(heap["value"].get<double>(), sum / measured, 1e-5);
+  EXPECT_EQ(heap["value"], heap["angle_from_pictures_deg"]);
+  EXPECT_EQ(repeat["value"], heap["value"]);
+  EXPECT_EQ(heap["views"], 4);
+  EXPECT_EQ(heap["views_refused"], 4 - measured);
+  EXPECT_GT(heap["sd_between_views_deg"], 0);
+  // Single views of such a low heap lie up to 4 degrees from the same view of the positions.
+  EXPECT_NEAR(heap["value"].get<double>(), heap["angle_from_positions_deg"].get<double>(), 3.0);
+
+  const auto overlay = folder_.path() / "runs" / "heap_seed_1.overlay.png";
+  EXPECT_EQ(repeat["overlay"], "runs/heap_seed_1.overlay.png");
+  EXPECT_FALSE(vision::read_picture(overlay).empty());
+
+  EXPECT_EQ(result({"--views", "4", "--threads", "3"}), heap) << "threads do not change it";
+}
+
+TEST_F(SimulatePictures, NoPicturesLeaveTheAngleOfThePositions) {
+  const json none = result({"--views", "0"});
+  EXPECT_FALSE(none.contains("source"));
+  EXPECT_FALSE(none["repeats"][0].contains("views"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "runs" / "heap_seed_1.overlay.png"));
+
+  const json two = result({"--views", "2"});
+  EXPECT_EQ(two["angle_from_positions_deg"], none["value"]);
+  const json view = two["repeats"][0]["views"][1];
+  EXPECT_EQ(view["azimuth_deg"], 90);
+
+  // It is what the two other commands make of the state, in a picture of another size.
+  const Words render = {"render", "runs/heap_seed_1.vtp", "--view", "90", "--out", "side.png"};
+  ASSERT_EQ(run_repose(folder_, render).exit_code, 0);
+  const Finished measured = run_repose(folder_, {"measure", "side.png", "--json", "-"});
+  const json picture = json::parse(measured.out)[0];
+  ASSERT_FALSE(view["angle_deg"].is_null());
+  ASSERT_FALSE(picture["angle_deg"].is_null()) << picture;
+  EXPECT_NEAR(view["angle_deg"].get<double>(), picture["angle_deg"].get<double>(), .5);
+
+  EXPECT_THAT(run({"--out", "runs", "--views", "1"}).out,
+              AllOf(HasSubstr("the value"), HasSubstr("positions"), HasSubstr("1 picture: ")));
+}
+
+TEST_F(SimulatePictures, ALayerThatNoPictureCanMeasureFallsBackOnPositions) {
+  const Finished finished =
+      run({"--set", "experiment.heap.grains=12", "--views", "4", "--json", "-"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json layer = json::parse(finished.out);
+  EXPECT_EQ(layer["source"], "positions");
+  EXPECT_EQ(layer["value"], layer["angle_from_positions_deg"]);
+  EXPECT_TRUE(layer["angle_from_pictures_deg"].is_null() || layer["views_refused"] > 2);
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("of 4 pictures of seed 1 could not be measured"),
+                                  HasSubstr("from the grains' positions")));
+}
+
+TEST_F(SimulatePictures, NumbersOfViewsThatMakeNoSenseAreRefused) {
+  for (const char* views : {"-1", "1.5", "x", "361"}) {
+    const Finished finished = run({"--views", views});
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_THAT(finished.err,
+                AllOf(HasSubstr("--views " + std::string(views)), HasSubstr("Fix: ")));
+  }
+  const Finished drop = run_repose(folder_, {"simulate", "drop", "study.toml", "--views", "3"});
+  EXPECT_EQ(drop.exit_code, 2);
+  EXPECT_THAT(drop.err, HasSubstr("only heaps are measured in pictures"));
+}
+
+}  // namespace
+}  // namespace repose::testing
