@@ -51,16 +51,15 @@ TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
   for (const HeapStage stage :
        {HeapStage::rain, HeapStage::settle_in_tube, HeapStage::lift, HeapStage::settle}) {
     ASSERT_TRUE(points.contains(stage)) << "stage " << static_cast<int>(stage);
-    for (const HeapRestart* from : {&points.at(stage).front(), &points.at(stage).back()}) {
-      Bench bench = soft_bench();
-      bench.threads = from == &points.at(stage).front() ? 1 : 2;
-      const Repeat resumed = resume_heap(bench, small_tube(), 1, *from);
-      EXPECT_EQ(bits(resumed), bits(whole)) << "stage " << static_cast<int>(stage);
-      EXPECT_EQ(resumed.value, whole.value);
-      EXPECT_EQ(resumed.readings, whole.readings);
-      EXPECT_EQ(resumed.steps, whole.steps);
-      EXPECT_EQ(resumed.clump_steps, whole.clump_steps);
-    }
+    const std::vector<HeapRestart>& of_stage = points.at(stage);
+    Bench bench = soft_bench();
+    bench.threads = stage == HeapStage::lift ? 2 : 1;
+    const Repeat resumed = resume_heap(bench, small_tube(), 1, of_stage.at(of_stage.size() / 2));
+    EXPECT_EQ(bits(resumed), bits(whole)) << "stage " << static_cast<int>(stage);
+    EXPECT_EQ(resumed.value, whole.value);
+    EXPECT_EQ(resumed.readings, whole.readings);
+    EXPECT_EQ(resumed.steps, whole.steps);
+    EXPECT_EQ(resumed.clump_steps, whole.clump_steps);
   }
 }
 
