@@ -54,7 +54,7 @@ void read_scale(const std::string& text, RenderPlan& plan) {
         "--mm-per-px {}: must be a number above 0. Fix: leave it out to see all grains.", text));
     return;
   }
-  plan.level.mm_per_px = *mm_per_px;
+  plan.level.mm_per_px = mm_per_px;
 }
 
 std::optional<render::Shown> shown_named(const std::string& name) {
@@ -122,7 +122,7 @@ bool read_camera_part(std::string_view part, LensPlan& lens) {
   } else if (key == "height_mm") {
     lens.stand.height_m = *value / kMmPerM;
   } else if (key == "focal_mm") {
-    lens.stand.focal_mm = *value;
+    lens.stand.focal_mm = value;
   } else if (key == "pitch_deg") {
     lens.stand.pitch_rad = *value * kDegree;
   } else if (key == "roll_deg") {

@@ -106,7 +106,7 @@ void read_density(const std::string& text, ShapePlan& plan) {
                     text, kLightest, kHeaviest));
     return;
   }
-  plan.density_kg_m3 = *density;
+  plan.density_kg_m3 = density;
 }
 
 void read_mesh_format(const std::string& file, ShapePlan& plan) {

@@ -15,7 +15,7 @@ using ::testing::Not;
 /// Soft spheres that creep, in a small tube: a heap of a second's work.
 Bench soft_bench() {
   Bench bench = test::sphere_bench();
-  bench.stiffness_factor = 1e-2;
+  bench.stiffness_factor = 1e-3;
   bench.grain_wall = {.31, .5, .2};
   bench.grain_grain = {.11, .5, .2};
   return bench;
