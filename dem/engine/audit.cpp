@@ -9,19 +9,16 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-int material_of(const Bodies& bodies, const std::vector<GrainKind>& kinds, int body) {
-  const int kind = bodies.kind[static_cast<std::size_t>(body)];
-  return kinds[static_cast<std::size_t>(kind)].material;
+int material_of(const Bodies& bodies, int body) {
+  return bodies.material[static_cast<std::size_t>(body)];
 }
 
 /// Calls visit(body a, body b or -1, law, normal, overlap, reduced radius, point, memory).
 template <typename Visit>
 void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
-                    const std::vector<GrainKind>& kinds, const NeighbourList& list,
-                    const Visit& visit) {
+                    const NeighbourList& list, const Visit& visit) {
   for (const NearGrains& pair : list.grains) {
-    const ContactLaw& law =
-        contacts.law(material_of(bodies, kinds, pair.a), material_of(bodies, kinds, pair.b));
+    const ContactLaw& law = contacts.law(material_of(bodies, pair.a), material_of(bodies, pair.b));
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const PlacedSphere& a = bodies.spheres[static_cast<std::size_t>(list.spheres[at].a)];
@@ -36,7 +33,7 @@ void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTab
   }
   for (const NearWall& pair : list.walls) {
     const ContactLaw& law =
-        contacts.law(material_of(bodies, kinds, pair.body), walls.wall(pair.wall).material);
+        contacts.law(material_of(bodies, pair.body), walls.wall(pair.wall).material);
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const PlacedSphere& a = bodies.spheres[static_cast<std::size_t>(list.facets[at].sphere)];
@@ -62,19 +59,18 @@ void add_stiffness(const Bodies& bodies, std::size_t body, const Vector& point,
   const Vector roots = bodies.mobility[body].cwiseSqrt();
   Eigen::Matrix<double, 3, 6> motion;  // of the point, by the scaled coordinates
   motion.leftCols<3>() = Eigen::Matrix3d::Identity() / std::sqrt(bodies.mass[body]);
-  motion.rightCols<3>() = -cross_matrix(point - bodies.position[body]) * axes * roots.asDiagonal();
+  motion.rightCols<3>() =
+      -cross_matrix(point - bodies.position[body].xyz) * axes * roots.asDiagonal();
   sum += motion.transpose() * stiffness * motion;
 }
 
 }  // namespace
 
 std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& walls,
-                                        const ContactTable& contacts,
-                                        const std::vector<GrainKind>& kinds,
-                                        const NeighbourList& list) {
+                                        const ContactTable& contacts, const NeighbourList& list) {
   std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>> sums(bodies.size(), Matrix6::Zero());
   bool any = false;
-  for_each_touch(bodies, walls, contacts, kinds, list,
+  for_each_touch(bodies, walls, contacts, list,
                  [&](int a, int b, const ContactLaw& law, const Vector& normal, double overlap,
                      double reduced_radius, const Vector& point, const ContactMemory& /*memory*/) {
                    const double radius = std::sqrt(reduced_radius * overlap);
@@ -107,8 +103,7 @@ std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& wal
 }
 
 Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
-                     const std::vector<GrainKind>& kinds, const NeighbourList& list,
-                     const Vector& gravity) {
+                     const NeighbourList& list, const Vector& gravity) {
   Energies sum;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!bodies.is_present(k)) continue;
@@ -116,10 +111,10 @@ Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTa
     const Vector own = axes.transpose() * bodies.angular_momentum[k];
     sum.kinetic_j += .5 * bodies.mass[k] * bodies.velocity[k].squaredNorm() +
                      .5 * own.cwiseAbs2().dot(bodies.mobility[k]);
-    sum.potential_j -= bodies.mass[k] * gravity.dot(bodies.position[k]);
+    sum.potential_j -= bodies.mass[k] * gravity.dot(bodies.position[k].xyz);
   }
   for_each_touch(
-      bodies, walls, contacts, kinds, list,
+      bodies, walls, contacts, list,
       [&sum](int /*a*/, int /*b*/, const ContactLaw& law, const Vector& /*normal*/, double overlap,
              double reduced_radius, const Vector& /*point*/, const ContactMemory& memory) {
         const double radius = std::sqrt(reduced_radius * overlap);

@@ -17,12 +17,9 @@ namespace repose::dem {
 /// element-by-element bound of Fried 1972, for rigid bodies). A leapfrog step is stable below
 /// 2 / omega. Proved by StableTimestep.* in tests/dem/timestep_test.cpp.
 std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& walls,
-                                        const ContactTable& contacts,
-                                        const std::vector<GrainKind>& kinds,
-                                        const NeighbourList& list);
+                                        const ContactTable& contacts, const NeighbourList& list);
 
 Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
-                     const std::vector<GrainKind>& kinds, const NeighbourList& list,
-                     const Vector& gravity);
+                     const NeighbourList& list, const Vector& gravity);
 
 }  // namespace repose::dem

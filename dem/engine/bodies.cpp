@@ -9,17 +9,17 @@ void grow(Bodies& bodies) {
   bodies.presence.resize(size, 0);
   bodies.mass.resize(size, 1);
   for (std::size_t k = 0; k < 4; ++k) bodies.orientation[k].resize(size, k == 3 ? 1 : 0);
-  for (auto* field :
-       {&bodies.mobility, &bodies.position, &bodies.velocity, &bodies.angular_momentum}) {
+  for (auto* field : {&bodies.mobility, &bodies.velocity, &bodies.angular_momentum}) {
     field->resize(size);
   }
+  bodies.reach.resize(size, 0);
+  bodies.position.resize(size);
   bodies.load.resize(size);
   bodies.motion.resize(size);
 }
 
 void set_motion(Bodies& bodies, std::size_t body) {
-  bodies.motion[body] = {.position = {.xyz = bodies.position[body]},
-                         .velocity = {.xyz = bodies.velocity[body]},
+  bodies.motion[body] = {.velocity = {.xyz = bodies.velocity[body]},
                          .spin = {.xyz = bodies.spin_of(body), .w = bodies.mass[body]},
                          .velocity_kick = {},
                          .spin_kick = {.w = 1 / bodies.mobility[body].maxCoeff()}};
@@ -51,11 +51,12 @@ void add_body(Bodies& bodies, const Grain& grain, const GrainKind& kind, double 
   const double mass = kind.shape.volume_m3 * density_kg_m3;
   const Vector moments = mass * kind.shape.gyration_m2;
   bodies.kind.push_back(grain.kind);
+  bodies.material.push_back(kind.material);
   bodies.presence[k] = 1;
   bodies.mass[k] = mass;
-  bodies.reach.push_back(kind.shape.reach_m());
+  bodies.reach[k] = kind.shape.reach_m();
   bodies.mobility.set(k, moments.cwiseInverse());
-  bodies.position.set(k, grain.position);
+  bodies.position[k].xyz = grain.position;
   for (std::size_t i = 0; i < 4; ++i) {
     bodies.orientation[i][k] = grain.orientation.coeffs()[static_cast<int>(i)];
   }
@@ -64,6 +65,7 @@ void add_body(Bodies& bodies, const Grain& grain, const GrainKind& kind, double 
   const Vector own_spin = axes.transpose() * grain.spin;
   bodies.angular_momentum.set(k, axes * moments.cwiseProduct(own_spin));
   set_motion(bodies, k);
+  bodies.is_round &= kind.shape.spheres.size() == 1 && kind.shape.spheres[0].centre.isZero(0);
   if (bodies.first_sphere.empty()) bodies.first_sphere.push_back(0);
   for (const ClumpSphere& sphere : kind.shape.spheres) {
     bodies.spheres.push_back(

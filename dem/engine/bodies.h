@@ -9,7 +9,7 @@
 namespace repose::dem {
 
 /// A sphere of a clump, where it is now.
-struct PlacedSphere {
+struct alignas(32) PlacedSphere {
   Vector centre;
   double radius;
 };
@@ -27,9 +27,8 @@ class VectorArray {
   std::array<std::vector<double>, 3> xyz_;
 };
 
-/// What contacts need to know of a body, together in memory. World axes.
-struct BodyMotion {
-  Row position;
+/// What contacts need to know of a body, together in two lines of the cache. World axes.
+struct alignas(64) BodyMotion {
   Row velocity;
   Row spin;           ///< w: mass, kg
   Row velocity_kick;  ///< what half a step of the last force adds to the velocity
@@ -37,7 +36,7 @@ struct BodyMotion {
 };
 
 /// What contacts and gravity do to a body.
-struct BodyLoad {
+struct alignas(64) BodyLoad {
   Row force;   ///< N
   Row torque;  ///< N m; w: the torque that constant-torque rolling friction can take
 };
@@ -48,11 +47,12 @@ struct BodyLoad {
 /// be worked on four at a time; what stands there is harmless.
 struct Bodies {
   std::vector<int> kind;
+  std::vector<int> material;
   std::vector<double> presence;  ///< 1, or 0 once a grain has left
   std::vector<double> reach;     ///< farthest that a sphere reaches from the centre of mass
   std::vector<double> mass;
-  VectorArray mobility;  ///< 1 / principal moments of inertia, 1/(kg m^2)
-  VectorArray position;
+  VectorArray mobility;                            ///< 1 / principal moments of inertia, 1/(kg m^2)
+  std::vector<Row> position;                       ///< w: 0
   std::array<std::vector<double>, 4> orientation;  ///< x, y, z, w
   VectorArray velocity;
   VectorArray angular_momentum;
@@ -61,6 +61,7 @@ struct Bodies {
   std::vector<int> first_sphere;   ///< one more than grains: where each one's spheres start
   std::vector<PlacedSphere> spheres;
   std::vector<int> sphere_body;  ///< whose each sphere is
+  bool is_round = true;          ///< each is one sphere about its centre of mass
 
   std::size_t size() const { return kind.size(); }
   bool is_present(std::size_t body) const { return presence[body] != 0; }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dem/engine/bodies.h"
 #include "dem/engine/lanes.h"
 #include "dem/engine/parallel.h"
@@ -69,6 +71,11 @@ REPOSE_INLINE Quaternions load_orientation(const Bodies& bodies, std::size_t k) 
           load(&bodies.orientation[2][k]), load(&bodies.orientation[3][k])};
 }
 
+REPOSE_INLINE Columns load_rows(const Row* first) {
+  return columns_of(
+      {{load_row(first[0]), load_row(first[1]), load_row(first[2]), load_row(first[3])}});
+}
+
 /// One row of each of four structures.
 template <typename Structure>
 REPOSE_INLINE Columns load_rows(const Structure* first, const Row Structure::*row) {
@@ -123,6 +130,42 @@ REPOSE_INLINE void place_spheres(Bodies& bodies, std::size_t body, const ClumpSh
   }
 }
 
+REPOSE_INLINE void place_four(Bodies& bodies, std::size_t k, const std::vector<GrainKind>& kinds,
+                              const Vectors& position, const Axes& axes) {
+  const Rows positions = rows_of(position, Lanes{});
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    store_row(positions.row[lane], bodies.position[k + lane]);
+  }
+  const std::size_t count = std::min(kLanes, bodies.size() - k);
+  if (bodies.is_round) {
+    const Rows placed = rows_of(position, load(&bodies.reach[k]));
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      store_row(placed.row[lane], bodies.spheres[k + lane]);
+    }
+    return;
+  }
+  const Rows x_axes = rows_of(axes.x, Lanes{});
+  const Rows y_axes = rows_of(axes.y, Lanes{});
+  const Rows z_axes = rows_of(axes.z, Lanes{});
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const std::size_t body = k + lane;
+    if (!bodies.is_present(body)) continue;
+    place_spheres(bodies, body, kinds[static_cast<std::size_t>(bodies.kind[body])].shape,
+                  positions.row[lane], x_axes.row[lane], y_axes.row[lane], z_axes.row[lane]);
+  }
+}
+
+/// Of those that are present: the last loads of the others stay.
+REPOSE_INLINE void begin_loads(Bodies& bodies, std::size_t k, const Lanes& mass,
+                               const Vector& gravity) {
+  const Rows weights = rows_of({mass * gravity.x(), mass * gravity.y(), mass * gravity.z()}, {});
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!bodies.is_present(k + lane)) continue;
+    store_row(weights.row[lane], bodies.load[k + lane].force);
+    bodies.load[k + lane].torque = {};
+  }
+}
+
 REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
                                         const std::vector<GrainKind>& kinds, const Vector& gravity,
                                         double timestep) {
@@ -131,7 +174,7 @@ REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
   const Lanes mass = load(&bodies.mass[k]);
   const Vectors mobility = load_vectors(bodies.mobility, k);
   const Vectors old_velocity = load_vectors(bodies.velocity, k);
-  const Vectors old_position = load_vectors(bodies.position, k);
+  const Vectors old_position = load_rows(&bodies.position[k]).xyz;
   const Vectors old_momentum = load_vectors(bodies.angular_momentum, k);
   const Quaternions old_q = load_orientation(bodies, k);
   const Columns force = load_rows(&bodies.load[k], &BodyLoad::force);
@@ -153,32 +196,21 @@ REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
 
   const Axes axes = axes_of(q);
   store_vectors(velocity, bodies.velocity, k);
-  store_vectors(position, bodies.position, k);
   store_vectors(momentum, bodies.angular_momentum, k);
   store(q.x, &bodies.orientation[0][k]);
   store(q.y, &bodies.orientation[1][k]);
   store(q.z, &bodies.orientation[2][k]);
   store(q.w, &bodies.orientation[3][k]);
-  const Columns inertia = load_rows(&bodies.motion[k], &BodyMotion::spin_kick);
+  const Lanes inertia = 1 / greatest(mobility.x, greatest(mobility.y, mobility.z));
   BodyMotion* motion = &bodies.motion[k];
-  store_rows(position, Lanes{}, motion, &BodyMotion::position);
   store_rows(velocity, Lanes{}, motion, &BodyMotion::velocity);
   store_rows(spin_by(momentum, axes, mobility), mass, motion, &BodyMotion::spin);
   store_rows(velocity_kick, Lanes{}, motion, &BodyMotion::velocity_kick);
-  store_rows(spin_by(momentum - old_momentum, axes, mobility), inertia.w, motion,
+  store_rows(spin_by(momentum - old_momentum, axes, mobility), inertia, motion,
              &BodyMotion::spin_kick);
 
-  const Rows positions = rows_of(position, Lanes{});
-  const Rows x_axes = rows_of(axes.x, Lanes{});
-  const Rows y_axes = rows_of(axes.y, Lanes{});
-  const Rows z_axes = rows_of(axes.z, Lanes{});
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const std::size_t body = k + lane;
-    if (body >= bodies.size() || !bodies.is_present(body)) continue;
-    bodies.load[body] = {.force = {.xyz = bodies.mass[body] * gravity}, .torque = {}};
-    place_spheres(bodies, body, kinds[static_cast<std::size_t>(bodies.kind[body])].shape,
-                  positions.row[lane], x_axes.row[lane], y_axes.row[lane], z_axes.row[lane]);
-  }
+  begin_loads(bodies, k, mass, gravity);
+  place_four(bodies, k, kinds, position, axes);
 }
 
 REPOSE_FOR_EACH_MACHINE void finish_four(Bodies& bodies, std::size_t k, double timestep) {

@@ -141,7 +141,7 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   const Number limit2 = limit * limit;
   const Number size2 = spring.squared_norm();
   const auto slides = size2 > limit2;
-  spring = spring * select(slides, limit / root(size2), Number(1));
+  if (any(slides)) spring = spring * select(slides, limit / root(size2), Number(1));
   const Number damper = select(slides, Number(0), tangential_damper);
   Triple<Number> tangential = spring + (touch.velocity + n * approach) * damper;
   const Number total2 = tangential.squared_norm();

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "dem/engine/bodies.h"
 #include "dem/wall/wall_set.h"
 
@@ -12,13 +10,9 @@ struct ContactStep {
   const Bodies& bodies;
   const WallSet& walls;
   const ContactTable& contacts;
-  const std::vector<GrainKind>& kinds;
   double timestep_s;
 
-  int material(int body) const {
-    const int kind = bodies.kind[static_cast<std::size_t>(body)];
-    return kinds[static_cast<std::size_t>(kind)].material;
-  }
+  int material(int body) const { return bodies.material[static_cast<std::size_t>(body)]; }
 };
 
 }  // namespace repose::dem

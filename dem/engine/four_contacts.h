@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <span>
 
-#include "dem/engine/bodies.h"
+#include "dem/engine/contact_step.h"
 #include "dem/engine/rolling.h"
-#include "dem/wall/wall_set.h"
 
 /// The force of four contacts at a time: of one pair of grains or of several, or of grains and
 /// walls.
@@ -13,10 +12,11 @@ namespace repose::dem {
 
 /// What the contacts of one pair of grains, or of a grain and a wall, do to both.
 struct PairLoad {
-  Lanes force;         ///< row: on a, N; b gets the opposite
-  Lanes torque_a;      ///< row: N m; w: what constant-torque rolling friction may take
-  Lanes torque_b;      ///< likewise
-  double overlap = 0;  ///< deepest, as a share of the smaller sphere's radius; 0: no contact
+  Lanes force;          ///< row: on a, N; b gets the opposite
+  Lanes torque_a;       ///< row: N m; w: what constant-torque rolling friction may take
+  Lanes torque_b;       ///< likewise
+  double overlap = 0;   ///< deepest, as a share of the smaller sphere's radius; 0: no contact
+  double touching = 0;  ///< how many spheres
 };
 
 /// A sphere of body a that touches the Other: a PlacedSphere of body b, or the FacetContact of a
@@ -25,12 +25,13 @@ template <typename Other>
 struct Touching {
   const BodyMotion* a = nullptr;
   const BodyMotion* b = nullptr;
+  const Row* position_a = nullptr;
+  const Row* position_b = nullptr;
   const PlacedSphere* sphere = nullptr;
   const Other* other = nullptr;
   ContactMemory* memory = nullptr;
   PairLoad* load = nullptr;
   const ContactLaw* law = nullptr;
-  double of_pair = 0;  ///< how many spheres of the pair touch
 };
 
 /// Up to four of them; those beyond the last one repeat it.
@@ -56,15 +57,31 @@ REPOSE_INLINE Columns gather(const RowOfLane& row) {
 
 REPOSE_INLINE Lanes reduced(const Lanes& x, const Lanes& y) { return x * y / (x + y); }
 
+/// Gathers a number of each lane.
+template <typename NumberOfLane>
+REPOSE_INLINE Lanes each(const NumberOfLane& number) {
+  return Lanes::Vector4{number(0), number(1), number(2), number(3)};
+}
+
+/// From the bodies' centres to those of the spheres; w: their radii.
+template <bool is_round, typename SphereOfLane, typename CentreOfLane>
+REPOSE_INLINE Columns arms(const SphereOfLane& sphere, const CentreOfLane& centre) {
+  if constexpr (is_round) return {{}, gather(sphere).w};
+  return gather([&](std::size_t k) { return sphere(k) - centre(k); });
+}
+
 /// What depends on whether two spheres meet or a sphere and a wall: where, and reduced sizes.
 /// @param spin_a, spin_kick_a  with mass and least inertia
+template <bool is_round>
 REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const Columns& spin_a,
                                 const Columns& spin_b, const Columns& inertia_a,
                                 const Columns& inertia_b, Contacts& c) {
-  const Columns to_a = gather(
-      [&](std::size_t k) { return load_row(*four[k]->sphere) - load_row(four[k]->a->position); });
-  const Columns to_b = gather(
-      [&](std::size_t k) { return load_row(*four[k]->other) - load_row(four[k]->b->position); });
+  const Columns to_a =
+      arms<is_round>([&](std::size_t k) { return load_row(*four[k]->sphere); },
+                     [&](std::size_t k) { return load_row(*four[k]->position_a); });
+  const Columns to_b =
+      arms<is_round>([&](std::size_t k) { return load_row(*four[k]->other); },
+                     [&](std::size_t k) { return load_row(*four[k]->position_b); });
   const Columns apart =
       gather([&](std::size_t k) { return load_row(*four[k]->other) - load_row(*four[k]->sphere); });
   const Lanes distance = root(apart.xyz.squared_norm());
@@ -80,13 +97,15 @@ REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const Co
                               inertia_b.w + spin_b.w * c.arm_b.squared_norm());
 }
 
+template <bool is_round>
 REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Columns& spin_a,
                                 const Columns& /*spin_b*/, const Columns& inertia_a,
                                 const Columns& /*inertia_b*/, Contacts& c) {
-  const Columns to_a = gather(
-      [&](std::size_t k) { return load_row(*four[k]->sphere) - load_row(four[k]->a->position); });
+  const Columns to_a =
+      arms<is_round>([&](std::size_t k) { return load_row(*four[k]->sphere); },
+                     [&](std::size_t k) { return load_row(*four[k]->position_a); });
   const Columns across = gather([&](std::size_t k) {
-    return load_row(four[k]->a->position) - load_row(four[k]->b->position);
+    return load_row(*four[k]->position_a) - load_row(*four[k]->position_b);
   });
   const Columns facet = gather([&](std::size_t k) { return load_row(*four[k]->other); });
   c.touch.normal = -facet.xyz;
@@ -100,7 +119,7 @@ REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Co
   c.contact_inertia = inertia_a.w + spin_a.w * c.arm_a.squared_norm();
 }
 
-template <typename Other>
+template <bool is_round, typename Other>
 REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four, double timestep) {
   const auto difference = [&](Row BodyMotion::*row) __attribute__((always_inline)) {
     return gather(
@@ -110,11 +129,10 @@ REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four, double times
   const Columns spin_b = gather([&](std::size_t k) { return load_row(four[k]->b->spin); });
   const Columns kick_a = gather([&](std::size_t k) { return load_row(four[k]->a->spin_kick); });
   const Columns kick_b = gather([&](std::size_t k) { return load_row(four[k]->b->spin_kick); });
-  Lanes touching;
-  for (std::size_t k = 0; k < kLanes; ++k) touching.set(k, four[k]->of_pair);
+  const Lanes touching = each([&](std::size_t k) { return four[k]->load->touching; });
 
   Contacts c;
-  set_geometry(four, spin_a, spin_b, kick_a, kick_b, c);
+  set_geometry<is_round>(four, spin_a, spin_b, kick_a, kick_b, c);
   c.touch.damper_limit = damper_limit(c.touch.reduced_mass, timestep, touching);
   c.touch.half_velocity =
       difference(&BodyMotion::velocity).xyz + spin_b.xyz.cross(c.arm_b) - spin_a.xyz.cross(c.arm_a);
@@ -173,9 +191,9 @@ REPOSE_INLINE Triple<Lanes> rolling_torque(const Contacts& c, const Lanes& norma
 
 /// Adds the first `count` of four contacts to the loads of their pairs, and brings their memories
 /// up to date.
-template <RollingModel model, typename Other>
+template <bool is_round, RollingModel model, typename Other>
 REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, double timestep) {
-  const Contacts c = contacts_of(four, timestep);
+  const Contacts c = contacts_of<is_round>(four, timestep);
   const Law<Lanes> law = laws_of(four);
   const Columns memory = gather([&](std::size_t k) { return load_row(*four[k]->memory); });
   Springs<Lanes> springs = {memory.xyz, memory.w};
@@ -210,29 +228,39 @@ REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, 
   }
 }
 
-template <RollingModel model, typename Other>
+template <bool is_round, RollingModel model, typename Other>
 REPOSE_INLINE void add_with(std::span<const Touching<Other>> touching, double timestep) {
   for (std::size_t at = 0; at < touching.size(); at += kLanes) {
     const std::size_t count = std::min(kLanes, touching.size() - at);
     FourTouching<Other> four;
     for (std::size_t k = 0; k < kLanes; ++k) four[k] = &touching[at + std::min(k, count - 1)];
-    add_four<model>(four, count, timestep);
+    add_four<is_round, model>(four, count, timestep);
   }
 }
 
 /// Adds contacts to the loads of their pairs in the order given.
-template <typename Other>
-REPOSE_INLINE void add_contacts(std::span<const Touching<Other>> touching, RollingModel model,
-                                double timestep) {
+template <bool is_round, typename Other>
+REPOSE_INLINE void add_contacts_of(std::span<const Touching<Other>> touching, RollingModel model,
+                                   double timestep) {
   switch (model) {
     case RollingModel::none:
-      return add_with<RollingModel::none>(touching, timestep);
+      return add_with<is_round, RollingModel::none>(touching, timestep);
     case RollingModel::constant_torque:
-      return add_with<RollingModel::constant_torque>(touching, timestep);
+      return add_with<is_round, RollingModel::constant_torque>(touching, timestep);
     case RollingModel::relative_constant_torque:
-      return add_with<RollingModel::relative_constant_torque>(touching, timestep);
+      return add_with<is_round, RollingModel::relative_constant_torque>(touching, timestep);
     case RollingModel::elastic_plastic:
-      return add_with<RollingModel::elastic_plastic>(touching, timestep);
+      return add_with<is_round, RollingModel::elastic_plastic>(touching, timestep);
+  }
+}
+
+template <typename Other>
+REPOSE_INLINE void add_contacts(std::span<const Touching<Other>> touching,
+                                const ContactStep& step) {
+  if (step.bodies.is_round) {
+    add_contacts_of<true>(touching, step.contacts.rolling(), step.timestep_s);
+  } else {
+    add_contacts_of<false>(touching, step.contacts.rolling(), step.timestep_s);
   }
 }
 

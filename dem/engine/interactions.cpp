@@ -1,6 +1,7 @@
 #include "dem/engine/interactions.h"
 
 #include <algorithm>
+#include <span>
 
 #include "dem/engine/parallel.h"
 
@@ -10,15 +11,15 @@ namespace {
 /// Pairs worked on together: few enough for their loads to stay in the nearest cache.
 constexpr std::size_t kChunk = 64;
 
-void add_row(const Lanes& row, Row& sum) { store_row(load_row(sum) + row, sum); }
+REPOSE_INLINE void add_row(const Lanes& row, Row& sum) { store_row(load_row(sum) + row, sum); }
 
-void add_to_a(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
+REPOSE_INLINE void add_to_a(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
   BodyLoad& sum = bodies.load[static_cast<std::size_t>(pair.a)];
   add_row(load.force, sum.force);
   add_row(load.torque_a, sum.torque);
 }
 
-void add_to_b(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
+REPOSE_INLINE void add_to_b(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
   BodyLoad& sum = bodies.load[static_cast<std::size_t>(pair.b)];
   add_row(-load.force, sum.force);
   add_row(load.torque_b, sum.torque);
@@ -47,6 +48,17 @@ void note_overlap(double share, int body, ContactTally& tally) {
   tally.deepest_body = body;
 }
 
+REPOSE_FOR_EACH_MACHINE
+void add_loads(std::span<const NearGrains> pairs, std::span<const PairLoad> loads, Bodies& bodies,
+               ContactTally& tally) {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (loads[k].overlap == 0) continue;
+    add_to_a(bodies, pairs[k], loads[k]);
+    add_to_b(bodies, pairs[k], loads[k]);
+    note_overlap(loads[k].overlap, pairs[k].a, tally);
+  }
+}
+
 }  // namespace
 
 ContactTally Interactions::apply(Bodies& bodies, const ContactStep& step, NeighbourList& list,
@@ -64,13 +76,7 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
     loads_.resize(std::max(loads_.size(), kChunk));
     for_each_chunk(pairs, threads, [&](std::size_t first, std::size_t count) {
       find_pair_loads(step, list, first, {loads_.data(), count});
-      for (std::size_t k = 0; k < count; ++k) {
-        if (loads_[k].overlap == 0) continue;
-        const NearGrains& pair = list.grains[first + k];
-        add_to_a(bodies, pair, loads_[k]);
-        add_to_b(bodies, pair, loads_[k]);
-        note_overlap(loads_[k].overlap, pair.a, tally_);
-      }
+      add_loads({&list.grains[first], count}, {loads_.data(), count}, bodies, tally_);
     });
     return;
   }
@@ -112,7 +118,7 @@ void Interactions::apply_walls(Bodies& bodies, const ContactStep& step, Neighbou
     add_row(load.force, sum.force);
     add_row(load.torque_a, sum.torque);
     tally_.wall_power_w +=
-        power_of(load, wall_motions_[static_cast<std::size_t>(list.walls[k].wall)]);
+        power_of(load, wall_motions_.motion[static_cast<std::size_t>(list.walls[k].wall)]);
     note_overlap(load.overlap, list.walls[k].body, tally_);
   }
 }

@@ -27,7 +27,7 @@ class Interactions {
 
   ContactTally tally_;
   std::vector<PairLoad> loads_;
-  std::vector<BodyMotion> wall_motions_;
+  WallMotions wall_motions_;
 };
 
 }  // namespace repose::dem

@@ -17,10 +17,12 @@ inline constexpr std::size_t kLanes = 4;
 /// Functions of lanes are only fast as part of a loop.
 #define REPOSE_INLINE inline __attribute__((always_inline))
 
-/// Compiled twice, for machines with vectors of four (AVX2) and for all others; the better one
-/// runs.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define REPOSE_FOR_EACH_MACHINE __attribute__((target_clones("default", "avx2")))
+/// Compiled for machines with vectors of four (AVX2), for those that have more of them (AVX-512),
+/// and for all others; the best one runs. Under the sanitizer, which makes them slow to compile,
+/// the last alone.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define REPOSE_FOR_EACH_MACHINE __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
 #else
 #define REPOSE_FOR_EACH_MACHINE
 #endif
@@ -167,7 +169,7 @@ REPOSE_INLINE Triple<Number> select(const Mask& mask, const Triple<Number>& yes,
 }
 
 /// A vector and a number beside it, as long as Lanes.
-struct Row {
+struct alignas(32) Row {
   Vector xyz = Vector::Zero();
   double w = 0;
 };

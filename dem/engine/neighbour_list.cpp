@@ -71,15 +71,20 @@ void Neighbours::update(const Bodies& bodies, const WallSet& walls, double time_
 bool Neighbours::is_due(const Bodies& bodies, std::int64_t step) const {
   if (is_expired_ || step >= due_step_) return true;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    double turned = 0;
-    for (std::size_t i = 0; i < 4; ++i) turned += bodies.orientation[i][k] * orientation_[i][k];
-    const double by_turning = 2 * bodies.reach[k] * std::sqrt(std::max(0.0, 1 - turned * turned));
-    const double left = margin_[k] - by_turning;
-    if (left <= 0 || (bodies.position[k] - position_[k]).squaredNorm() > left * left) {
+    const double left = margin_[k] - (bodies.is_round ? 0 : moved_by_turning(bodies, k));
+    if (left <= 0 || (bodies.position[k].xyz - position_[k].xyz).squaredNorm() > left * left) {
       if (bodies.is_present(k)) return true;
     }
   }
   return false;
+}
+
+double Neighbours::moved_by_turning(const Bodies& bodies, std::size_t body) const {
+  double turned = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    turned += bodies.orientation[i][body] * orientation_[i][body];
+  }
+  return 2 * bodies.reach[body] * std::sqrt(std::max(0.0, 1 - turned * turned));
 }
 
 void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double time_s,
@@ -89,13 +94,13 @@ void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double 
   margin_.resize(bodies.size());
   double farthest = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const double speed =
-        bodies.velocity[k].norm() + bodies.reach[k] * bodies.motion[k].spin.xyz.norm();
+    const double turning = bodies.is_round ? 0 : bodies.reach[k] * bodies.motion[k].spin.xyz.norm();
+    const double speed = bodies.velocity[k].norm() + turning;
     margin_[k] = bodies.reach[k] *
                  std::min(kGreatestMargin,
                           kRestMargin + kHorizonSteps * timestep_s * speed / bodies.reach[k]);
     if (bodies.is_present(k)) {
-      farthest = std::max(farthest, bodies.position[k].norm() + bodies.reach[k]);
+      farthest = std::max(farthest, bodies.position[k].xyz.norm() + bodies.reach[k]);
     }
   }
   const double wall_speed = walls.greatest_speed(time_s, farthest);
@@ -111,8 +116,8 @@ void Neighbours::sort_into_cells(const Bodies& bodies) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!bodies.is_present(k)) continue;
     ++present;
-    low = low.cwiseMin(bodies.position[k]);
-    high = high.cwiseMax(bodies.position[k]);
+    low = low.cwiseMin(bodies.position[k].xyz);
+    high = high.cwiseMax(bodies.position[k].xyz);
     widest = std::max(widest, bodies.reach[k] + margin_[k]);
   }
   if (present == 0) low = high = Vector::Zero();
@@ -132,7 +137,7 @@ void Neighbours::sort_into_cells(const Bodies& bodies) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!bodies.is_present(k)) continue;
     const Eigen::Vector3i at =
-        ((bodies.position[k] - corner_) / cell_size_).array().floor().cast<int>().matrix();
+        ((bodies.position[k].xyz - corner_) / cell_size_).array().floor().cast<int>().matrix();
     cell_of_[k] = (at.z() * cells_.y() + at.y()) * cells_.x() + at.x();
     ++cell_start_[static_cast<std::size_t>(cell_of_[k]) + 1];
   }
@@ -169,7 +174,7 @@ void Neighbours::find_near(const Bodies& bodies, int body) {
         if (other <= body) continue;
         const auto o = static_cast<std::size_t>(other);
         const double reach = bodies.reach[k] + margin_[k] + bodies.reach[o] + margin_[o];
-        if ((bodies.position[o] - bodies.position[k]).squaredNorm() < reach * reach) {
+        if ((bodies.position[o].xyz - bodies.position[k].xyz).squaredNorm() < reach * reach) {
           near_.push_back(other);
         }
       }
@@ -187,15 +192,16 @@ void Neighbours::list_grains(const Bodies& bodies) {
       const auto kb = static_cast<std::size_t>(b);
       const double margin = margin_[ka] + margin_[kb];
       const auto first = static_cast<int>(next_.spheres.size());
+      const auto pair = static_cast<int>(next_.grains.size());
       for (int sa = bodies.first_sphere[ka]; sa < bodies.first_sphere[ka + 1]; ++sa) {
         const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(sa)];
         const double far = sphere_a.radius + bodies.reach[kb] + margin;
-        if ((sphere_a.centre - bodies.position[kb]).squaredNorm() > far * far) continue;
+        if ((sphere_a.centre - bodies.position[kb].xyz).squaredNorm() > far * far) continue;
         for (int sb = bodies.first_sphere[kb]; sb < bodies.first_sphere[kb + 1]; ++sb) {
           const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(sb)];
           const double reach = sphere_a.radius + sphere_b.radius + margin;
           if ((sphere_b.centre - sphere_a.centre).squaredNorm() < reach * reach) {
-            next_.spheres.push_back({.a = sa, .b = sb});
+            next_.spheres.push_back({.a = sa, .b = sb, .pair = pair});
           }
         }
       }
@@ -212,7 +218,7 @@ void Neighbours::list_walls(const Bodies& bodies, const WallSet& walls) {
     const double margin = margin_[k] + wall_margin_;
     for (int wall = 0; wall < walls.size(); ++wall) {
       if (!walls.is_present(wall)) continue;
-      walls.facets_near(wall, bodies.position[k], bodies.reach[k] + margin, near_);
+      walls.facets_near(wall, bodies.position[k].xyz, bodies.reach[k] + margin, near_);
       if (near_.empty()) continue;
       const auto first = static_cast<int>(next_.facets.size());
       for (int s = bodies.first_sphere[k]; s < bodies.first_sphere[k + 1]; ++s) {
@@ -318,7 +324,7 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
       const auto b = static_cast<std::size_t>(contact.grain_b);
       const auto first = static_cast<int>(remembered.spheres.size());
       remembered.spheres.push_back(
-          {.a = sphere_a, .b = bodies.first_sphere.at(b) + contact.sphere_b});
+          {.a = sphere_a, .b = bodies.first_sphere.at(b) + contact.sphere_b, .pair = 0});
       remembered.memories.push_back(memory);
       auto& groups = remembered.grains;
       if (groups.empty() || groups.back().a != contact.grain_a ||

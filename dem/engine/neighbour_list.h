@@ -21,6 +21,7 @@ struct NearGrains {
 struct NearSpheres {
   int a = 0;
   int b = 0;
+  int pair = 0;  ///< number of their NearGrains
 };
 
 /// A grain near a wall.
@@ -77,6 +78,8 @@ class Neighbours {
 
  private:
   bool is_due(const Bodies& bodies, std::int64_t step) const;
+  /// How far a body's spheres can have come by turning since the list was made.
+  double moved_by_turning(const Bodies& bodies, std::size_t body) const;
   void set_margins(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
                    std::int64_t step);
   void sort_into_cells(const Bodies& bodies);
@@ -92,7 +95,7 @@ class Neighbours {
   std::int64_t due_step_ = 0;
   double wall_margin_ = 0;
   // Where the grains were when the list was made, and how far each may move.
-  VectorArray position_;
+  std::vector<Row> position_;
   std::array<std::vector<double>, 4> orientation_;
   std::vector<double> margin_;
   // Grid of cubic cells that hold grains by their centres.

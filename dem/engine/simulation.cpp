@@ -66,9 +66,7 @@ class Simulation::State {
   /// Throws std::out_of_range when there is no such grain.
   std::size_t index(int grain) const;
   double time_s() const { return static_cast<double>(step) * setup.timestep_s; }
-  ContactStep contact_step() const {
-    return {bodies, walls, setup.contacts, setup.kinds, setup.timestep_s};
-  }
+  ContactStep contact_step() const { return {bodies, walls, setup.contacts, setup.timestep_s}; }
 
   void take_step();
   void leave_through_floor();
@@ -109,7 +107,7 @@ void Simulation::State::take_step() {
 
 void Simulation::State::leave_through_floor() {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies.is_present(k) || bodies.position[k].z() >= setup.floor_m) continue;
+    if (!bodies.is_present(k) || bodies.position[k].xyz.z() >= setup.floor_m) continue;
     bodies.presence[k] = 0;
     neighbours.forget_grain(static_cast<int>(k));
     restart_energy_audit();
@@ -125,16 +123,16 @@ void Simulation::State::audit() {
   };
   if (tally.deepest_overlap > kDeepestOverlap) {
     const auto body = static_cast<std::size_t>(tally.deepest_body);
-    const Vector at = bodies.position[body];
+    const Vector at = bodies.position[body].xyz;
     stop(fmt::format("grain {} at ({:.4f}, {:.4f}, {:.4f}) m overlaps by {:.0f} % of a radius",
                      body, at.x(), at.y(), at.z(), 100 * tally.deepest_overlap));
   }
   const auto& list = neighbours.list();
-  const auto frequency = highest_frequency(bodies, walls, setup.contacts, setup.kinds, list);
+  const auto frequency = highest_frequency(bodies, walls, setup.contacts, list);
   if (frequency && setup.timestep_s * *frequency >= 2) {
     stop(fmt::format("its contacts need a time step below {:.3g} s", 2 / *frequency));
   }
-  const Energies now = energies_of(bodies, walls, setup.contacts, setup.kinds, list, setup.gravity);
+  const Energies now = energies_of(bodies, walls, setup.contacts, list, setup.gravity);
   if (!std::isfinite(now.sum_j())) stop("its energy is no number");
   const double made = now.sum_j() - energy_mark_j - wall_work_j;
   double falls = 0;  // what a fall by a grain's size sets free
@@ -244,7 +242,7 @@ Grain Simulation::grain(int grain) const {
   const Bodies& bodies = state_->bodies;
   const std::size_t k = state_->index(grain);
   return {.kind = bodies.kind[k],
-          .position = bodies.position[k],
+          .position = bodies.position[k].xyz,
           .orientation = bodies.orientation_of(k),
           .velocity = bodies.velocity[k],
           .spin = bodies.spin_of(k)};
@@ -262,14 +260,13 @@ double Simulation::deepest_overlap() const { return state_->tally.deepest_overla
 
 Energies Simulation::energies() const {
   const State& s = *state_;
-  return energies_of(s.bodies, s.walls, s.setup.contacts, s.setup.kinds, s.neighbours.list(),
-                     s.setup.gravity);
+  return energies_of(s.bodies, s.walls, s.setup.contacts, s.neighbours.list(), s.setup.gravity);
 }
 
 std::optional<double> Simulation::stable_timestep_s() const {
   const State& s = *state_;
   const auto frequency =
-      highest_frequency(s.bodies, s.walls, s.setup.contacts, s.setup.kinds, s.neighbours.list());
+      highest_frequency(s.bodies, s.walls, s.setup.contacts, s.neighbours.list());
   if (!frequency) return std::nullopt;
   return 2 / *frequency;
 }

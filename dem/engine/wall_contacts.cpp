@@ -39,8 +39,8 @@ void hand_over_memories(const ContactStep& step, const NearWall& pair, Neighbour
 }
 
 /// Adds what touches. What has parted forgets.
-void add_touching(const ContactStep& step, const std::vector<BodyMotion>& wall_motions,
-                  const NearWall& pair, NeighbourList& list, FacetContact* facets, PairLoad* load,
+void add_touching(const ContactStep& step, const WallMotions& wall_motions, const NearWall& pair,
+                  NeighbourList& list, FacetContact* facets, PairLoad* load,
                   std::vector<TouchingWall>& touching) {
   if (step.walls.has_facets(pair.wall)) hand_over_memories(step, pair, list);
   const std::size_t start = touching.size();
@@ -52,7 +52,9 @@ void add_touching(const ContactStep& step, const std::vector<BodyMotion>& wall_m
     if (facets->distance < sphere.radius) {
       TouchingWall& one = touching.emplace_back();  // filled in place: copies would cost more
       one.a = &step.bodies.motion[static_cast<std::size_t>(pair.body)];
-      one.b = &wall_motions[static_cast<std::size_t>(pair.wall)];
+      one.b = &wall_motions.motion[static_cast<std::size_t>(pair.wall)];
+      one.position_a = &step.bodies.position[static_cast<std::size_t>(pair.body)];
+      one.position_b = &wall_motions.position[static_cast<std::size_t>(pair.wall)];
       one.sphere = &sphere;
       one.other = facets++;
       one.memory = &memory;
@@ -66,33 +68,34 @@ void add_touching(const ContactStep& step, const std::vector<BodyMotion>& wall_m
       step.contacts.law(step.material(pair.body), step.walls.wall(pair.wall).material);
   for (std::size_t k = start; k < touching.size(); ++k) {
     touching[k].law = &law;
-    touching[k].of_pair = static_cast<double>(touching.size() - start);
+    load->touching += 1;
   }
 }
 
 REPOSE_FOR_EACH_MACHINE
-void add_wall_contacts(std::span<const TouchingWall> touching, RollingModel model,
-                       double timestep) {
-  add_contacts<FacetContact>(touching, model, timestep);
+void add_wall_contacts(std::span<const TouchingWall> touching, const ContactStep& step) {
+  add_contacts<FacetContact>(touching, step);
 }
 
 }  // namespace
 
-void find_wall_motions(const WallSet& walls, std::vector<BodyMotion>& motions) {
-  motions.resize(static_cast<std::size_t>(walls.size()));
+void find_wall_motions(const WallSet& walls, WallMotions& motions) {
+  motions.position.resize(static_cast<std::size_t>(walls.size()));
+  motions.motion.resize(motions.position.size());
   for (int k = 0; k < walls.size(); ++k) {
     const WallMoment& moment = walls.moment(k);
     const Vector& position = moment.pose.position;
-    motions[static_cast<std::size_t>(k)] = {.position = {.xyz = position},
-                                            .velocity = {.xyz = moment.velocity_at(position)},
-                                            .spin = {.xyz = moment.spin},
-                                            .velocity_kick = {},
-                                            .spin_kick = {}};
+    motions.position[static_cast<std::size_t>(k)].xyz = position;
+    motions.motion[static_cast<std::size_t>(k)] = {
+        .velocity = {.xyz = moment.velocity_at(position)},
+        .spin = {.xyz = moment.spin},
+        .velocity_kick = {},
+        .spin_kick = {}};
   }
 }
 
-void find_wall_loads(const ContactStep& step, const std::vector<BodyMotion>& wall_motions,
-                     NeighbourList& list, std::size_t first, std::span<PairLoad> loads) {
+void find_wall_loads(const ContactStep& step, const WallMotions& wall_motions, NeighbourList& list,
+                     std::size_t first, std::span<PairLoad> loads) {
   // Kept from call to call, so that nothing is allocated once they are large enough.
   thread_local std::vector<FacetContact> facets;
   thread_local std::vector<TouchingWall> touching;
@@ -107,7 +110,7 @@ void find_wall_loads(const ContactStep& step, const std::vector<BodyMotion>& wal
     add_touching(step, wall_motions, pair, list,
                  &facets[static_cast<std::size_t>(pair.first) - from], &loads[k], touching);
   }
-  add_wall_contacts(touching, step.contacts.rolling(), step.timestep_s);
+  add_wall_contacts(touching, step);
 }
 
 }  // namespace repose::dem

@@ -9,12 +9,18 @@
 
 namespace repose::dem {
 
+/// Where each wall is, and how it moves.
+struct WallMotions {
+  std::vector<Row> position;
+  std::vector<BodyMotion> motion;
+};
+
 /// How each wall moves, as if it were a body without end of mass.
-void find_wall_motions(const WallSet& walls, std::vector<BodyMotion>& motions);
+void find_wall_motions(const WallSet& walls, WallMotions& motions);
 
 /// Works out the contacts of grains with walls, `first` ... of the list, as many as there are
 /// `loads`, and brings their memories up to date.
-void find_wall_loads(const ContactStep& step, const std::vector<BodyMotion>& wall_motions,
-                     NeighbourList& list, std::size_t first, std::span<PairLoad> loads);
+void find_wall_loads(const ContactStep& step, const WallMotions& wall_motions, NeighbourList& list,
+                     std::size_t first, std::span<PairLoad> loads);
 
 }  // namespace repose::dem
