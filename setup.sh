@@ -3,7 +3,7 @@
 #
 #   ./setup.sh [--tests] [PRESET [TARGET]...]
 #
-#   --tests   also install what only the tests need: clang-format and clang-tidy
+#   --tests   also install what only the tests need: clang-format, clang-tidy, MPI
 #   PRESET    release (default), dev, sanitize or tidy
 #   TARGET    build only this, not everything
 #
@@ -15,10 +15,10 @@ needed="g++ cmake ninja-build pkg-config
   libopencv-dev libceres-dev libeigen3-dev libboost-dev libtbb-dev
   libassimp-dev libtomlplusplus-dev libpugixml-dev
   libosmesa6-dev libmeshoptimizer-dev libgif-dev
-  libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev
+  libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev libcsv-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev"
-if [ "${1-}" = --tests ]; then needed="$needed clang-format-14 clang-tidy-22"; shift; fi
+if [ "${1-}" = --tests ]; then needed="$needed clang-format-14 clang-tidy-22 libopenmpi-dev openmpi-bin"; shift; fi
 preset=release
 if [ $# -gt 0 ]; then preset=$1; shift; fi
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kAbout =
     "Measures heaps of grains in photographs, simulates the bench experiments that\n"
-    "give contact parameters, and draws what it simulates.";
+    "give contact parameters, draws what it simulates, and plans and evaluates runs.";
 
 constexpr const char* kExamples = R"(
 Examples:
@@ -24,6 +24,9 @@ Examples:
   repose shape nut.stl --spheres 11 --out nut.json
   repose simulate heap samples/hazelnut/study.toml --out heaps
   repose render heaps/heap_seed_1.vtp --out heap.png
+  repose bench sliding angles.csv
+  repose design ccd --factor e=.1:.3 --factor mu=.1:.3 --out runs.csv
+  repose regress runs.csv --response angle_deg --target 23.38
   repose verify
 
 Exit codes: 0 done, 1 internal error, 2 bad usage or input,

@@ -4,11 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/calibrate.h"
 #include "cli/compare.h"
 #include "cli/measure.h"
 #include "cli/render.h"
 #include "cli/shape.h"
 #include "cli/simulate.h"
+#include "cli/statistics_commands.h"
 #include "cli/verify.h"
 
 namespace repose::cli {
@@ -92,6 +94,31 @@ goes on with what was interrupted.
 Examples:
   repose simulate drop study.toml --repeats 10
   repose simulate heap study.toml --set contact.particle_wall.restitution=0.3
+)";
+
+constexpr const char* kCalibrateNotes = R"(
+STUDY is a study file in which coefficients of contact have bounds instead of a
+value, as in restitution = { min = 0.1, max = 0.6 }, and experiments say what
+the bench measured. All unknowns are fitted to all measurements at once; each
+has an interval and a verdict: determined, one-sided, or undetermined by these
+data. The fit is then simulated with fresh seeds.
+
+Simulations are kept in --out: the same command goes on with what was
+interrupted, and a study with other bounds or measurements finds them again.
+The same study gives the same result with any number of --jobs.
+
+Methods:
+  joint     all unknowns fitted to all measurements at once, with intervals
+  paper     as a published calibration did: single points, to compare with
+
+Budgets:
+  quick     about ten minutes on two cores; heaps ten times softer, few of them
+  standard  an hour and a half on two cores; heaps as stiff as the study says
+  paper     62 simulations, as many as a published calibration made
+
+Examples:
+  repose calibrate study.toml
+  repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
 )";
 
 constexpr const char* kRenderNotes = R"(
@@ -241,6 +268,32 @@ Command simulate_command(CLI::App& app) {
           "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml."};
 }
 
+Command calibrate_command(CLI::App& app) {
+  const auto given = std::make_shared<CalibrateArguments>();
+  CalibrateArguments& arguments = *given;
+  CLI::App* calibrate = app.add_subcommand("calibrate", "Find a study's open coefficients");
+  calibrate->add_option("study", arguments.study, "Study file")
+      ->option_text("STUDY.toml")
+      ->required();
+  calibrate->add_option("--budget", arguments.budget, "How much may be simulated (quick)")
+      ->option_text("quick|standard|paper");
+  calibrate->add_option("--method", arguments.method, "How the coefficients are found (joint)")
+      ->option_text("joint|paper");
+  calibrate->add_option("--set", arguments.settings, "Replace a value of the study; repeatable")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
+  calibrate->add_option("--jobs", arguments.jobs, "Simulations at a time (all cores)")
+      ->option_text("N");
+  calibrate
+      ->add_option("--out", arguments.out_folder, "Runs, result.json, heap.vtp (STUDY_calibration)")
+      ->option_text("FOLDER");
+  calibrate->add_option("--json", arguments.json_file, "Everything, for programs")
+      ->option_text("FILE|-");
+  calibrate->footer(kCalibrateNotes);
+  return {calibrate, [given] { return run_calibrate(*given); },
+          "no study file is named. Fix: repose calibrate STUDY.toml."};
+}
+
 Command render_command(CLI::App& app) {
   const auto given = std::make_shared<RenderArguments>();
   RenderArguments& arguments = *given;
@@ -286,9 +339,10 @@ Command verify_command(CLI::App& app) {
 }  // namespace
 
 std::vector<Command> add_commands(CLI::App& app) {
-  std::vector<Command> commands = {measure_command(app), compare_command(app),
-                                   shape_command(app),   simulate_command(app),
-                                   render_command(app),  verify_command(app)};
+  std::vector<Command> commands = {
+      measure_command(app), compare_command(app),   shape_command(app), simulate_command(app),
+      render_command(app),  calibrate_command(app), bench_command(app), design_command(app),
+      regress_command(app), verify_command(app)};
   for (const Command& command : commands) command.app->get_formatter()->column_width(32);
   return commands;
 }

@@ -1,6 +1,7 @@
 #include "cli/output.h"
 
 #include <cstdio>
+#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -20,6 +21,11 @@ void write_output(const std::string& file, std::string_view text) {
         "standard output: cannot be written. Fix: look whether the disk is full or the program "
         "that reads it has ended.");
   }
+}
+
+void add_lines(const std::string& text, std::vector<std::string>& lines) {
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
 }
 
 void print_lines(const std::vector<std::string>& lines) {

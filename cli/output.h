@@ -13,6 +13,9 @@ inline constexpr std::string_view kStandardOutput = "-";
 /// @throws std::invalid_argument  when it cannot be written.
 void write_output(const std::string& file, std::string_view text);
 
+/// Adds each line of a text, such as an exception's that tells several faults.
+void add_lines(const std::string& text, std::vector<std::string>& lines);
+
 /// Faults and notes: to standard error, each with the program's name before it.
 void print_lines(const std::vector<std::string>& lines);
 

@@ -81,13 +81,13 @@ Json optional_number(const std::optional<double>& value) {
 /// A heap's angle from both sources, and each view of it.
 void add_pictures(const Run& run, Json& json) {
   const HeapPictures& pictures = *run.pictures;
-  const auto seen = angle_deg(pictures);
+  const auto seen = calibrate::angle_deg(pictures.views);
   json["angle_from_pictures_deg"] = seen ? number(seen->mean) : Json(nullptr);
   json["sd_between_views_deg"] = seen ? optional_number(seen->sd) : Json(nullptr);
   json["angle_from_positions_deg"] = number(run.repeat.value);
   json["overlay"] = pictures.overlay_file.empty() ? Json(nullptr) : Json(pictures.overlay_file);
   json["views"] = Json::array();
-  for (const HeapView& view : pictures.views) {
+  for (const calibrate::HeapView& view : pictures.views) {
     json["views"].push_back(
         {{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
          {"status", name_of(view.status)},
@@ -111,12 +111,12 @@ void add_sources(const std::vector<Run>& runs, Json& json) {
   json["views_flagged"] = angles->flagged;
 }
 
-Json run_json(const Run& run, double value) {
+Json run_json(const Run& run, double angle_or_length) {
   const dem::Repeat& repeat = run.repeat;
   Json readings = Json::object();
   for (const auto& [name, value] : repeat.readings) readings[name] = number(value);
   Json json{{"seed", repeat.seed},
-            {"value", number(value)},
+            {"value", number(angle_or_length)},
             {"wall_s", run.wall_s},
             {"steps", repeat.steps},
             {"clump_steps_per_s", number(repeat.clump_steps / run.wall_s)},

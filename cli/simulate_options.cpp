@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -70,11 +69,6 @@ void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
   } else if (!arguments.views.empty()) {
     plan.faults.emplace_back("--views: only heaps are measured in pictures. Fix: leave it out.");
   }
-}
-
-void add_lines(const char* text, std::vector<std::string>& lines) {
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
 }
 
 bool has_protocol(const dem::Study& study, dem::Experiment experiment) {

@@ -6,11 +6,9 @@
 namespace repose::cli {
 namespace {
 
-/// At least half of the views gave a number.
 bool is_well_pictured(const Run& run) {
-  if (run.outcome != RunOutcome::done || !run.pictures || run.pictures->views.empty()) return false;
-  const auto views = static_cast<int>(run.pictures->views.size());
-  return 2 * count(*run.pictures, vision::MeasureStatus::refused) <= views;
+  return run.outcome == RunOutcome::done && run.pictures &&
+         calibrate::is_well_pictured(run.pictures->views);
 }
 
 }  // namespace
@@ -24,7 +22,8 @@ std::vector<double> values_of(const std::vector<Run>& runs) {
   std::vector<double> values;
   values.reserve(runs.size());
   for (const Run& run : runs) {
-    values.push_back(is_pictured ? angle_deg(*run.pictures)->mean : run.repeat.value);
+    values.push_back(is_pictured ? calibrate::angle_deg(run.pictures->views)->mean
+                                 : run.repeat.value);
   }
   return values;
 }
@@ -54,9 +53,9 @@ std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs) {
     const auto scatter = run.repeat.readings.find("between_views_deg");
     if (scatter != run.repeat.readings.end()) angles.between_views_positions += scatter->second;
     angles.views += static_cast<int>(run.pictures->views.size());
-    angles.refused += count(*run.pictures, vision::MeasureStatus::refused);
-    angles.flagged += count(*run.pictures, vision::MeasureStatus::flagged);
-    const auto seen = angle_deg(*run.pictures);
+    angles.refused += count(run.pictures->views, vision::MeasureStatus::refused);
+    angles.flagged += count(run.pictures->views, vision::MeasureStatus::flagged);
+    const auto seen = calibrate::angle_deg(run.pictures->views);
     if (seen) pictures.push_back(seen->mean);
     if (seen && seen->sd) scatters.push_back(*seen->sd);
   }

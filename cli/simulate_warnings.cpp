@@ -71,7 +71,7 @@ std::optional<RunWarning> pictures_tell(const std::vector<Run>& runs) {
   std::uint64_t seed = 0;
   for (const Run& run : runs) {
     const auto refused =
-        static_cast<std::size_t>(count(*run.pictures, vision::MeasureStatus::refused));
+        static_cast<std::size_t>(count(run.pictures->views, vision::MeasureStatus::refused));
     if (refused < most) continue;
     most = refused;
     views = run.pictures->views.size();

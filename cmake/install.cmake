@@ -1,12 +1,13 @@
 # `cmake --install`: the program, the libraries with their public headers, and a CMake package:
-# find_package(repose) gives the targets repose::vision, repose::dem, repose::render.
+# find_package(repose) gives the targets repose::vision, repose::dem, repose::render,
+# repose::calibrate.
 
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/repose)
 
 # Users write <repose/vision/repose_angle.h>; the headers name each other "vision/picture.h".
-install(TARGETS repose_io repose_vision repose_dem repose_render
+install(TARGETS repose_io repose_vision repose_dem repose_render repose_calibrate
   EXPORT reposeTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/repose

@@ -99,6 +99,9 @@ struct HeapProtocol {
   double plate_m = .4;  ///< side of the square plate
   double plate_thickness_m = .002;
   std::optional<int> grains;  ///< or as many as fill the tube, levelled at its rim
+  /// How many fit depends on their friction: where `grains` do not, take those that do. Without it
+  /// they are refused.
+  bool may_be_fewer = false;
 };
 
 /// One repeat of an experiment.

@@ -166,7 +166,7 @@ Course fill_tube(Course filling, const Bench& bench, const HeapProtocol& protoco
   const double reach = bench.grain.reach_m();
   Rain(protocol, reach, seed, filling.progress().random_draws).fill(filling);
   const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
-  if (protocol.grains && over > 0) {
+  if (protocol.grains && !protocol.may_be_fewer && over > 0) {
     throw std::invalid_argument(fmt::format(
         "heap.grains is {}. Rule: at most what fits into the tube, {}. Fix: fewer grains, a taller "
         "or wider tube, or leave the number out to fill it.",

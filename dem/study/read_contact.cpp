@@ -13,13 +13,23 @@ namespace {
 constexpr Range kRestitution = from_to(.01, 1);
 constexpr Range kFriction = from_to(0, 100);
 
+/// What is known beforehand: { min = 0.1, max = 0.6, mean = 0.3, sd = 0.05 }.
+void read_known(Section& bounds, Coefficient& coefficient) {
+  constexpr double kMost = 100;
+  coefficient.known_mean = bounds.number("mean", from_to(0, kMost), "mean = 0.3");
+  coefficient.known_sd = bounds.number("sd", above(0, kMost), "sd = 0.05");
+  if (bounds.has("mean") != bounds.has("sd")) {
+    bounds.faults().add(bounds.place(),
+                        fmt::format("{} has {}", bounds.path(),
+                                    bounds.has("mean") ? "a mean and no sd" : "an sd and no mean"),
+                        "what is known beforehand is a mean and its standard deviation",
+                        "give both, or take it out");
+  }
+}
+
 void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
                  const std::string& example, Coefficient& coefficient) {
-  if (bounds.has("value")) {
-    bounds.faults().add(whole.place, fmt::format("{} = {}", bounds.path(), whole.shown),
-                        "either a number or bounds, not both", "for example " + example);
-    return;
-  }
+  coefficient.value = bounds.number("value", range, "value = 0.3");
   const auto min = bounds.number("min", range, example);
   const auto max = bounds.number("max", range, example);
   for (const char* key : {"min", "max"}) {
@@ -27,13 +37,24 @@ void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
     bounds.faults().add(bounds.place(), fmt::format("{}.{} is missing", bounds.path(), key),
                         "both bounds, or a number", "for example " + example);
   }
+  read_known(bounds, coefficient);
   bounds.refuse_others();
   if (!min || !max) return;
   coefficient.min = *min;
   coefficient.max = *max;
-  if (*min >= *max) {
-    bounds.faults().add(bounds.place(), fmt::format("{} = {}", bounds.path(), whole.shown),
-                        "min below max", "swap them, or give one number");
+  const auto wrong = [&](const char* rule, const char* fix) {
+    bounds.faults().add(bounds.place(), fmt::format("{} = {}", bounds.path(), whole.shown), rule,
+                        fix);
+  };
+  if (*min >= *max) wrong("min below max", "swap them, or give one number");
+  const auto is_outside = [&](const std::optional<double>& number) {
+    return number && *min < *max && (*number < *min || *number > *max);
+  };
+  if (is_outside(coefficient.known_mean)) {
+    wrong("mean within min and max", "widen the bounds, or correct the mean");
+  }
+  if (is_outside(coefficient.value)) {
+    wrong("value within min and max", "widen the bounds, or correct the value");
   }
 }
 

@@ -1,5 +1,9 @@
 #include "dem/study/read_experiments.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "dem/study/read_particle.h"
@@ -83,6 +87,26 @@ Measured read_measured(Section& experiment, bool has_pictures, const fs::path& f
   return result;
 }
 
+/// [experiment.heap.also_measured]: readings beside the experiment's own number.
+void read_also(Section& experiment, const std::vector<std::string>& names, Measured& measured) {
+  Section also = experiment.section("also_measured");
+  for (const std::string& name : names) {
+    Section reading = also.section(name);
+    if (!reading.exists()) continue;
+    constexpr Range kAny = from_to(-1e6, 1e6);
+    MeasuredReading read{.name = name,
+                         .mean = reading.needed_number("mean", kAny, "mean = 120"),
+                         .sd = reading.number("sd", from_to(0, 1e6), "sd = 4"),
+                         .count = {}};
+    if (const auto n = reading.integer("n", 1, 1'000'000, "n = 10")) {
+      read.count = static_cast<int>(*n);
+    }
+    reading.refuse_others();
+    measured.also.push_back(std::move(read));
+  }
+  also.refuse_others();
+}
+
 void read_drop(Section drop, const fs::path& folder, Study& study) {
   if (!drop.exists()) return;
   DropProtocol protocol;
@@ -91,6 +115,7 @@ void read_drop(Section drop, const fs::path& folder, Study& study) {
   study.drop = protocol;
   study.drop_stiffness = stiffness_factor(drop);
   study.drop_measured = read_measured(drop, false, folder);
+  read_also(drop, {"lowest_point_rise_mm"}, study.drop_measured);
   drop.refuse_others();
 }
 
@@ -134,6 +159,7 @@ void read_heap(Section heap, const fs::path& folder, Study& study) {
   study.heap = protocol;
   study.heap_stiffness = stiffness_factor(heap);
   study.heap_measured = read_measured(heap, true, folder);
+  read_also(heap, {"base_radius_mm", "height_mm", "grains_off_plate"}, study.heap_measured);
   heap.refuse_others();
 }
 

@@ -11,17 +11,31 @@
 
 namespace repose::dem {
 
-/// A coefficient that is known, or one to be found between two bounds.
+/// A coefficient that is known, or one to be found between two bounds, or one to be found that has a
+/// value for runs made before.
 struct Coefficient {
   std::optional<double> value;
-  double min = 0;  ///< of use only without a value
+  double min = 0;  ///< both 0: it is known
   double max = 0;
+  /// Between the bounds, what is known beforehand: mean and standard deviation. Both or none.
+  std::optional<double> known_mean;
+  std::optional<double> known_sd;
+
+  bool is_sought() const { return max > min; }
 };
 
 struct CoefficientSet {
   Coefficient restitution;
   Coefficient sliding_friction;
   Coefficient rolling_friction;
+};
+
+/// Another reading of an experiment than its own number, measured on the bench: its mean.
+struct MeasuredReading {
+  std::string name;  ///< as in the readings of the simulation: "base_radius_mm"
+  double mean = 0;
+  std::optional<double> sd;
+  std::optional<int> count;
 };
 
 /// What was measured on the bench: readings, or their mean and scatter, or pictures to measure.
@@ -32,6 +46,7 @@ struct Measured {
   std::optional<double> sd;
   std::optional<int> count;
   std::vector<std::filesystem::path> pictures;
+  std::vector<MeasuredReading> also;
 };
 
 enum class Experiment { drop, tilt, roll, heap };

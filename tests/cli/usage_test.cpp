@@ -40,6 +40,9 @@ TEST(Usage, HelpDescribesTheMethodsAndFitsATerminal) {
                             {"compare", "--help"},
                             {"shape", "--help"},
                             {"simulate", "--help"},
+                            {"bench", "--help"},
+                            {"design", "--help"},
+                            {"regress", "--help"},
                             {"verify", "--help"}}) {
     const Finished run = run_repose(folder, words);
     EXPECT_EQ(run.exit_code, 0);

@@ -77,6 +77,16 @@ TEST(Heap, RefusesMoreGrainsThanFitAndSaysHowManyDo) {
   EXPECT_NE(message.find("at most what fits into the tube, 2"), std::string::npos) << message;
 }
 
+TEST(Heap, TakesThoseThatFitWhereFewerWillDo) {
+  HeapProtocol protocol = small_tube();
+  protocol.tube_height_m = .05;
+  protocol.grains = 1000000;
+  protocol.may_be_fewer = true;
+  const double grains = run_heap(soft_bench(), protocol, 1).readings.at("grains");
+  EXPECT_GT(grains, 2);
+  EXPECT_LT(grains, 1000);
+}
+
 TEST(Heap, GrainsThatFallOffTheEdgeAreCounted) {
   Bench bench = soft_bench();
   bench.grain_wall = {.31, .2, .05};

@@ -243,10 +243,40 @@ TEST_F(StudyFile, FilesThatAreNotThereAreSaid) {
   EXPECT_THROW(read_study(folder_.path()), std::invalid_argument);
 }
 
-TEST_F(StudyFile, ValueAndBoundsTogetherAreRefused) {
+TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
+  const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
+  const Study study = read(heap + "base_radius_mm = { mean = 120, sd = 4, n = 10 }\n");
+  ASSERT_EQ(study.heap_measured.also.size(), 1U);
+  const MeasuredReading& reading = study.heap_measured.also.front();
+  EXPECT_EQ(reading.name, "base_radius_mm");
+  EXPECT_EQ(reading.mean, 120);
+  EXPECT_EQ(reading.sd, 4);
+  EXPECT_EQ(reading.count, 10);
+  EXPECT_THAT(faults(heap + "width_mm = { mean = 1 }\n"), HasSubstr("width_mm"));
+}
+
+TEST_F(StudyFile, WhatIsSoughtMayHaveAValueForRunsBefore) {
+  const Study study =
+      read(kStudy, {"contact.particle_wall.restitution = "
+                    "{ value = 0.3, min = 0.1, max = 0.6, mean = 0.35, sd = 0.1 }"});
+  const Coefficient& restitution = study.particle_wall.restitution;
+  EXPECT_TRUE(restitution.is_sought());
+  EXPECT_EQ(restitution.value, .3);
+  EXPECT_EQ(restitution.known_mean, .35);
+  EXPECT_EQ(restitution.known_sd, .1);
+  EXPECT_EQ(study.bench.grain_wall.restitution, .3);
+  EXPECT_THAT(open_coefficients(study, Experiment::drop), IsEmpty());
+  EXPECT_FALSE(study.particle_wall.sliding_friction.is_sought());
+}
+
+TEST_F(StudyFile, BoundsThatMakeNoSenseAreRefused) {
   const std::string key = "contact.particle_wall.restitution = ";
-  EXPECT_THAT(faults(kStudy, {key + "{ value = 0.3, min = 0.1, max = 0.6 }"}),
-              HasSubstr("either a number or bounds, not both"));
+  EXPECT_THAT(faults(kStudy, {key + "{ value = 0.8, min = 0.1, max = 0.6 }"}),
+              HasSubstr("value within min and max"));
+  EXPECT_THAT(faults(kStudy, {key + "{ mean = 0.8, sd = 0.1, min = 0.1, max = 0.6 }"}),
+              HasSubstr("mean within min and max"));
+  EXPECT_THAT(faults(kStudy, {key + "{ mean = 0.3, min = 0.1, max = 0.6 }"}),
+              HasSubstr("has a mean and no sd"));
   EXPECT_THAT(faults(kStudy, {key + "{ min = 0.1 }"}), HasSubstr("restitution.max is missing"));
   EXPECT_THAT(faults(kStudy, {key + "{ min = 0, max = 0.6 }"}), HasSubstr("restitution.min = 0"));
   EXPECT_THAT(faults(kStudy, {key + "{ min = 0.1, max = 0.1 }"}), HasSubstr("min below max"));

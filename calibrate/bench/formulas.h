@@ -1,0 +1,41 @@
+#pragma once
+
+/// From one reading of a bench test to the quantity that it measures. SI units. "Paper" is the
+/// hazelnut study whose chain of tests this program follows; THEORY.md lists what its printed
+/// equations get wrong. All are proved by BenchFormulas.* in tests/calibrate/bench_test.cpp.
+namespace repose::calibrate {
+
+/// e = sqrt(h / H), of a body that falls from H (m) and rises to h (m), both from the same point of
+/// the body to where that point is on impact. Paper, eqs. 3 to 5. Holds without drag and spin: what
+/// a body that is no sphere loses to spin counts as lost.
+double restitution_of(double drop_m, double rebound_m);
+
+/// mu = f / F_N = tan(theta), theta the incline (rad) at which a body that cannot roll begins to
+/// slide. Paper, eqs. 7 to 9; its eq. 9 is printed upside down. 0 < theta < pi / 2.
+double sliding_friction_of(double angle_rad);
+
+/// mu_r = S sin(beta) / (S cos(beta) + L): released at rest S (m) up an incline of beta (rad), at
+/// rest L (m) along the flat; the weight's work is used up by rolling friction on both. Paper,
+/// eq. 11, whose text swaps S and L. Holds where nothing is lost at the foot and nothing slides.
+double rolling_friction_of(double incline_rad, double released_m, double stopped_m);
+
+/// rho = m / V, V the volume of liquid that the body displaces.
+double density_of(double mass_kg, double displaced_m3);
+
+/// E = (F / A) / (compression / height): stress over strain. Paper, eq. 1, which divides the stress
+/// by the area once more. Exact for a bar; of a whole grain, A the contact's area and the height
+/// the grain's, it is an apparent modulus.
+double young_modulus_of(double force_n, double area_m2, double compression_m, double height_m);
+
+/// nu = lateral strain / axial strain, widening and shortening both counted as positive. Paper,
+/// eq. 2, whose letters do not say which direction was pressed. Isotropic bodies: -1 < nu < 0.5.
+double poisson_ratio_of(double widening, double width, double shortening, double height);
+
+/// (L W T)^(1/3): the diameter of a sphere in the ellipsoid's place. Mohsenin, Physical Properties
+/// of Plant and Animal Materials (1986), ch. 3.
+double geometric_mean_diameter_of(double length, double width, double thickness);
+
+/// (L W T)^(1/3) / L, 1 for a sphere. Mohsenin, ch. 3. L is the longest.
+double sphericity_of(double length, double width, double thickness);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <numbers>
+
+namespace repose::calibrate {
+
+constexpr double kMPerMm = 1e-3;
+constexpr double kM2PerMm2 = 1e-6;
+constexpr double kM3PerMl = 1e-6;
+constexpr double kKgPerG = 1e-3;
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr double kRightAngle_deg = 90;
+
+/// A bound that 0 itself is above.
+constexpr double kFromZero = -1e-300;
+
+}  // namespace repose::calibrate

@@ -1,0 +1,96 @@
+#include "calibrate/fit/budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calibrate/fit/unit_box.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kFirstShare = .35;
+constexpr int kMostPerDimension = 12;  // in the first round
+
+int least_jobs(const Experiment& experiment) {
+  return 2 * static_cast<int>(experiment.parameters.size()) + 2;
+}
+
+/// How many runs of each experiment the seconds buy, in proportion to weight / root of cost.
+std::vector<double> bought(const std::vector<Experiment>& experiments,
+                           const std::vector<double>& weights, double seconds) {
+  double sum = 0;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    sum += weights[i] * std::sqrt(experiments[i].run_s);
+  }
+  std::vector<double> counts;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    counts.push_back(sum > 0 ? seconds * weights[i] / std::sqrt(experiments[i].run_s) / sum : 0);
+  }
+  return counts;
+}
+
+}  // namespace
+
+Expense least_expense(const Problem& problem) {
+  Expense expense;
+  for (const Experiment& experiment : measured_experiments(problem)) {
+    expense.jobs += least_jobs(experiment);
+    expense.seconds += least_jobs(experiment) * experiment.run_s;
+  }
+  return expense;
+}
+
+std::vector<int> first_round_jobs(const Problem& problem) {
+  const std::vector<Experiment> experiments = measured_experiments(problem);
+  const Expense least = least_expense(problem);
+  std::vector<double> weights;
+  for (const Experiment& experiment : experiments) {
+    weights.push_back(static_cast<double>(experiment.parameters.size()));
+  }
+  const std::vector<double> counts =
+      bought(experiments, weights, kFirstShare * problem.settings.budget_s);
+  // What is wanted beyond the least, cut down to what both limits leave.
+  std::vector<double> extra;
+  double extra_jobs = 0;
+  double extra_s = 0;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    const int dimensions = static_cast<int>(experiments[i].parameters.size());
+    const double most = std::max(kMostPerDimension * dimensions, least_jobs(experiments[i]));
+    extra.push_back(std::max(0., std::min(counts[i], most) - least_jobs(experiments[i])));
+    extra_jobs += extra.back();
+    extra_s += extra.back() * experiments[i].run_s;
+  }
+  double share = 1;
+  if (extra_jobs > 0)
+    share = std::min(share, (problem.settings.most_jobs - least.jobs) / extra_jobs);
+  if (extra_s > 0) share = std::min(share, (problem.settings.budget_s - least.seconds) / extra_s);
+  std::vector<int> jobs;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    jobs.push_back(least_jobs(experiments[i]) + static_cast<int>(share * extra[i]));
+  }
+  return jobs;
+}
+
+std::vector<int> round_jobs(const Problem& problem, const std::vector<double>& need,
+                            const Expense& left, int rounds_left) {
+  const std::vector<Experiment> experiments = measured_experiments(problem);
+  std::vector<int> jobs(experiments.size(), 0);
+  if (rounds_left < 1) return jobs;
+  const std::vector<double> counts = bought(experiments, need, left.seconds / rounds_left);
+  double seconds = left.seconds;
+  int count = left.jobs / rounds_left;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    if (need[i] <= 0) continue;
+    const int most = kMostPerDimension * static_cast<int>(experiments[i].parameters.size());
+    const int affordable = static_cast<int>(std::min(seconds / experiments[i].run_s, 1e6));
+    // Wanted at all is one run at least.
+    const int wanted = static_cast<int>(std::clamp(std::round(counts[i]), 1., 1e6));
+    jobs[i] = std::max(0, std::min({wanted, most, affordable, count}));
+    seconds -= jobs[i] * experiments[i].run_s;
+    count -= jobs[i];
+  }
+  return jobs;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "calibrate/problem.h"
+
+namespace repose::calibrate {
+
+struct Expense {
+  double seconds = 0;
+  int jobs = 0;
+};
+
+/// Of the smallest first round.
+Expense least_expense(const Problem& problem);
+
+/// Jobs of the first round, for each of measured_experiments().
+///
+/// About a third of the budget; the seconds are shared in proportion to dimensions times the root
+/// of a run's cost (Neyman's allocation, Cochran 1977, Sampling Techniques, sec. 5.5: counts go as
+/// scatter over root of cost). From 2d + 2 to 12d jobs for d parameters.
+std::vector<int> first_round_jobs(const Problem& problem);
+
+/// Jobs of a later round, for each of measured_experiments(), `need` saying how much each is wanted
+/// (0: not), in the same proportion.
+std::vector<int> round_jobs(const Problem& problem, const std::vector<double>& need,
+                            const Expense& left, int rounds_left);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "calibrate/fit/solution.h"
+
+namespace repose::calibrate {
+
+/// Points that fit as well as the best (chi2 within kChi2Limit) and lie far from it and from each
+/// other, the farthest first; none where all such points are close together.
+std::vector<Minimum> equivalence_family(const Solution& solution);
+
+}  // namespace repose::calibrate

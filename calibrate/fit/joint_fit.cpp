@@ -1,0 +1,128 @@
+#include "calibrate/fit/joint_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/fit/advice.h"
+#include "calibrate/fit/family.h"
+#include "calibrate/fit/lessons.h"
+#include "calibrate/fit/reach.h"
+#include "calibrate/fit/remarks.h"
+#include "calibrate/fit/rounds.h"
+#include "calibrate/fit/solution.h"
+#include "calibrate/fit/unit_box.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kReaches = .01;  // of the box, from a bound
+constexpr double kNearlyAll = .9;
+
+Verdict verdict_of(const Profile& profile) {
+  const bool low = profile.low <= kReaches;
+  const bool high = profile.high >= 1 - kReaches;
+  if ((low && high) || profile.high - profile.low > kNearlyAll) return Verdict::undetermined;
+  return low || high ? Verdict::one_sided : Verdict::determined;
+}
+
+FittedParameter parameter_of(const Problem& problem, const Solution& solution,
+                             const Advisor& advisor, std::size_t j) {
+  const Parameter& parameter = problem.parameters[j];
+  const Profile& profile = solution.profiles[j];
+  const auto value_at = [&](double x) {
+    return rounded(parameter, parameter.min + x * (parameter.max - parameter.min));
+  };
+  FittedParameter fitted;
+  fitted.name = parameter.name;
+  fitted.value = value_at(solution.best.point[j]);
+  fitted.interval = {value_at(profile.low), value_at(profile.high)};
+  fitted.verdict = verdict_of(profile);
+  if (fitted.verdict != Verdict::determined) fitted.advice = advisor.advice(j);
+  for (const Minimum& minimum : profile.minima) {
+    fitted.profile.push_back(
+        {value_at(minimum.point[j]), std::max(0., minimum.chi2 - solution.best.chi2)});
+  }
+  return fitted;
+}
+
+FittedObservable observable_of(const Problem& problem, const Solution& solution, std::size_t i) {
+  const Observable& observable = problem.observables[i];
+  const Surrogate& surrogate = solution.misfit.surrogates()[i];
+  const Point& best = solution.best.point;
+  const std::size_t dimensions = problem.parameters.size();
+  FittedObservable fitted;
+  fitted.name = observable.name;
+  fitted.unit = observable.unit;
+  fitted.measured = observable.mean;
+  fitted.measured_uncertainty = solution.misfit.measured_uncertainty(i);
+  fitted.measured_sd = fitted.measured_uncertainty * std::sqrt(observable.n);
+  fitted.sd_assumed = !observable.sd;
+  fitted.simulated = surrogate.simulated(best);
+  fitted.simulated_uncertainty = surrogate.uncertainty(best);
+  fitted.simulated_sd = surrogate.bend().scatter(surrogate.at(best, false).mean);
+  fitted.difference_sigma = solution.misfit.difference(i, best);
+  fitted.reachable = {extreme_of(surrogate, dimensions, false).reading,
+                      extreme_of(surrogate, dimensions, true).reading};
+  return fitted;
+}
+
+SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs,
+                            const Surrogate& surrogate, const Observable& observable) {
+  const Experiment& experiment = experiment_named(problem, observable.experiment);
+  SurrogateQuality quality;
+  quality.observable = observable.name;
+  quality.runs =
+      static_cast<int>(lesson_of(problem, experiment, observable.reading, runs).readings.size());
+  quality.failed_runs = attempts_of(problem, experiment, runs).failures();
+  quality.bend = surrogate.bend().bend;
+  quality.length_scales = surrogate.length_scales();
+  quality.leave_one_out_sigma = surrogate.leave_one_out_sigma();
+  quality.leave_one_out_error = surrogate.leave_one_out_error();
+  quality.inflation = surrogate.inflation();
+  return quality;
+}
+
+/// Of the plausible sets; 0 with a coordinate that does not vary.
+std::vector<std::vector<double>> correlation_of(const std::vector<Point>& points) {
+  const Point mean = mean_of(points);
+  const Point sd = sd_of(points);
+  std::vector<std::vector<double>> correlation(mean.size(), std::vector<double>(mean.size(), 0));
+  for (std::size_t a = 0; a < mean.size(); ++a) {
+    for (std::size_t b = 0; b < mean.size(); ++b) {
+      double sum = 0;
+      for (const Point& point : points) sum += (point[a] - mean[a]) * (point[b] - mean[b]);
+      const double all = sd[a] * sd[b] * static_cast<double>(points.size());
+      correlation[a][b] = a == b ? 1 : all > 0 ? sum / all : 0;
+    }
+  }
+  return correlation;
+}
+
+}  // namespace
+
+JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs) {
+  require_sound(problem);
+  const std::vector<Run> sorted = in_order(problem, runs);
+  const Solution solution = solve(problem, sorted);
+  const Advisor advisor(problem, sorted, solution);
+  JointFit fit;
+  fit.chi2 = solution.best.chi2;
+  for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
+    fit.parameters.push_back(parameter_of(problem, solution, advisor, j));
+  }
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    fit.observables.push_back(observable_of(problem, solution, i));
+    fit.surrogates.push_back(
+        quality_of(problem, sorted, solution.misfit.surrogates()[i], problem.observables[i]));
+  }
+  fit.correlation = correlation_of(solution.sets.points);
+  for (const Minimum& member : equivalence_family(solution)) {
+    fit.equivalence_family.push_back(
+        {to_values(problem, member.point), std::max(0., member.chi2 - solution.best.chi2)});
+  }
+  fit.rounds = replay(problem, sorted).complete;
+  fit.warnings = remarks_on(problem, solution, fit);
+  return fit;
+}
+
+}  // namespace repose::calibrate

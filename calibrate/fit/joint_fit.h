@@ -1,0 +1,95 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/problem.h"
+
+namespace repose::calibrate {
+
+/// determined: the interval ends inside both bounds. one_sided: it reaches one of them.
+/// undetermined: it reaches both, or covers nearly all between them.
+enum class Verdict { determined, one_sided, undetermined };
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+/// The best fit with one parameter held at `value`.
+struct ProfilePoint {
+  double value = 0;
+  double chi2 = 0;  ///< above that of the best fit; 3.84 ends the interval
+};
+
+struct FittedParameter {
+  std::string name;
+  double value = 0;
+  Interval interval;  ///< 95 %, profile likelihood
+  Verdict verdict = Verdict::undetermined;
+  std::string advice;  ///< what would determine it; empty for a determined one
+  std::vector<ProfilePoint> profile;
+};
+
+/// An observable, measured and as the fitted parameters give it. In its unit.
+struct FittedObservable {
+  std::string name;
+  std::string unit;
+  double measured = 0;
+  double measured_sd = 0;           ///< of single readings
+  bool sd_assumed = false;          ///< the sd was not measured
+  double measured_uncertainty = 0;  ///< standard uncertainty of the mean
+  double simulated = 0;             ///< expected, by the surrogate
+  double simulated_uncertainty = 0;
+  double simulated_sd = 0;      ///< scatter from seed to seed
+  double difference_sigma = 0;  ///< (simulated - measured) / sigma of the fit
+  Interval reachable;           ///< of the simulated mean, over all parameters in their bounds
+};
+
+/// A set of parameters that the data cannot tell from the best one; to be checked by simulation.
+struct ParameterSet {
+  std::vector<double> values;  ///< as in Problem::parameters
+  double chi2 = 0;             ///< above that of the best fit
+};
+
+/// How well a surrogate knows its experiment.
+struct SurrogateQuality {
+  std::string observable;
+  int runs = 0;
+  int failed_runs = 0;
+  double bend = 0;                    ///< y enters as asinh(y / bend); 0: as it is
+  std::vector<double> length_scales;  ///< shares of the bounds' distance; long: little effect
+  double leave_one_out_sigma = 0;     ///< rms of standardised leave-one-out errors; 1 is right
+  double leave_one_out_error = 0;     ///< rms of leave-one-out errors, seed noise included, unit
+  double inflation = 1;               ///< by which its uncertainty was enlarged
+};
+
+/// What was known after a round.
+struct RoundSummary {
+  int round = 0;
+  int jobs = 0;                ///< so far
+  double seconds = 0;          ///< so far, estimated
+  std::vector<double> values;  ///< middle of the plausible sets, per parameter
+  std::vector<double> sd;      ///< their scatter
+};
+
+struct JointFit {
+  std::vector<FittedParameter> parameters;       ///< in Problem's order
+  std::vector<FittedObservable> observables;     ///< in Problem's order
+  std::vector<std::vector<double>> correlation;  ///< of the parameters, near the best fit
+  std::vector<ParameterSet> equivalence_family;  ///< the best fit not included
+  std::vector<SurrogateQuality> surrogates;      ///< in order of the observables
+  std::vector<RoundSummary> rounds;              ///< of the runs that propose() asked for
+  std::vector<std::string> warnings;
+  double chi2 = 0;  ///< sum of the squared difference_sigma, of priors too
+};
+
+/// Fits all parameters to all observables at once, from runs that are done.
+///
+/// Each observable gets a surrogate of its runs (see THEORY.md), the fit minimises the sum of
+/// ((simulated - measured) / sigma)^2 within the bounds. All runs count, proposed by propose() or
+/// not; their order does not matter. Throws std::invalid_argument with every fault of the problem,
+/// and when fewer than three runs of an experiment have the reading.
+JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs);
+
+}  // namespace repose::calibrate

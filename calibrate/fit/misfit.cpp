@@ -1,0 +1,175 @@
+#include "calibrate/fit/misfit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/core.h>
+
+#include "calibrate/fit/lessons.h"
+#include "calibrate/fit/unit_box.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kNormal95 = 1.959963984540054;
+constexpr double kRobust = 2;       // differences beyond so many sigma count less, when asked for
+constexpr double kPull = .1;        // per box width: to the middle among equals
+constexpr double kDistrust = .1;    // to where the surrogate is sure, among equals
+constexpr double kFailure = 4;      // a half chance of failure alone is beyond 3.84
+constexpr std::size_t kFewest = 3;  // readings to learn from
+
+/// Cauchy's loss as a residual: its square is c^2 log(1 + z^2 / c^2). Returns its slope, too.
+std::pair<double, double> robust_residual(double z) {
+  const double share = z * z / (kRobust * kRobust);
+  const double value = std::copysign(kRobust * std::sqrt(std::log1p(share)), z);
+  return {value, std::abs(value) > 1e-9 ? z / (value * (1 + share)) : 1};
+}
+
+double uncertainty_of_mean(const Observable& observable, double scatter_by_chance) {
+  const double known = standard_uncertainty(observable);
+  if (observable.sd) return known;
+  return std::max(known, scatter_by_chance / std::sqrt(static_cast<double>(observable.n)));
+}
+
+std::string too_few(const Observable& observable, std::size_t readings,
+                    const std::vector<Run>& runs) {
+  int attempts = 0;
+  std::string failure;
+  std::string names;
+  for (const Run& run : runs) {
+    if (run.job.experiment != observable.experiment) continue;
+    ++attempts;
+    if (failure.empty()) failure = run.failure;
+    for (const auto& [name, value] : run.readings) {
+      const std::string quoted = fmt::format(" \"{}\"", name);
+      if (names.find(quoted) == std::string::npos) names += quoted;
+    }
+  }
+  std::string text =
+      fmt::format("{}: {} of {} runs of {} have the reading \"{}\": too few.", observable.name,
+                  readings, attempts, observable.experiment, observable.reading);
+  if (!names.empty()) text += " Readings there are:" + names + ".";
+  if (!failure.empty()) text += " Some failed: " + failure + ".";
+  return text + " Fix: other bounds, or another reading";
+}
+
+}  // namespace
+
+double few_readings_factor(const Observable& observable) {
+  if (!observable.sd) return 1;
+  const boost::math::students_t student(observable.n - 1);
+  return quantile(student, .975) / kNormal95;
+}
+
+Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
+               const std::optional<Misfit>& before, bool thorough)
+    : parameters_(problem.parameters), robust_(problem.settings.robust) {
+  std::string faults;
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    const Observable& observable = problem.observables[i];
+    const Lesson lesson = lesson_of(problem, experiment_named(problem, observable.experiment),
+                                    observable.reading, runs);
+    if (lesson.readings.size() < kFewest) {
+      if (!faults.empty()) faults += '\n';
+      faults += too_few(observable, lesson.readings.size(), runs);
+      continue;
+    }
+    std::optional<Surrogate> start;
+    if (before) start = before->surrogates_[i];
+    surrogates_.emplace_back(lesson, start, thorough);
+    const Bend& bend = surrogates_.back().bend();
+    const double w = bend.of_expected(observable.mean);
+    measured_.push_back(uncertainty_of_mean(observable, bend.scatter(w)));
+    targets_.push_back({w, few_readings_factor(observable) * measured_.back() / bend.slope(w)});
+  }
+  if (!faults.empty()) throw std::invalid_argument(faults);
+  for (const Experiment& experiment : measured_experiments(problem)) {
+    FailureRisk risk(attempts_of(problem, experiment, runs));
+    if (risk.any()) risks_.push_back(std::move(risk));
+  }
+}
+
+void Misfit::inflate_near(const Point& point) {
+  for (Surrogate& surrogate : surrogates_) surrogate.inflate_near(point);
+}
+
+double Misfit::difference(std::size_t observable, const Point& point) const {
+  const Expectation w = surrogates_[observable].at(point, false);
+  const Target& target = targets_[observable];
+  return (w.mean - target.value) / std::hypot(target.sd, std::sqrt(w.variance));
+}
+
+double Misfit::ignorance(std::size_t observable, const Point& point) const {
+  return surrogates_[observable].at(point, false).variance * weight(observable);
+}
+
+double Misfit::weight(std::size_t observable) const {
+  const double sd = targets_[observable].sd;
+  return 1 / (sd * sd);
+}
+
+double Misfit::chi2(const Point& point) const {
+  const Residuals all = residuals(point, false);
+  // The small ones, two lots, come last.
+  const std::size_t counted = all.values.size() - surrogates_.size() - parameters_.size();
+  double sum = 0;
+  for (std::size_t i = 0; i < counted; ++i) sum += all.values[i] * all.values[i];
+  return sum;
+}
+
+void Misfit::add_observable(std::size_t i, const Point& point, bool with_jacobian,
+                            Residuals& all) const {
+  const Expectation w = surrogates_[i].at(point, with_jacobian);
+  const Target& target = targets_[i];
+  const double sigma2 = target.sd * target.sd + w.variance;
+  const double sigma = std::sqrt(sigma2);
+  const double z = (w.mean - target.value) / sigma;
+  const auto [value, slope] = robust_ ? robust_residual(z) : std::pair{z, 1.};
+  all.values[i] = value;
+  const std::size_t doubt = all.values.size() - surrogates_.size() - parameters_.size() + i;
+  const double doubted = std::sqrt(w.variance / sigma2);
+  all.values[doubt] = kDistrust * doubted;
+  for (std::size_t j = 0; with_jacobian && j < point.size(); ++j) {
+    all.jacobian[i][j] =
+        slope * (w.mean_gradient[j] / sigma - z * w.variance_gradient[j] / (2 * sigma2));
+    if (doubted > 0) {
+      all.jacobian[doubt][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
+                               (2 * doubted * sigma2 * sigma2);
+    }
+  }
+}
+
+void Misfit::add_priors(const Point& point, bool with_jacobian, Residuals& all) const {
+  const std::size_t first = surrogates_.size() + risks_.size();
+  const std::size_t pull = all.values.size() - parameters_.size();
+  for (std::size_t j = 0; j < parameters_.size(); ++j) {
+    const Parameter& parameter = parameters_[j];
+    all.values[pull + j] = kPull * (point[j] - .5);
+    if (with_jacobian) all.jacobian[pull + j][j] = kPull;
+    if (!parameter.prior) continue;
+    const double width = parameter.max - parameter.min;
+    all.values[first + j] =
+        (parameter.min + point[j] * width - parameter.prior->mean) / parameter.prior->sd;
+    if (with_jacobian) all.jacobian[first + j][j] = width / parameter.prior->sd;
+  }
+}
+
+Residuals Misfit::residuals(const Point& point, bool with_jacobian) const {
+  const std::size_t count = 2 * surrogates_.size() + risks_.size() + 2 * parameters_.size();
+  Residuals all{std::vector<double>(count, 0), {}};
+  if (with_jacobian) all.jacobian.assign(count, Point(point.size(), 0));
+  for (std::size_t i = 0; i < surrogates_.size(); ++i) add_observable(i, point, with_jacobian, all);
+  for (std::size_t i = 0; i < risks_.size(); ++i) {
+    const Risk risk = risks_[i].at(point);
+    all.values[surrogates_.size() + i] = kFailure * risk.share;
+    for (std::size_t j = 0; with_jacobian && j < point.size(); ++j) {
+      all.jacobian[surrogates_.size() + i][j] = kFailure * risk.gradient[j];
+    }
+  }
+  add_priors(point, with_jacobian, all);
+  return all;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/fit/failure_risk.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/fit/surrogate.h"
+#include "calibrate/problem.h"
+
+namespace repose::calibrate {
+
+/// Residuals and their derivatives: jacobian[i][j] of residual i with coordinate j.
+struct Residuals {
+  std::vector<double> values;
+  std::vector<Point> jacobian;
+};
+
+/// How badly a set of parameters fits, from everything that is known.
+///
+/// Formulae and reasons: THEORY.md, "Misfit". Proved by Misfit.* in tests/calibrate.
+class Misfit {
+ public:
+  /// Learns surrogates of all observables from `runs` (in_order). `before`: of fewer runs, to start
+  /// from. Throws std::invalid_argument where an observable has too few readings.
+  Misfit(const Problem& problem, const std::vector<Run>& runs, const std::optional<Misfit>& before,
+         bool thorough);
+
+  std::size_t dimensions() const { return parameters_.size(); }
+  const std::vector<Surrogate>& surrogates() const { return surrogates_; }
+  /// See Surrogate::inflate_near().
+  void inflate_near(const Point& point);
+
+  /// Squared standardised differences, priors and risks of failure: what 3.84 is compared with.
+  double chi2(const Point& point) const;
+  /// (simulated - measured) / sigma of one observable.
+  double difference(std::size_t observable, const Point& point) const;
+  /// Squares of the surrogate's sd over the measured uncertainty.
+  double ignorance(std::size_t observable, const Point& point) const;
+  /// Standard uncertainty of an observable's measured mean, in its unit. A scatter that was not
+  /// measured is taken to be no less than what chance does in the simulation there: a bench has the
+  /// same chance, and more.
+  double measured_uncertainty(std::size_t observable) const { return measured_[observable]; }
+  /// 1 over the variance of the measured mean, in the units of the observable's surrogate.
+  double weight(std::size_t observable) const;
+  /// What a search minimises: those of chi2(), and small ones that choose among equals.
+  Residuals residuals(const Point& point, bool with_jacobian) const;
+
+ private:
+  /// An observable in the units of its surrogate.
+  struct Target {
+    double value = 0;
+    double sd = 0;
+  };
+  void add_observable(std::size_t i, const Point& point, bool with_jacobian, Residuals& all) const;
+  void add_priors(const Point& point, bool with_jacobian, Residuals& all) const;
+
+  std::vector<Parameter> parameters_;
+  std::vector<Surrogate> surrogates_;
+  std::vector<Target> targets_;
+  std::vector<double> measured_;  ///< standard uncertainties
+  std::vector<FailureRisk> risks_;
+  bool robust_ = false;
+};
+
+/// The share by which an uncertainty is widened because the sd is from few readings: Student's t of
+/// n - 1 degrees of freedom over the normal's 1.96, at 95 %. 1 for an assumed sd.
+double few_readings_factor(const Observable& observable);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <vector>
+
+namespace repose::calibrate {
+
+/// A place in the unit box: parameters as shares of the way from min to max.
+using Point = std::vector<double>;
+
+}  // namespace repose::calibrate

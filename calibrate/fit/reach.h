@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "calibrate/fit/points.h"
+#include "calibrate/fit/surrogate.h"
+
+namespace repose::calibrate {
+
+/// A coordinate that stops a reading from going further.
+struct Limit {
+  std::size_t coordinate = 0;
+  bool at_max = false;
+};
+
+/// The least or the largest expected reading in the box.
+struct Extreme {
+  double reading = 0;
+  double uncertainty = 0;
+  std::vector<Limit> limits;
+};
+
+/// By a spread of points and a search along the coordinates from the best of them.
+Extreme extreme_of(const Surrogate& surrogate, std::size_t dimensions, bool largest);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/fit/minimum.h"
+#include "calibrate/fit/misfit.h"
+#include "calibrate/fit/plausible.h"
+#include "calibrate/fit/profile.h"
+#include "calibrate/problem.h"
+
+namespace repose::calibrate {
+
+/// Everything that the fit found, in the unit box.
+struct Solution {
+  Misfit misfit;
+  Minimum best;
+  PlausibleSets sets;
+  std::vector<Profile> profiles;  ///< per coordinate
+};
+
+/// Learns the surrogates, finds the best fit, and follows it along every coordinate; begins again
+/// where that comes upon a better one. `runs` in_order.
+Solution solve(const Problem& problem, const std::vector<Run>& runs);
+
+}  // namespace repose::calibrate

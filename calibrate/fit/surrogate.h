@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/fit/gaussian_process.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/problem.h"
+
+namespace repose::calibrate {
+
+/// How a reading is bent before it is learned: w = asinh(y / bend); w = y where bend is 0.
+///
+/// Burbidge, Magee, Robb (1988), J. Am. Stat. Assoc. 83, 123: a logarithm that also takes values at
+/// and below 0. With normal noise of `noise_sd` in w, y has the expectation bend sinh(w)
+/// exp(noise_sd^2 / 2). Proved by Bend.* in tests/calibrate.
+struct Bend {
+  double bend = 0;
+  double noise_sd = 0;
+
+  double bent(double y) const;
+  /// Expected reading where w is expected.
+  double expected(double w) const;
+  /// Its slope with w.
+  double slope(double w) const;
+  /// The w that has the expected reading.
+  double of_expected(double y) const;
+  /// Scatter of single readings there.
+  double scatter(double w) const;
+};
+
+/// What a surrogate is learned from: the runs of one experiment that have the reading.
+struct Lesson {
+  std::vector<std::size_t> parameters;  ///< the experiment's
+  bool chance = true;
+  std::vector<Point> places;  ///< in the experiment's own coordinates
+  std::vector<double> readings;
+};
+
+/// One reading as a function of all parameters, with its uncertainty.
+class Surrogate {
+ public:
+  /// `start` shortens the search: hyperparameters of a similar lesson. `thorough`: more starts.
+  Surrogate(const Lesson& lesson, const std::optional<Surrogate>& start, bool thorough);
+
+  /// Every run gave the same number: nothing can be learned of it.
+  bool constant() const { return !process_; }
+  const Bend& bend() const { return bend_; }
+  /// Of w, at a point of all coordinates; variances inflated.
+  Expectation at(const Point& point, bool with_gradients) const;
+  /// The expected reading, never below 0 where no run was, and its standard uncertainty.
+  double simulated(const Point& point) const;
+  double uncertainty(const Point& point) const;
+  /// Covariance of w between points, inflated, row by row.
+  std::vector<double> covariance(const std::vector<Point>& points) const;
+
+  /// Enlarges the uncertainty where leave-one-out errors are larger than they claim to be, over all
+  /// runs or the fifth of them nearest to `point`, at least ten.
+  void inflate_near(const Point& point);
+
+  double inflation() const { return inflation_; }
+  /// Root mean square of the standardised errors; not inflated.
+  double leave_one_out_sigma() const;
+  /// Root mean square error in the reading's unit.
+  double leave_one_out_error() const;
+  std::vector<double> length_scales() const;
+
+ private:
+  Point seen(const Point& point) const;
+  GaussianProcess learned(double bend, const std::optional<Hyperparameters>& start, int starts,
+                          std::size_t every) const;
+  double best_bend(const std::optional<Hyperparameters>& start) const;
+
+  Lesson lesson_;
+  Bend bend_;
+  std::optional<GaussianProcess> process_;
+  double inflation_ = 1;
+};
+
+}  // namespace repose::calibrate

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/problem.h"
+#include "calibrate/regress/regression.h"
+#include "calibrate/regress/surface.h"
+#include "calibrate/study/workshop.h"
+
+/// The way a published study of hazelnuts was calibrated, step by step, to be compared with: one
+/// coefficient after the other, from single runs, on the absolute error of one heap. THEORY.md says
+/// what is wrong with it; the joint fit (fit/joint_fit.h) is what we recommend.
+namespace repose::calibrate {
+
+/// One wall coefficient: swept, a parabola through the runs solved for what was measured.
+struct PaperSweep {
+  std::string parameter;
+  std::string observable;
+  double measured = 0;
+  std::vector<double> levels;
+  std::vector<double> results;  ///< of one run each; levels whose run gave no reading are left out
+  Regression parabola;
+  double value = 0;        ///< where the parabola takes the measured value
+  bool is_reached = true;  ///< false: it does not, and `value` is where it is nearest
+};
+
+/// A heap with one set of coefficients between the grains.
+struct PaperHeap {
+  std::vector<double> coefficients;  ///< restitution, sliding, rolling
+  std::optional<double> angle_deg;
+  std::optional<double> error_percent;  ///< |angle - measured| / measured
+};
+
+struct PaperOutcome {
+  std::vector<PaperSweep> sweeps;    ///< restitution, sliding, rolling, against the wall
+  std::vector<PaperHeap> ascent;     ///< steps along a straight line
+  std::size_t best_step = 0;         ///< of them
+  std::vector<PaperHeap> composite;  ///< of the central composite design around the best
+  Regression surface;                ///< of the error
+  CanonicalForm form;
+  SurfacePoint optimum;  ///< least of the surface in the design's box
+  std::vector<SurfaceDoubt> doubts;
+  std::vector<double> values;  ///< all six, as in Problem::parameters
+  std::vector<PaperHeap> verification;
+  double measured_angle_deg = 0;
+};
+
+/// Runs it. All six coefficients must be sought and all four experiments measured.
+/// None when it was interrupted.
+/// @throws std::invalid_argument  the study lacks something, or too few runs gave a reading.
+std::optional<PaperOutcome> calibrate_as_published(const Problem& problem, Workshop& workshop);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,49 @@
+#include "calibrate/study/coefficients.h"
+
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace repose::calibrate {
+namespace {
+
+struct Place {
+  const char* name;
+  dem::Coefficient dem::CoefficientSet::*in_study;
+  double dem::PairCoefficients::*in_bench;
+};
+
+constexpr std::array<Place, 3> kPlaces = {{
+    {"restitution", &dem::CoefficientSet::restitution, &dem::PairCoefficients::restitution},
+    {"sliding_friction", &dem::CoefficientSet::sliding_friction,
+     &dem::PairCoefficients::sliding_friction},
+    {"rolling_friction", &dem::CoefficientSet::rolling_friction,
+     &dem::PairCoefficients::rolling_friction},
+}};
+
+constexpr const char* kWall = "contact.particle_wall.";
+constexpr const char* kParticle = "contact.particle_particle.";
+
+}  // namespace
+
+std::vector<NamedCoefficient> coefficients_of(const dem::Study& study) {
+  std::vector<NamedCoefficient> all;
+  for (const Place& place : kPlaces) {
+    all.push_back({std::string(kWall) + place.name, study.particle_wall.*place.in_study});
+  }
+  for (const Place& place : kPlaces) {
+    all.push_back({std::string(kParticle) + place.name, study.particle_particle.*place.in_study});
+  }
+  return all;
+}
+
+double& coefficient_named(const std::string& name, dem::Bench& bench) {
+  for (const Place& place : kPlaces) {
+    if (name == std::string(kWall) + place.name) return bench.grain_wall.*place.in_bench;
+    if (name == std::string(kParticle) + place.name) return bench.grain_grain.*place.in_bench;
+  }
+  throw std::invalid_argument(fmt::format("{}: there is no such coefficient", name));
+}
+
+}  // namespace repose::calibrate

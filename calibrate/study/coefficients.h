@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dem/experiment/experiment.h"
+#include "dem/study/study.h"
+
+namespace repose::calibrate {
+
+/// A coefficient of a study by its name in the file.
+struct NamedCoefficient {
+  std::string name;  ///< "contact.particle_wall.restitution"
+  dem::Coefficient coefficient;
+};
+
+/// All six, walls first.
+std::vector<NamedCoefficient> coefficients_of(const dem::Study& study);
+
+/// Where a bench has it. Throws std::invalid_argument for a name that there is not.
+double& coefficient_named(const std::string& name, dem::Bench& bench);
+
+}  // namespace repose::calibrate

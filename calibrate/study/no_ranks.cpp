@@ -1,0 +1,17 @@
+#include <stdexcept>
+
+#include "calibrate/study/rank_executor.h"
+
+/// In place of rank_executor.cpp where MPI was not found.
+namespace repose::calibrate {
+
+bool has_ranks() { return false; }
+
+RankSession::RankSession() { throw std::runtime_error("repose was built without MPI"); }
+RankSession::~RankSession() = default;
+
+void RankSession::serve(const StudyBench&, const std::atomic<bool>&) const {}
+
+void RankExecutor::run(const std::vector<Job>&, const JobDone&, const std::atomic<bool>&) {}
+
+}  // namespace repose::calibrate

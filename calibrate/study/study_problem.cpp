@@ -1,0 +1,218 @@
+#include "calibrate/study/study_problem.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "calibrate/fit/budget.h"
+#include "calibrate/study/coefficients.h"
+#include "calibrate/study/run_cost.h"
+#include "calibrate/study/study_bench.h"
+#include "vision/repeats.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr std::array kExperiments = {dem::Experiment::drop, dem::Experiment::tilt,
+                                     dem::Experiment::roll, dem::Experiment::heap};
+
+const char* unit_of(dem::Experiment experiment) {
+  const bool is_angle = experiment == dem::Experiment::tilt || experiment == dem::Experiment::heap;
+  return is_angle ? "deg" : "mm";
+}
+
+/// What a bench could measure beside the experiment's own number.
+std::vector<std::string> measurable(dem::Experiment experiment) {
+  switch (experiment) {
+    case dem::Experiment::drop:
+      return {"value", "lowest_point_rise_mm"};
+    case dem::Experiment::tilt:
+    case dem::Experiment::roll:
+      return {"value"};
+    case dem::Experiment::heap:
+      break;
+  }
+  return {"value", "base_radius_mm", "height_mm", "grains_off_plate"};
+}
+
+const dem::Measured& measured_of(const dem::Study& study, dem::Experiment experiment) {
+  return *std::array{&study.drop_measured, &study.tilt_measured, &study.roll_measured,
+                     &study.heap_measured}[static_cast<std::size_t>(experiment)];
+}
+
+bool has_effect(const std::string& coefficient, dem::Experiment experiment) {
+  if (experiment == dem::Experiment::tilt) {
+    return coefficient == "contact.particle_wall.sliding_friction";
+  }
+  return experiment == dem::Experiment::heap || coefficient.starts_with("contact.particle_wall.");
+}
+
+std::vector<Parameter> open_parameters(const dem::Study& study) {
+  std::vector<Parameter> parameters;
+  for (const NamedCoefficient& named : coefficients_of(study)) {
+    if (!named.coefficient.is_sought()) continue;
+    Parameter parameter{.name = named.name,
+                        .min = named.coefficient.min,
+                        .max = named.coefficient.max,
+                        .prior = {}};
+    if (named.coefficient.known_mean) {
+      parameter.prior = Prior{*named.coefficient.known_mean, *named.coefficient.known_sd};
+    }
+    parameters.push_back(std::move(parameter));
+  }
+  return parameters;
+}
+
+/// Mean, scatter and number of what was measured; the mean is none when nothing was.
+Observable observable_of(const dem::Measured& measured) {
+  Observable observable;
+  observable.n = measured.count.value_or(1);
+  observable.sd = measured.sd;
+  observable.mean = measured.mean.value_or(0);
+  if (measured.values.empty()) return observable;
+  const vision::Repeats repeats = vision::summarise(measured.values);
+  observable.mean = repeats.mean;
+  observable.sd = repeats.sd;
+  observable.n = repeats.n;
+  return observable;
+}
+
+class Maker {
+ public:
+  Maker(const dem::Study& study, const dem::ClumpFile& grain) : study_(study), grain_(grain) {}
+
+  StudyProblem make(const Budget& budget) {
+    made_.problem.settings = budget.settings;
+    made_.problem.settings.seed = study_.seed;
+    made_.problem.parameters = open_parameters(study_);
+    if (made_.problem.parameters.empty()) {
+      throw std::invalid_argument(fmt::format(
+          "{}: every coefficient has a value: nothing is to be found. Fix: give bounds to what you "
+          "seek, as in restitution = {{ min = 0.1, max = 0.6 }}.",
+          study_.file.string()));
+    }
+    for (const dem::Experiment experiment : kExperiments) add(experiment);
+    if (made_.problem.observables.empty()) {
+      throw std::invalid_argument(fmt::format(
+          "{}: nothing was measured in an experiment that depends on what is to be found. Fix: "
+          "give one or more experiments what the bench gave, as in measured = {{ mean = 9.42, sd = "
+          "0.5, n = 10 }}.",
+          study_.file.string()));
+    }
+    allow_a_fit();
+    require_sound(made_.problem);
+    return std::move(made_);
+  }
+
+ private:
+  void add(dem::Experiment experiment) {
+    if (!has_protocol(study_, experiment)) return;
+    const std::string name = name_of(experiment);
+    std::vector<std::size_t> with_effect;
+    for (std::size_t k = 0; k < made_.problem.parameters.size(); ++k) {
+      if (has_effect(made_.problem.parameters[k].name, experiment)) with_effect.push_back(k);
+    }
+    const dem::Measured& measured = measured_of(study_, experiment);
+    const bool is_measured = measured.mean || !measured.values.empty();
+    if (with_effect.empty()) {
+      if (is_measured) {
+        made_.notes.push_back(fmt::format(
+            "[experiment.{}] depends on nothing that is to be found: what was measured there is "
+            "not used",
+            name));
+      }
+      return;
+    }
+    made_.problem.experiments.push_back({.name = name,
+                                         .parameters = with_effect,
+                                         .run_s = run_cost_s(study_, grain_.shape, experiment),
+                                         .chance = experiment != dem::Experiment::tilt,
+                                         .measurable = measurable(experiment)});
+    if (is_measured) add(observable_of(measured), experiment, "value");
+    for (const dem::MeasuredReading& reading : measured.also) {
+      Observable observable;
+      observable.mean = reading.mean;
+      observable.sd = reading.sd;
+      observable.n = reading.count.value_or(1);
+      add(observable, experiment, reading.name);
+    }
+  }
+
+  /// A study of many grains costs more than a budget is made for.
+  void allow_a_fit() {
+    constexpr double kMinute_s = 60, kRoundsAfterTheFirst = 2;
+    const Expense least = least_expense(made_.problem);
+    FitSettings& settings = made_.problem.settings;
+    const double enough_s = kRoundsAfterTheFirst * least.seconds;
+    if (settings.budget_s >= enough_s) return;
+    made_.notes.push_back(fmt::format(
+        "runs of this study take long: the budget is raised from {:.0f} to {:.0f} minutes of one "
+        "core, which two rounds take. Fix, to be faster: fewer grains or softer ones.",
+        settings.budget_s / kMinute_s, enough_s / kMinute_s));
+    settings.budget_s = enough_s;
+  }
+
+  void add(Observable observable, dem::Experiment experiment, const std::string& reading) {
+    const std::string name = name_of(experiment);
+    observable.name = reading == "value" ? name : name + '.' + reading;
+    observable.experiment = name;
+    observable.reading = reading;
+    observable.unit = reading == "value"         ? unit_of(experiment)
+                      : reading.ends_with("_mm") ? "mm"
+                                                 : "";
+    if (!observable.sd || observable.n < 2) {
+      observable.sd.reset();
+      observable.assumed_sd_share = kAssumedSdShare;
+    }
+    made_.problem.observables.push_back(std::move(observable));
+  }
+
+  const dem::Study& study_;
+  const dem::ClumpFile& grain_;
+  StudyProblem made_;
+};
+
+}  // namespace
+
+Budget budget_named(const std::string& name) {
+  constexpr double kMinute_s = 60;
+  if (name == "quick") {
+    return {.name = name,
+            .description =
+                "about ten minutes on two cores; heaps ten times softer than the study "
+                "says, few of them, so intervals are wide",
+            .settings = {.budget_s = 20 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
+            .heap_softening = .1,
+            .verification_repeats = 3,
+            .family_sets = 2};
+  }
+  if (name == "standard") {
+    return {.name = name,
+            .description = "an hour and a half on two cores; heaps as stiff as the study says",
+            .settings = {.budget_s = 150 * kMinute_s, .most_jobs = 2000, .most_rounds = 6},
+            .heap_softening = 1,
+            .verification_repeats = 5,
+            .family_sets = 3};
+  }
+  if (name == "paper") {
+    return {.name = name,
+            .description =
+                "as many simulations as the publication made: 27 of single grains, 35 "
+                "heaps",
+            .settings = {.budget_s = 60 * kMinute_s, .most_jobs = 62, .most_rounds = 3},
+            .heap_softening = 1,
+            .verification_repeats = 10,
+            .family_sets = 0};
+  }
+  throw std::invalid_argument(
+      fmt::format("--budget {}: must be quick, standard or paper. Fix: --budget quick.", name));
+}
+
+StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,
+                        const Budget& budget) {
+  return Maker(study, grain).make(budget);
+}
+
+}  // namespace repose::calibrate

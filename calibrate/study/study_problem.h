@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/problem.h"
+#include "dem/shape/clump_file.h"
+#include "dem/study/study.h"
+
+namespace repose::calibrate {
+
+/// How much a study may cost, and what it gives up for that.
+struct Budget {
+  std::string name;
+  std::string description;  ///< what it costs and gives up, a sentence
+  FitSettings settings;
+  double heap_softening = 1;     ///< heaps have the study's stiffness times this
+  int verification_repeats = 3;  ///< fresh seeds at the best fit
+  int family_sets = 2;           ///< sets of the equivalence family that are checked
+};
+
+/// "quick", "standard" or "paper". Throws std::invalid_argument for another name.
+Budget budget_named(const std::string& name);
+
+/// A scatter nobody measured: single readings are taken to scatter by this share of their mean, or
+/// by what chance does in the simulation where that is more (Misfit::measured_uncertainty). It is
+/// said in JointFit::warnings.
+inline constexpr double kAssumedSdShare = .05;
+
+/// What a study leaves to be found, what it measured, and what of that can be used.
+struct StudyProblem {
+  Problem problem;
+  std::vector<std::string> notes;  ///< assumptions, and what was left out
+};
+
+/// Unknowns are the coefficients with bounds; observables what each experiment measured. Pictures
+/// must have been measured before: `measured.values` then holds their angles.
+///
+/// A tilting plate depends on the sliding friction alone: rolling friction from .04 to .3 moved the
+/// angle by .03 degrees, restitution by less than .001.
+/// @throws std::invalid_argument  nothing is to be found, nothing was measured, or the problem is
+/// not sound: every fault.
+StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain, const Budget& budget);
+
+}  // namespace repose::calibrate

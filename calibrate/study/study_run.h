@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/verification.h"
+#include "calibrate/study/executor.h"
+#include "calibrate/study/run_folder.h"
+#include "calibrate/study/study_problem.h"
+#include "calibrate/study/workshop.h"
+
+namespace repose::calibrate {
+
+/// A study that came to its end.
+struct StudyOutcome {
+  JointFit fit;
+  Verification best;                 ///< the fitted parameters, simulated with fresh seeds
+  std::vector<Verification> family;  ///< sets that fit as well, simulated
+  std::vector<Run> runs;             ///< those that the fit was made from
+  std::vector<Run> checks;           ///< those with fresh seeds, the fitted parameters' first
+  std::vector<std::string> notes;    ///< what a reader of the fit must know of its runs
+  int simulated = 0;                 ///< runs made by this call
+  int reused = 0;                    ///< runs found in the folder
+};
+
+/// Runs a study to its end, going on from what the folder holds. The outcome does not depend on how
+/// often it was broken off, nor on the executor. None when it was interrupted.
+/// @throws std::invalid_argument  a protocol that cannot be run, a folder that cannot be written,
+/// or too few runs with a reading for a fit.
+std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
+                                      const StudyBench& bench, const RunFolder& folder,
+                                      Executor& executor, const StudyReport& report,
+                                      const std::atomic<bool>& is_interrupted);
+
+}  // namespace repose::calibrate

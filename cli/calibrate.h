@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.h"
+
+namespace repose::cli {
+
+/// `repose calibrate`, as typed.
+struct CalibrateArguments {
+  std::string study;
+  std::vector<std::string> settings;
+  std::string method = "joint";
+  std::string budget = "quick";
+  std::string jobs;
+  std::string out_folder;
+  std::string json_file;
+};
+
+/// Carries out `repose calibrate`.
+ExitCode run_calibrate(const CalibrateArguments& arguments);
+
+}  // namespace repose::cli

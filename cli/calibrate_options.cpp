@@ -1,0 +1,115 @@
+#include "cli/calibrate_options.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "cli/degrees.h"
+#include "cli/number.h"
+#include "cli/output.h"
+#include "cli/picture_list.h"
+#include "io/whole_file.h"
+#include "vision/picture.h"
+#include "vision/repose_angle.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr int kMostJobs = 1024;
+
+/// Does `work`; what it refuses becomes faults.
+template <typename Work>
+bool attempt(std::vector<std::string>& faults, const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const std::invalid_argument& fault) {
+    add_lines(fault.what(), faults);
+    return false;
+  }
+}
+
+/// Photographs of the bench's heaps: each gives a reading, or it is said why it gives none.
+void measure_pictures(CalibratePlan& plan) {
+  dem::Measured& measured = plan.study.heap_measured;
+  if (measured.pictures.empty()) return;
+  std::vector<std::string> names;
+  for (const std::filesystem::path& picture : measured.pictures) names.push_back(picture.string());
+  const PictureList list = list_pictures(names);
+  plan.faults.insert(plan.faults.end(), list.faults.begin(), list.faults.end());
+  plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
+  for (const std::filesystem::path& file : list.files) {
+    attempt(plan.faults, [&] {
+      const vision::ReposeAngle angle = vision::measure_repose_angle(vision::read_picture(file));
+      if (angle.angle_rad) {
+        measured.values.push_back(to_degrees(*angle.angle_rad));
+        return;
+      }
+      plan.notes.push_back(fmt::format("{}: not measured: {}", file.string(), angle.reason));
+    });
+  }
+  if (plan.faults.empty() && measured.values.empty()) {
+    plan.faults.push_back(fmt::format(
+        "{}: none of the {} pictures of the heap could be measured. Fix: look at them with repose "
+        "measure --overlay, or give the angles as values.",
+        plan.study.file.string(), list.files.size()));
+  }
+}
+
+void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
+  plan.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (plan.study.threads) plan.jobs = *plan.study.threads;
+  if (arguments.jobs.empty()) return;
+  const auto jobs = number_in<int>(arguments.jobs);
+  if (!jobs || *jobs < 1 || *jobs > kMostJobs) {
+    plan.faults.push_back(fmt::format(
+        "--jobs {}: must be a whole number from 1 to {}. Fix: leave it out to use all cores.",
+        arguments.jobs, kMostJobs));
+    return;
+  }
+  plan.jobs = *jobs;
+}
+
+void check_places(CalibratePlan& plan) {
+  if (plan.out_folder.empty()) {
+    plan.out_folder = plan.study.file.stem().string() + "_calibration";
+  }
+  if (plan.json_file.empty() || plan.json_file == kStandardOutput) return;
+  attempt(plan.faults, [&] { io::check_can_write(plan.json_file); });
+}
+
+}  // namespace
+
+CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
+  CalibratePlan plan;
+  plan.settings = arguments.settings;
+  plan.out_folder = arguments.out_folder;
+  plan.json_file = arguments.json_file;
+  plan.method = arguments.method;
+  if (plan.method != "joint" && plan.method != "paper") {
+    plan.faults.push_back(fmt::format(
+        "--method {}: must be joint or paper. Fix: leave it out for joint.", arguments.method));
+  }
+  attempt(plan.faults, [&] { plan.budget = calibrate::budget_named(arguments.budget); });
+  const bool is_read = attempt(
+      plan.faults, [&] { plan.study = dem::read_study(arguments.study, arguments.settings); });
+  read_jobs(arguments, plan);
+  if (!is_read) return plan;
+  check_places(plan);
+  measure_pictures(plan);
+  if (!plan.faults.empty()) return plan;
+  plan.study.heap_stiffness *= plan.budget.heap_softening;
+  attempt(plan.faults, [&] {
+    plan.grain = dem::build_grain(plan.study.grain);
+    plan.problem = calibrate::problem_of(plan.study, plan.grain, plan.budget);
+  });
+  for (const std::string& repair : plan.grain.repairs) {
+    plan.notes.push_back(fmt::format("{}: {}", plan.grain.source, repair));
+  }
+  plan.notes.insert(plan.notes.end(), plan.problem.notes.begin(), plan.problem.notes.end());
+  return plan;
+}
+
+}  // namespace repose::cli

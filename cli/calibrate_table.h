@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "calibrate/study/study_run.h"
+#include "cli/calibrate_options.h"
+
+namespace repose::cli {
+
+/// For people: coefficients with intervals and verdicts, what was measured and simulated, sets that
+/// fit as well, what would determine the rest, and what the values belong to.
+std::string calibrate_table(const CalibratePlan& plan, const calibrate::StudyOutcome& outcome,
+                            int columns);
+
+}  // namespace repose::cli

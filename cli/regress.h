@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.h"
+
+namespace repose::cli {
+
+/// What `repose regress` is asked to do, as typed.
+struct RegressArguments {
+  std::string table;
+  std::string response;
+  std::string factors;  ///< A,B,C
+  std::string model;
+  std::vector<std::string> codings;  ///< NAME=MIN:MAX
+  std::string target;
+  std::string json_file;
+};
+
+/// Carries out `repose regress`.
+ExitCode run_regress(const RegressArguments& arguments);
+
+}  // namespace repose::cli

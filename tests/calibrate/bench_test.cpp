@@ -1,0 +1,160 @@
+#include "calibrate/bench/bench.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/bench/formulas.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+constexpr double kRad = std::numbers::pi / 180;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::string row_name(std::size_t number) {
+  return std::string("row ").append(std::to_string(number));
+}
+
+std::vector<BenchReading> readings(const std::vector<std::vector<double>>& rows) {
+  std::vector<BenchReading> readings;
+  for (const std::vector<double>& row : rows) {
+    readings.push_back({row_name(readings.size() + 1), row, ""});
+  }
+  return readings;
+}
+
+std::string fault_of(BenchTest test, const std::vector<std::vector<double>>& rows) {
+  try {
+    evaluate_bench(test, readings(rows));
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(BenchFormulas, HazelnutStudysMeansGiveItsCoefficients) {
+  EXPECT_NEAR(restitution_of(.5, .00942), .137, 5e-4);
+  EXPECT_NEAR(sliding_friction_of(22.70 * kRad), .418, 5e-4);
+  EXPECT_NEAR(rolling_friction_of(20 * kRad, .150, .32281), .1106, 5e-5);
+}
+
+TEST(BenchFormulas, AgreeWithClosedForms) {
+  // A ball that keeps the share e of its speed rises to e^2 H.
+  EXPECT_DOUBLE_EQ(restitution_of(2, .81 * 2), .9);
+  EXPECT_DOUBLE_EQ(restitution_of(1, 0), 0);
+  EXPECT_NEAR(sliding_friction_of(45 * kRad), 1, 1e-15);
+  // L = S (sin b - mu cos b) / mu, the closed form of the engine's roll.
+  const double mu = .04, s = .15, b = 20 * kRad;
+  EXPECT_NEAR(rolling_friction_of(b, s, s * (std::sin(b) - mu * std::cos(b)) / mu), mu, 1e-15);
+  // Stopping at the foot: mu = tan(b).
+  EXPECT_NEAR(rolling_friction_of(b, s, 0), std::tan(b), 1e-15);
+  EXPECT_DOUBLE_EQ(density_of(.003, 3e-6), 1000);
+  // A bar of 1 cm2, 10 cm long, 210 GPa, under 2100 N gets 10 um shorter and 3 um of 1 cm wider by
+  // nu = .3.
+  EXPECT_NEAR(young_modulus_of(2100, 1e-4, 1e-5, .1), 2.1e11, 1);
+  EXPECT_NEAR(poisson_ratio_of(.3e-6, .01, 1e-5, .1), .3, 1e-12);
+  EXPECT_DOUBLE_EQ(geometric_mean_diameter_of(4, 2, 1), 2);
+  EXPECT_DOUBLE_EQ(sphericity_of(4, 2, 1), .5);
+  EXPECT_DOUBLE_EQ(sphericity_of(3, 3, 3), 1);
+}
+
+TEST(Bench, ReadingsAreInTheUnitsOfTheirNames) {
+  const auto value = [](BenchTest test, const std::vector<double>& row) {
+    return evaluate_bench(test, readings({row})).quantities.front().repeats.mean;
+  };
+  EXPECT_NEAR(value(BenchTest::restitution, {500, 9.42}), .1372589, 1e-7);
+  EXPECT_NEAR(value(BenchTest::sliding, {22.70}), .4183, 5e-5);
+  EXPECT_NEAR(value(BenchTest::rolling, {20, 150, 322.81}), .1106, 5e-5);
+  EXPECT_NEAR(value(BenchTest::density, {2.553, 40, 43}), 851, 1e-9);
+  // 1000 N on a spot of 4 mm, a tenth of the height.
+  EXPECT_NEAR(value(BenchTest::young, {1000, 4, 18, 1.8}), 1000 / (4e-6 * std::numbers::pi) / .1,
+              1);
+  EXPECT_NEAR(value(BenchTest::poisson, {18, 2, 17, .38 * 2. / 18 * 17}), .38, 1e-12);
+}
+
+TEST(Bench, RepeatsHaveMeanScatterAndStudentsInterval) {
+  const BenchResult result =
+      evaluate_bench(BenchTest::sliding, readings({{22.1}, {22.9}, {23.1}, {22.3}, {22.6}}));
+  const auto& [n, mean, sd, uncertainty] = result.quantities.front().repeats;
+  EXPECT_EQ(n, 5);
+  ASSERT_TRUE(sd && uncertainty);
+  EXPECT_NEAR(mean, .41628005810256, 1e-13);
+  EXPECT_NEAR(*uncertainty / *sd, 2.776445 / std::sqrt(5.0), 1e-6);  // t(.975; 4)
+}
+
+TEST(Bench, OneReadingHasNoScatter) {
+  const BenchResult result = evaluate_bench(BenchTest::sliding, readings({{22.7}}));
+  EXPECT_FALSE(result.quantities.front().repeats.sd);
+  EXPECT_FALSE(result.quantities.front().repeats.mean_uncertainty);
+  EXPECT_THAT(result.notes, Contains(HasSubstr("One reading")));
+}
+
+TEST(Bench, EqualReadingsAreSaidToHideTheScatter) {
+  const BenchResult result = evaluate_bench(BenchTest::sliding, readings({{22}, {22}, {22}}));
+  EXPECT_THAT(result.notes, Contains(HasSubstr("are the same")));
+}
+
+TEST(Bench, IntervalsThatReachTooFarAreSaid) {
+  const BenchResult result =
+      evaluate_bench(BenchTest::restitution, readings({{500, 1}, {500, 90}}));
+  EXPECT_THAT(result.notes, Contains(HasSubstr("impossible")));
+}
+
+TEST(Bench, RepeatsOnOneSampleAreAveragedFirst) {
+  std::vector<BenchReading> rows = readings({{1, 0, 1}, {1.2, 0, 1}, {2, 0, 1}});
+  rows[0].sample = rows[1].sample = "A";
+  rows[2].sample = "B";
+  const BenchResult result = evaluate_bench(BenchTest::density, rows);
+  const BenchQuantity& density = result.quantities.front();
+  EXPECT_EQ(density.repeats.n, 2);
+  EXPECT_NEAR(density.values[0], 1100, 1e-9);
+  EXPECT_NEAR(density.repeats.mean, 1550, 1e-9);
+  EXPECT_THAT(result.notes, Contains(HasSubstr("3 readings of 2 samples")));
+}
+
+TEST(Bench, SizesGiveDiameterAndSphericity) {
+  const BenchResult result =
+      evaluate_bench(BenchTest::size, readings({{22.48, 18.23, 17.46}, {22.48, 18.23, 17.46}}));
+  ASSERT_EQ(result.quantities.size(), 5U);
+  EXPECT_NEAR(result.quantities[3].repeats.mean, std::cbrt(22.48 * 18.23 * 17.46), 1e-12);
+  EXPECT_NEAR(result.quantities[4].repeats.mean, .8572, 5e-5);
+}
+
+TEST(Bench, ImpossibleReadingsAreRefusedAllAtOnce) {
+  EXPECT_THAT(
+      fault_of(BenchTest::restitution, {{500, 510}, {500, 9}, {0, 9}, {500, -1}, {kNan, 1}}),
+      AllOf(HasSubstr("row 1: rebound_mm = 510 is more than drop_mm = 500"),
+            HasSubstr("row 3: drop_mm = 0"), HasSubstr("row 4: rebound_mm = -1"),
+            HasSubstr("row 5: drop_mm = nan")));
+  EXPECT_THAT(fault_of(BenchTest::sliding, {{90}, {0}, {120}}),
+              AllOf(HasSubstr("row 1: angle_deg = 90"), HasSubstr("row 2: angle_deg = 0"),
+                    HasSubstr("row 3: angle_deg = 120")));
+  EXPECT_THAT(fault_of(BenchTest::rolling, {{20, -1, 5}, {95, 150, 300}}),
+              AllOf(HasSubstr("released_mm = -1"), HasSubstr("incline_deg = 95")));
+  EXPECT_THAT(fault_of(BenchTest::poisson, {{10, 1, 10, .5}, {10, 1, 10, -1.2}, {10, 11, 10, 1}}),
+              AllOf(HasSubstr("row 1: Poisson's ratio would be 0.5"),
+                    HasSubstr("row 2: Poisson's ratio would be -1.2"),
+                    HasSubstr("row 3: shortening_mm = 11")));
+  EXPECT_THAT(fault_of(BenchTest::density, {{3, 40, 39}, {3, 0, 3000}}),
+              AllOf(HasSubstr("no liquid was displaced"), HasSubstr("no grain is")));
+  EXPECT_THAT(fault_of(BenchTest::young, {{10, 2, 5, 5}}), HasSubstr("compression_mm = 5"));
+  EXPECT_THAT(fault_of(BenchTest::size, {{10, 12, 9}}), HasSubstr("not the longest"));
+  EXPECT_THAT(fault_of(BenchTest::size, {}), HasSubstr("no readings"));
+  EXPECT_THAT(fault_of(BenchTest::size, {{1, 2}}), HasSubstr("2 values are given for 3 columns"));
+}
+
+TEST(Bench, AuxeticAndBouncelessGrainsArePossible) {
+  EXPECT_EQ(fault_of(BenchTest::poisson, {{10, 1, 10, -.3}}), "");
+  EXPECT_EQ(fault_of(BenchTest::restitution, {{500, 0}, {500, 500}}), "");
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,57 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/fit/best_places.h"
+#include "calibrate/fit/chance.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// Learned where x < .5 only.
+Surrogate half_known(bool chance) {
+  Lesson lesson{{0}, chance, {}, {}};
+  Chance luck(1);
+  for (int i = 0; i < 20; ++i) {
+    const double x = .5 * i / 19.;
+    lesson.places.push_back({x});
+    lesson.readings.push_back(std::sin(6 * x) + (chance ? .1 * luck.normal() : 0));
+  }
+  return {lesson, {}, false};
+}
+
+std::vector<Point> candidates() {
+  std::vector<Point> points;
+  for (int i = 0; i <= 20; ++i) points.push_back({i / 20.});
+  return points;
+}
+
+TEST(BestPlaces, GoWhereLeastIsKnown) {
+  const std::vector<Point> all = candidates();
+  for (const std::size_t i : best_places({half_known(true)}, {1}, all, 3)) {
+    EXPECT_GT(all[i][0], .55);
+  }
+}
+
+TEST(BestPlaces, WithoutChanceNoneIsRunTwice) {
+  const std::vector<Point> all = candidates();
+  std::vector<std::size_t> chosen = best_places({half_known(false)}, {1}, all, 5);
+  std::sort(chosen.begin(), chosen.end());
+  EXPECT_EQ(std::adjacent_find(chosen.begin(), chosen.end()), chosen.end());
+}
+
+TEST(BestPlaces, HeavierSurrogatesDecide) {
+  Lesson other{{0}, true, {}, {}};
+  Chance luck(2);
+  for (int i = 0; i < 20; ++i) {
+    other.places.push_back({.5 + .5 * i / 19.});
+    other.readings.push_back(std::sin(6 * other.places.back()[0]) + .1 * luck.normal());
+  }
+  const std::vector<Surrogate> both = {half_known(true), Surrogate(other, {}, false)};
+  const std::vector<Point> all = candidates();
+  EXPECT_GT(all[best_places(both, {1, 1e-6}, all, 1)[0]][0], .55);
+  EXPECT_LT(all[best_places(both, {1e-6, 1}, all, 1)[0]][0], .45);
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/propose.h"
+#include "tests/calibrate/fake_bench.h"
+
+namespace repose::calibrate {
+namespace {
+
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+
+bool holds(const FittedParameter& parameter, double value) {
+  return parameter.interval.low <= value && value <= parameter.interval.high;
+}
+
+/// One study of the whole made-up bench for all tests that only look at it.
+class JointFitOfTheBench : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    problem_ = new Problem(fake::problem(kTruth, 1));
+    runs_ = new fake::Runs(fake::study(*problem_));
+    fit_ = new JointFit(fit_jointly(*problem_, *runs_));
+  }
+  static void TearDownTestSuite() {
+    delete problem_;
+    delete runs_;
+    delete fit_;
+  }
+
+  static Problem* problem_;
+  static fake::Runs* runs_;
+  static JointFit* fit_;
+};
+
+Problem* JointFitOfTheBench::problem_ = nullptr;
+fake::Runs* JointFitOfTheBench::runs_ = nullptr;
+JointFit* JointFitOfTheBench::fit_ = nullptr;
+
+TEST_F(JointFitOfTheBench, DeterminesTheWallAndHoldsTheTruth) {
+  for (std::size_t j = 0; j < 6; ++j) {
+    EXPECT_TRUE(holds(fit_->parameters[j], kTruth[j])) << fit_->parameters[j].name;
+    EXPECT_TRUE(holds(fit_->parameters[j], fit_->parameters[j].value));
+  }
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_EQ(fit_->parameters[j].verdict, Verdict::determined);
+    EXPECT_THAT(fit_->parameters[j].advice, IsEmpty());
+  }
+  EXPECT_NEAR(fit_->parameters[1].value, .42, .02);
+  EXPECT_LT(fit_->parameters[1].interval.high - fit_->parameters[1].interval.low, .06);
+}
+
+TEST_F(JointFitOfTheBench, SaysThatTheHeapCannotSeeRestitution) {
+  const FittedParameter& restitution = fit_->parameters[3];
+  EXPECT_EQ(restitution.verdict, Verdict::undetermined);
+  EXPECT_THAT(restitution.advice, HasSubstr("no reading known here"));
+}
+
+TEST_F(JointFitOfTheBench, NamesTheReadingThatWouldCutTheValley) {
+  // One angle, two frictions between grains: the base radius sees sliding friction for itself.
+  EXPECT_NE(fit_->parameters[4].verdict, Verdict::determined);
+  EXPECT_THAT(fit_->parameters[4].advice, HasSubstr("base_radius_mm"));
+}
+
+TEST_F(JointFitOfTheBench, FindsTheValley) {
+  ASSERT_GE(fit_->equivalence_family.size(), 3);
+  double least = 1;
+  double most = 0;
+  for (const ParameterSet& set : fit_->equivalence_family) {
+    EXPECT_LE(set.chi2, 3.85);
+    // What the made-up heap really gives there; without runs nearby, that is not known better.
+    EXPECT_NEAR(fake::expected("heap", "value", set.values), 22.5, 4);
+    least = std::min(least, set.values[4]);
+    most = std::max(most, set.values[4]);
+  }
+  EXPECT_GT(most - least, .2);
+  EXPECT_LT(fit_->correlation[4][5], -.4);
+}
+
+TEST_F(JointFitOfTheBench, AgreesWithTheMeasurements) {
+  for (const FittedObservable& observable : fit_->observables) {
+    EXPECT_LT(std::abs(observable.difference_sigma), 1) << observable.name;
+    const double truth = fake::expected(observable.name, "value", kTruth);
+    EXPECT_NEAR(observable.simulated, truth, 4 * observable.measured_uncertainty);
+    EXPECT_LE(observable.reachable.low, observable.measured);
+    EXPECT_GE(observable.reachable.high, observable.measured);
+  }
+  EXPECT_GE(fit_->observables[0].reachable.low, 0);  // no rebound below the floor
+}
+
+TEST_F(JointFitOfTheBench, KnowsItsSurrogates) {
+  for (const SurrogateQuality& quality : fit_->surrogates) {
+    EXPECT_GE(quality.runs, 8);
+    EXPECT_GE(quality.inflation, 1);
+    EXPECT_GT(quality.leave_one_out_sigma, 0);
+    EXPECT_LT(quality.leave_one_out_sigma, 1.6) << quality.observable;
+  }
+  EXPECT_GT(fit_->surrogates[2].bend, 0);  // rolling distances span decades
+  EXPECT_NEAR(fit_->observables[2].simulated_sd / fit_->observables[2].simulated, .4, .15);
+}
+
+TEST_F(JointFitOfTheBench, ProfilesRiseFromTheBestToTheLimit) {
+  const FittedParameter& sliding = fit_->parameters[1];
+  ASSERT_GE(sliding.profile.size(), 5);
+  EXPECT_TRUE(std::is_sorted(
+      sliding.profile.begin(), sliding.profile.end(),
+      [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; }));
+  EXPECT_GT(sliding.profile.front().chi2, 3.5);
+  EXPECT_GT(sliding.profile.back().chi2, 3.5);
+}
+
+TEST_F(JointFitOfTheBench, TellsItsHistory) {
+  ASSERT_GE(fit_->rounds.size(), 3);
+  EXPECT_EQ(fit_->rounds.back().jobs, static_cast<int>(runs_->size()));
+  EXPECT_LT(fit_->rounds.back().sd[0], fit_->rounds.front().sd[0]);
+}
+
+TEST_F(JointFitOfTheBench, IsTheSameToTheLastBitInAnyOrder) {
+  fake::Runs runs = *runs_;
+  std::reverse(runs.begin(), runs.end());
+  runs.push_back(runs.front());
+  const JointFit again = fit_jointly(*problem_, runs);
+  for (std::size_t j = 0; j < 6; ++j) {
+    EXPECT_EQ(again.parameters[j].value, fit_->parameters[j].value);
+    EXPECT_EQ(again.parameters[j].interval.low, fit_->parameters[j].interval.low);
+    EXPECT_EQ(again.parameters[j].interval.high, fit_->parameters[j].interval.high);
+  }
+  EXPECT_EQ(again.correlation, fit_->correlation);
+  EXPECT_EQ(again.chi2, fit_->chi2);
+}
+
+/// A tilting plate alone: quick, and its answer is known in closed form.
+Problem plate(double mean, double sd, int n) {
+  Problem problem;
+  problem.parameters = {{"friction", .1, .8, {}}};
+  problem.experiments = {{"tilt", {0}, .5, false, {"value"}}};
+  problem.observables = {{"tilt", "tilt", "value", "deg", mean, sd, n, {}}};
+  return problem;
+}
+
+/// Slides at 50 degrees per unit of friction.
+fake::Runs plate_runs(const Problem& problem) {
+  fake::Runs runs;
+  for (const Job& job : propose(problem, runs)) {
+    runs.push_back({job, {{"value", 50 * job.values[0]}}, ""});
+  }
+  return runs;
+}
+
+JointFit plate_fit(const Problem& problem) { return fit_jointly(problem, plate_runs(problem)); }
+
+TEST(JointFit, OneParameterOfOneReadingHasStudentsInterval) {
+  for (const int n : {3, 10}) {
+    const double t = n == 3 ? 4.302653 : 2.262157;
+    const FittedParameter friction = plate_fit(plate(20, .9, n)).parameters[0];
+    const double half = t * .9 / std::sqrt(n) / 50;
+    EXPECT_NEAR(friction.value, .4, .001);
+    EXPECT_NEAR(friction.interval.low, .4 - half, .03 * half);
+    EXPECT_NEAR(friction.interval.high, .4 + half, .03 * half);
+  }
+}
+
+TEST(JointFit, AnIntervalThatMeetsOneBoundIsOneSided) {
+  const JointFit fit = plate_fit(plate(39.5, .9, 10));
+  EXPECT_EQ(fit.parameters[0].verdict, Verdict::one_sided);
+  EXPECT_EQ(fit.parameters[0].interval.high, .8);
+  EXPECT_GT(fit.parameters[0].interval.low, .7);
+}
+
+TEST(JointFit, ATargetOutOfReachIsToldWithTheRangeAndTheBoundThatLimitsIt) {
+  const JointFit fit = plate_fit(plate(60, .9, 10));
+  EXPECT_EQ(fit.parameters[0].value, .8);
+  EXPECT_NEAR(fit.observables[0].reachable.low, 5, .2);
+  EXPECT_NEAR(fit.observables[0].reachable.high, 40, .2);
+  EXPECT_LT(fit.observables[0].difference_sigma, -10);
+  EXPECT_THAT(fit.warnings,
+              Contains(testing::AllOf(HasSubstr("out of reach"), HasSubstr("friction = 0.8"))));
+  EXPECT_THAT(fit.warnings, Contains(HasSubstr("no set of parameters fits everything")));
+}
+
+TEST(JointFit, WithinReachNothingIsSaidOfIt) {
+  EXPECT_THAT(plate_fit(plate(20, .9, 10)).warnings, IsEmpty());
+}
+
+TEST(JointFit, KnowledgeBeforehandCounts) {
+  // The measurement says .4 +- .1, before it was .3 +- .1: the two meet half-way.
+  Problem problem = plate(20, 0, 1);
+  problem.observables[0].sd.reset();
+  problem.observables[0].assumed_sd_share = .25;
+  problem.parameters[0].prior = Prior{.3, .1};
+  const JointFit fit = plate_fit(problem);
+  EXPECT_NEAR(fit.parameters[0].value, .35, .003);
+  EXPECT_NEAR(fit.chi2, .5, .02);
+  EXPECT_THAT(fit.warnings, Contains(HasSubstr("assumed: 25 %")));
+}
+
+TEST(JointFit, AnIntervalThatIsOnlyTheKnowledgeBeforehandIsCalledThat) {
+  Problem problem = plate(20, 9, 2);
+  problem.parameters[0].prior = Prior{.4, .02};
+  EXPECT_THAT(plate_fit(problem).warnings, Contains(HasSubstr("known beforehand")));
+  problem.observables[0].n = 100;
+  EXPECT_THAT(plate_fit(problem).warnings, Not(Contains(HasSubstr("known beforehand"))));
+}
+
+TEST(JointFit, ARobustFitFollowsTheMajority) {
+  Problem problem = plate(20, .9, 10);
+  problem.observables.push_back(problem.observables[0]);
+  problem.observables.push_back(problem.observables[0]);
+  problem.observables[1].name = "again";
+  problem.observables[2].name = "wrong";
+  problem.observables[2].mean = 35;
+  EXPECT_GT(plate_fit(problem).parameters[0].value, .48);
+  problem.settings.robust = true;
+  EXPECT_NEAR(plate_fit(problem).parameters[0].value, .4, .01);
+}
+
+TEST(JointFit, AConstantReadingIsSaidToDetermineNothing) {
+  const Problem problem = plate(20, .9, 10);
+  fake::Runs runs = plate_runs(problem);
+  for (auto& run : runs) run.readings["value"] = 20;
+  const JointFit fit = fit_jointly(problem, runs);
+  EXPECT_EQ(fit.parameters[0].verdict, Verdict::undetermined);
+  EXPECT_THAT(fit.warnings, Contains(HasSubstr("every simulation gave 20 deg")));
+}
+
+TEST(JointFit, AnExperimentNotMadeIsAdvised) {
+  Problem problem = plate(20, .9, 10);
+  problem.parameters.push_back({"bounce", 0, 1, {}});
+  problem.experiments[0].parameters.push_back(1);
+  problem.experiments.push_back({"drop", {1}, 1, true, {"value"}});
+  const JointFit fit = plate_fit(problem);
+  EXPECT_EQ(fit.parameters[1].verdict, Verdict::undetermined);
+  EXPECT_THAT(fit.parameters[1].advice, HasSubstr("measure the drop experiment"));
+}
+
+TEST(JointFit, FailedRunsAreCountedAndKeptAwayFrom) {
+  Problem problem = fake::problem(kTruth, 3);
+  problem.settings.budget_s = 700;
+  const JointFit fit = fit_jointly(problem, fake::study(problem, true));
+  EXPECT_GT(fit.surrogates[3].failed_runs, 0);
+  EXPECT_THAT(fit.warnings, Contains(HasSubstr("gave no reading")));
+  for (const ParameterSet& set : fit.equivalence_family) {
+    EXPECT_TRUE(set.values[4] < .65 || set.values[5] < .16);
+  }
+}
+
+TEST(JointFit, IntervalsOfSeveralMaterialsHoldTheirTruths) {
+  // A smoke test: tests/bench/recovery.cpp counts properly.
+  const std::vector<std::vector<double>> truths = {
+      {.25, .3, .03, .4, .6, .03}, {.5, .6, .12, .1, .2, .15}, {.4, .2, .08, .3, .4, .1}};
+  int held = 0;
+  for (std::size_t m = 0; m < truths.size(); ++m) {
+    Problem problem = fake::problem(truths[m], 10 + m);
+    problem.settings.budget_s = 700;
+    const JointFit fit = fit_jointly(problem, fake::study(problem));
+    for (std::size_t j = 0; j < 6; ++j) held += holds(fit.parameters[j], truths[m][j]);
+  }
+  EXPECT_GE(held, 16);  // of 18
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/fit/propose.h"
+#include "tests/calibrate/fake_bench.h"
+
+namespace repose::calibrate {
+namespace {
+
+using testing::IsEmpty;
+
+const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+
+Problem quick() { return fake::problem(kTruth, 1); }
+
+std::vector<Job> of(const std::string& experiment, const std::vector<Job>& jobs) {
+  std::vector<Job> some;
+  std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(some),
+               [&](const Job& job) { return job.experiment == experiment; });
+  return some;
+}
+
+double cost(const Problem& problem, const fake::Runs& runs) {
+  double sum = 0;
+  for (const auto& run : runs) {
+    for (const Experiment& experiment : problem.experiments) {
+      if (experiment.name == run.job.experiment) sum += experiment.run_s;
+    }
+  }
+  return sum;
+}
+
+TEST(Propose, TheFirstRoundFillsTheBoundsAndRepeatsSomePlaces) {
+  const Problem problem = quick();
+  const std::vector<Job> drops = of("drop", propose(problem, {}));
+  ASSERT_GE(drops.size(), 12);
+  std::set<std::uint64_t> seeds;
+  std::set<std::vector<double>> places;
+  for (const Job& job : drops) {
+    seeds.insert(job.seed);
+    places.insert(job.values);
+    EXPECT_EQ(job.values[4], .425);  // the middle: without effect on a drop
+  }
+  EXPECT_EQ(seeds.size(), drops.size());
+  EXPECT_LT(places.size(), drops.size());
+  const auto [low, high] =
+      std::minmax_element(drops.begin(), drops.end(),
+                          [](const Job& a, const Job& b) { return a.values[0] < b.values[0]; });
+  EXPECT_LT(low->values[0], .08);
+  EXPECT_GT(high->values[0], .53);
+}
+
+TEST(Propose, DependsOnWhatIsDoneNotOnItsOrder) {
+  const Problem problem = quick();
+  fake::Runs runs = fake::run_all(propose(problem, {}));
+  const std::vector<Job> second = propose(problem, runs);
+  EXPECT_FALSE(second.empty());
+  std::reverse(runs.begin(), runs.end());
+  std::rotate(runs.begin(), runs.begin() + 17, runs.end());
+  EXPECT_EQ(propose(problem, runs), second);
+}
+
+TEST(Propose, AsksAgainForWhatIsMissingInTheRound) {
+  const Problem problem = quick();
+  const std::vector<Job> first = propose(problem, {});
+  fake::Runs runs = fake::run_all(first);
+  runs.erase(runs.begin() + 3, runs.begin() + 5);
+  EXPECT_EQ(propose(problem, runs), (std::vector<Job>{first[3], first[4]}));
+}
+
+TEST(Propose, RunsFromElsewhereChangeNothing) {
+  const Problem problem = quick();
+  fake::Runs runs = fake::run_all(propose(problem, {}));
+  const std::vector<Job> second = propose(problem, runs);
+  runs.push_back(fake::run({"heap", kTruth, 123456}));
+  EXPECT_EQ(propose(problem, runs), second);
+}
+
+TEST(Propose, EndsWithinItsBudgetAndNeverRunsAJobTwice) {
+  for (const double budget_s : {400., 800.}) {
+    Problem problem = quick();
+    problem.settings.budget_s = budget_s;
+    const fake::Runs runs = fake::study(problem);
+    EXPECT_LE(cost(problem, runs), budget_s);
+    EXPECT_GT(cost(problem, runs), .5 * budget_s);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(runs[i].job == runs[k].job);
+    }
+  }
+}
+
+TEST(Propose, KeepsToTheMostJobs) {
+  Problem problem = quick();
+  problem.settings.most_jobs = 60;
+  EXPECT_LE(fake::study(problem).size(), 60);
+}
+
+TEST(Propose, LaterHeapsStandOnWallsThatTheOtherExperimentsLeavePlausible) {
+  const Problem problem = quick();
+  const std::vector<Job> second = of("heap", propose(problem, fake::run_all(propose(problem, {}))));
+  ASSERT_GE(second.size(), 3);
+  // In the first round one in thirty would be.
+  const auto plausible = std::count_if(second.begin(), second.end(), [](const Job& job) {
+    return std::abs(job.values[0] - kTruth[0]) < .15 && std::abs(job.values[1] - kTruth[1]) < .06 &&
+           job.values[2] < .1;
+  });
+  EXPECT_GE(3 * plausible, 2 * static_cast<std::ptrdiff_t>(second.size()));
+}
+
+TEST(Propose, ExperimentsThatAreKnownWellGetNoMoreRuns) {
+  const Problem problem = quick();
+  EXPECT_THAT(of("tilt", propose(problem, fake::run_all(propose(problem, {})))), IsEmpty());
+}
+
+TEST(Propose, EndsEarlyWhenNothingMovesAnyMore) {
+  // One straight reading without chance: the second round has nothing to add.
+  Problem problem;
+  problem.parameters = {{"slope", .1, .8, {}}};
+  problem.experiments = {{"tilt", {0}, .5, false, {}}};
+  problem.observables = {{"tilt", "tilt", "value", "deg", 22.7, .8, 10, {}}};
+  const std::vector<Job> first = propose(problem, {});
+  fake::Runs runs;
+  for (const Job& job : first) runs.push_back({job, {{"value", 60 * job.values[0]}}, ""});
+  EXPECT_THAT(propose(problem, runs), IsEmpty());
+}
+
+TEST(Propose, FailedRunsCountAsDone) {
+  Problem problem = quick();
+  problem.settings.budget_s = 700;
+  const fake::Runs runs = fake::study(problem, true);
+  EXPECT_TRUE(
+      std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); }));
+  EXPECT_THAT(propose(problem, runs), IsEmpty());
+}
+
+TEST(Propose, AllFailedIsAFaultThatSaysWhy) {
+  const Problem problem = quick();
+  fake::Runs runs = fake::run_all(propose(problem, {}));
+  for (auto& run : runs) {
+    if (run.job.experiment == "heap") run = {run.job, {}, "the grains stay in the tube"};
+  }
+  try {
+    propose(problem, runs);
+    FAIL() << "not refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the grains stay in the tube"));
+  }
+}
+
+TEST(Propose, AFaultyProblemIsRefused) { EXPECT_THROW(propose({}, {}), std::invalid_argument); }
+
+}  // namespace
+}  // namespace repose::calibrate

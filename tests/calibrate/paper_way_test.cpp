@@ -1,0 +1,161 @@
+#include "calibrate/paper/paper_way.h"
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/study/study_problem.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using repose::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+const std::string kStudy = R"([particle]
+size_mm = [20, 20, 20]
+spheres = 1
+density_kg_m3 = 1000
+young_modulus_pa = 1e6
+poisson_ratio = 0.3
+[wall]
+young_modulus_pa = 1e8
+poisson_ratio = 0.3
+[contact.particle_wall]
+restitution = { min = 0.05, max = 0.9 }
+sliding_friction = { min = 0.1, max = 0.8 }
+rolling_friction = { min = 0.01, max = 0.2 }
+[contact.particle_particle]
+restitution = { min = 0.05, max = 0.9 }
+sliding_friction = { min = 0.05, max = 0.8 }
+rolling_friction = { min = 0, max = 0.3 }
+[experiment.drop]
+measured = { mean = 80, sd = 1, n = 10 }
+[experiment.tilt]
+measured = { mean = 22.7, sd = 1, n = 10 }
+[experiment.roll]
+measured = { mean = 320, sd = 30, n = 10 }
+[experiment.heap]
+measured = { mean = 21, sd = 0.7, n = 10 }
+)";
+
+/// Formulas in place of simulations.
+class FormulaExecutor : public Executor {
+ public:
+  int workers() const override { return 1; }
+  void run(const std::vector<Job>& jobs, const JobDone& done,
+           const std::atomic<bool>& is_interrupted) override {
+    for (std::size_t k = 0; k < jobs.size() && !is_interrupted; ++k) {
+      SimulatedJob result{.run = {.job = jobs[k], .readings = {}, .failure = {}}, .wall_s = 0};
+      const std::vector<double>& x = jobs[k].values;
+      const double value = jobs[k].experiment == "drop"   ? 500 * x[0] * x[0]
+                           : jobs[k].experiment == "tilt" ? std::atan(x[1]) * 180 / 3.14159265358979
+                           : jobs[k].experiment == "roll"
+                               ? 900 - 5000 * x[2]
+                               : 10 + 30 * x[4] + 200 * x[5] + .01 * (jobs[k].seed % 3);
+      const bool is_empty = jobs[k].experiment == "drop" && x[0] > fails_above_restitution;
+      if (is_empty) {
+        result.run.failure = "nothing was seen";
+      } else {
+        result.run.readings["value"] = value;
+      }
+      done(k, result);
+    }
+  }
+  double fails_above_restitution = 1;
+};
+
+class PaperWay : public ::testing::Test {
+ protected:
+  std::optional<PaperOutcome> calibrate(const std::vector<std::string>& settings = {}) {
+    const dem::Study study = dem::read_study(folder_.write("study.toml", kStudy), settings);
+    const dem::ClumpFile grain = dem::build_grain(study.grain);
+    const Problem problem = problem_of(study, grain, budget_named("quick")).problem;
+    std::vector<std::string> names;
+    for (const Parameter& parameter : problem.parameters) names.push_back(parameter.name);
+    const StudyBench bench(study, grain, names, 0);
+    const RunFolder folder(folder_.path() / "runs");
+    const StudyReport report = [this](const StudyProgress& now) {
+      is_interrupted_ = now.stage == stop_at_;
+    };
+    Workshop workshop(problem, bench, folder, executor_, report, is_interrupted_);
+    return calibrate_as_published(problem, workshop);
+  }
+
+  TemporaryFolder folder_;
+  FormulaExecutor executor_;
+  std::atomic<bool> is_interrupted_ = false;
+  std::string stop_at_;
+};
+
+TEST_F(PaperWay, SolvesEachSweepForWhatWasMeasured) {
+  const auto outcome = calibrate();
+  ASSERT_TRUE(outcome);
+  ASSERT_THAT(outcome->sweeps, SizeIs(3));
+  EXPECT_THAT(outcome->sweeps[0].levels, SizeIs(9));
+  EXPECT_NEAR(outcome->sweeps[0].value, .4, 1e-9) << "500 e^2 = 80 is a parabola itself";
+  EXPECT_NEAR(outcome->sweeps[1].value, std::tan(22.7 / 180 * 3.14159265358979), .01);
+  EXPECT_NEAR(outcome->sweeps[2].value, .116, 1e-9);
+  EXPECT_EQ(outcome->values[0], outcome->sweeps[0].value);
+}
+
+TEST_F(PaperWay, ClimbsToTheBestStepAndFitsTheErrorAroundIt) {
+  const auto outcome = calibrate();
+  ASSERT_TRUE(outcome);
+  ASSERT_THAT(outcome->ascent, SizeIs(5));
+  // 10 + 3 k + 2 k = 21: between the second and the third step, nearer to the second.
+  EXPECT_EQ(outcome->best_step, 1U);
+  EXPECT_THAT(outcome->composite, SizeIs(20));
+  EXPECT_THAT(outcome->surface.coefficients, SizeIs(10));
+  EXPECT_THAT(outcome->verification, SizeIs(10));
+  EXPECT_FALSE(outcome->doubts.empty()) << "an absolute error has a kink";
+}
+
+TEST_F(PaperWay, LeavesOutRunsWithoutAReading) {
+  executor_.fails_above_restitution = .75;
+  const auto outcome = calibrate();
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->sweeps[0].levels, SizeIs(7));
+  EXPECT_NEAR(outcome->sweeps[0].value, .4, 1e-9);
+}
+
+TEST_F(PaperWay, SaysWhenASweepDoesNotReachTheMeasurement) {
+  const auto outcome = calibrate({"experiment.drop.measured.mean=499"});
+  ASSERT_TRUE(outcome);
+  EXPECT_FALSE(outcome->sweeps[0].is_reached);
+  EXPECT_NEAR(outcome->sweeps[0].value, .9, 1e-6) << "the nearest that there is";
+}
+
+TEST_F(PaperWay, GoesOnAfterAnInterruption) {
+  stop_at_ = "central composite design";
+  EXPECT_FALSE(calibrate());
+  stop_at_.clear();
+  is_interrupted_ = false;
+  const auto outcome = calibrate();
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->composite, SizeIs(20));
+}
+
+TEST_F(PaperWay, NeedsAllSixSoughtAndAllFourMeasured) {
+  const auto refusal = [&](const std::string& setting) -> std::string {
+    try {
+      calibrate({setting});
+    } catch (const std::invalid_argument& fault) {
+      return fault.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refusal("contact.particle_wall.restitution=0.5"), HasSubstr("have no bounds"));
+  EXPECT_THAT(refusal("experiment.roll={}"), HasSubstr("[experiment.roll] has no measured value"));
+}
+
+}  // namespace
+}  // namespace repose::calibrate

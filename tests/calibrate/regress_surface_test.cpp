@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/design/design.h"
+#include "calibrate/regress/surface.h"
+#include "tests/calibrate/hazelnut_runs.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::Contains;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// The surface y(u) on the points of a central composite design, with scatter of +-noise that
+/// repeats differ by.
+template <typename Surface>
+RunTable runs_on(const std::vector<Factor>& factors, const Surface& surface, double noise) {
+  RunTable table;
+  table.name = "made-up";
+  table.factors = factors;
+  table.levels.resize(factors.size());
+  table.response_name = "y";
+  double sign = 1;
+  for (const DesignRun& run : central_composite(factors).runs) {
+    std::vector<double> u;
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+      u.push_back(factors[i].natural(run.coded[i]));
+      table.levels[i].push_back(u.back());
+    }
+    table.responses.push_back(surface(u) + sign * noise);
+    sign = -sign;
+  }
+  return table;
+}
+
+const std::vector<Factor> kTwo = {{"a", -1, 1}, {"b", -1, 1}};
+
+Regression fit(const RunTable& table) { return regress(table, SurfaceModel::quadratic); }
+
+std::vector<std::string> codes_of(const Regression& regression, std::optional<double> target = {}) {
+  std::optional<TargetSet> set;
+  if (target) set = solve_target(regression, *target);
+  std::vector<std::string> codes;
+  for (const SurfaceDoubt& doubt :
+       doubts_about(regression, canonical_form(regression), extremes_in_box(regression), set)) {
+    codes.push_back(doubt.code);
+  }
+  return codes;
+}
+
+TEST(CanonicalForm, HazelnutStudysSurfaceIsASaddle) {
+  const auto form = canonical_form(fit(hazelnut_runs()));
+  ASSERT_TRUE(form && form->stationary);
+  ASSERT_EQ(form->axes.size(), 3U);
+  EXPECT_EQ(form->shape, SurfaceShape::saddle);
+  // Twice these are the Hessian's eigenvalues.
+  EXPECT_NEAR(2 * form->axes[0].curvature, -.346, 5e-4);
+  EXPECT_NEAR(2 * form->axes[1].curvature, 9.21, 5e-3);
+  EXPECT_NEAR(2 * form->axes[2].curvature, 27.9, 5e-2);
+}
+
+TEST(CanonicalForm, AgreesWithR) {
+  // B from coef(m); eigen(B); -solve(B, b[2:4]) / 2; sqrt(g' vcov(m) g) * qt(.975, 10)
+  const auto form = canonical_form(fit(hazelnut_runs()));
+  ASSERT_TRUE(form && form->stationary);
+  EXPECT_NEAR(form->axes[0].curvature, -.172757909779548, 1e-9);
+  EXPECT_NEAR(form->axes[1].curvature, 4.603083331027326, 1e-9);
+  EXPECT_NEAR(form->axes[2].curvature, 13.956280248733192, 1e-9);
+  EXPECT_NEAR(form->axes[0].uncertainty, 3.20772692823403, 1e-8);
+  EXPECT_NEAR(form->axes[2].uncertainty, 3.20802777291539, 1e-8);
+  EXPECT_FALSE(form->axes[0].is_certain());
+  EXPECT_TRUE(form->axes[1].is_certain());
+  EXPECT_NEAR(form->axes[0].direction[0], .9957103427226182, 1e-9);
+  EXPECT_NEAR(form->stationary->coded[0], 7.468192433499322, 1e-8);
+  EXPECT_NEAR(form->stationary->coded[1], .216560161101515, 1e-8);
+  EXPECT_NEAR(form->stationary->coded[2], -.549158551935657, 1e-8);
+  EXPECT_FALSE(form->is_inside);
+}
+
+TEST(CanonicalForm, NamesMinimumAndMaximum) {
+  const auto bowl = [](const std::vector<double>& u) {
+    return 3 + std::pow(u[0] - .3, 2) + 2 * std::pow(u[1] + .1, 2);
+  };
+  const auto low = canonical_form(fit(runs_on(kTwo, bowl, .01)));
+  EXPECT_EQ(low->shape, SurfaceShape::minimum);
+  EXPECT_TRUE(low->is_inside);
+  EXPECT_NEAR(low->stationary->natural[0], .3, .02);
+  EXPECT_NEAR(low->stationary->natural[1], -.1, .02);
+  const auto hill = [&](const std::vector<double>& u) { return -bowl(u); };
+  EXPECT_EQ(canonical_form(fit(runs_on(kTwo, hill, .01)))->shape, SurfaceShape::maximum);
+}
+
+TEST(CanonicalForm, OnlyQuadraticModelsHaveOne) {
+  EXPECT_FALSE(canonical_form(regress(hazelnut_runs(), SurfaceModel::interaction)));
+}
+
+TEST(BoxExtremes, HazelnutStudysMinimumIsNegative) {
+  const SurfacePoint least = extremes_in_box(fit(hazelnut_runs())).least;
+  EXPECT_NEAR(least.value, -8.76366528132547, 1e-9);  // R: optim(..., method = "L-BFGS-B")
+  EXPECT_DOUBLE_EQ(least.coded[0], -1.682);
+  EXPECT_NEAR(least.coded[1], .977773247, 1e-6);
+  EXPECT_NEAR(least.coded[2], -.146554427, 1e-6);
+  EXPECT_GT(least.uncertainty, 0);
+}
+
+TEST(BoxExtremes, NoPointOfAFineGridIsLowerOrHigher) {
+  const Regression regression = fit(hazelnut_runs());
+  const BoxExtremes extremes = extremes_in_box(regression);
+  constexpr int kSteps = 20;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      for (int k = 0; k <= kSteps; ++k) {
+        const auto level = [](int step) { return 1.682 * (2.0 * step / kSteps - 1); };
+        const double x[] = {level(i), level(j), level(k)};
+        const double value = regression.predicted(x);
+        ASSERT_GE(value, extremes.least.value - 1e-9);
+        ASSERT_LE(value, extremes.greatest.value + 1e-9);
+      }
+    }
+  }
+}
+
+TEST(BoxExtremes, APlanesAreCorners) {
+  const auto plane = [](const std::vector<double>& u) { return 2 * u[0] - u[1]; };
+  const Regression regression = regress(runs_on(kTwo, plane, .01), SurfaceModel::linear);
+  const BoxExtremes extremes = extremes_in_box(regression);
+  const double corner = std::sqrt(2.0);  // the axial points' alpha
+  EXPECT_NEAR(extremes.least.coded[0], -corner, 1e-12);
+  EXPECT_NEAR(extremes.least.coded[1], corner, 1e-12);
+}
+
+TEST(Target, OneFactorsParabolaIsSolved) {
+  // The study's drop: h = 1.403 - 42.794 e + 217.095 e^2 at nine levels is 9.42 mm at e = .3145.
+  RunTable table;
+  table.name = "drop";
+  table.factors = {{"e", .01, .41}};
+  table.levels.resize(1);
+  table.response_name = "height_mm";
+  for (int k = 0; k < 9; ++k) {
+    const double e = .01 + .05 * k;
+    table.levels[0].push_back(e);
+    table.responses.push_back(1.403 - 42.794 * e + 217.095 * e * e + (k % 2 == 0 ? .05 : -.05));
+  }
+  const Regression regression = fit(table);
+  const TargetSet set = solve_target(regression, 9.42);
+  ASSERT_EQ(set.through_centre.size(), 1U);
+  const Crossing& crossing = set.through_centre.front();
+  EXPECT_NEAR(crossing.point.natural[0], .3145, 1e-3);
+  EXPECT_NEAR(crossing.point.value, 9.42, 1e-9);
+  ASSERT_TRUE(crossing.natural_uncertainty);
+  EXPECT_GT(*crossing.natural_uncertainty, 1e-4);
+  EXPECT_LT(*crossing.natural_uncertainty, .01);
+  // It says that rebounds are negative near e = .1: the study's own quadratic does.
+  EXPECT_LT(extremes_in_box(regression).least.value, 0);
+  ASSERT_EQ(set.ranges.size(), 1U);
+  EXPECT_EQ(set.ranges[0].size(), 1U);
+}
+
+TEST(Target, AParabolaMayBeCrossedTwice) {
+  RunTable table;
+  table.factors = {{"x", 0, 4}};
+  table.levels = {{0, 1, 2, 3, 4}};
+  table.response_name = "y";
+  table.responses = {4, 1, 0, 1, 4.001};
+  const TargetSet set = solve_target(fit(table), 1);
+  ASSERT_EQ(set.through_centre.size(), 2U);
+  EXPECT_NEAR(set.through_centre[0].point.natural[0], 1, .01);
+  EXPECT_NEAR(set.through_centre[1].point.natural[0], 3, .01);
+}
+
+TEST(Target, RangesHoldTheWholeSet) {
+  // y = a^2 + b^2 at 1: the unit circle in a box of +- sqrt(2).
+  const auto bowl = [](const std::vector<double>& u) { return u[0] * u[0] + u[1] * u[1]; };
+  const Regression regression = fit(runs_on(kTwo, bowl, 0));
+  const TargetSet circle = solve_target(regression, 1);
+  for (const auto& ranges : circle.ranges) {
+    ASSERT_EQ(ranges.size(), 1U);
+    EXPECT_NEAR(ranges[0][0], -1, 1e-6);
+    EXPECT_NEAR(ranges[0][1], 1, 1e-6);
+  }
+  // Beyond 2, the set is four corners: each factor has two intervals.
+  const TargetSet corners = solve_target(regression, 3);
+  for (const auto& ranges : corners.ranges) {
+    ASSERT_EQ(ranges.size(), 2U);
+    EXPECT_NEAR(ranges[0][0], -std::sqrt(2.0), 1e-6);
+    EXPECT_NEAR(ranges[0][1], -1, 1e-6);
+    EXPECT_NEAR(ranges[1][0], 1, 1e-6);
+  }
+}
+
+TEST(Target, EveryPointGivenMeetsItWithinTheBox) {
+  const Regression regression = fit(hazelnut_runs());
+  const TargetSet set = solve_target(regression, 30);
+  EXPECT_GT(set.grid.size(), 20U);
+  for (const Crossing& crossing : set.grid) {
+    EXPECT_NEAR(crossing.point.value, 30, 1e-9);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LE(std::abs(crossing.point.coded[i]), 1.682);
+      EXPECT_TRUE(std::any_of(set.ranges[i].begin(), set.ranges[i].end(),
+                              [&](const auto& range) {
+                                return crossing.point.coded[i] >= range[0] - 1e-6 &&
+                                       crossing.point.coded[i] <= range[1] + 1e-6;
+                              }))
+          << i << ' ' << crossing.point.coded[i];
+    }
+  }
+}
+
+TEST(Target, OutOfReachIsSaid) {
+  const Regression regression = fit(hazelnut_runs());
+  const TargetSet set = solve_target(regression, 500);
+  EXPECT_FALSE(set.is_reached);
+  EXPECT_THAT(set.grid, IsEmpty());
+  EXPECT_THAT(codes_of(regression, 500), Contains("target_not_reached"));
+}
+
+TEST(Doubts, HazelnutStudysAnalysisIsDoubted) {
+  const std::vector<std::string> codes = codes_of(fit(hazelnut_runs()), 5);
+  for (const char* code :
+       {"absolute_error", "impossible_values", "no_effect", "ridge", "saddle", "not_determined"}) {
+    EXPECT_THAT(codes, Contains(code));
+  }
+  EXPECT_THAT(codes, Not(Contains("lack_of_fit")));
+}
+
+TEST(Doubts, AGoodSurfaceIsNotDoubted) {
+  const auto bowl = [](const std::vector<double>& u) {
+    return 20 + 2 * u[0] + 3 * std::pow(u[0] - .1, 2) + 4 * std::pow(u[1] - .2, 2);
+  };
+  EXPECT_THAT(codes_of(fit(runs_on(kTwo, bowl, .1))), IsEmpty());
+}
+
+TEST(Doubts, ASmoothResponseThatTouchesZeroIsNoAbsoluteError) {
+  const auto bowl = [](const std::vector<double>& u) {
+    return 10 * (u[0] * u[0] + u[1] * u[1]) + .06;
+  };
+  EXPECT_THAT(codes_of(fit(runs_on(kTwo, bowl, .05))), Not(Contains("absolute_error")));
+  const auto kink = [](const std::vector<double>& u) { return std::abs(20 * u[0] + 3 * u[1]); };
+  EXPECT_THAT(codes_of(fit(runs_on(kTwo, kink, 0))), Contains("absolute_error"));
+  // The same with its sign.
+  const auto plane = [](const std::vector<double>& u) { return 20 * u[0] + 3 * u[1]; };
+  EXPECT_THAT(codes_of(fit(runs_on(kTwo, plane, .1))), Not(Contains("absolute_error")));
+}
+
+TEST(Doubts, AModelThatIsTooLowDoesNotFit) {
+  const auto bowl = [](const std::vector<double>& u) { return 9 + u[0] * u[0]; };
+  const Regression regression = regress(runs_on(kTwo, bowl, .01), SurfaceModel::linear);
+  EXPECT_THAT(codes_of(regression), Contains("lack_of_fit"));
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,198 @@
+#include "calibrate/study/study_run.h"
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/study/run_folder.h"
+#include "calibrate/study/study_problem.h"
+#include "calibrate/study/thread_executor.h"
+#include "tests/calibrate/sphere_study.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using repose::testing::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class StudyRun : public ::testing::Test {
+ protected:
+  dem::Study read(const std::vector<std::string>& settings = {}) const {
+    return dem::read_study(folder_.write("study.toml", test::kSphereStudy), settings);
+  }
+
+  static dem::ClumpFile grain_of(const dem::Study& study) { return dem::build_grain(study.grain); }
+
+  static StudyBench bench_of(const dem::Study& study) {
+    return {study,
+            grain_of(study),
+            {"contact.particle_wall.restitution", "contact.particle_wall.sliding_friction"},
+            0};
+  }
+
+  static Problem small_problem(const dem::Study& study) {
+    Problem problem = problem_of(study, grain_of(study), budget_named("quick")).problem;
+    problem.settings.most_jobs = 24;
+    problem.settings.most_rounds = 3;
+    return problem;
+  }
+
+  static Budget budget() {
+    Budget budget = budget_named("quick");
+    budget.family_sets = 1;
+    return budget;
+  }
+
+  /// The fitted values of a study run in a folder; breaks it off before job number `stop`.
+  std::optional<StudyOutcome> run(const std::string& folder, int threads, int stop = -1) const {
+    const dem::Study study = read();
+    const StudyBench bench = bench_of(study);
+    const RunFolder runs(folder_.path() / folder);
+    ThreadExecutor executor(bench, threads);
+    std::atomic<bool> is_interrupted = false;
+    int told = 0;
+    return run_study(
+        small_problem(study), budget(), bench, runs, executor,
+        [&](const StudyProgress&) { is_interrupted = is_interrupted || ++told == stop; },
+        is_interrupted);
+  }
+
+  static std::vector<double> numbers(const StudyOutcome& outcome) {
+    std::vector<double> all;
+    for (const FittedParameter& parameter : outcome.fit.parameters) {
+      all.insert(all.end(), {parameter.value, parameter.interval.low, parameter.interval.high});
+    }
+    for (const Agreement& agreement : outcome.best.observables) all.push_back(agreement.simulated);
+    return all;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(StudyRun, TakesItsProblemFromTheStudy) {
+  const StudyProblem made = problem_of(read(), grain_of(read()), budget_named("quick"));
+  ASSERT_THAT(made.problem.parameters, SizeIs(2));
+  EXPECT_EQ(made.problem.parameters[0].name, "contact.particle_wall.restitution");
+  EXPECT_EQ(made.problem.parameters[0].min, .2);
+  ASSERT_THAT(made.problem.observables, SizeIs(2));
+  EXPECT_EQ(made.problem.observables[0].mean, 25);
+  EXPECT_EQ(made.problem.observables[0].n, 5);
+  EXPECT_NEAR(made.problem.observables[1].mean, 20.475, 1e-12);
+  EXPECT_EQ(made.problem.observables[1].n, 4);
+  ASSERT_THAT(made.problem.experiments, SizeIs(2));
+  EXPECT_THAT(made.problem.experiments[1].parameters, ElementsAre(1)) << "friction alone";
+  EXPECT_THAT(made.notes, IsEmpty());
+}
+
+TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
+  const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5 }"});
+  const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));
+  EXPECT_EQ(made.problem.observables[0].assumed_sd_share, kAssumedSdShare);
+}
+
+TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
+  const auto refusal = [&](const std::vector<std::string>& settings) -> std::string {
+    const dem::Study study = read(settings);
+    try {
+      problem_of(study, grain_of(study), budget_named("quick"));
+    } catch (const std::invalid_argument& fault) {
+      return fault.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refusal({"contact.particle_wall.restitution=0.5",
+                       "contact.particle_wall.sliding_friction=0.5"}),
+              HasSubstr("nothing is to be found"));
+  EXPECT_THAT(refusal({"contact.particle_wall.restitution=0.5",
+                       "contact.particle_wall.sliding_friction=0.5",
+                       "contact.particle_particle.restitution={min=0.1,max=0.5}"}),
+              HasSubstr("nothing was measured in an experiment"));
+  EXPECT_THROW(budget_named("cheap"), std::invalid_argument);
+}
+
+TEST_F(StudyRun, KeysNameWhatIsSimulatedAndNotWhatForWhichStudy) {
+  const dem::Study study = read();
+  const Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
+  const std::string key = bench_of(study).key(job);
+  EXPECT_THAT(key, HasSubstr("drop-"));
+  EXPECT_EQ(bench_of(read({"experiment.drop.measured = { mean = 9, n = 3 }",
+                           "contact.particle_wall.restitution = { min = 0.1, max = 0.95 }"}))
+                .key(job),
+            key)
+      << "bounds and measurements do not matter";
+  for (const char* setting :
+       {"experiment.drop.height_mm=90", "particle.density_kg_m3=999", "particle.size_mm=[20,20,19]",
+        "wall.poisson_ratio=0.31", "simulation.timestep_fraction=0.9",
+        "contact.particle_wall.rolling_friction=0.02"}) {
+    EXPECT_NE(bench_of(read({setting})).key(job), key) << setting;
+  }
+  Job other = job;
+  other.seed = 4;
+  EXPECT_NE(bench_of(study).key(other), key);
+  other = job;
+  other.values[0] = .51;
+  EXPECT_NE(bench_of(study).key(other), key);
+}
+
+TEST_F(StudyRun, FindsTheCoefficientsOfTheBench) {
+  const auto outcome = run("runs", 2);
+  ASSERT_TRUE(outcome);
+  const FittedParameter& restitution = outcome->fit.parameters[0];
+  EXPECT_NEAR(restitution.value, std::sqrt(25. / 100), .05) << "e = sqrt(h / H)";
+  EXPECT_LT(restitution.interval.low, restitution.value);
+  EXPECT_GT(restitution.interval.high, restitution.value);
+  EXPECT_NEAR(outcome->fit.parameters[1].value, std::tan(20.475 / 180 * 3.141592653589793), .01);
+  EXPECT_TRUE(outcome->best.agrees);
+  EXPECT_EQ(outcome->reused, 0);
+}
+
+TEST_F(StudyRun, IsTheSameWithAnyNumberOfThreadsAndInterruptions) {
+  const auto whole = run("whole", 1);
+  ASSERT_TRUE(whole);
+  for (const int stop : {2, 9, 14}) EXPECT_FALSE(run("broken", 2, stop)) << stop;
+  const auto broken = run("broken", 2);
+  ASSERT_TRUE(broken);
+  EXPECT_EQ(numbers(*broken), numbers(*whole));
+  EXPECT_GT(broken->reused, 10);
+  EXPECT_EQ(broken->reused + broken->simulated, whole->simulated);
+}
+
+TEST_F(StudyRun, DamagedFilesAreSimulatedAgain) {
+  const auto first = run("runs", 2);
+  ASSERT_TRUE(first);
+  int damaged = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "runs" / "runs")) {
+    if (++damaged > 3) break;
+    std::filesystem::resize_file(entry.path(), damaged == 1 ? 0 : 40);
+  }
+  const auto again = run("runs", 2);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->simulated, 3);
+  EXPECT_EQ(numbers(*again), numbers(*first));
+}
+
+TEST_F(StudyRun, AnExperimentWithoutAReadingIsAFailedRunNotAnError) {
+  const dem::Study study = read({"contact.particle_wall.rolling_friction=0"});
+  const std::atomic<bool> is_interrupted = false;
+  const SimulatedJob done = bench_of(study).simulate(
+      {.experiment = "tilt", .values = {.5, 90.}, .seed = 1}, is_interrupted);
+  EXPECT_THAT(done.run.readings, IsEmpty());
+  EXPECT_THAT(done.run.failure, HasSubstr("instead of sliding"));
+}
+
+TEST_F(StudyRun, AFolderThatCannotBeMadeIsRefused) {
+  folder_.write("file", std::string("x"));
+  EXPECT_THROW(RunFolder(folder_.path() / "file"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,95 @@
+#include "calibrate/table/table.h"
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string fault_of(const std::string& text, const std::vector<std::string>& columns = {}) {
+  try {
+    numbers_of(parse_table("runs.csv", text), columns);
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+std::vector<double> column(const std::string& text, const std::string& name) {
+  return numbers_of(parse_table("runs.csv", text), {&name, 1}).front();
+}
+
+TEST(Table, RowsKnowTheirLines) {
+  const Table table = parse_table("runs.csv", "a,b\n1,2\n\n  \r\n3,4\n");
+  EXPECT_THAT(table.columns, ElementsAre("a", "b"));
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.rows[0].line, 2);
+  EXPECT_EQ(table.rows[1].line, 5);
+}
+
+TEST(Table, SpreadsheetsHabitsAreUnderstood) {
+  EXPECT_THAT(column("\xEF\xBB\xBF"
+                     "a,b\r\n1,2\r\n3,4\r\n",
+                     "a"),
+              ElementsAre(1, 3));
+  EXPECT_THAT(column("a;b\n1,5;2\n2.5;4\n", "a"), ElementsAre(1.5, 2.5));
+  EXPECT_THAT(column("a\tb\n1,5\t2\n", "a"), ElementsAre(1.5));
+  EXPECT_THAT(column("\"a, mm\",b\n\"1\",2\n+3,4", "a, mm"), ElementsAre(1, 3));
+  EXPECT_THAT(column(" a , b\n 1e-3 , 2\n", "a"), ElementsAre(1e-3));
+  EXPECT_EQ(parse_table("x", "a,b\n\"two\nlines \"\"here\"\"\",2\n").rows[0].cells[0],
+            "two\nlines \"here\"");
+}
+
+TEST(Table, EveryRaggedLineIsNamed) {
+  EXPECT_THAT(fault_of("a,b\n1,2\n1\n1,2,3\n"),
+              AllOf(HasSubstr("runs.csv:3: the row has 1 cells, the header 2"),
+                    HasSubstr("runs.csv:4: the row has 3 cells")));
+}
+
+TEST(Table, EveryCellThatIsNoNumberIsNamed) {
+  const std::string fault =
+      fault_of("a,b\n1,nan\nx,2\n,3\n4,inf\n1e999,5\n1 2,6\n", {"a", "b", "c"});
+  for (const char* part :
+       {"runs.csv:2: b is \"nan\"", "runs.csv:3: a is \"x\"", "runs.csv:4: a is \"\"",
+        "runs.csv:5: b is \"inf\"", "runs.csv:6: a is \"1e999\"", "runs.csv:7: a is \"1 2\"",
+        "has no column c"}) {
+    EXPECT_THAT(fault, HasSubstr(part));
+  }
+}
+
+TEST(Table, AMistypedColumnIsGuessed) {
+  EXPECT_THAT(fault_of("angle_deg,mu\n1,2\n", {"angel_deg"}), HasSubstr("Did you mean angle_deg?"));
+}
+
+TEST(Table, WhatIsNoTableIsRefused) {
+  EXPECT_THAT(fault_of(""), HasSubstr("runs.csv: is empty"));
+  EXPECT_THAT(fault_of("\n \n"), HasSubstr("runs.csv: is empty"));
+  EXPECT_THAT(fault_of("a,b\n"), HasSubstr("no rows"));
+  EXPECT_THAT(fault_of("a,,a\n1,2,3\n"),
+              AllOf(HasSubstr("column 2 has no name"), HasSubstr("two columns are called a")));
+  EXPECT_THAT(fault_of("a,b\n\"1,2\n"), HasSubstr("quotation mark"));
+  EXPECT_THAT(fault_of("a,b\n1\"2,3\n"), HasSubstr("runs.csv:2: a quotation mark"));
+}
+
+TEST(Table, FilesThatCannotBeReadAreNamed) {
+  const testing::TemporaryFolder folder;
+  for (const auto& file : {folder.path(), folder.path() / "missing.csv"}) {
+    try {
+      read_table(file);
+      ADD_FAILURE() << file;
+    } catch (const std::invalid_argument& fault) {
+      EXPECT_THAT(fault.what(), AllOf(HasSubstr(file.string()), HasSubstr("Fix: ")));
+    }
+  }
+  EXPECT_EQ(read_table(folder.write("a.csv", std::string("x\n1\n"))).rows.size(), 1U);
+}
+
+}  // namespace
+}  // namespace repose::calibrate

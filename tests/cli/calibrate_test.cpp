@@ -1,0 +1,181 @@
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "tests/calibrate/sphere_study.h"
+#include "tests/cli/run_program.h"
+
+namespace repose::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Words = std::vector<std::string>;
+
+class Calibrate : public ::testing::Test {
+ protected:
+  Calibrate() { folder_.write("study.toml", calibrate::test::kSphereStudy); }
+
+  Finished run(Words words) const {
+    words.insert(words.begin(), "calibrate");
+    return run_repose(folder_, words);
+  }
+
+  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+  std::size_t files_in(const std::string& name) const {
+    std::error_code error;
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path(name), error)) {
+      count += entry.path().extension() == ".json" ? 1 : 0;
+    }
+    return count;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
+  const Finished done = run({"study.toml", "--json", "result.json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("determined"),
+                              HasSubstr("drop [mm]"), HasSubstr("These coefficients belong to: ")));
+  const json result = json::parse(text_of(path("result.json")));
+  ASSERT_EQ(result["parameters"].size(), 2U);
+  const json& friction = result["parameters"][1];
+  EXPECT_EQ(friction["name"], "contact.particle_wall.sliding_friction");
+  EXPECT_EQ(friction["verdict"], "determined");
+  EXPECT_LT(friction["interval"][0], friction["value"]);
+  EXPECT_GT(friction["interval"][1], friction["value"]);
+  EXPECT_EQ(result["observables"][0]["name"], "drop");
+  EXPECT_NEAR(result["observables"][1]["measured"], 20.475, 1e-9);
+  for (const char* key : {"equivalence_family", "provenance", "correlation", "rounds", "runs"}) {
+    EXPECT_TRUE(result.contains(key)) << key;
+  }
+  EXPECT_EQ(text_of(path("study_calibration/result.json")), text_of(path("result.json")));
+}
+
+TEST_F(Calibrate, KilledAgainAndAgainEndsWithTheSameBytes) {
+  ASSERT_EQ(run({"study.toml", "--out", "whole", "--jobs", "1"}).exit_code, 0);
+  for (const std::size_t files : {2U, 6U, 12U, 20U, 30U}) {
+    const pid_t program =
+        start_repose(folder_, {"calibrate", "study.toml", "--out", "killed", "--jobs", "2"});
+    int status = 0;
+    while (files_in("killed/runs") < files && ::waitpid(program, &status, WNOHANG) == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(program, SIGKILL);
+    ::waitpid(program, &status, 0);
+    ASSERT_FALSE(std::filesystem::exists(path("killed/result.json"))) << "it was too fast";
+  }
+  const Finished last = run({"study.toml", "--out", "killed", "--jobs", "2"});
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_THAT(last.err, HasSubstr("simulations were there already, in killed/runs"));
+  EXPECT_EQ(text_of(path("killed/result.json")), text_of(path("whole/result.json")));
+}
+
+TEST_F(Calibrate, AnotherStudyFindsTheRunsThatItShares) {
+  ASSERT_EQ(run({"study.toml", "--out", "runs"}).exit_code, 0);
+  const std::string first = text_of(path("runs/result.json"));
+  const Finished other = run({"study.toml", "--out", "runs", "--set",
+                              "experiment.drop.measured = { mean = 26, sd = 1, n = 5 }"});
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_THAT(other.err, AllOf(HasSubstr("simulations were there already"),
+                               HasSubstr("runs/result.json: was of another study")));
+  EXPECT_NE(text_of(path("runs/result.json")), first);
+  bool is_kept = false;
+  for (const auto& entry : std::filesystem::directory_iterator(path("runs"))) {
+    is_kept = is_kept || (entry.is_regular_file() && text_of(entry.path()) == first);
+  }
+  EXPECT_TRUE(is_kept) << "under another name";
+}
+
+TEST_F(Calibrate, EveryFaultIsToldAtOnce) {
+  const Finished wrong = run({"study.toml", "--budget", "cheap", "--jobs", "0", "--set",
+                              "contact.particle_wall.restitution = { min = 0.9, max = 0.2 }"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.out, IsEmpty());
+  EXPECT_THAT(wrong.err,
+              AllOf(HasSubstr("--budget cheap: must be quick, standard or paper"),
+                    HasSubstr("--jobs 0: must be a whole number"), HasSubstr("min below max")));
+  EXPECT_FALSE(std::filesystem::exists(path("study_calibration")));
+  EXPECT_EQ(run({}).exit_code, 2);
+  EXPECT_EQ(run({"none.toml"}).exit_code, 2);
+}
+
+TEST_F(Calibrate, AFolderThatCannotBeMadeIsRefused) {
+  folder_.write("runs", std::string("a file where the folder should be"));
+  const Finished refused = run({"study.toml", "--out", "runs"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("runs: the folder cannot be made"));
+  EXPECT_EQ(text_of(path("runs")), "a file where the folder should be");
+}
+
+TEST_F(Calibrate, AFullDiskLosesNothing) {
+  // No file may grow beyond 4 KiB: runs are smaller, the result is larger.
+  folder_.write("full.sh",
+                std::string("trap '' XFSZ; ulimit -f 8\n"
+                            "exec '" REPOSE_PROGRAM "' calibrate study.toml --out runs\n"));
+  const Finished full = run_program("sh", folder_, {"full.sh"});
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_THAT(full.err, AllOf(HasSubstr("runs/result.json"), HasSubstr("Fix: ")));
+  EXPECT_FALSE(std::filesystem::exists(path("runs/result.json"))) << "not even half of it";
+  const Finished again = run({"study.toml", "--out", "runs"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("simulations were there already"));
+  ASSERT_EQ(run({"study.toml", "--out", "other"}).exit_code, 0);
+  EXPECT_EQ(text_of(path("runs/result.json")), text_of(path("other/result.json")));
+}
+
+TEST_F(Calibrate, PicturesThatAreMissingAreNamed) {
+  const Finished refused =
+      run({"study.toml", "--set", "experiment.heap.measured = { pictures = [\"none.jpg\"] }"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("none.jpg"));
+}
+
+TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {
+  const Words of_one = {"study.toml", "--out", "one"};
+  ASSERT_EQ(run(of_one).exit_code, 0);
+  for (const char* ranks : {"2", "4"}) {
+    const std::string out = std::string("ranks") + ranks;
+    const Finished done = run_program("mpirun", folder_,
+                                      {"--allow-run-as-root", "--oversubscribe", "-np", ranks,
+                                       REPOSE_PROGRAM, "calibrate", "study.toml", "--out", out});
+    if (done.exit_code == 127) GTEST_SKIP() << "there is no mpirun";
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(text_of(path(out + "/result.json")), text_of(path("one/result.json"))) << ranks;
+  }
+}
+
+TEST_F(Calibrate, AStudyGoesOnAfterARankWasKilled) {
+  ASSERT_EQ(run({"study.toml", "--out", "one"}).exit_code, 0);
+  const std::string script =
+      "mpirun --allow-run-as-root --oversubscribe -np 3 '" REPOSE_PROGRAM
+      "' calibrate study.toml --out ranks & launcher=$!\n"
+      "until ls ranks/runs/*.json >/dev/null 2>&1; do sleep 0.01; done\n"
+      "for child in $(ps -o pid= --ppid $launcher); do kill -KILL $child; break; done\n"
+      "wait $launcher\n";
+  folder_.write("killing.sh", "command -v mpirun ps >/dev/null || exit 127\n" + script);
+  const Finished killed = run_program("sh", folder_, {"killing.sh"});
+  if (killed.exit_code == 127) GTEST_SKIP() << "there is no mpirun or no ps";
+  EXPECT_NE(killed.exit_code, 0);
+  ASSERT_FALSE(std::filesystem::exists(path("ranks/result.json"))) << "it was too fast";
+  const Finished last = run({"study.toml", "--out", "ranks"});
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_THAT(last.err, HasSubstr("simulations were there already"));
+  EXPECT_EQ(text_of(path("ranks/result.json")), text_of(path("one/result.json")));
+}
+
+}  // namespace
+}  // namespace repose::testing
