@@ -25,7 +25,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr int kHeapViews = 18;
+constexpr int kHeapViews = 9;
 
 std::vector<std::string> parameter_names(const CalibratePlan& plan) {
   std::vector<std::string> names;

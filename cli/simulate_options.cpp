@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/study/study_bench.h"
 #include "cli/number.h"
 #include "cli/output.h"
 #include "cli/simulate_kept.h"
@@ -71,25 +72,11 @@ void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
   }
 }
 
-bool has_protocol(const dem::Study& study, dem::Experiment experiment) {
-  switch (experiment) {
-    case dem::Experiment::drop:
-      return study.drop.has_value();
-    case dem::Experiment::tilt:
-      return study.tilt.has_value();
-    case dem::Experiment::roll:
-      return study.roll.has_value();
-    case dem::Experiment::heap:
-      break;
-  }
-  return study.heap.has_value();
-}
-
 /// The experiment must be described, and what it needs must have a value.
 void check_study(SimulatePlan& plan) {
   const std::string file = plan.study.file.string();
   const std::string_view name = names_of(plan.experiment).name;
-  if (!has_protocol(plan.study, plan.experiment)) {
+  if (!calibrate::has_protocol(plan.study, plan.experiment)) {
     plan.faults.push_back(fmt::format(
         "{}: section [experiment.{}] is missing. Fix: add it to the study, or for this run "
         "--set 'experiment.{}={{}}' for the usual way of doing it.",

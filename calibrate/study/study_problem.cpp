@@ -183,7 +183,7 @@ Budget budget_named(const std::string& name) {
             .description =
                 "about ten minutes on two cores; heaps ten times softer than the study "
                 "says, few of them, so intervals are wide",
-            .settings = {.budget_s = 20 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
+            .settings = {.budget_s = 15 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
             .heap_softening = .1,
             .verification_repeats = 3,
             .family_sets = 2};
