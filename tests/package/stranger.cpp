@@ -1,6 +1,8 @@
 #include <cstdint>
 #include <iostream>
 
+#include <repose/calibrate/bench/formulas.h>
+#include <repose/calibrate/fit/joint_fit.h>
 #include <repose/dem/engine/simulation.h>
 #include <repose/vision/repose_angle.h>
 
@@ -37,6 +39,15 @@ bool falls() {
   return fallen_m > .049 && fallen_m < .0491;
 }
 
+/// A study in which nothing is sought is refused, and a rebound is a restitution.
+bool calibrates() {
+  using namespace repose::calibrate;
+  const bool is_refused = !faults_of(Problem{}).empty();
+  const double restitution = restitution_of(.5, .125);
+  std::cout << "restitution: " << restitution << '\n';
+  return is_refused && restitution > .4999 && restitution < .5001;
+}
+
 }  // namespace
 
-int main() { return refuses_a_blank_picture() && falls() ? 0 : 1; }
+int main() { return refuses_a_blank_picture() && falls() && calibrates() ? 0 : 1; }
