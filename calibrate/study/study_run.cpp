@@ -11,6 +11,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr int kFamilyRepeats = 2;
+constexpr int kMostFits = 3;
 
 std::vector<double> values_of(const JointFit& fit) {
   std::vector<double> values;
@@ -45,6 +46,44 @@ bool run_rounds(const Problem& problem, Workshop& workshop, std::vector<Run>& ru
   }
 }
 
+/// Fits, and checks the fit with fresh seeds. A fit that fails was led by curves that are wrong
+/// just there: its checks join the runs, and the next fit knows better. False when interrupted.
+bool fit_and_check(const Problem& problem, const Budget& budget, Workshop& workshop,
+                   StudyOutcome& outcome) {
+  for (int attempt = 0; attempt < kMostFits; ++attempt) {
+    outcome.runs.insert(outcome.runs.end(), outcome.checks.begin(), outcome.checks.end());
+    outcome.fit = fit_jointly(problem, outcome.runs);
+    const std::vector<double> values = values_of(outcome.fit);
+    const auto checks = workshop.get(
+        attempt == 0 ? "checking the result" : fmt::format("checking fit {}", attempt + 1),
+        verification_jobs(problem, values, budget.verification_repeats, attempt));
+    if (!checks) return false;
+    outcome.checks = *checks;
+    outcome.best = verify(problem, values, outcome.checks, &outcome.fit);
+    if (outcome.best.agrees) break;
+  }
+  return true;
+}
+
+/// Simulates some of the sets that fit as well. False when interrupted.
+bool check_family(const Problem& problem, const Budget& budget, Workshop& workshop,
+                  StudyOutcome& outcome) {
+  const std::vector<ParameterSet>& family = outcome.fit.equivalence_family;
+  const auto count = std::min(family.size(), static_cast<std::size_t>(budget.family_sets));
+  std::vector<Job> jobs;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto of_set = verification_jobs(problem, family[k].values, kFamilyRepeats,
+                                          kMostFits + static_cast<int>(k));
+    jobs.insert(jobs.end(), of_set.begin(), of_set.end());
+  }
+  const auto checks = workshop.get("checking sets that fit as well", jobs);
+  if (!checks) return false;
+  for (std::size_t k = 0; k < count; ++k) {
+    outcome.family.push_back(verify(problem, family[k].values, *checks, &outcome.fit));
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
@@ -54,27 +93,9 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
   Workshop workshop(problem, bench, folder, executor, report, is_interrupted);
   StudyOutcome outcome;
   if (!run_rounds(problem, workshop, outcome.runs)) return std::nullopt;
-  outcome.fit = fit_jointly(problem, outcome.runs);
+  if (!fit_and_check(problem, budget, workshop, outcome)) return std::nullopt;
+  if (!check_family(problem, budget, workshop, outcome)) return std::nullopt;
   note_missing_grains(outcome.notes, outcome.runs);
-
-  std::vector<std::vector<double>> sets = {values_of(outcome.fit)};
-  const std::vector<ParameterSet>& family = outcome.fit.equivalence_family;
-  const auto checked = std::min(family.size(), static_cast<std::size_t>(budget.family_sets));
-  for (std::size_t k = 0; k < checked; ++k) sets.push_back(family[k].values);
-  std::vector<Job> jobs;
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    const int repeats = k == 0 ? budget.verification_repeats : kFamilyRepeats;
-    const std::vector<Job> of_set =
-        verification_jobs(problem, sets[k], repeats, static_cast<int>(k));
-    jobs.insert(jobs.end(), of_set.begin(), of_set.end());
-  }
-  const auto checks = workshop.get("checking the result", jobs);
-  if (!checks) return std::nullopt;
-  outcome.best = verify(problem, sets.front(), *checks, &outcome.fit);
-  for (std::size_t k = 1; k < sets.size(); ++k) {
-    outcome.family.push_back(verify(problem, sets[k], *checks, &outcome.fit));
-  }
-  outcome.checks = *checks;
   outcome.simulated = workshop.simulated();
   outcome.reused = workshop.reused();
   return outcome;

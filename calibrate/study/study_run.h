@@ -20,7 +20,7 @@ struct StudyOutcome {
   Verification best;                 ///< the fitted parameters, simulated with fresh seeds
   std::vector<Verification> family;  ///< sets that fit as well, simulated
   std::vector<Run> runs;             ///< those that the fit was made from
-  std::vector<Run> checks;           ///< those with fresh seeds, the fitted parameters' first
+  std::vector<Run> checks;           ///< those of the fitted parameters with fresh seeds
   std::vector<std::string> notes;    ///< what a reader of the fit must know of its runs
   int simulated = 0;                 ///< runs made by this call
   int reused = 0;                    ///< runs found in the folder
