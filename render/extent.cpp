@@ -28,11 +28,16 @@ std::optional<double> level_face_m(const PlacedWall& wall) {
 }  // namespace
 
 Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes) {
+  const std::vector<double> reaches_m = reaches_of(scene);
   Eigen::AlignedBox3d bounds;
   for (const PlacedGrain& grain : scene.grains) {
-    const dem::ClumpShape& shape = scene.shapes[static_cast<std::size_t>(grain.shape)];
-    const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
+    const auto kind = static_cast<std::size_t>(grain.shape);
     const dem::Vector middle = axes * grain.pose.position;
+    const dem::Vector reach = dem::Vector::Constant(reaches_m[kind]);
+    // Grains inside add nothing, however they lie.
+    if (bounds.contains(Eigen::AlignedBox3d(middle - reach, middle + reach))) continue;
+    const dem::ClumpShape& shape = scene.shapes[kind];
+    const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
     for (const dem::ClumpSphere& sphere : shape.spheres) {
       const dem::Vector centre = middle + turn * sphere.centre;
       bounds.extend((centre.array() - sphere.radius).matrix());

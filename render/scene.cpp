@@ -57,4 +57,10 @@ double reach_m(const dem::ClumpShape& shape) {
   return reach;
 }
 
+std::vector<double> reaches_of(const Scene& scene) {
+  std::vector<double> reaches_m;
+  for (const dem::ClumpShape& shape : scene.shapes) reaches_m.push_back(reach_m(shape));
+  return reaches_m;
+}
+
 }  // namespace repose::render

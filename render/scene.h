@@ -37,4 +37,7 @@ Scene scene_of(const dem::Simulation& simulation);
 /// How far a shape reaches from its centre of mass, spheres and surface, m.
 double reach_m(const dem::ClumpShape& shape);
 
+/// The same for each of a scene's shapes.
+std::vector<double> reaches_of(const Scene& scene);
+
 }  // namespace repose::render

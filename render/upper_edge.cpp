@@ -35,6 +35,15 @@ class Columns {
     }
   }
 
+  /// Whether something as high as `y` or lower changes nothing from one x to the other.
+  bool hides(double y, double from_x, double to_x) const {
+    const double end = static_cast<double>(top_.size());
+    const auto first = static_cast<std::ptrdiff_t>(std::clamp(std::floor(from_x), 0.0, end));
+    const auto last = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(to_x), 0.0, end));
+    return std::all_of(top_.begin() + first, top_.begin() + last,
+                       [y](double top) { return top <= y; });
+  }
+
   std::vector<Point> points() const {
     std::vector<Point> points;
     for (std::size_t k = 0; k < top_.size(); ++k) {
@@ -46,6 +55,34 @@ class Columns {
  private:
   std::vector<double> top_;
 };
+
+/// Whether a grain that lies there lies below what is there, however it is turned.
+bool is_hidden(const Columns& columns, const View& view, const Vector& place, double reach_m) {
+  double top = std::numeric_limits<double>::infinity(), left = top, right = -top, bottom = -top;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vector way((corner & 1U) != 0 ? 1 : -1, (corner & 2U) != 0 ? 1 : -1,
+                     (corner & 4U) != 0 ? 1 : -1);
+    const auto point = view.project(place + reach_m * view.axes.transpose() * way);
+    if (!point) return false;
+    left = std::min(left, point->x);
+    right = std::max(right, point->x);
+    top = std::min(top, point->y);
+    bottom = std::max(bottom, point->y);
+  }
+  constexpr double kBend = .25;  // far more than a lens bends a grain's box / its size
+  const double slack_px = view.k1 != 0 || view.k2 != 0 ? kBend * (right - left + bottom - top) : 0;
+  return columns.hides(top - slack_px, left - slack_px, right + slack_px);
+}
+
+/// From the highest down, so that most are found to be hidden.
+std::vector<PlacedGrain> highest_first(std::vector<PlacedGrain> grains, const View& view) {
+  const auto down = [&view](const PlacedGrain& grain) {
+    return view.in_camera(grain.pose.position).y();
+  };
+  std::stable_sort(grains.begin(), grains.end(),
+                   [&](const PlacedGrain& a, const PlacedGrain& b) { return down(a) < down(b); });
+  return grains;
+}
 
 void add_mesh(Columns& columns, const View& view, const PlacedGrain& grain, const dem::Mesh& mesh) {
   std::vector<std::optional<Point>> places;
@@ -83,8 +120,11 @@ dem::Mesh mesh_of(const Surface& surface) {
 std::vector<Point> upper_edge(const Scene& scene, const View& view, Shown shown) {
   Columns columns(view.size.width);
   std::map<int, dem::Mesh> spheres;  // by shape
-  for (const PlacedGrain& grain : scene.grains) {
-    const dem::ClumpShape& shape = scene.shapes[static_cast<std::size_t>(grain.shape)];
+  const std::vector<double> reaches_m = reaches_of(scene);
+  for (const PlacedGrain& grain : highest_first(scene.grains, view)) {
+    const auto kind = static_cast<std::size_t>(grain.shape);
+    if (is_hidden(columns, view, grain.pose.position, reaches_m[kind])) continue;
+    const dem::ClumpShape& shape = scene.shapes[kind];
     const bool has_mesh = !shape.surface.triangles.empty();
     if (has_mesh && shown != Shown::spheres) add_mesh(columns, view, grain, shape.surface);
     if (has_mesh && shown == Shown::mesh) continue;

@@ -108,8 +108,9 @@ void limit_distortion(View& view) {
 /// Between grains, under grains or in one of them.
 void check_outside(const Scene& scene, const Vector& eye) {
   bool has_above = false, has_below = false;
+  const std::vector<double> reaches_m = reaches_of(scene);
   for (const PlacedGrain& grain : scene.grains) {
-    const double reach = reach_m(scene.shapes[static_cast<std::size_t>(grain.shape)]);
+    const double reach = reaches_m[static_cast<std::size_t>(grain.shape)];
     const Vector away = eye - grain.pose.position;
     if (away.norm() <= reach) has_above = has_below = true;
     if (std::hypot(away.x(), away.y()) > reach) continue;
@@ -218,9 +219,10 @@ OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Sce
   check(size);
   const Vector middle = bounds_to_fit(scene, Eigen::Matrix3d::Identity()).center();
   double reach = 0, half_height = 0;
+  const std::vector<double> reaches_m = reaches_of(scene);
   for (const PlacedGrain& grain : scene.grains) {
     const Vector away = grain.pose.position - middle;
-    const double own = reach_m(scene.shapes[static_cast<std::size_t>(grain.shape)]);
+    const double own = reaches_m[static_cast<std::size_t>(grain.shape)];
     reach = std::max(reach, std::hypot(away.x(), away.y()) + own);
     half_height = std::max(half_height, std::abs(away.z()) + own);
   }

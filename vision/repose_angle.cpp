@@ -51,9 +51,35 @@ void one_thread_a_picture() {
 
 Point to_picture(Point working, double shrink) { return {working.x * shrink, working.y * shrink}; }
 
+/// Takes the camera's pitch out of the angles of one reading.
+class Levelled {
+ public:
+  Levelled(const Reading& reading, const WorkingPicture& work, double pitch_rad)
+      : pitch_rad_(pitch_rad) {
+    const Profile& profile = reading.profile;
+    const GroundFrame ground(reading.body.ground);
+    const Point crest = ground.picture(profile.along[profile.crest], profile.crest_height);
+    const double middle = work.frame.y + work.frame.height / 2.0;
+    const double radius = (profile.along.back() - profile.along.front()) / 2;
+    if (radius > 0) crest_rise_ = (middle - crest.y) / radius;
+  }
+
+  double angle_rad(double apparent_rad) const {
+    return angle_without_pitch(apparent_rad, pitch_rad_);
+  }
+  /// With what the camera's unknown distance adds to the half-width.
+  double half_width_rad(double apparent_rad, double own_rad) const {
+    return std::hypot(own_rad, far_camera_error(apparent_rad, pitch_rad_, crest_rise_));
+  }
+
+ private:
+  double pitch_rad_;
+  double crest_rise_ = 0;  // above the picture's middle / the base's radius
+};
+
 /// The side in the picture's own pixels, its angle corrected for the camera's pitch.
 Flank flank_of(const Reading& reading, Side side, double shrink, double half_width_rad,
-               double pitch_rad) {
+               const Levelled& levelled) {
   const FlankFit& fit = reading.flank(side);
   Flank flank;
   flank.status = fit.status;
@@ -61,16 +87,17 @@ Flank flank_of(const Reading& reading, Side side, double shrink, double half_wid
   flank.leaves_frame =
       side == Side::left ? reading.profile.leaves_frame_left : reading.profile.leaves_frame_right;
   if (fit.status != FlankStatus::ok) return flank;
-  const auto level = [&](double apparent) { return angle_without_pitch(apparent, pitch_rad); };
-  flank.angle_rad = level(fit.angle_rad);
-  flank.uncertainty_rad = half_width_rad;
-  flank.least_squares_rad = level(std::atan(-fit.least_squares.slope));
-  flank.robust_rad = level(std::atan(-fit.robust.slope));
+  flank.angle_rad = levelled.angle_rad(fit.angle_rad);
+  flank.uncertainty_rad = levelled.half_width_rad(fit.angle_rad, half_width_rad);
+  flank.least_squares_rad = levelled.angle_rad(std::atan(-fit.least_squares.slope));
+  flank.robust_rad = levelled.angle_rad(std::atan(-fit.robust.slope));
   flank.r2 = fit.least_squares.r2;
   flank.points = static_cast<int>(fit.along.size());
   flank.bend_rad = fit.bend_rad;
   flank.other_windows = fit.other_windows;
-  for (WindowAngle& window : flank.other_windows) window.angle_rad = level(window.angle_rad);
+  for (WindowAngle& window : flank.other_windows) {
+    window.angle_rad = levelled.angle_rad(window.angle_rad);
+  }
 
   const GroundFrame ground(reading.body.ground);
   const double crest = reading.profile.along[reading.profile.crest];
@@ -112,11 +139,12 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   result.segmentation = best.segmentation.name;
   if (best.body.mask.empty() || best.profile.size() == 0) return result;
   const Uncertainty u = uncertainty_of(choice);
-  result.left = flank_of(best, Side::left, work.shrink, u.left_rad, options.camera_pitch_rad);
-  result.right = flank_of(best, Side::right, work.shrink, u.right_rad, options.camera_pitch_rad);
+  const Levelled levelled(best, work, options.camera_pitch_rad);
+  result.left = flank_of(best, Side::left, work.shrink, u.left_rad, levelled);
+  result.right = flank_of(best, Side::right, work.shrink, u.right_rad, levelled);
   if (best.has_flank()) {
-    result.angle_rad = angle_without_pitch(best.angle_rad(), options.camera_pitch_rad);
-    result.uncertainty_rad = u.mean_rad;
+    result.angle_rad = levelled.angle_rad(best.angle_rad());
+    result.uncertainty_rad = levelled.half_width_rad(best.angle_rad(), u.mean_rad);
   }
   result.ground_tilt_rad = best.body.ground.tilt_rad();
   const GroundFrame ground(best.body.ground);

@@ -27,7 +27,8 @@ struct MeasureOptions {
   double window_to = 0.8;
   /// Parts of the picture that are no evidence: timers, labels, hands [px of the picture].
   std::vector<Box> excluded;
-  /// Camera's downward pitch; the angle is corrected for it. 0 is a level camera.
+  /// Camera's downward pitch; the angle is corrected for it, as a far camera's. Its interval allows
+  /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. 0 is level.
   double camera_pitch_rad = 0;
   /// Same picture + same seed = same bytes (bootstrap, GrabCut).
   std::uint64_t seed = 1;

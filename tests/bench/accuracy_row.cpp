@@ -11,13 +11,11 @@
 #include <fmt/format.h>
 
 #include "tests/bench/obvious_script.h"
-#include "tests/support/heap_picture.h"
 #include "vision/overlay.h"
 
 namespace repose::bench {
 namespace {
 
-using testing::DrawnHeap;
 using vision::MeasureStatus;
 
 constexpr std::array<std::string_view, 3> kMethods = {"auto", "paper", "script"};
@@ -42,8 +40,8 @@ std::string codes_of(const vision::ReposeAngle& measured) {
   return codes;
 }
 
-void fill_in_script(Row& row, const DrawnHeap& heap) {
-  const auto angles = obvious_script(heap.picture);
+void fill_in_script(Row& row, const vision::Picture& picture) {
+  const auto angles = obvious_script(picture);
   row.left.measured_deg = degrees(angles.left_rad);
   row.right.measured_deg = degrees(angles.right_rad);
   row.mean.measured_deg = row.left.measured_deg ? row.left.measured_deg : row.right.measured_deg;
@@ -71,21 +69,23 @@ std::string number(std::optional<double> value) {
 }
 
 std::string title_of(const Row& row) {
-  return fmt::format("{} {} {}: true {} (left {}, right {})", row.condition->name, row.seed,
-                     row.method, number(row.mean.true_deg), number(row.left.true_deg),
-                     number(row.right.true_deg));
+  return fmt::format("{} {} {}: true {} (left {}, right {})", row.subject->condition,
+                     row.subject->seed, row.method, number(row.mean.true_deg),
+                     number(row.left.true_deg), number(row.right.true_deg));
 }
 
-void measure(Row& row, const DrawnHeap& heap, const std::string& overlay_folder) {
+void measure(Row& row, const KnownPicture& known, const std::string& overlay_folder) {
   vision::MeasureOptions options;
   options.method = row.method == "paper" ? vision::Method::paper : vision::Method::automatic;
-  const auto measured = vision::measure_repose_angle(heap.picture, options);
+  options.camera_pitch_rad = known.told_pitch_rad;
+  const auto measured = vision::measure_repose_angle(known.picture, options);
   fill_in(row, measured);
   if (overlay_folder.empty()) return;
-  const auto name = fmt::format("{}-{}-{}.png", row.condition->name, row.seed, row.method);
+  const auto name = fmt::format("{}-{}-{}-{}.png", row.subject->section, row.subject->condition,
+                                row.subject->seed, row.method);
   vision::write_picture(
       std::filesystem::path(overlay_folder) / name,
-      vision::draw_overlay(heap.picture, measured, {.title = title_of(row), .excluded = {}}));
+      vision::draw_overlay(known.picture, measured, {.title = title_of(row), .excluded = {}}));
 }
 
 }  // namespace
@@ -103,23 +103,23 @@ std::optional<bool> SideErrors::covered() const {
 
 std::span<const std::string_view> methods() { return kMethods; }
 
-std::vector<Row> measure_rows(const testing::Condition& condition, std::uint64_t seed,
+std::vector<Row> measure_rows(const Subject& subject,
                               std::span<const std::string_view> with_methods,
                               const std::string& overlay_folder) {
-  const DrawnHeap heap = testing::draw_heap(condition.scene(seed));
+  const KnownPicture known = subject.take();
   Row row;
-  row.condition = &condition;
-  row.seed = seed;
-  row.mean.true_deg = degrees(heap.mean_rad());
-  row.left.true_deg = degrees(heap.left_rad);
-  row.right.true_deg = degrees(heap.right_rad);
+  row.subject = &subject;
+  row.mean.true_deg = degrees(known.heap.mean_rad());
+  row.left.true_deg = degrees(known.heap.left_rad);
+  row.right.true_deg = degrees(known.heap.right_rad);
+  row.seen_deg = degrees(known.seen.mean_rad());
   std::vector<Row> rows(with_methods.size(), row);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].method = with_methods[i];
     if (rows[i].method == "script") {
-      fill_in_script(rows[i], heap);
+      fill_in_script(rows[i], known.picture);
     } else {
-      measure(rows[i], heap, overlay_folder);
+      measure(rows[i], known, overlay_folder);
     }
   }
   return rows;
@@ -131,17 +131,20 @@ void write_csv(const std::string& file, std::span<const Row> rows) {
     throw std::invalid_argument(file + ": cannot be written. Fix: name an existing folder.");
   }
   constexpr std::array<const char*, 3> kStatus = {"ok", "flagged", "refused"};
-  out << "condition,seed,method,true_deg,measured_deg,uncertainty_deg,left_true_deg,left_deg,"
-         "left_uncertainty_deg,right_true_deg,right_deg,right_uncertainty_deg,status,confidence,"
-         "segmentation,warnings\n";
+  out << "section,condition,seed,method,true_deg,measured_deg,uncertainty_deg,left_true_deg,left_"
+         "deg,"
+         "left_uncertainty_deg,right_true_deg,right_deg,right_uncertainty_deg,seen_deg,status,"
+         "confidence,segmentation,warnings\n";
   for (const Row& row : rows) {
-    out << fmt::format("{},{},{}", row.condition->name, row.seed, row.method);
+    out << fmt::format("{},{},{},{}", row.subject->section, row.subject->condition,
+                       row.subject->seed, row.method);
     for (const SideErrors& side : {row.mean, row.left, row.right}) {
       out << fmt::format(",{},{},{}", number(side.true_deg), number(side.measured_deg),
                          number(side.uncertainty_deg));
     }
-    out << fmt::format(",{},{:.3f},{},\"{}\"\n", kStatus[static_cast<std::size_t>(row.status)],
-                       row.confidence, row.segmentation, row.warnings);
+    out << fmt::format(",{},{},{:.3f},{},\"{}\"\n", number(row.seen_deg),
+                       kStatus[static_cast<std::size_t>(row.status)], row.confidence,
+                       row.segmentation, row.warnings);
   }
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tests/support/heap_conditions.h"
+#include "tests/bench/subject.h"
 #include "vision/repose_angle.h"
 
 namespace repose::bench {
@@ -24,12 +23,12 @@ struct SideErrors {
 
 /// One picture, measured by one method.
 struct Row {
-  const testing::Condition* condition = nullptr;
-  std::uint64_t seed = 0;
+  const Subject* subject = nullptr;
   std::string_view method;
   SideErrors mean;
   SideErrors left;
   SideErrors right;
+  std::optional<double> seen_deg;  ///< mean angle of the exact outline in the picture
   vision::MeasureStatus status = vision::MeasureStatus::refused;
   double confidence = 0;
   std::string segmentation;
@@ -39,9 +38,9 @@ struct Row {
 /// The methods that are compared: "auto", "paper", "script".
 std::span<const std::string_view> methods();
 
-/// Draws the condition's picture and measures it with each method; with a folder, writes overlays
-/// of what was measured there.
-std::vector<Row> measure_rows(const testing::Condition& condition, std::uint64_t seed,
+/// Takes the picture and measures it with each method; with a folder, writes overlays of what was
+/// measured there. The rows point to the subject.
+std::vector<Row> measure_rows(const Subject& subject,
                               std::span<const std::string_view> with_methods,
                               const std::string& overlay_folder = "");
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,7 +11,6 @@
 namespace repose::bench {
 namespace {
 
-using testing::Condition;
 using testing::Group;
 using vision::MeasureStatus;
 
@@ -108,48 +109,106 @@ std::string_view target_of(Group group) {
       return "to reach: median <= 0.3, 95 % <= 1, coverage 90-99 %, none > 2 unflagged, "
              "refused <= 3 %\n";
     case Group::sample:
+    case Group::misplaced:
     case Group::not_measurable:
       break;
   }
   return "";
 }
 
-}  // namespace
+struct NamedSummary {
+  std::string_view condition;
+  Summary summary;
+};
 
-std::string group_table(std::span<const Row> rows, Group group, std::string_view method) {
-  std::string text;
-  Summary total;
-  int conditions = 0;
-  for (const Condition& condition : testing::conditions()) {
-    Summary summary;
-    for (const Row& row : rows) {
-      if (row.condition != &condition || row.method != method || condition.group != group) continue;
-      summary.add(row);
-      total.add(row);
-    }
-    if (summary.pictures == 0) continue;
-    text += line(condition.name, summary);
-    ++conditions;
+/// One for each condition, in the order of the rows.
+std::vector<NamedSummary> summaries(std::span<const Row> rows) {
+  std::vector<NamedSummary> all;
+  for (const Row& row : rows) {
+    const auto is_its = [&](const NamedSummary& one) {
+      return one.condition == row.subject->condition;
+    };
+    auto found = std::find_if(all.begin(), all.end(), is_its);
+    if (found == all.end()) found = all.insert(all.end(), {row.subject->condition, {}});
+    found->summary.add(row);
   }
-  if (conditions == 0) return "";
-  if (conditions > 1) text += line("all of these", total);
-  return head() + text + std::string(target_of(group)) + '\n';
+  return all;
 }
 
-std::string refusal_table(std::span<const Row> rows, std::string_view method) {
+std::vector<Row> of_group(std::span<const Row> rows, Group group) {
+  std::vector<Row> chosen;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(chosen),
+               [&](const Row& row) { return row.subject->group == group; });
+  return chosen;
+}
+
+std::string signed_mean(const std::vector<double>& values) {
+  if (values.empty()) return "-";
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  return fmt::format("{:+.2f}", sum / static_cast<double>(values.size()));
+}
+
+/// What the camera does to an angle, and what measuring does.
+struct Bias {
+  std::string_view condition;
+  std::vector<double> of_camera_deg = {};
+  std::vector<double> of_measurement_deg = {};
+  std::vector<double> of_both_deg = {};
+
+  void add(const Row& row) {
+    const auto error = row.mean.error_deg();
+    if (!error) return;
+    of_camera_deg.push_back(*row.seen_deg - *row.mean.true_deg);
+    of_measurement_deg.push_back(*row.mean.measured_deg - *row.seen_deg);
+    of_both_deg.push_back(*error);
+  }
+};
+
+}  // namespace
+
+std::string group_table(std::span<const Row> rows, Group group) {
+  const auto chosen = of_group(rows, group);
+  if (chosen.empty()) return "";
+  const auto conditions = summaries(chosen);
+  std::string text = head();
+  for (const auto& [condition, summary] : conditions) text += line(condition, summary);
+  if (conditions.size() > 1) {
+    Summary total;
+    for (const Row& row : chosen) total.add(row);
+    text += line("all of these", total);
+  }
+  return text + std::string(target_of(group)) + '\n';
+}
+
+std::string refusal_table(std::span<const Row> rows) {
   std::string text;
-  for (const Condition& condition : testing::conditions()) {
-    if (condition.group != Group::not_measurable) continue;
-    Summary summary;
-    for (const Row& row : rows) {
-      if (row.condition == &condition && row.method == method) summary.add(row);
-    }
-    if (summary.pictures == 0) continue;
+  for (const auto& [condition, s] : summaries(of_group(rows, Group::not_measurable))) {
     text += fmt::format("{:<16} {:>4} | refused {:>3}, flagged {:>3}, angle without a word {:>3}\n",
-                        condition.name, summary.pictures, summary.refused, summary.flagged,
-                        summary.pictures - summary.refused - summary.flagged);
+                        condition, s.pictures, s.refused, s.flagged,
+                        s.pictures - s.refused - s.flagged);
   }
   return text.empty() ? "" : "no angle exists (to reach: all refused)\n" + text;
+}
+
+std::string bias_table(std::span<const Row> rows) {
+  std::vector<Bias> biases;
+  for (const Row& row : rows) {
+    if (!row.seen_deg) continue;
+    if (biases.empty() || biases.back().condition != row.subject->condition) {
+      biases.push_back({row.subject->condition});
+    }
+    biases.back().add(row);
+  }
+  std::string text;
+  for (const Bias& bias : biases) {
+    text += fmt::format("{:<16} {:>4} | {:>17} {:>22} {:>15}\n", bias.condition,
+                        bias.of_both_deg.size(), signed_mean(bias.of_camera_deg),
+                        signed_mean(bias.of_measurement_deg), signed_mean(bias.of_both_deg));
+  }
+  if (text.empty()) return "";
+  return fmt::format("{:<16} {:>4} | {:>17} {:>22} {:>15}\n", "mean signed [deg]", "n",
+                     "outline less heap", "measured less outline", "both") +
+         text + '\n';
 }
 
 }  // namespace repose::bench

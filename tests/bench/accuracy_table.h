@@ -2,16 +2,19 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "tests/bench/accuracy_row.h"
 
 namespace repose::bench {
 
-/// One line per condition of the group, then their total.
-std::string group_table(std::span<const Row> rows, testing::Group group, std::string_view method);
+/// The tables of one section and method. One line per condition of the group, then their total.
+std::string group_table(std::span<const Row> rows, testing::Group group);
 
 /// How many of the pictures without an angle were refused.
-std::string refusal_table(std::span<const Row> rows, std::string_view method);
+std::string refusal_table(std::span<const Row> rows);
+
+/// Mean errors with their signs where the picture's outline has another angle than the heap: how
+/// much of them is in the picture, and how much the measurement adds.
+std::string bias_table(std::span<const Row> rows);
 
 }  // namespace repose::bench

@@ -2,9 +2,12 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,37 +17,41 @@
 
 #include "tests/bench/accuracy_row.h"
 #include "tests/bench/accuracy_table.h"
+#include "tests/bench/drawn_subjects.h"
+#include "tests/bench/rendered_subjects.h"
 
 namespace {
 
 using repose::bench::Row;
-using repose::testing::Condition;
+using repose::bench::Subject;
 using repose::testing::Group;
 
 constexpr std::size_t kDumped = 30;
 
-struct Task {
-  const Condition* condition = nullptr;
-  std::uint64_t seed = 0;
-};
-
-std::vector<Task> tasks_for(const std::string& condition, int seeds, std::uint64_t first_seed) {
-  if (!condition.empty()) repose::testing::condition_named(condition);
-  std::vector<Task> tasks;
-  for (const Condition& entry : repose::testing::conditions()) {
-    if (!condition.empty() && condition != entry.name) continue;
-    for (int i = 0; i < seeds; ++i)
-      tasks.push_back({&entry, first_seed + static_cast<unsigned>(i)});
+std::vector<Subject> subjects_for(const std::string& section, const std::string& condition,
+                                  int seeds, std::uint64_t first_seed) {
+  std::vector<Subject> subjects;
+  for (auto&& part : {repose::bench::drawn_subjects(seeds, first_seed),
+                      repose::bench::rendered_subjects(seeds, first_seed)}) {
+    subjects.insert(subjects.end(), part.begin(), part.end());
   }
-  return tasks;
+  std::erase_if(subjects, [&](const Subject& subject) {
+    return (!section.empty() && section != subject.section) ||
+           (!condition.empty() && condition != subject.condition);
+  });
+  if (subjects.empty()) {
+    throw std::invalid_argument("condition = " + condition +
+                                ", unknown. Fix: take one of the tables'.");
+  }
+  return subjects;
 }
 
-/// In the order of the tasks, whatever the number of threads.
-std::vector<Row> measured(const std::vector<Task>& tasks,
+/// In the order of the subjects, whatever the number of threads.
+std::vector<Row> measured(const std::vector<Subject>& subjects,
                           std::span<const std::string_view> with_methods) {
-  std::vector<std::vector<Row>> parts(tasks.size());
-  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
-    parts[i] = repose::bench::measure_rows(*tasks[i].condition, tasks[i].seed, with_methods);
+  std::vector<std::vector<Row>> parts(subjects.size());
+  tbb::parallel_for(std::size_t{0}, subjects.size(), [&](std::size_t i) {
+    parts[i] = repose::bench::measure_rows(subjects[i], with_methods);
   });
   std::vector<Row> rows;
   for (const auto& part : parts) rows.insert(rows.end(), part.begin(), part.end());
@@ -55,7 +62,7 @@ std::vector<Row> measured(const std::vector<Task>& tasks,
 double badness(const Row& row) {
   constexpr double kInvented = 100;
   constexpr double kRefused = 50;
-  if (row.condition->group == Group::not_measurable) return row.mean.measured_deg ? kInvented : 0;
+  if (row.subject->group == Group::not_measurable) return row.mean.measured_deg ? kInvented : 0;
   const auto error = row.mean.error_deg();
   return error ? std::abs(*error) : kRefused;
 }
@@ -67,27 +74,32 @@ void dump_worst(std::vector<Row> rows, const std::string& folder) {
                    [](const Row& a, const Row& b) { return badness(a) > badness(b); });
   rows.resize(std::min(rows.size(), kDumped));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    repose::bench::measure_rows(*rows[i].condition, rows[i].seed, {&rows[i].method, 1}, folder);
+    repose::bench::measure_rows(*rows[i].subject, {&rows[i].method, 1}, folder);
   });
 }
 
-void print_tables(const std::vector<Row>& rows) {
+void print_tables(const std::vector<Row>& rows, std::string_view section) {
   for (const std::string_view method : repose::bench::methods()) {
+    std::vector<Row> part;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(part), [&](const Row& row) {
+      return row.subject->section == section && row.method == method;
+    });
     std::string text;
-    for (const Group group : {Group::clean, Group::degraded, Group::sample}) {
-      text += repose::bench::group_table(rows, group, method);
+    for (const Group group : {Group::clean, Group::degraded, Group::sample, Group::misplaced}) {
+      text += repose::bench::group_table(part, group);
     }
-    text += repose::bench::refusal_table(rows, method);
-    if (!text.empty()) fmt::print("== method {} ==\n\n{}\n", method, text);
+    text += repose::bench::bias_table(part) + repose::bench::refusal_table(part);
+    if (!text.empty()) fmt::print("== {} heaps, method {} ==\n\n{}\n", section, method, text);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures drawn heaps and compares with their true angles.");
+  CLI::App app("Measures drawn and rendered heaps and compares with their true angles.");
   int seeds = 20;
   std::uint64_t first_seed = 1;
+  std::string section;
   std::string condition;
   std::string method;
   std::string folder;
@@ -95,6 +107,8 @@ int main(int argc, char** argv) {
   int threads = 0;
   app.add_option("--seeds", seeds, "Pictures of each condition")->check(CLI::Range(1, 100000));
   app.add_option("--first-seed", first_seed, "Seed of the first picture");
+  app.add_option("--section", section, "These pictures alone")
+      ->check(CLI::IsMember({"drawn", "rendered"}));
   app.add_option("--condition", condition, "This condition alone");
   app.add_option("--method", method, "This method alone")
       ->check(CLI::IsMember({"auto", "paper", "script"}));
@@ -109,9 +123,9 @@ int main(int argc, char** argv) {
     }
     const auto all_methods = repose::bench::methods();
     const std::string_view one_method = method;
-    const auto rows = measured(tasks_for(condition, seeds, first_seed),
-                               method.empty() ? all_methods : std::span(&one_method, 1));
-    print_tables(rows);
+    const auto subjects = subjects_for(section, condition, seeds, first_seed);
+    const auto rows = measured(subjects, method.empty() ? all_methods : std::span(&one_method, 1));
+    for (const std::string_view name : {"drawn", "rendered"}) print_tables(rows, name);
     if (!csv.empty()) repose::bench::write_csv(csv, rows);
     if (!folder.empty()) dump_worst(rows, folder);
     return 0;

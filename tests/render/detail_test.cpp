@@ -88,6 +88,29 @@ TEST(Truth, ASpheresOutlineIsItsUpperHalf) {
   }
 }
 
+TEST(Truth, AHeapsOutlineIsTheHighestOfItsGrains) {
+  const Scene heap = nut_heap(9, .6, 6);
+  const PictureSize size{300, 200};
+  PerspectiveCamera lens = camera_on({.distance_m = .5}, heap, size);
+  const OrthographicCamera parallel = fitted_all_around({}, heap, size);
+  PerspectiveCamera bent = lens;
+  bent.k1 = -.15;
+  lens.roll_rad = .3;
+  for (const Camera& camera : {Camera(parallel), Camera(lens), Camera(bent)}) {
+    std::vector<double> highest(300, 1e9);
+    for (const PlacedGrain& grain : heap.grains) {
+      const Scene alone{.shapes = heap.shapes, .grains = {grain}, .walls = {}};
+      for (const vision::Point& point : truth_of(alone, camera, size, Shown::mesh).outline) {
+        double& top = highest[static_cast<std::size_t>(point.x)];
+        top = std::min(top, point.y);
+      }
+    }
+    for (const vision::Point& point : truth_of(heap, camera, size, Shown::mesh).outline) {
+      EXPECT_EQ(point.y, highest[static_cast<std::size_t>(point.x)]) << point.x;
+    }
+  }
+}
+
 TEST(Truth, TheGroundIsThePlatesUpperFace) {
   Scene scene = sphere_scene(.05, {{0, 0, .05}});
   scene.walls.push_back(repose::testing::plate(.3));

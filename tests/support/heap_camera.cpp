@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/mat_of_picture.h"
+
 namespace repose::testing {
 namespace {
 
@@ -82,13 +84,14 @@ vision::Picture take_picture(const Stage& stage, const HeapScene& scene, Random&
   cv::GaussianBlur(light, light, {}, camera.blur_px, camera.blur_px);
   light *= camera.exposure;
   add_noise(light, camera.noise, random);
-  cv::Mat bytes = developed(light);
-  if (camera.jpeg_quality > 0) {
-    std::vector<std::uint8_t> file;
-    cv::imencode(".jpg", bytes, file, {cv::IMWRITE_JPEG_QUALITY, camera.jpeg_quality});
-    bytes = cv::imdecode(file, cv::IMREAD_COLOR);
-  }
-  return picture_of(bytes);
+  vision::Picture picture = picture_of(developed(light));
+  return camera.jpeg_quality > 0 ? jpeg_compressed(picture, camera.jpeg_quality) : picture;
+}
+
+vision::Picture jpeg_compressed(const vision::Picture& picture, int quality) {
+  std::vector<std::uint8_t> file;
+  cv::imencode(".jpg", vision::mat_of(picture), file, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return picture_of(cv::imdecode(file, cv::IMREAD_COLOR));
 }
 
 }  // namespace repose::testing

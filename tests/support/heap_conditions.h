@@ -12,6 +12,7 @@ enum class Group {
   clean,           ///< well-lit pictures
   degraded,        ///< one trouble each, as laboratories have them
   sample,          ///< the hazelnut pictures
+  misplaced,       ///< the camera stands where the instructions say it must not
   not_measurable,  ///< no angle exists: a measurement must be refused
 };
 

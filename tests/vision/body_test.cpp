@@ -139,6 +139,19 @@ TEST(FindBodies, AReflectionsAxisIsTheGround) {
   EXPECT_EQ(cv::countNonZero(bodies[0].mask.rowRange(302, kRows)), 0);
 }
 
+TEST(FindBodies, AnEdgeThatTheHeapCrossesIsBehindIt) {
+  const Corners table = rectangle(-5, 300, kCols + 10, 110);
+  const Corners lower = {{90, 320}, {300, 190}, {510, 320}};
+  const auto bodies = Scene().paint(table, kPlate).paint(lower, kHeap).bodies();
+  ASSERT_EQ(bodies.size(), 1);
+  EXPECT_NEAR(bodies[0].ground.y(300), 300, 1);
+  EXPECT_TRUE(bodies[0].ground.behind);
+
+  const auto standing = Scene().paint(table, kPlate).paint(kTriangle, kHeap).bodies();
+  ASSERT_EQ(standing.size(), 1);
+  EXPECT_FALSE(standing[0].ground.behind);
+}
+
 TEST(FindBodies, WhatRunsOutOfTheFrameDoesNotTiltTheGround) {
   // Haze joins the left foot to the frame's lower edge, 20 pixels below the base.
   Scene scene = Scene().paint(kTriangle, kHeap).paint(rectangle(-5, 290, 140, 30), kHeap);

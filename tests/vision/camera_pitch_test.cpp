@@ -1,5 +1,6 @@
 #include "vision/measure/camera_pitch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -45,6 +46,74 @@ TEST(CameraPitch, CorrectionUndoesTheProjectionOfACone) {
           << angle_deg << " seen from " << pitch_deg;
     }
   }
+}
+
+/// The same from a camera `distance` base radii before the cone's axis, whose picture's middle
+/// shows the axis `rise` below the apex: the flattest line from the apex to a point of the base.
+double near_silhouette_rad(double angle_rad, double pitch_rad, double distance, double rise) {
+  const double height = std::tan(angle_rad);
+  const double eye_z = height - rise + distance * std::tan(pitch_rad);
+  const auto in_picture = [&](double x, double y, double z) {
+    const double away = y + distance;
+    const double down = eye_z - z;
+    const double depth = away * std::cos(pitch_rad) + down * std::sin(pitch_rad);
+    const double up = away * std::sin(pitch_rad) - down * std::cos(pitch_rad);
+    return Point{x / depth, up / depth};
+  };
+  const Point apex = in_picture(0, 0, height);
+  double steepness = 1e9;
+  constexpr int kRays = 100'000;
+  for (int i = 1; i < kRays; ++i) {
+    const double around = (i / double{kRays} - 0.5) * std::numbers::pi;
+    const Point foot = in_picture(std::cos(around), std::sin(around), 0);
+    steepness = std::min(steepness, (apex.y - foot.y) / foot.x);
+  }
+  return std::atan(steepness);
+}
+
+TEST(CameraPitch, CorrectionUndoesTheProjectionOfAConeNearby) {
+  for (const double angle_deg : {15.0, 25.0, 35.0}) {
+    for (const double pitch_deg : {-3.0, 0.0, 2.0, 9.0}) {
+      for (const double distance : {3.0, 6.0, 20.0}) {
+        const double angle = angle_deg * kDegree;
+        const double pitch = pitch_deg * kDegree;
+        const double rise = 0.6 * std::tan(angle);
+        const double seen = near_silhouette_rad(angle, pitch, distance, rise);
+        const double apex_pitch = std::atan(std::tan(pitch) - rise / distance);
+        EXPECT_NEAR(angle_without_pitch(seen, pitch, apex_pitch), angle, 1e-7)
+            << angle_deg << " seen from " << distance << ", " << pitch_deg;
+      }
+    }
+  }
+}
+
+TEST(CameraPitch, CorrectionOfAFarCameraIsThatOfParallelRays) {
+  EXPECT_NEAR(angle_without_pitch(0.4, 0.1, 0.1), angle_without_pitch(0.4, 0.1), 1e-14);
+}
+
+TEST(FarCameraError, CoversEveryCameraFromSixBaseRadiiOn) {
+  for (const double angle_deg : {15.0, 25.0, 35.0}) {
+    for (const double pitch_deg : {3.0, 6.0, 10.0}) {
+      const double angle = angle_deg * kDegree;
+      const double pitch = pitch_deg * kDegree;
+      const double rise = std::tan(angle) / 2;  // the camera looks at the heap's middle
+      const auto off_rad = [&](double distance) {
+        const double seen = near_silhouette_rad(angle, pitch, distance, rise);
+        return angle_without_pitch(seen, pitch) - angle;
+      };
+      const double nearest = near_silhouette_rad(angle, pitch, kNearestCamera, rise);
+      const double bound = far_camera_error(nearest, pitch, rise);
+      // The picture's radii and the axis's distance are the heap's but for a few per cent.
+      EXPECT_NEAR(off_rad(kNearestCamera), bound, 0.1 * bound) << angle_deg << ", " << pitch_deg;
+      for (const double distance : {8.0, 15.0, 100.0}) EXPECT_LT(off_rad(distance), bound);
+    }
+  }
+}
+
+TEST(FarCameraError, IsNoneForALevelCameraNorForAnApexInThePicturesMiddle) {
+  EXPECT_EQ(far_camera_error(0.4, 0, 0.3), 0);
+  EXPECT_NEAR(far_camera_error(0.4, 0.1, 0), 0, 1e-14);
+  EXPECT_GT(far_camera_error(0.4, 0.1, -0.3), 1e-3);
 }
 
 TEST(CameraPitch, ChangesUsualAnglesLittle) {

@@ -75,6 +75,31 @@ TEST(ChooseReading, TakesTheSegmentationThatSeesTheHeap) {
   EXPECT_NEAR(choice.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
 }
 
+/// A heap that begins 40 pixels below the table's far edge; every row darker than the backdrop.
+cv::Mat3b before_the_tables_edge(const cv::Scalar& table) {
+  cv::Mat3b picture(400, 600, cv::Vec3b(220, 220, 220));
+  cv::rectangle(picture, {0, 250, 600, 150}, table, cv::FILLED);
+  const std::vector<std::vector<cv::Point>> heap = {{{90, 290}, {300, 150}, {510, 290}}};
+  cv::fillPoly(picture, heap, {40, 90, 150});
+  return picture;
+}
+
+TEST(ChooseReading, TakesTheReadingThatSeesTheHeapsFoot) {
+  // Only colour tells the grey table from the backdrop's side.
+  const Choice choice = choice_of(before_the_tables_edge({100, 100, 100}));
+  ASSERT_TRUE(choice.best.has_flank());
+  EXPECT_FALSE(choice.best.body.ground.behind);
+  EXPECT_NEAR(choice.best.body.ground.y(300), 290, 3);
+}
+
+TEST(ChooseReading, WhereNoReadingSeesTheFootTheFlanksAboveTheTablesEdgeAreMeasured) {
+  // The table is nearer to the heap than to the backdrop, in every channel.
+  const Choice choice = choice_of(before_the_tables_edge({60, 95, 140}));
+  ASSERT_TRUE(choice.best.has_flank());
+  EXPECT_GT(choice.best.score, 0.5);
+  EXPECT_NEAR(choice.best.angle_rad(), std::atan(140. / 210), 0.5 * kDegree);
+}
+
 TEST(ChooseReading, AnUprightBodyIsSaidToBeOne) {
   const Choice choice = choice_of(mat_of(drawn("column", 1, kWidth).picture));
   EXPECT_FALSE(choice.best.has_flank());

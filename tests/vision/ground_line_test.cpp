@@ -181,5 +181,14 @@ TEST(BestGround, SearchesForTheEdgeWhereNoLineLiesOnOne) {
   EXPECT_GE(best.deviation_rad, 0.6 * kDegree) << "half of what the search has changed";
 }
 
+TEST(BestGround, UnderABowedBaseTheSearchDoesNotTurnTheLine) {
+  Ground bowed = level(kGround + 10, 0);
+  bowed.bow = 0.015;
+  const Ground best = best_ground({bowed}, kBase, heap_on_plate(1.5 * kDegree));
+  EXPECT_EQ(best.tilt_rad(), 0);
+  EXPECT_EQ(best.deviation_rad, 0);
+  EXPECT_LT(best.y(300), kGround + 10) << "but shifts it";
+}
+
 }  // namespace
 }  // namespace repose::vision

@@ -173,6 +173,23 @@ TEST(MeasureReposeAngle, PitchIsTakenOutByTheFormula) {
   EXPECT_GT(deg(pitched.angle_rad), deg(level.angle_rad) + 0.5);
 }
 
+TEST(MeasureReposeAngle, ThePitchsIntervalAllowsForANearCamera) {
+  const auto heap = drawn("clean", 2, kWidth);
+  const ReposeAngle level = measure_repose_angle(heap.picture);
+  MeasureOptions options;
+  options.camera_pitch_rad = 9 * kDegree;
+  const ReposeAngle pitched = measure_repose_angle(heap.picture, options);
+  const double rise = (heap.picture.height / 2. - level.crest->y) / (*level.base_px / 2);
+  const auto widened = [&](double angle, double own) {
+    return std::hypot(own, far_camera_error(angle, 9 * kDegree, rise));
+  };
+  ASSERT_GT(std::abs(rise), 0.02);
+  EXPECT_GT(*pitched.uncertainty_rad, 1.01 * *level.uncertainty_rad);
+  EXPECT_NEAR(*pitched.uncertainty_rad, widened(*level.angle_rad, *level.uncertainty_rad), 1e-5);
+  EXPECT_NEAR(*pitched.left.uncertainty_rad,
+              widened(*level.left.angle_rad, *level.left.uncertainty_rad), 1e-5);
+}
+
 TEST(PaperMethod, GivesTheTruthOfASilhouette) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto heap = drawn("silhouette", seed, kWidth);

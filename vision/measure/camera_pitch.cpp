@@ -13,6 +13,19 @@ double angle_without_pitch(double apparent_rad, double pitch_rad) {
   return std::atan(std::sqrt(t * t + s * s) / std::cos(pitch_rad));
 }
 
+double angle_without_pitch(double apparent_rad, double pitch_rad, double apex_pitch_rad) {
+  const double down = std::tan(apex_pitch_rad);
+  const double across = std::cos(pitch_rad) + std::sin(pitch_rad) * down;
+  return std::atan(std::hypot(std::tan(apparent_rad) * across, down));
+}
+
+double far_camera_error(double apparent_rad, double pitch_rad, double apex_rise) {
+  if (pitch_rad == 0) return 0;
+  const double near_rad = pitch_rad - std::atan(apex_rise / kNearestCamera);
+  return std::abs(angle_without_pitch(apparent_rad, pitch_rad) -
+                  angle_without_pitch(apparent_rad, pitch_rad, near_rad));
+}
+
 double pitch_from_bow(double bow) {
   constexpr double kParabolaOfEllipse = 15 * std::numbers::pi / 64;
   return std::asin(std::clamp(2 * bow / kParabolaOfEllipse, 0.0, 1.0));

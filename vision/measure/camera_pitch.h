@@ -17,6 +17,32 @@ namespace repose::vision {
 /// tests/vision/camera_pitch_test.cpp against the tangents themselves.
 double angle_without_pitch(double apparent_rad, double pitch_rad);
 
+/// The same for a camera at any distance, which sees the apex in a direction `apex_pitch_rad`
+/// below the horizon.
+///
+///     tan a = sqrt(tan^2 a' (cos e + sin e tan d)^2 + tan^2 d)
+///
+///     d   apex_pitch_rad    rad   e for a far camera, e - atan(v/f) for an apex v above the
+///                                 middle of a picture taken with the focal length f
+///
+/// A plane z = h - tan a (x cos p + y sin p) touches the cone whose apex lies at height h. It is
+/// seen as a line if it contains the eye, so sin p = tan d / tan a; where it meets the picture,
+/// tan a' = tan a cos p / (cos e + sin e tan d). Eliminating p gives the formula. Holds for a cone
+/// whose apex is seen above the picture's middle or below it, not aside; and |d| < a. Proved by
+/// tests/vision/camera_pitch_test.cpp against a search for the outline.
+double angle_without_pitch(double apparent_rad, double pitch_rad, double apex_pitch_rad);
+
+/// Nearest camera that a corrected angle's interval allows for: base radii from the heap.
+inline constexpr double kNearestCamera = 6;
+
+/// How far off an angle is, rad, that angle_without_pitch has corrected as a far camera's, when the
+/// camera is kNearestCamera away: the picture does not tell, and then the apex is seen in another
+/// direction than the picture's middle. 0 for a level camera: there nothing is corrected.
+///
+/// `apex_rise` is how far the apex lies above the picture's middle, in base radii of the picture;
+/// at the distance D (in them, too) it is seen atan(apex_rise / D) above the camera's axis.
+double far_camera_error(double apparent_rad, double pitch_rad, double apex_rise);
+
 /// Pitch that bows a round base downwards, from the parabola y = a + b u + c u^2 fitted to it over
 /// its width (u = -1 to 1); `bow` is -c over the width.
 ///

@@ -15,7 +15,7 @@ constexpr double kEquallyGood = 0.9;    // of the best score: only chance decide
 constexpr double kClearlyGood = 0.6;    // score above which GrabCut has nothing to add
 
 constexpr double kAgreement_rad = 0.3 * std::numbers::pi / 180;
-constexpr double kFairlyGood = 0.5;     // score below which texture is tried, too
+constexpr double kFairlyGood = 0.5;  // score below which texture is tried, too, and no foot is seen
 constexpr double kHardlyAnEdge = 0.25;  // score of a chance line through clutter
 constexpr double kSeesTheHeap = 0.5;    // of the best score: such a reading knows where the foot is
 
@@ -90,6 +90,17 @@ const Reading& middle_of_best(const std::vector<Reading>& readings) {
   return lower->score > upper->score ? *lower : *upper;
 }
 
+/// A line that the heap crosses is not what it stands on. It is left out where a reading sees the
+/// heap down to its foot; else the flanks above it are all that is seen, and stand on it.
+void prefer_seen_feet(std::vector<Reading>& readings) {
+  const bool is_foot_seen =
+      std::any_of(readings.begin(), readings.end(), [](const Reading& reading) {
+        return reading.score >= kFairlyGood && !reading.body.ground.behind;
+      });
+  if (!is_foot_seen) return;
+  std::erase_if(readings, [](const Reading& reading) { return reading.body.ground.behind; });
+}
+
 bool is_same_line(const PictureLine& a, const PictureLine& b) {
   return a.y_at_0 == b.y_at_0 && a.slope == b.slope;
 }
@@ -148,6 +159,7 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
   if (best_of(readings).score < kFairlyGood) {
     readings.push_back(read_heap(rough_segmentation(work), work, options));
   }
+  prefer_seen_feet(readings);
   Choice choice;
   if (best_of(readings).score < kHardlyAnEdge) {
     const auto upright = std::find_if(readings.begin(), readings.end(), is_upright);

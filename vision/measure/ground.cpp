@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/core.hpp>
 
@@ -12,7 +13,9 @@ constexpr double kTailShare = 0.12;     // of the frame's width that must be bar
 constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron of grains is not
 constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
+constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a share of its width
+constexpr double kFlatBase = 0.006;     // bow of a base that is seen from its own level
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
 // Standard uncertainty of the tilt where the base is the frame's edge or a box: a camera held by
 // eye.
@@ -69,6 +72,32 @@ bool tails_are_grains(const Spans& spans, const PictureLine& line, const Working
   return tail.count > 0 && heap.count > 0 && cv::norm(tail.mean() - heap.mean()) < kSameMaterial;
 }
 
+/// Whether the heap's material goes on below a line through the outline's tails, which is another
+/// one there: then the line is an edge behind the heap (where the table ends, seen from a little
+/// above), and the heap's foot is lower.
+bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPicture& work) {
+  Material tail;
+  Material above;
+  Material below;
+  for (std::size_t i = 0; i < spans.top.size(); ++i) {
+    if (spans.top[i] < 0) continue;
+    const int col = static_cast<int>(i);
+    const double ground = line.y(col + 0.5);
+    const int level = static_cast<int>(std::lround(ground));
+    const bool is_tail = std::abs(spans.top[i] - ground) <= kTailTolerance;
+    if (!is_tail && spans.top[i] >= ground - kTailDepth) continue;
+    const int last = std::min(level + 2 + kSkirtDepth, work.lab.rows);
+    for (int row = std::max(0, level + 2); row < last; ++row) {
+      (is_tail ? tail : below).add(work, row, col);
+    }
+    const int first = std::max(0, level - 2 - kSkirtDepth);
+    for (int row = first; !is_tail && row < level - 2; ++row) above.add(work, row, col);
+  }
+  if (tail.count == 0 || above.count == 0 || below.count == 0) return false;
+  return cv::norm(above.mean() - below.mean()) < kSameMaterial &&
+         cv::norm(tail.mean() - below.mean()) >= kSameMaterial;
+}
+
 /// Bare ground left or right of the heap, when the segmentation took the ground for heap: a smooth
 /// stretch of the upper outline that reaches the frame, everything else above it.
 std::optional<Ground> ground_from_tails(const Spans& spans, const WorkingPicture& work) {
@@ -83,7 +112,9 @@ std::optional<Ground> ground_from_tails(const Spans& spans, const WorkingPicture
       tails_are_grains(spans, line->line, work)) {
     return std::nullopt;
   }
-  return Ground{line->line, line->deviation_rad, std::nullopt, false};
+  Ground ground{line->line, line->deviation_rad, std::nullopt, false};
+  ground.behind = goes_on_below(spans, line->line, work);
+  return ground;
 }
 
 /// c of y = a + b x + c x^2 through the points, as the bow's depth over the width.
@@ -171,15 +202,26 @@ struct Edge {
   double evidence = 0;
 };
 
+/// How a search may move the line's ends, in steps. A base that bows, seen from a little above, is
+/// no line: whichever of its halves the line were turned to would look better. It is only shifted.
+std::vector<std::pair<int, int>> moves_of(const std::optional<double>& bow) {
+  std::vector<std::pair<int, int>> moves = {{1, 1}, {-1, -1}};
+  if (bow.value_or(0) <= kFlatBase) {
+    moves.insert(moves.end(), {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}});
+  }
+  return moves;
+}
+
 /// Pattern search: moves the line's ends as long as the picture shows a better edge.
-Edge edge_near(const Edge& start, const Base& base, const WorkingPicture& work) {
+Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& base,
+               const WorkingPicture& work) {
+  const auto moves = moves_of(bow);
   const double width = std::max(1.0, base.to - base.from);
   Edge best = start;
   double step = kFirstStep;
   for (int move = 0; move < kMostMoves && step >= kLastStep; ++move) {
     const Edge here = best;
-    for (const auto& [left, right] :
-         {std::pair{1, 1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}}) {
+    for (const auto& [left, right] : moves) {
       PictureLine line = here.line;
       line.slope += step * (right - left) / width;
       line.y_at_0 = here.line.y(base.from) + step * left - line.slope * base.from;
@@ -212,7 +254,7 @@ Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
   best.deviation_rad = std::hypot(best.deviation_rad, std::sqrt(squares / std::max(1, rivals)));
   if (evidence[chosen] >= kPlainEdge || best.mirrored) return best;
   const Edge edge =
-      edge_near({static_cast<const PictureLine&>(best), evidence[chosen]}, base, work);
+      edge_near({static_cast<const PictureLine&>(best), evidence[chosen]}, best.bow, base, work);
   if (edge.evidence < kBetterEdge * evidence[chosen]) return best;
   const double change = edge.line.tilt_rad() - best.tilt_rad();
   best.deviation_rad = std::hypot(best.deviation_rad, change / 2);

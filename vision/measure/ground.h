@@ -16,6 +16,7 @@ struct Ground : PictureLine {
   std::optional<double> bow = {};  ///< how far the base bows downwards, as a share of its width;
                                    ///< empty when the base is not seen
   bool mirrored = false;           ///< it is the axis of a reflection
+  bool behind = false;             ///< the heap goes on below it: an edge behind the heap
 };
 
 /// Finds the ground below one region: bare ground beside the heap when the region holds the ground,

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "tests/support/heap_conditions.h"
+#include "vision/picture.h"
+
+/// What is measured: pictures of heaps whose angles are known.
+namespace repose::bench {
+
+/// Angles from the ground; empty when there is no such flank.
+struct FlankAngles {
+  std::optional<double> left_rad = {};
+  std::optional<double> right_rad = {};
+
+  /// Mean of the flanks that exist.
+  std::optional<double> mean_rad() const {
+    if (left_rad && right_rad) return (*left_rad + *right_rad) / 2;
+    return left_rad ? left_rad : right_rad;
+  }
+};
+
+struct KnownPicture {
+  vision::Picture picture;
+  FlankAngles heap;           ///< what a measurement should find
+  FlankAngles seen = {};      ///< of the exact outline in this picture, where that is another one
+  double told_pitch_rad = 0;  ///< the camera's, as the measurement is told
+};
+
+/// A picture that can be had again.
+struct Subject {
+  std::string_view section;    ///< how its pictures are made: "drawn" or "rendered"
+  std::string_view condition;  ///< what makes it easy or hard
+  testing::Group group = testing::Group::clean;
+  std::uint64_t seed = 1;
+  std::function<KnownPicture()> take;
+};
+
+}  // namespace repose::bench
