@@ -8,7 +8,7 @@ namespace repose::calibrate {
 bool has_ranks() { return false; }
 
 RankSession::RankSession() { throw std::runtime_error("repose was built without MPI"); }
-RankSession::~RankSession() = default;
+RankSession::~RankSession() {}  // not of the class: elsewhere it ends MPI
 
 void RankSession::serve(const StudyBench&, const std::atomic<bool>&) const {}
 
