@@ -11,8 +11,8 @@
 
 namespace repose::dem {
 
-/// A coefficient that is known, or one to be found between two bounds, or one to be found that has a
-/// value for runs made before.
+/// A coefficient that is known, or one to be found between two bounds, or one to be found that has
+/// a value for runs made before.
 struct Coefficient {
   std::optional<double> value;
   double min = 0;  ///< both 0: it is known

@@ -230,11 +230,11 @@ TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
 
 TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
   const std::string coefficients = "{restitution=0.2,sliding_friction=0.6,rolling_friction=0.3}";
-  const Words rough = {"heap",  "study.toml",
-                       "--set", "particle.young_modulus_pa=1e6",
-                       "--set", "contact.particle_particle=" + coefficients,
-                       "--set", "contact.particle_wall.sliding_friction=0.8",
-                       "--set", "experiment.heap.lift_speed_mm_s=100",
+  const Words rough = {"heap",    "study.toml",
+                       "--set",   "particle.young_modulus_pa=1e6",
+                       "--set",   "contact.particle_particle=" + coefficients,
+                       "--set",   "contact.particle_wall.sliding_friction=0.8",
+                       "--set",   "experiment.heap.lift_speed_mm_s=100",
                        "--views", "0"};
   int warned = 0;
   for (const char* seed : {"1", "2", "3"}) {
