@@ -67,14 +67,17 @@ double badness(const Row& row) {
   return error ? std::abs(*error) : kRefused;
 }
 
-void dump_worst(std::vector<Row> rows, const std::string& folder) {
+void dump_worst(const std::vector<Row>& rows, const std::string& folder) {
   std::filesystem::create_directories(folder);
-  std::erase_if(rows, [](const Row& row) { return row.method == "script"; });
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const Row& a, const Row& b) { return badness(a) > badness(b); });
-  rows.resize(std::min(rows.size(), kDumped));
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    repose::bench::measure_rows(*rows[i].subject, {&rows[i].method, 1}, folder);
+  std::vector<const Row*> worst;
+  for (const Row& row : rows) {
+    if (row.method != "script") worst.push_back(&row);
+  }
+  std::stable_sort(worst.begin(), worst.end(),
+                   [](const Row* a, const Row* b) { return badness(*a) > badness(*b); });
+  worst.resize(std::min(worst.size(), kDumped));
+  tbb::parallel_for(std::size_t{0}, worst.size(), [&](std::size_t i) {
+    repose::bench::measure_rows(*worst[i]->subject, {&worst[i]->method, 1}, folder);
   });
 }
 

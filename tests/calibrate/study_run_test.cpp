@@ -17,8 +17,6 @@ namespace repose::calibrate {
 namespace {
 
 using repose::testing::TemporaryFolder;
-using ::testing::AllOf;
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
