@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -73,8 +74,9 @@ void dump_worst(const std::vector<Row>& rows, const std::string& folder) {
   for (const Row& row : rows) {
     if (row.method != "script") worst.push_back(&row);
   }
-  std::stable_sort(worst.begin(), worst.end(),
-                   [](const Row* a, const Row* b) { return badness(*a) > badness(*b); });
+  std::sort(worst.begin(), worst.end(), [](const Row* a, const Row* b) {
+    return std::pair(-badness(*a), a) < std::pair(-badness(*b), b);  // equals in their order
+  });
   worst.resize(std::min(worst.size(), kDumped));
   tbb::parallel_for(std::size_t{0}, worst.size(), [&](std::size_t i) {
     repose::bench::measure_rows(*worst[i]->subject, {&worst[i]->method, 1}, folder);
