@@ -18,7 +18,10 @@ needed="g++ cmake ninja-build pkg-config
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev libcsv-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev"
-if [ "${1-}" = --tests ]; then needed="$needed clang-format-14 clang-tidy-22 libopenmpi-dev openmpi-bin"; shift; fi
+if [ "${1-}" = --tests ]; then
+  needed="$needed clang-format-14 clang-tidy-22 libopenmpi-dev openmpi-bin"
+  shift
+fi
 preset=release
 if [ $# -gt 0 ]; then preset=$1; shift; fi
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kAbout =
     "Measures heaps of grains in photographs, simulates the bench experiments that\n"
-    "give contact parameters, draws what it simulates, and plans and evaluates runs.";
+    "give contact parameters, draws what it simulates, and finds the parameters with\n"
+    "which both agree.";
 
 constexpr const char* kExamples = R"(
 Examples:
@@ -24,6 +25,7 @@ Examples:
   repose shape nut.stl --spheres 11 --out nut.json
   repose simulate heap samples/hazelnut/study.toml --out heaps
   repose render heaps/heap_seed_1.vtp --out heap.png
+  repose calibrate samples/hazelnut/study.toml
   repose bench sliding angles.csv
   repose design ccd --factor e=.1:.3 --factor mu=.1:.3 --out runs.csv
   repose regress runs.csv --response angle_deg --target 23.38

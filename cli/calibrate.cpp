@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -56,13 +57,16 @@ void write_results(const CalibratePlan& plan, const std::string& json, const std
 }
 
 /// The heap of the fitted coefficients, to look at and to compare with a photograph.
-void keep_heap(const calibrate::RunFolder& folder, const calibrate::StudyBench& bench,
-               const calibrate::StudyOutcome& outcome) {
-  for (const calibrate::Run& run : outcome.checks) {
-    if (run.job.experiment != "heap" || !run.failure.empty()) continue;
-    folder.copy_state(bench, run.job, "heap.vtp");
-    return;
+void keep_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
+               const calibrate::StudyBench& bench, const std::vector<calibrate::Run>& checks) {
+  constexpr const char* kHeap = "heap.vtp";
+  for (const calibrate::Run& run : checks) {
+    const bool is_heap = run.job.experiment == "heap" && run.failure.empty();
+    if (is_heap && folder.copy_state(bench, run.job, kHeap)) return;
   }
+  // That of other coefficients must not stand for these.
+  std::error_code ignored;
+  std::filesystem::remove(plan.out_folder / kHeap, ignored);
 }
 
 calibrate::StudyBench bench_of(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
@@ -90,6 +94,7 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder&
     return calibrate_as_published(plan.problem.problem, workshop);
   }();
   if (!outcome) return interrupted(folder);
+  keep_heap(plan, folder, bench, outcome->checks);
   write_results(plan, paper_json(plan, *outcome), paper_table(plan, *outcome, columns_of(stdout)));
   return ExitCode::done;
 }
@@ -114,7 +119,7 @@ ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& f
   }
   print_lines(outcome->notes);
   print_lines(outcome->fit.warnings);
-  keep_heap(folder, bench, *outcome);
+  keep_heap(plan, folder, bench, outcome->checks);
   write_results(plan, calibrate_json(plan, *outcome),
                 calibrate_table(plan, *outcome, columns_of(stdout)));
   return ExitCode::done;

@@ -31,7 +31,8 @@ bool attempt(std::vector<std::string>& faults, const Work& work) {
   }
 }
 
-/// Photographs of the bench's heaps: each gives a reading, or it is said why it gives none.
+/// Photographs of the bench's heaps: each gives a reading, or it is said why it gives none. Flagged
+/// ones do not count, as in the mean of repose measure.
 void measure_pictures(CalibratePlan& plan) {
   dem::Measured& measured = plan.study.heap_measured;
   if (measured.pictures.empty()) return;
@@ -43,11 +44,14 @@ void measure_pictures(CalibratePlan& plan) {
   for (const std::filesystem::path& file : list.files) {
     attempt(plan.faults, [&] {
       const vision::ReposeAngle angle = vision::measure_repose_angle(vision::read_picture(file));
-      if (angle.angle_rad) {
-        measured.values.push_back(to_degrees(*angle.angle_rad));
-        return;
+      if (angle.status == vision::MeasureStatus::ok) {
+        measured.values.push_back(to_degrees(angle.angle_rad.value()));
+      } else if (angle.angle_rad) {
+        plan.notes.push_back(fmt::format(
+            "{}: flagged, left out. Look at it with repose measure --overlay.", file.string()));
+      } else {
+        plan.notes.push_back(fmt::format("{}: refused, left out: {}", file.string(), angle.reason));
       }
-      plan.notes.push_back(fmt::format("{}: not measured: {}", file.string(), angle.reason));
     });
   }
   if (plan.faults.empty() && measured.values.empty()) {

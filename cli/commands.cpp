@@ -112,9 +112,10 @@ Methods:
   paper     as a published calibration did: single points, to compare with
 
 Budgets:
-  quick     about ten minutes on two cores; heaps ten times softer, few of them
-  standard  an hour and a half on two cores; heaps as stiff as the study says
-  paper     62 simulations, as many as a published calibration made
+  quick     16 minutes of one core for the fit; heaps ten times softer, few
+  standard  150 minutes of one core; heaps as stiff as the study says
+  paper     62 simulations at most, as many as a published calibration made
+The minutes are estimates for a study of some hundred grains; checks come on top.
 
 Examples:
   repose calibrate study.toml

@@ -189,7 +189,7 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
                                 {"seed", warning.seed ? Json(*warning.seed) : Json(nullptr)},
                                 {"message", warning.message}});
   }
-  json["measured"] = measured_json(measured_in(plan.study, plan.experiment));
+  json["measured"] = measured_json(dem::measured_in(plan.study, plan.experiment));
   add_context(plan, json);
   return text_of(json);
 }

@@ -34,11 +34,4 @@ inline std::optional<dem::Experiment> experiment_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// What the bench gave for it.
-inline const dem::Measured& measured_in(const dem::Study& study, dem::Experiment experiment) {
-  const std::array<const dem::Measured*, 4> all = {&study.drop_measured, &study.tilt_measured,
-                                                   &study.roll_measured, &study.heap_measured};
-  return *all[static_cast<std::size_t>(experiment)];
-}
-
 }  // namespace repose::cli

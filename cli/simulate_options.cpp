@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/study/study_bench.h"
 #include "cli/number.h"
 #include "cli/output.h"
 #include "cli/simulate_kept.h"
@@ -76,7 +75,7 @@ void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
 void check_study(SimulatePlan& plan) {
   const std::string file = plan.study.file.string();
   const std::string_view name = names_of(plan.experiment).name;
-  if (!calibrate::has_protocol(plan.study, plan.experiment)) {
+  if (!dem::has_protocol(plan.study, plan.experiment)) {
     plan.faults.push_back(fmt::format(
         "{}: section [experiment.{}] is missing. Fix: add it to the study, or for this run "
         "--set 'experiment.{}={{}}' for the usual way of doing it.",

@@ -85,7 +85,7 @@ std::string sources_text(const std::vector<Run>& runs) {
 
 /// "measured 9.420 mm, n = 10; simulated - measured = -0.290 mm (-3.1 %)"
 std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
-  const dem::Measured& measured = measured_in(plan.study, plan.experiment);
+  const dem::Measured& measured = dem::measured_in(plan.study, plan.experiment);
   if (!measured.pictures.empty()) {
     return "measured in pictures: repose measure gives their angle\n";
   }

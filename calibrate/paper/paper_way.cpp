@@ -129,7 +129,8 @@ class PaperWay {
   }
 
   std::optional<std::vector<PaperHeap>> heaps(const std::string& stage,
-                                              const std::vector<std::vector<double>>& sets) {
+                                              const std::vector<std::vector<double>>& sets,
+                                              std::vector<Run>* kept = nullptr) {
     std::vector<Job> jobs;
     for (const std::vector<double>& coefficients : sets) {
       std::copy(coefficients.begin(), coefficients.end(), set_.begin() + kGrains);
@@ -137,6 +138,7 @@ class PaperWay {
     }
     const auto runs = workshop_.get(stage, jobs);
     if (!runs) return std::nullopt;
+    if (kept != nullptr) *kept = *runs;
     std::vector<PaperHeap> heaps;
     for (std::size_t k = 0; k < sets.size(); ++k) {
       heaps.push_back({.coefficients = sets[k], .angle_deg = {}, .error_percent = {}});
@@ -211,7 +213,7 @@ class PaperWay {
 
   bool check() {
     const std::vector<std::vector<double>> sets(kVerificationRuns, outcome_.optimum.natural);
-    auto verification = heaps("ten heaps with the optimum", sets);
+    auto verification = heaps("ten heaps with the optimum", sets, &outcome_.checks);
     if (!verification) return false;
     outcome_.verification = *std::move(verification);
     return true;

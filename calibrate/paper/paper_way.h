@@ -44,6 +44,7 @@ struct PaperOutcome {
   std::vector<SurfaceDoubt> doubts;
   std::vector<double> values;  ///< all six, as in Problem::parameters
   std::vector<PaperHeap> verification;
+  std::vector<Run> checks;  ///< the runs of these
   double measured_angle_deg = 0;
 };
 

@@ -27,7 +27,8 @@ class RunFolder {
   /// @throws std::invalid_argument  it cannot be written; what was kept before stays.
   void keep(const StudyBench& bench, const SimulatedJob& done) const;
 
-  /// Copies the state of a heap that was kept to FOLDER/NAME; false when it is not there.
+  /// Copies the state of a heap that was kept to FOLDER/NAME, over an older one; false when it is
+  /// not there.
   bool copy_state(const StudyBench& bench, const Job& job, const std::string& name) const;
 
  private:

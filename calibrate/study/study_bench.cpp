@@ -99,11 +99,6 @@ dem::Experiment experiment_named(const std::string& name) {
       "experiment {}: there is no such experiment. Fix: drop, tilt, roll or heap.", name));
 }
 
-bool has_protocol(const dem::Study& study, dem::Experiment experiment) {
-  return std::array{study.drop.has_value(), study.tilt.has_value(), study.roll.has_value(),
-                    study.heap.has_value()}[static_cast<std::size_t>(experiment)];
-}
-
 StudyBench::StudyBench(dem::Study study, dem::ClumpFile grain, std::vector<std::string> names,
                        int heap_views)
     : study_(std::move(study)),

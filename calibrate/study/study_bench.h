@@ -16,8 +16,6 @@ std::string name_of(dem::Experiment experiment);
 /// Throws std::invalid_argument for any other name.
 dem::Experiment experiment_named(const std::string& name);
 
-bool has_protocol(const dem::Study& study, dem::Experiment experiment);
-
 /// A job that was simulated.
 struct SimulatedJob {
   Run run;
@@ -50,8 +48,7 @@ class StudyBench {
   void keep_states_in(const std::filesystem::path& folder) { state_folder_ = folder; }
 
   /// Runs it on one thread; may be called from several. An experiment in which nothing can be read,
-  /// that becomes unstable, or whose grains do not fit into the tube with that friction, is a
-  /// failed run.
+  /// or that becomes unstable, is a failed run.
   /// @throws dem::Interrupted  `is_interrupted` became true.
   /// @throws std::invalid_argument  the protocol cannot be run.
   SimulatedJob simulate(const Job& job, const std::atomic<bool>& is_interrupted) const;

@@ -37,11 +37,6 @@ std::vector<std::string> measurable(dem::Experiment experiment) {
   return {"value", "base_radius_mm", "height_mm", "grains_off_plate"};
 }
 
-const dem::Measured& measured_of(const dem::Study& study, dem::Experiment experiment) {
-  return *std::array{&study.drop_measured, &study.tilt_measured, &study.roll_measured,
-                     &study.heap_measured}[static_cast<std::size_t>(experiment)];
-}
-
 bool has_effect(const std::string& coefficient, dem::Experiment experiment) {
   if (experiment == dem::Experiment::tilt) {
     return coefficient == "contact.particle_wall.sliding_friction";
@@ -108,13 +103,13 @@ class Maker {
 
  private:
   void add(dem::Experiment experiment) {
-    if (!has_protocol(study_, experiment)) return;
+    if (!dem::has_protocol(study_, experiment)) return;
     const std::string name = name_of(experiment);
     std::vector<std::size_t> with_effect;
     for (std::size_t k = 0; k < made_.problem.parameters.size(); ++k) {
       if (has_effect(made_.problem.parameters[k].name, experiment)) with_effect.push_back(k);
     }
-    const dem::Measured& measured = measured_of(study_, experiment);
+    const dem::Measured& measured = dem::measured_in(study_, experiment);
     const bool is_measured = measured.mean || !measured.values.empty();
     if (with_effect.empty()) {
       if (is_measured) {
@@ -181,16 +176,16 @@ Budget budget_named(const std::string& name) {
   if (name == "quick") {
     return {.name = name,
             .description =
-                "about ten minutes on two cores; heaps ten times softer than the study "
+                "16 minutes of one core for the fit; heaps ten times softer than the study "
                 "says, few of them, so intervals are wide",
-            .settings = {.budget_s = 15 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
+            .settings = {.budget_s = 16 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
             .heap_softening = .1,
             .verification_repeats = 3,
             .family_sets = 2};
   }
   if (name == "standard") {
     return {.name = name,
-            .description = "an hour and a half on two cores; heaps as stiff as the study says",
+            .description = "150 minutes of one core for the fit; heaps as stiff as the study says",
             .settings = {.budget_s = 150 * kMinute_s, .most_jobs = 2000, .most_rounds = 6},
             .heap_softening = 1,
             .verification_repeats = 5,
@@ -199,8 +194,8 @@ Budget budget_named(const std::string& name) {
   if (name == "paper") {
     return {.name = name,
             .description =
-                "as many simulations as the publication made: 27 of single grains, 35 "
-                "heaps",
+                "62 simulations at most for the fit, as many as the publication made; heaps "
+                "as stiff as the study says",
             .settings = {.budget_s = 60 * kMinute_s, .most_jobs = 62, .most_rounds = 3},
             .heap_softening = 1,
             .verification_repeats = 10,

@@ -1,5 +1,6 @@
 #include "dem/study/study.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -137,6 +138,16 @@ Study read_study(const fs::path& file, const std::vector<std::string>& settings)
   }
   study.hash = fingerprint(parts);
   return study;
+}
+
+bool has_protocol(const Study& study, Experiment experiment) {
+  return std::array{study.drop.has_value(), study.tilt.has_value(), study.roll.has_value(),
+                    study.heap.has_value()}[static_cast<std::size_t>(experiment)];
+}
+
+const Measured& measured_in(const Study& study, Experiment experiment) {
+  return *std::array{&study.drop_measured, &study.tilt_measured, &study.roll_measured,
+                     &study.heap_measured}[static_cast<std::size_t>(experiment)];
 }
 
 std::vector<std::string> open_coefficients(const Study& study, Experiment experiment) {

@@ -82,6 +82,10 @@ struct Study {
 /// of a setting are called "--set:N:column", N counting the settings from 1.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
+/// Whether the study describes the experiment, and what the bench gave for it.
+bool has_protocol(const Study& study, Experiment experiment);
+const Measured& measured_in(const Study& study, Experiment experiment);
+
 /// Names ("contact.particle_wall.restitution") of the coefficients that an experiment needs and the
 /// study leaves to be found. Grains touch each other only in a heap; the others need no
 /// coefficients between grains.

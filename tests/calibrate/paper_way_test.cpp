@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/study/study_problem.h"
+#include "tests/calibrate/sphere_study.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -20,16 +21,7 @@ using repose::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-const std::string kStudy = R"([particle]
-size_mm = [20, 20, 20]
-spheres = 1
-density_kg_m3 = 1000
-young_modulus_pa = 1e6
-poisson_ratio = 0.3
-[wall]
-young_modulus_pa = 1e8
-poisson_ratio = 0.3
-[contact.particle_wall]
+const std::string kStudy = test::kSoftBall + R"([contact.particle_wall]
 restitution = { min = 0.05, max = 0.9 }
 sliding_friction = { min = 0.1, max = 0.8 }
 rolling_friction = { min = 0.01, max = 0.2 }
@@ -116,6 +108,7 @@ TEST_F(PaperWay, ClimbsToTheBestStepAndFitsTheErrorAroundIt) {
   EXPECT_THAT(outcome->composite, SizeIs(20));
   EXPECT_THAT(outcome->surface.coefficients, SizeIs(10));
   EXPECT_THAT(outcome->verification, SizeIs(10));
+  EXPECT_THAT(outcome->checks, SizeIs(10));
   EXPECT_FALSE(outcome->doubts.empty()) << "an absolute error has a kink";
 }
 

@@ -4,9 +4,8 @@
 
 namespace repose::calibrate::test {
 
-/// A soft ball whose restitution a drop tells and whose friction a tilting plate: a run takes some
-/// hundredths of a second.
-inline const std::string kSphereStudy = R"([particle]
+/// A soft ball and a stiffer wall: a run takes some hundredths of a second.
+inline const std::string kSoftBall = R"([particle]
 size_mm = [20, 20, 20]
 spheres = 1
 density_kg_m3 = 1000
@@ -15,7 +14,10 @@ poisson_ratio = 0.3
 [wall]
 young_modulus_pa = 1e8
 poisson_ratio = 0.3
-[contact.particle_wall]
+)";
+
+/// Its restitution is told by a drop, its friction by a tilting plate.
+inline const std::string kSphereStudy = kSoftBall + R"([contact.particle_wall]
 restitution = { min = 0.2, max = 0.9 }
 sliding_friction = { min = 0.1, max = 0.8 }
 rolling_friction = 0.01

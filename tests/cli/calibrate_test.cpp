@@ -1,5 +1,6 @@
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -11,6 +12,7 @@
 
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/run_program.h"
+#include "vision/picture.h"
 
 namespace repose::testing {
 namespace {
@@ -100,12 +102,14 @@ TEST_F(Calibrate, AnotherStudyFindsTheRunsThatItShares) {
 }
 
 TEST_F(Calibrate, EveryFaultIsToldAtOnce) {
-  const Finished wrong = run({"study.toml", "--budget", "cheap", "--jobs", "0", "--set",
-                              "contact.particle_wall.restitution = { min = 0.9, max = 0.2 }"});
+  const Finished wrong =
+      run({"study.toml", "--budget", "cheap", "--method", "best", "--jobs", "0", "--set",
+           "contact.particle_wall.restitution = { min = 0.9, max = 0.2 }"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.out, IsEmpty());
   EXPECT_THAT(wrong.err,
               AllOf(HasSubstr("--budget cheap: must be quick, standard or paper"),
+                    HasSubstr("--method best: must be joint or paper"),
                     HasSubstr("--jobs 0: must be a whole number"), HasSubstr("min below max")));
   EXPECT_FALSE(std::filesystem::exists(path("study_calibration")));
   EXPECT_EQ(run({}).exit_code, 2);
@@ -141,6 +145,25 @@ TEST_F(Calibrate, PicturesThatAreMissingAreNamed) {
       run({"study.toml", "--set", "experiment.heap.measured = { pictures = [\"none.jpg\"] }"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("none.jpg"));
+}
+
+TEST_F(Calibrate, PicturesWithoutAHeapAreNoMeasurement) {
+  constexpr int kWidth = 320, kHeight = 240;
+  const vision::Picture blank{
+      .width = kWidth,
+      .height = kHeight,
+      .bgr = std::vector<std::uint8_t>(std::size_t{3} * kWidth * kHeight, 255)};
+  vision::write_picture(path("blank.png"), blank);
+  const Finished refused =
+      run({"study.toml", "--set", "experiment.heap.measured = { pictures = [\"blank.png\"] }"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("none of the 1 pictures of the heap could be measured"));
+}
+
+TEST_F(Calibrate, ThePapersWayNeedsWhatItsStepsNeed) {
+  const Finished refused = run({"study.toml", "--method", "paper"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--method paper: finds restitution, sliding and rolling"));
 }
 
 TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {
