@@ -70,7 +70,8 @@ void keep_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
 }
 
 calibrate::StudyBench bench_of(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
-  calibrate::StudyBench bench(plan.study, plan.grain, parameter_names(plan), kHeapViews);
+  calibrate::StudyBench bench(plan.record.study, plan.record.grain, parameter_names(plan),
+                              kHeapViews);
   bench.keep_states_in(folder.runs());
   return bench;
 }
@@ -103,13 +104,13 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder&
 ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& folder,
                         const calibrate::StudyBench& bench, calibrate::Executor& executor,
                         const std::atomic<bool>& is_interrupted) {
-  if (plan.method == "paper") {
+  if (plan.record.method == "paper") {
     return run_as_published(plan, folder, bench, executor, is_interrupted);
   }
   const auto outcome = [&] {
     StudyProgressLine progress;
     return run_study(
-        plan.problem.problem, plan.budget, bench, folder, executor,
+        plan.problem.problem, plan.record.budget, bench, folder, executor,
         [&](const calibrate::StudyProgress& now) { progress.tell(now); }, is_interrupted);
   }();
   if (!outcome) return interrupted(folder);
@@ -139,6 +140,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
     return ExitCode::done;
   }
   print_lines(plan.notes);
+  calibrate::write_study_record(plan.out_folder, plan.record);
   calibrate::RankExecutor executor(session, bench);
   return run_study_with(plan, folder, bench, executor, is_interrupted);
 }
@@ -159,6 +161,7 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (!plan.faults.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
   const calibrate::RunFolder folder(plan.out_folder);
+  calibrate::write_study_record(plan.out_folder, plan.record);
   const calibrate::StudyBench bench = bench_of(plan, folder);
   calibrate::ThreadExecutor executor(bench, plan.jobs);
   return run_study_with(plan, folder, bench, executor, watch_for_interrupt());

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/study/study_bench.h"
+#include "cli/regress_json.h"
+#include "cli/runs_surface.h"
 #include "cli/simulate_json.h"
 #include "dem/study/rolling_name.h"
 
@@ -18,6 +20,12 @@ using Json = nlohmann::ordered_json;
 
 /// JSON has no NaN: a number that does not exist is null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// What a picture shows of a curve: six digits.
+std::vector<double> drawn(std::vector<double> values) {
+  for (double& value : values) value = std::stod(fmt::format("{:.6g}", value));
+  return values;
+}
 
 Json interval_json(const calibrate::Interval& interval) {
   return {number(interval.low), number(interval.high)};
@@ -121,6 +129,34 @@ Json rounds_json(const calibrate::JointFit& fit) {
   return json;
 }
 
+Json responses_json(const calibrate::JointFit& fit) {
+  Json json = Json::array();
+  for (const calibrate::ResponseCurve& curve : fit.curves) {
+    json.push_back({{"observable", fit.observables[curve.observable].name},
+                    {"parameter", fit.parameters[curve.parameter].name},
+                    {"values", curve.values},
+                    {"simulated", drawn(curve.simulated)},
+                    {"uncertainty", drawn(curve.uncertainty)},
+                    {"scatter", drawn(curve.scatter)}});
+  }
+  return json;
+}
+
+Json surfaces_json(const calibrate::JointFit& fit) {
+  Json json = Json::array();
+  for (const calibrate::ResponseSurface& surface : fit.surfaces) {
+    Json rows = Json::array();
+    for (const std::vector<double>& row : surface.simulated) rows.push_back(drawn(row));
+    json.push_back({{"observable", fit.observables[surface.observable].name},
+                    {"x_parameter", fit.parameters[surface.x_parameter].name},
+                    {"y_parameter", fit.parameters[surface.y_parameter].name},
+                    {"x", surface.x},
+                    {"y", surface.y},
+                    {"simulated", rows}});
+  }
+  return json;
+}
+
 Json runs_json(const calibrate::StudyOutcome& outcome) {
   Json json = Json::array();
   for (const calibrate::Run& run : outcome.runs) {
@@ -133,7 +169,20 @@ Json runs_json(const calibrate::StudyOutcome& outcome) {
   return json;
 }
 
-/// Longest and shortest time step that an experiment's runs had.
+/// A polynomial through the runs of each observable, with its analysis of variance: what a
+/// response-surface program would say of them. Null where there are too few runs for one.
+Json regressions_json(const CalibratePlan& plan, const calibrate::StudyOutcome& outcome) {
+  Json json = Json::array();
+  for (const calibrate::Observable& observable : plan.problem.problem.observables) {
+    const auto report = surface_of_runs(plan.problem.problem, observable, outcome.runs);
+    Json regression = report ? Json::parse(regress_json(*report)) : Json(nullptr);
+    if (report) regression.erase("runs");
+    json.push_back({{"observable", observable.name}, {"regression", regression}});
+  }
+  return json;
+}
+
+/// Shortest time step that an experiment's runs had.
 Json timesteps_json(const std::vector<calibrate::Run>& runs) {
   std::map<std::string, double> shortest;
   for (const calibrate::Run& run : runs) {
@@ -147,7 +196,7 @@ Json timesteps_json(const std::vector<calibrate::Run>& runs) {
 
 /// All that the coefficients belong to.
 Json provenance_json(const CalibratePlan& plan, const std::vector<calibrate::Run>& runs) {
-  const dem::Study& study = plan.study;
+  const dem::Study& study = plan.record.study;
   Json stiffness = Json::object();
   for (const calibrate::Experiment& experiment : plan.problem.problem.experiments) {
     stiffness[experiment.name] =
@@ -157,17 +206,18 @@ Json provenance_json(const CalibratePlan& plan, const std::vector<calibrate::Run
           {"study",
            {{"file", study.file.filename().string()},
             {"hash", study.hash},
-            {"settings", plan.settings}}},
-          {"budget", {{"name", plan.budget.name}, {"description", plan.budget.description}}},
+            {"settings", plan.record.settings}}},
+          {"budget",
+           {{"name", plan.record.budget.name}, {"description", plan.record.budget.description}}},
           {"first_seed", study.seed},
           {"contact_model", contact_model_text()},
           {"rolling_model", dem::name_of(study.bench.rolling)},
           {"rolling_definition", rolling_definition(study.bench.rolling)},
           {"clump",
-           {{"source", plan.grain.source},
-            {"spheres", plan.grain.shape.spheres.size()},
-            {"volume_error", plan.grain.errors.volume_error},
-            {"inertia_error", plan.grain.errors.inertia_error}}},
+           {{"source", plan.record.grain.source},
+            {"spheres", plan.record.grain.shape.spheres.size()},
+            {"volume_error", plan.record.grain.errors.volume_error},
+            {"inertia_error", plan.record.grain.errors.inertia_error}}},
           {"stiffness_factor", stiffness},
           {"shortest_timestep_s", timesteps_json(runs)}};
 }
@@ -191,7 +241,7 @@ std::string calibrate_json(const CalibratePlan& plan, const calibrate::StudyOutc
   std::vector<std::string> warnings = plan.problem.notes;
   warnings.insert(warnings.end(), outcome.notes.begin(), outcome.notes.end());
   warnings.insert(warnings.end(), fit.warnings.begin(), fit.warnings.end());
-  Json json{{"method", plan.method},
+  Json json{{"method", plan.record.method},
             {"parameters", parameters_json(plan, fit)},
             {"observables", observables_json(outcome)},
             {"verified", outcome.best.agrees},
@@ -201,7 +251,10 @@ std::string calibrate_json(const CalibratePlan& plan, const calibrate::StudyOutc
             {"warnings", warnings},
             {"surrogates", surrogates_json(fit)},
             {"rounds", rounds_json(fit)},
+            {"responses", responses_json(fit)},
+            {"surfaces", surfaces_json(fit)},
             {"provenance", provenance_json(plan, outcome.runs)},
+            {"regressions", regressions_json(plan, outcome)},
             {"runs", runs_json(outcome)}};
   // Names of files need not be UTF-8, JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -225,7 +278,9 @@ std::string name_when_set_aside(const std::string& old_json, const CalibratePlan
     const std::string hash = provenance.at("study").at("hash");
     const std::string way =
         way_of(old.value("method", "joint"), provenance.at("budget").at("name"));
-    if (hash == plan.study.hash && way == way_of(plan.method, plan.budget.name)) return {};
+    if (hash == plan.record.study.hash &&
+        way == way_of(plan.record.method, plan.record.budget.name))
+      return {};
     return fmt::format("result_{}_{}.json", way, hash.substr(0, hash.find('-')));
   } catch (const nlohmann::json::exception&) {
     return {};

@@ -5,20 +5,15 @@
 #include <vector>
 
 #include "calibrate/study/study_problem.h"
+#include "calibrate/study/study_record.h"
 #include "cli/calibrate.h"
-#include "dem/shape/clump_file.h"
-#include "dem/study/study.h"
 
 namespace repose::cli {
 
 /// What `repose calibrate` will do.
 struct CalibratePlan {
-  dem::Study study;  ///< its heaps softened as the budget says, pictures measured
-  dem::ClumpFile grain;
-  std::string method;  ///< "joint" or "paper"
-  calibrate::Budget budget;
+  calibrate::StudyRecord record;
   calibrate::StudyProblem problem;
-  std::vector<std::string> settings;
   int jobs = 1;
   std::filesystem::path out_folder;
   std::string json_file;

@@ -100,17 +100,19 @@ std::string belongs_to_text(const CalibratePlan& plan, std::size_t width) {
   std::string stiffness;
   for (const calibrate::Experiment& experiment : plan.problem.problem.experiments) {
     const double factor =
-        dem::bench_for(plan.study, calibrate::experiment_named(experiment.name)).stiffness_factor;
+        dem::bench_for(plan.record.study, calibrate::experiment_named(experiment.name))
+            .stiffness_factor;
     stiffness += fmt::format("{}{} {:g}", stiffness.empty() ? "" : ", ", experiment.name, factor);
   }
-  const std::size_t spheres = plan.grain.shape.spheres.size();
+  const std::size_t spheres = plan.record.grain.shape.spheres.size();
   const std::string text = fmt::format(
       "These coefficients belong to: {}, rolling friction {} ({}); a clump of {} ({}, "
       "volume {:+.2f} % off); stiffness factor {}; budget {}: {}.",
-      contact_model_text(), dem::name_of(plan.study.bench.rolling),
-      rolling_definition(plan.study.bench.rolling),
-      spheres == 1 ? "1 sphere" : fmt::format("{} spheres", spheres), plan.grain.source,
-      100 * plan.grain.errors.volume_error, stiffness, plan.budget.name, plan.budget.description);
+      contact_model_text(), dem::name_of(plan.record.study.bench.rolling),
+      rolling_definition(plan.record.study.bench.rolling),
+      spheres == 1 ? "1 sphere" : fmt::format("{} spheres", spheres), plan.record.grain.source,
+      100 * plan.record.grain.errors.volume_error, stiffness, plan.record.budget.name,
+      plan.record.budget.description);
   std::string lines = "\n";
   for (const std::string& part : wrapped(text, width)) lines += part + '\n';
   return lines;

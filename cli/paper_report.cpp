@@ -65,7 +65,7 @@ std::string result_text(const CalibratePlan& plan, const PaperOutcome& outcome) 
       fmt::format("\n{}{:>10}{:>16}\n", padded("coefficient", 40), "found", "study's value");
   for (std::size_t k = 0; k < outcome.values.size(); ++k) {
     const std::string& name = plan.problem.problem.parameters[k].name;
-    const auto value = earlier(plan.study, name);
+    const auto value = earlier(plan.record.study, name);
     text += fmt::format("{}{:>10.4f}{:>16}\n", padded(name, 40), outcome.values[k],
                         value ? fmt::format("{:.4f}", *value) : "–");
   }

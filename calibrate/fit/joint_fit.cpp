@@ -8,6 +8,7 @@
 #include "calibrate/fit/lessons.h"
 #include "calibrate/fit/reach.h"
 #include "calibrate/fit/remarks.h"
+#include "calibrate/fit/responses.h"
 #include "calibrate/fit/rounds.h"
 #include "calibrate/fit/solution.h"
 #include "calibrate/fit/unit_box.h"
@@ -120,6 +121,8 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs) {
     fit.equivalence_family.push_back(
         {to_values(problem, member.point), std::max(0., member.chi2 - solution.best.chi2)});
   }
+  fit.curves = response_curves(problem, solution);
+  fit.surfaces = response_surfaces(problem, solution);
   fit.rounds = replay(problem, sorted).complete;
   fit.warnings = remarks_on(problem, solution, fit);
   return fit;

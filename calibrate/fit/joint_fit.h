@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,26 @@ struct ParameterSet {
   double chi2 = 0;             ///< above that of the best fit
 };
 
+/// An observable as the surrogate gives it along one parameter, the others at the best fit.
+struct ResponseCurve {
+  std::size_t observable = 0;  ///< place in Problem::observables
+  std::size_t parameter = 0;   ///< and in Problem::parameters
+  std::vector<double> values;  ///< of the parameter, from bound to bound
+  std::vector<double> simulated;
+  std::vector<double> uncertainty;  ///< standard uncertainty of that
+  std::vector<double> scatter;      ///< sd from seed to seed
+};
+
+/// The same over two parameters.
+struct ResponseSurface {
+  std::size_t observable = 0;
+  std::size_t x_parameter = 0;
+  std::size_t y_parameter = 0;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<std::vector<double>> simulated;  ///< a row for each y
+};
+
 /// How well a surrogate knows its experiment.
 struct SurrogateQuality {
   std::string observable;
@@ -79,7 +100,9 @@ struct JointFit {
   std::vector<std::vector<double>> correlation;  ///< of the parameters, near the best fit
   std::vector<ParameterSet> equivalence_family;  ///< the best fit not included
   std::vector<SurrogateQuality> surrogates;      ///< in order of the observables
-  std::vector<RoundSummary> rounds;              ///< of the runs that propose() asked for
+  std::vector<ResponseCurve> curves;
+  std::vector<ResponseSurface> surfaces;
+  std::vector<RoundSummary> rounds;  ///< of the runs that propose() asked for
   std::vector<std::string> warnings;
   double chi2 = 0;  ///< sum of the squared difference_sigma, of priors too
 };

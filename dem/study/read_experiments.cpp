@@ -59,7 +59,7 @@ void check_ways(Section& measured) {
                         std::string("for example ") + kMeasured);
 }
 
-Measured read_measured(Section& experiment, bool has_pictures, const fs::path& folder) {
+Measured read_measured(Section& experiment, bool has_pictures, const NamedFiles& files) {
   Measured result;
   Section measured = experiment.section("measured");
   if (!measured.exists()) return result;
@@ -77,7 +77,7 @@ Measured read_measured(Section& experiment, bool has_pictures, const fs::path& f
   }
   const auto names = measured.texts("pictures", "pictures = [\"photos\"]");
   for (const std::string& name : names.value_or(std::vector<std::string>{})) {
-    result.pictures.push_back(existing_file(measured, *measured.value("pictures"), name, folder));
+    result.pictures.push_back(file_named(measured, *measured.value("pictures"), name, files));
   }
   if (!has_pictures && measured.has("pictures")) {
     measured.wrong(*measured.value("pictures"), "only heaps are measured in pictures",
@@ -107,19 +107,19 @@ void read_also(Section& experiment, const std::vector<std::string>& names, Measu
   also.refuse_others();
 }
 
-void read_drop(Section drop, const fs::path& folder, Study& study) {
+void read_drop(Section drop, const NamedFiles& files, Study& study) {
   if (!drop.exists()) return;
   DropProtocol protocol;
   set_length(drop, "height_mm", "500", protocol.height_m);
   set_count(drop, "grains", kMostGrains, "10", protocol.grains);
   study.drop = protocol;
   study.drop_stiffness = stiffness_factor(drop);
-  study.drop_measured = read_measured(drop, false, folder);
+  study.drop_measured = read_measured(drop, false, files);
   read_also(drop, {"lowest_point_rise_mm"}, study.drop_measured);
   drop.refuse_others();
 }
 
-void read_tilt(Section tilt, const fs::path& folder, Study& study) {
+void read_tilt(Section tilt, const NamedFiles& files, Study& study) {
   if (!tilt.exists()) return;
   TiltProtocol protocol;
   constexpr int kMostBonded = 100;
@@ -128,11 +128,11 @@ void read_tilt(Section tilt, const fs::path& folder, Study& study) {
   set_number(tilt, "start_deg", from_to_below(0, 90), "0", 1, protocol.start_deg);
   study.tilt = protocol;
   study.tilt_stiffness = stiffness_factor(tilt);
-  study.tilt_measured = read_measured(tilt, false, folder);
+  study.tilt_measured = read_measured(tilt, false, files);
   tilt.refuse_others();
 }
 
-void read_roll(Section roll, const fs::path& folder, Study& study) {
+void read_roll(Section roll, const NamedFiles& files, Study& study) {
   if (!roll.exists()) return;
   RollProtocol protocol;
   constexpr Range kSlope{.from = 0, .to = 90, .excludes_from = true, .excludes_to = true};
@@ -140,11 +140,11 @@ void read_roll(Section roll, const fs::path& folder, Study& study) {
   set_length(roll, "release_mm", "150", protocol.release_m);
   study.roll = protocol;
   study.roll_stiffness = stiffness_factor(roll);
-  study.roll_measured = read_measured(roll, false, folder);
+  study.roll_measured = read_measured(roll, false, files);
   roll.refuse_others();
 }
 
-void read_heap(Section heap, const fs::path& folder, Study& study) {
+void read_heap(Section heap, const NamedFiles& files, Study& study) {
   if (!heap.exists()) return;
   HeapProtocol protocol;
   set_length(heap, "tube_diameter_mm", "100", protocol.tube_diameter_m);
@@ -158,18 +158,18 @@ void read_heap(Section heap, const fs::path& folder, Study& study) {
   }
   study.heap = protocol;
   study.heap_stiffness = stiffness_factor(heap);
-  study.heap_measured = read_measured(heap, true, folder);
+  study.heap_measured = read_measured(heap, true, files);
   read_also(heap, {"base_radius_mm", "height_mm", "grains_off_plate"}, study.heap_measured);
   heap.refuse_others();
 }
 
 }  // namespace
 
-void read_experiments(Section experiments, const fs::path& folder, Study& study) {
-  read_drop(experiments.section("drop"), folder, study);
-  read_tilt(experiments.section("tilt"), folder, study);
-  read_roll(experiments.section("roll"), folder, study);
-  read_heap(experiments.section("heap"), folder, study);
+void read_experiments(Section experiments, const NamedFiles& files, Study& study) {
+  read_drop(experiments.section("drop"), files, study);
+  read_tilt(experiments.section("tilt"), files, study);
+  read_roll(experiments.section("roll"), files, study);
+  read_heap(experiments.section("heap"), files, study);
   experiments.refuse_others();
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "dem/study/read_particle.h"
 #include "dem/study/section.h"
 #include "dem/study/study.h"
 
 namespace repose::dem {
 
 /// [experiment.drop] ... [experiment.heap]: how each is done and what it gave on the bench.
-/// Pictures are looked for in `folder`.
-void read_experiments(Section experiments, const std::filesystem::path& folder, Study& study);
+void read_experiments(Section experiments, const NamedFiles& files, Study& study);
 
 }  // namespace repose::dem

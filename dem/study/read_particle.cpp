@@ -20,10 +20,10 @@ void read_material(Section& section, const std::string& otherwise, Material& mat
       section.needed_number("poisson_ratio", from_to_below(0, .5), "poisson_ratio = 0.38");
 }
 
-void read_scan_source(Section& particle, const fs::path& folder, GrainSource& grain) {
+void read_scan_source(Section& particle, const NamedFiles& files, GrainSource& grain) {
   const char* example = "scan = \"nut.stl\"";
   const auto scan = particle.text("scan", example);
-  if (scan) grain.scan = existing_file(particle, *particle.value("scan"), *scan, folder);
+  if (scan) grain.scan = file_named(particle, *particle.value("scan"), *scan, files);
   const ConfigValue* value = particle.value("unit");
   const std::string rule = "\"mm\" or \"m\": a scan does not say what its numbers count";
   if (value == nullptr) {
@@ -99,11 +99,11 @@ void check_one_shape(Section& particle) {
 
 }  // namespace
 
-fs::path existing_file(const Section& section, const ConfigValue& value, const std::string& name,
-                       const fs::path& folder) {
-  fs::path path = folder / name;
+fs::path file_named(const Section& section, const ConfigValue& value, const std::string& name,
+                    const NamedFiles& files) {
+  fs::path path = files.folder / name;
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) {
+  if (files.must_exist && !fs::exists(path, ignored)) {
     section.faults().add(value.place, fmt::format("{} = {}", section.full(value.name), value.shown),
                          fmt::format("a file that exists, and there is no {}", path.string()),
                          "correct the name; it is looked for beside the study file");
@@ -111,11 +111,11 @@ fs::path existing_file(const Section& section, const ConfigValue& value, const s
   return path;
 }
 
-void read_particle(Section particle, const fs::path& folder, Study& study) {
-  read_scan_source(particle, folder, study.grain);
+void read_particle(Section particle, const NamedFiles& files, Study& study) {
+  read_scan_source(particle, files, study.grain);
   read_sizes(particle, study.grain);
   if (const auto clump = particle.text("clump", "clump = \"nut.json\"")) {
-    study.grain.clump = existing_file(particle, *particle.value("clump"), *clump, folder);
+    study.grain.clump = file_named(particle, *particle.value("clump"), *clump, files);
   }
   check_one_shape(particle);
   read_filling(particle, study.grain);

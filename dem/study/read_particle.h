@@ -5,14 +5,21 @@
 
 namespace repose::dem {
 
-/// [particle]: shape and material of the grain. Files are looked for in `folder`.
-void read_particle(Section particle, const std::filesystem::path& folder, Study& study);
+/// Files that a study names.
+struct NamedFiles {
+  std::filesystem::path folder;  ///< where they are looked for
+  bool must_exist = true;
+};
+
+/// [particle]: shape and material of the grain.
+void read_particle(Section particle, const NamedFiles& files, Study& study);
 
 /// [wall]: what all walls are made of.
 void read_wall(Section wall, Study& study);
 
-/// A file named in a study; a fault when there is none. `value` is where it is named.
-std::filesystem::path existing_file(const Section& section, const ConfigValue& value,
-                                    const std::string& name, const std::filesystem::path& folder);
+/// A file named in a study; a fault when there must be one and is none. `value` is where it is
+/// named.
+std::filesystem::path file_named(const Section& section, const ConfigValue& value,
+                                 const std::string& name, const NamedFiles& files);
 
 }  // namespace repose::dem

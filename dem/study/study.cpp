@@ -76,11 +76,11 @@ void read_simulation(Section simulation, Study& study) {
   simulation.refuse_others();
 }
 
-void read_sections(Section root, const fs::path& folder, Study& study) {
+void read_sections(Section root, const NamedFiles& files, Study& study) {
   read_particle(needed_section(root, "particle", "a study has a particle",
                                "[particle] with size_mm = [22.5, 18.2, 17.5] (or scan, or clump), "
                                "density_kg_m3, young_modulus_pa and poisson_ratio"),
-                folder, study);
+                files, study);
   read_wall(needed_section(root, "wall", "a study has walls",
                            "[wall] with young_modulus_pa = 2.1e11 and poisson_ratio = 0.3"),
             study);
@@ -91,9 +91,21 @@ void read_sections(Section root, const fs::path& folder, Study& study) {
   Section experiments = needed_section(root, "experiment", "a study has an experiment or more",
                                        "[experiment.drop], [experiment.tilt], [experiment.roll] or "
                                        "[experiment.heap]; all their keys have usual values");
-  read_experiments(experiments, folder, study);
+  read_experiments(experiments, files, study);
   read_simulation(root.section("simulation"), study);
   root.refuse_others();
+}
+
+Study read_text(const fs::path& file, const std::string& text,
+                const std::vector<std::string>& settings, const NamedFiles& files) {
+  StudyFaults faults;
+  const ConfigValue config = parse_config(file.string(), text, settings, faults);
+  faults.throw_if_any();  // with a file half read, every other key would be missing
+  Study study;
+  study.file = file;
+  read_sections({&config, {}, {.file = file.string()}, faults}, files, study);
+  faults.throw_if_any();
+  return study;
 }
 
 /// "contact.particle_wall.restitution" and so on, for those without a value.
@@ -123,14 +135,7 @@ double stiffness_of(const Study& study, Experiment experiment) {
 
 Study read_study(const fs::path& file, const std::vector<std::string>& settings) {
   const std::string text = study_text(file);
-  StudyFaults faults;
-  const ConfigValue config = parse_config(file.string(), text, settings, faults);
-  faults.throw_if_any();  // with a file half read, every other key would be missing
-  Study study;
-  study.file = file;
-  read_sections({&config, {}, {.file = file.string()}, faults}, file.parent_path(), study);
-  faults.throw_if_any();
-
+  Study study = read_text(file, text, settings, {.folder = file.parent_path()});
   std::vector<std::string> parts = {text};
   parts.insert(parts.end(), settings.begin(), settings.end());
   for (const auto& shape : {study.grain.scan, study.grain.clump}) {
@@ -138,6 +143,11 @@ Study read_study(const fs::path& file, const std::vector<std::string>& settings)
   }
   study.hash = fingerprint(parts);
   return study;
+}
+
+Study read_study_copy(const fs::path& file, const std::vector<std::string>& settings) {
+  return read_text(file, study_text(file), settings,
+                   {.folder = file.parent_path(), .must_exist = false});
 }
 
 bool has_protocol(const Study& study, Experiment experiment) {

@@ -82,6 +82,11 @@ struct Study {
 /// of a setting are called "--set:N:column", N counting the settings from 1.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
+/// Reads a copy kept elsewhere than the study: the files that it names need not be there any more,
+/// and it has no fingerprint.
+Study read_study_copy(const std::filesystem::path& file,
+                      const std::vector<std::string>& settings = {});
+
 /// Whether the study describes the experiment, and what the bench gave for it.
 bool has_protocol(const Study& study, Experiment experiment);
 const Measured& measured_in(const Study& study, Experiment experiment);

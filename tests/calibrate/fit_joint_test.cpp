@@ -106,6 +106,37 @@ TEST_F(JointFitOfTheBench, KnowsItsSurrogates) {
   EXPECT_NEAR(fit_->observables[2].simulated_sd / fit_->observables[2].simulated, .4, .15);
 }
 
+TEST_F(JointFitOfTheBench, CurvesAndSurfacesPassThroughTheFit) {
+  // 1 + 1 + 3 parameters of the single grain, 6 of the heap; 3 and 15 pairs.
+  std::size_t expected_curves = 0;
+  for (const Observable& observable : problem_->observables) {
+    for (const Experiment& experiment : problem_->experiments) {
+      if (experiment.name == observable.experiment) {
+        expected_curves += experiment.parameters.size();
+      }
+    }
+  }
+  EXPECT_EQ(fit_->curves.size(), expected_curves);
+  for (const ResponseCurve& curve : fit_->curves) {
+    const FittedObservable& observable = fit_->observables[curve.observable];
+    const double best = fit_->parameters[curve.parameter].value;
+    const auto after = std::lower_bound(curve.values.begin(), curve.values.end(), best);
+    const auto k =
+        static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - curve.values.begin(), 1, 40));
+    const double share = (best - curve.values[k - 1]) / (curve.values[k] - curve.values[k - 1]);
+    const double there =
+        curve.simulated[k - 1] + share * (curve.simulated[k] - curve.simulated[k - 1]);
+    EXPECT_NEAR(there, observable.simulated, .03 * std::abs(observable.simulated));
+    EXPECT_THAT(curve.uncertainty, testing::Each(testing::Gt(0)));
+    EXPECT_THAT(curve.scatter, testing::Each(testing::Ge(0)));
+  }
+  const ResponseSurface& surface = fit_->surfaces.back();
+  ASSERT_EQ(surface.simulated.size(), surface.y.size());
+  ASSERT_EQ(surface.simulated.front().size(), surface.x.size());
+  EXPECT_EQ(surface.x.front(), problem_->parameters[surface.x_parameter].min);
+  EXPECT_EQ(surface.y.back(), problem_->parameters[surface.y_parameter].max);
+}
+
 TEST_F(JointFitOfTheBench, ProfilesRiseFromTheBestToTheLimit) {
   const FittedParameter& sliding = fit_->parameters[1];
   ASSERT_GE(sliding.profile.size(), 5);

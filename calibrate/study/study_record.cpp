@@ -1,0 +1,129 @@
+#include "calibrate/study/study_record.h"
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/whole_file.h"
+
+namespace repose::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kStudy = "study.toml";
+constexpr const char* kClump = "clump.json";
+constexpr const char* kRecord = "study.json";
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Names of files need not be UTF-8, JSON must be.
+std::string json_text(const Json& json) {
+  constexpr int kIndent = 2;
+  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Json pictures_json(const std::vector<PictureReading>& pictures) {
+  Json json = Json::array();
+  for (const PictureReading& picture : pictures) {
+    json.push_back({{"file", picture.file.string()},
+                    {"status", picture.status},
+                    {"angle_deg", picture.angle_deg ? Json(*picture.angle_deg) : Json(nullptr)},
+                    {"reason", picture.reason}});
+  }
+  return json;
+}
+
+std::vector<PictureReading> pictures_in(const Json& json) {
+  std::vector<PictureReading> pictures;
+  for (const Json& picture : json) {
+    const Json& angle = picture.at("angle_deg");
+    pictures.push_back({.file = picture.at("file").get<std::string>(),
+                        .status = picture.at("status"),
+                        .angle_deg = angle.is_null() ? std::nullopt : std::optional<double>(angle),
+                        .reason = picture.at("reason")});
+  }
+  return pictures;
+}
+
+Json record_json(const StudyRecord& record) {
+  return {{"program", "repose " REPOSE_VERSION},
+          {"study",
+           {{"file", record.study.file.filename().string()},
+            {"hash", record.study.hash},
+            {"settings", record.settings}}},
+          {"method", record.method},
+          {"budget", {{"name", record.budget.name}, {"description", record.budget.description}}},
+          {"pictures", pictures_json(record.pictures)}};
+}
+
+}  // namespace
+
+dem::Study as_simulated(dem::Study study, const Budget& budget,
+                        const std::vector<PictureReading>& pictures) {
+  study.heap_stiffness *= budget.heap_softening;
+  for (const PictureReading& picture : pictures) {
+    if (picture.status == "ok") study.heap_measured.values.push_back(picture.angle_deg.value());
+  }
+  return study;
+}
+
+namespace {
+
+/// A file that is there already need not be written: a full disk does not stop what goes on.
+void keep(const fs::path& file, const std::string& text) {
+  if (text_of(file) != text) io::write_whole_file(file, text);
+}
+
+}  // namespace
+
+void write_study_record(const fs::path& folder, const StudyRecord& record) {
+  keep(folder / kStudy, text_of(record.study.file));
+  keep(folder / kClump, dem::clump_json(record.grain));
+  keep(folder / kRecord, json_text(record_json(record)));
+}
+
+StudyRecord read_study_record(const fs::path& folder) {
+  const fs::path file = folder / kRecord;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    throw std::invalid_argument(
+        fmt::format("{}: is no folder of a study, there is no {} in it. Fix: name the folder that "
+                    "repose calibrate made (--out).",
+                    folder.string(), kRecord));
+  }
+  StudyRecord record;
+  std::string name;
+  std::string hash;
+  try {
+    const Json json = Json::parse(text_of(file));
+    name = json.at("study").at("file");
+    hash = json.at("study").at("hash");
+    record.settings = json.at("study").at("settings");
+    record.method = json.at("method");
+    record.budget = budget_named(json.at("budget").at("name"));
+    record.pictures = pictures_in(json.at("pictures"));
+  } catch (const nlohmann::json::exception& fault) {
+    throw std::invalid_argument(
+        fmt::format("{}: damaged ({}). Fix: the same repose calibrate again writes it anew; what "
+                    "was simulated is kept.",
+                    file.string(), fault.what()));
+  }
+  record.study = as_simulated(dem::read_study_copy(folder / kStudy, record.settings), record.budget,
+                              record.pictures);
+  record.study.file = name;
+  record.study.hash = hash;
+  record.grain = dem::read_clump_file(folder / kClump);
+  return record;
+}
+
+}  // namespace repose::calibrate

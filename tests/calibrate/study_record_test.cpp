@@ -1,0 +1,93 @@
+#include "calibrate/study/study_record.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "dem/study/grain_source.h"
+#include "tests/calibrate/sphere_study.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using repose::testing::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::ThrowsMessage;
+
+class StudyRecordTest : public ::testing::Test {
+ protected:
+  StudyRecordTest() {
+    folder_.write("study.toml", test::kSphereStudy + R"([experiment.heap]
+measured = { pictures = ["a.jpg", "b.jpg"] }
+stiffness_factor = 0.5
+)");
+    folder_.write("a.jpg", std::string("not looked at here"));
+    folder_.write("b.jpg", std::string("nor this"));
+    std::filesystem::create_directory(kept());
+  }
+
+  std::filesystem::path kept() const { return folder_.path() / "kept"; }
+
+  StudyRecord record() const {
+    const std::vector<std::string> settings = {"particle.density_kg_m3 = 700"};
+    StudyRecord record;
+    record.budget = budget_named("quick");
+    record.pictures = {
+        {.file = "/photos/a.jpg", .status = "ok", .angle_deg = 24.125, .reason = {}},
+        {.file = "/photos/b.jpg", .status = "refused", .angle_deg = {}, .reason = "no \"heap\""}};
+    record.study = as_simulated(dem::read_study(folder_.path() / "study.toml", settings),
+                                record.budget, record.pictures);
+    record.grain = dem::build_grain(record.study.grain);
+    record.settings = settings;
+    record.method = "joint";
+    return record;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
+  const StudyRecord written = record();
+  write_study_record(kept(), written);
+  for (const char* file : {"study.toml", "a.jpg", "b.jpg"}) {
+    std::filesystem::remove(folder_.path() / file);
+  }
+  const StudyRecord read = read_study_record(kept());
+  EXPECT_EQ(read.study.hash, written.study.hash);
+  EXPECT_EQ(read.study.file, "study.toml");
+  EXPECT_EQ(read.study.bench.grain_material.density_kg_m3, 700);
+  EXPECT_EQ(read.study.heap_stiffness, written.study.heap_stiffness);
+  EXPECT_THAT(read.study.heap_measured.values, ElementsAre(24.125));
+  EXPECT_EQ(read.budget.name, "quick");
+  EXPECT_THAT(read.grain.shape.spheres, SizeIs(1));
+  ASSERT_THAT(read.pictures, SizeIs(2));
+  EXPECT_EQ(read.pictures[0].angle_deg, 24.125);
+  EXPECT_EQ(read.pictures[1].reason, "no \"heap\"");
+  EXPECT_EQ(problem_of(read.study, read.grain, read.budget).problem.observables.size(), 3U);
+}
+
+TEST_F(StudyRecordTest, OtherFoldersAreRefused) {
+  EXPECT_THAT([this] { read_study_record(folder_.path()); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("is no folder of a study")));
+  EXPECT_THAT([this] { read_study_record(kept() / "none"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("is no folder of a study")));
+}
+
+TEST_F(StudyRecordTest, DamagedRecordsAreNamed) {
+  write_study_record(kept(), record());
+  for (const std::string text : {"", "{\"study\": 3}", "[[[["}) {
+    folder_.write("kept/study.json", text);
+    EXPECT_THAT([this] { read_study_record(kept()); },
+                ThrowsMessage<std::invalid_argument>(
+                    AllOf(HasSubstr("study.json: damaged"), HasSubstr("Fix: "))));
+  }
+}
+
+}  // namespace
+}  // namespace repose::calibrate
