@@ -1,0 +1,127 @@
+#include "tests/bench/simulated_recovery.h"
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "calibrate/fit/chance.h"
+#include "calibrate/study/study_run.h"
+#include "calibrate/study/thread_executor.h"
+#include "dem/study/grain_source.h"
+#include "tests/bench/recovery_tally.h"
+
+namespace repose::bench {
+namespace {
+
+using calibrate::Chance;
+
+constexpr int kReadings = 8;
+constexpr int kViews = 9;
+constexpr double kReading_deg = .5, kReadingShare = .03;
+constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
+
+std::vector<std::string> names_of(const std::vector<calibrate::Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const calibrate::Parameter& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+/// With something measured everywhere, a study says what is sought.
+std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFile& grain,
+                                            const calibrate::Budget& budget) {
+  for (dem::Measured* measured :
+       {&study.drop_measured, &study.tilt_measured, &study.roll_measured, &study.heap_measured}) {
+    measured->mean = 1;
+  }
+  return calibrate::problem_of(study, grain, budget).problem.parameters;
+}
+
+class Material {
+ public:
+  Material(const dem::Study& study, const dem::ClumpFile& grain, const calibrate::RunFolder& folder,
+           std::vector<std::string> names, std::vector<double> truth, std::uint64_t number)
+      : study_(study),
+        grain_(grain),
+        folder_(folder),
+        bench_(study, grain, std::move(names), kViews),
+        truth_(std::move(truth)),
+        number_(number),
+        chance_(number) {}
+
+  calibrate::StudyOutcome calibrated(const calibrate::Budget& budget) {
+    study_.drop_measured.values = readings("drop");
+    study_.tilt_measured.values = readings("tilt");
+    study_.roll_measured.values = readings("roll");
+    study_.heap_measured.values = readings("heap");
+    const calibrate::Problem problem = calibrate::problem_of(study_, grain_, budget).problem;
+    calibrate::ThreadExecutor executor(bench_,
+                                       static_cast<int>(std::thread::hardware_concurrency()));
+    return calibrate::run_study(
+               problem, budget, bench_, folder_, executor, [](const auto&) {}, never_)
+        .value();
+  }
+
+ private:
+  /// What a bench would read, less the readings that failed.
+  std::vector<double> readings(const std::string& experiment) {
+    std::vector<double> values;
+    for (int i = 0; i < kReadings; ++i) {
+      const calibrate::Run run = simulated(
+          {experiment, truth_, kBenchSeeds * (number_ + 1) + static_cast<std::uint64_t>(i)});
+      const double noise = chance_.normal();
+      if (!run.failure.empty()) continue;
+      const double value = run.readings.at("value");
+      const bool is_angle = experiment == "tilt" || experiment == "heap";
+      values.push_back(std::max(
+          0., is_angle ? value + kReading_deg * noise : value * (1 + kReadingShare * noise)));
+    }
+    return values;
+  }
+
+  calibrate::Run simulated(const calibrate::Job& job) {
+    if (const auto kept = folder_.find(bench_, job)) return *kept;
+    const calibrate::SimulatedJob done = bench_.simulate(job, never_);
+    folder_.keep(bench_, done);
+    return done.run;
+  }
+
+  dem::Study study_;
+  const dem::ClumpFile& grain_;
+  const calibrate::RunFolder& folder_;
+  calibrate::StudyBench bench_;
+  std::vector<double> truth_;
+  std::uint64_t number_;
+  Chance chance_;
+  std::atomic<bool> never_ = false;
+};
+
+}  // namespace
+
+void recover_simulated(const SimulatedRecovery& plan) {
+  const dem::Study study = dem::read_study(plan.study);
+  const dem::ClumpFile grain = dem::build_grain(study.grain);
+  calibrate::Budget budget = calibrate::budget_named("quick");
+  budget.settings.budget_s = plan.budget_s;
+  budget.family_sets = 0;
+  const std::vector<calibrate::Parameter> parameters = sought_in(study, grain, budget);
+  const calibrate::RunFolder folder(plan.folder);
+  RecoveryTally tally(parameters);
+  Chance chance(plan.seed);
+  for (int m = 0; m < plan.materials; ++m) {
+    const std::vector<double> truth = made_up_material(parameters, chance);
+    Material material(study, grain, folder, names_of(parameters), truth,
+                      plan.seed + static_cast<std::uint64_t>(m));
+    try {
+      tally.add(material.calibrated(budget).fit, truth, plan.verbose);
+    } catch (const std::invalid_argument& refused) {
+      fmt::print("material {} cannot be measured: {}\n", m, refused.what());
+    }
+  }
+  tally.print();
+}
+
+}  // namespace repose::bench
