@@ -58,7 +58,7 @@ Json identity_of(const SimulatePlan& plan) {
   return {{"experiment", names_of(plan.experiment).name},
           {"study_hash", plan.study.hash},
           {"trajectory_s", plan.trajectory_s ? Json(*plan.trajectory_s) : Json(nullptr)},
-          {"program", "repose " REPOSE_VERSION}};
+          {"program", REPOSE_SIMULATOR}};
 }
 
 Json identity_of(const SimulatePlan& plan, std::uint64_t seed) {

@@ -133,7 +133,7 @@ std::string StudyBench::description(const Job& job) const {
   json["timestep_fraction"] = bench.timestep_fraction;
   json["timestep_s"] = bench.timestep_s ? Json(*bench.timestep_s) : Json(nullptr);
   json["seed"] = job.seed;
-  json["program"] = "repose " REPOSE_VERSION;
+  json["program"] = REPOSE_SIMULATOR;
   return json.dump();
 }
 

@@ -38,7 +38,7 @@ class StudyBench {
 
   /// Names what a job gives: two jobs with the same key have the same readings, in any study. It is
   /// a fingerprint of the grain, the materials, the coefficients, the protocol, the seed and the
-  /// program's version.
+  /// sources of the simulator.
   std::string key(const Job& job) const;
 
   /// What the fingerprint is made from, as JSON: it is kept with the reading.
