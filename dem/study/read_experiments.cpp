@@ -11,7 +11,6 @@
 namespace repose::dem {
 namespace {
 
-namespace fs = std::filesystem;
 
 constexpr double kMetres_mm = 1e-3;
 constexpr double kLongest_mm = 1e5;
