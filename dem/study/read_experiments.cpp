@@ -6,11 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "dem/study/read_particle.h"
-
 namespace repose::dem {
 namespace {
-
 
 constexpr double kMetres_mm = 1e-3;
 constexpr double kLongest_mm = 1e5;
