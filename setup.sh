@@ -3,7 +3,7 @@
 #
 #   ./setup.sh [--tests] [PRESET [TARGET]...]
 #
-#   --tests   also install what only the tests need: clang-format, clang-tidy, MPI
+#   --tests   also install what only the tests need: clang-format, clang-tidy, MPI, Chromium
 #   PRESET    release (default), dev, sanitize or tidy
 #   TARGET    build only this, not everything
 #
@@ -16,10 +16,15 @@ needed="g++ cmake ninja-build pkg-config
   libassimp-dev libtomlplusplus-dev libpugixml-dev
   libosmesa6-dev libmeshoptimizer-dev libgif-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev libcsv-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev fonts-dejavu-core
+  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev"
+# Whoever has npm from elsewhere need not have Debian's.
+command -v npm >/dev/null || needed="$needed npm"
+node_packages=calibrate/report
 if [ "${1-}" = --tests ]; then
-  needed="$needed clang-format-14 clang-tidy-22 libopenmpi-dev openmpi-bin"
+  needed="$needed clang-format-14 clang-tidy-22 libopenmpi-dev openmpi-bin chromium
+    python3-jsonschema"
+  node_packages="$node_packages tests/report"
   shift
 fi
 preset=release
@@ -92,6 +97,13 @@ else
 fi
 
 cd -- "$root"
+# What package-lock.json names, and nothing else: npm compares hashes. No package's scripts are run.
+for folder in $node_packages; do
+  [ "$folder/node_modules/.package-lock.json" -nt "$folder/package-lock.json" ] && continue
+  step "fetching the packages of $folder/package-lock.json" \
+    npm ci --ignore-scripts --no-audit --no-fund --prefix "$folder"
+  touch -- "$folder/node_modules/.package-lock.json"
+done
 build=build/$preset
 # Once configured, Ninja itself sees when CMake must run again, but for a change in the presets and
 # for packages that were missing before.

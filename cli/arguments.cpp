@@ -25,7 +25,8 @@ Examples:
   repose shape nut.stl --spheres 11 --out nut.json
   repose simulate heap samples/hazelnut/study.toml --out heaps
   repose render heaps/heap_seed_1.vtp --out heap.png
-  repose calibrate samples/hazelnut/study.toml
+  repose calibrate samples/hazelnut/study.toml --out hazelnut
+  repose report hazelnut
   repose bench sliding angles.csv
   repose design ccd --factor e=.1:.3 --factor mu=.1:.3 --out runs.csv
   repose regress runs.csv --response angle_deg --target 23.38

@@ -8,6 +8,7 @@
 #include "cli/compare.h"
 #include "cli/measure.h"
 #include "cli/render.h"
+#include "cli/report.h"
 #include "cli/shape.h"
 #include "cli/simulate.h"
 #include "cli/statistics_commands.h"
@@ -122,6 +123,20 @@ Examples:
   repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
 )";
 
+constexpr const char* kReportNotes = R"(
+FOLDER is what repose calibrate --out wrote. The page needs no other file and
+no network: it can be sent by e-mail, printed on A4, and read on a telephone.
+It begins with the coefficients and shows how they were found. A study that has
+no result yet gets a page that says so. Photographs that the study names are
+measured again; those that are gone are said.
+
+The tables hold the numbers of every chart, as CSV.
+
+Examples:
+  repose report study_calibration
+  repose report hazelnut --out hazelnut.html --tables none
+)";
+
 constexpr const char* kRenderNotes = R"(
 STATE is a .vtp file that repose simulate --out wrote, or the trajectory.pvd of
 a run for a film.
@@ -169,6 +184,8 @@ Command measure_command(CLI::App& app) {
   measure->add_option("--csv", arguments.csv_file, "A row for each picture")->option_text("FILE|-");
   measure->add_option("--summary", arguments.summary_file, "Mean and interval, as JSON")
       ->option_text("FILE|-");
+  measure->add_option("--report", arguments.report_file, "A page to read, send and print")
+      ->option_text("FILE.html");
   measure->add_option("--threads", arguments.threads, "Pictures at a time (all cores)")
       ->option_text("N");
   measure->add_flag("--definitions", arguments.shows_definitions, "List other definitions too");
@@ -295,6 +312,22 @@ Command calibrate_command(CLI::App& app) {
           "no study file is named. Fix: repose calibrate STUDY.toml."};
 }
 
+Command report_command(CLI::App& app) {
+  const auto given = std::make_shared<ReportArguments>();
+  ReportArguments& arguments = *given;
+  CLI::App* report = app.add_subcommand("report", "Write a page about a calibrated study");
+  report->add_option("folder", arguments.folder, "What repose calibrate --out wrote")
+      ->option_text("FOLDER")
+      ->required();
+  report->add_option("--out", arguments.out_file, "The page (FOLDER/report.html)")
+      ->option_text("FILE.html");
+  report->add_option("--tables", arguments.tables_folder, "Its numbers (FOLDER/tables)")
+      ->option_text("FOLDER|none");
+  report->footer(kReportNotes);
+  return {report, [given] { return run_report(*given); },
+          "no folder is named. Fix: repose report FOLDER, the one of repose calibrate --out."};
+}
+
 Command render_command(CLI::App& app) {
   const auto given = std::make_shared<RenderArguments>();
   RenderArguments& arguments = *given;
@@ -341,9 +374,9 @@ Command verify_command(CLI::App& app) {
 
 std::vector<Command> add_commands(CLI::App& app) {
   std::vector<Command> commands = {
-      measure_command(app), compare_command(app),   shape_command(app), simulate_command(app),
-      render_command(app),  calibrate_command(app), bench_command(app), design_command(app),
-      regress_command(app), verify_command(app)};
+      measure_command(app), compare_command(app),   shape_command(app),  simulate_command(app),
+      render_command(app),  calibrate_command(app), report_command(app), bench_command(app),
+      design_command(app),  regress_command(app),   verify_command(app)};
   for (const Command& command : commands) command.app->get_formatter()->column_width(32);
   return commands;
 }

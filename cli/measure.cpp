@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/report/measure_report.h"
 #include "cli/interrupt.h"
 #include "cli/measure_batch.h"
 #include "cli/measure_csv.h"
@@ -40,6 +41,17 @@ std::string human_text(const std::vector<MeasuredPicture>& pictures,
   return text;
 }
 
+std::string report_page(const std::vector<MeasuredPicture>& pictures) {
+  std::vector<calibrate::report::MeasuredPhotograph> shown;
+  for (const MeasuredPicture& picture : pictures) {
+    shown.push_back({.file = picture.file,
+                     .fault = picture.outcome == Outcome::measured ? "" : picture.fault,
+                     .angle = picture.angle,
+                     .overlay = picture.overlay});
+  }
+  return calibrate::report::measure_report(shown).html;
+}
+
 void write_results(const std::vector<MeasuredPicture>& pictures,
                    const MeasureArguments& arguments) {
   const std::string& json = arguments.json_file;
@@ -53,6 +65,7 @@ void write_results(const std::vector<MeasuredPicture>& pictures,
   if (!json.empty()) write_output(json, measure_json(pictures));
   if (!csv.empty()) write_output(csv, measure_csv(pictures));
   if (!summary.empty()) write_output(summary, summary_json(summarise(pictures)));
+  if (!arguments.report_file.empty()) write_output(arguments.report_file, report_page(pictures));
 }
 
 ExitCode exit_code(const std::vector<MeasuredPicture>& pictures) {

@@ -19,6 +19,7 @@ struct MeasureArguments {
   std::string json_file;
   std::string csv_file;
   std::string summary_file;
+  std::string report_file;
   bool shows_definitions = false;
 };
 

@@ -16,11 +16,14 @@
 namespace repose::cli {
 namespace {
 
+vision::OverlayNotes notes_for(const MeasurePlan& plan, std::size_t index) {
+  return {.title = plan.pictures[index].filename().string(), .excluded = plan.options.excluded};
+}
+
 void draw(const vision::Picture& picture, const MeasurePlan& plan, std::size_t index,
           MeasuredPicture& measured) {
   try {
-    const vision::OverlayNotes notes{.title = plan.pictures[index].filename().string(),
-                                     .excluded = plan.options.excluded};
+    const vision::OverlayNotes notes = notes_for(plan, index);
     vision::write_picture(plan.overlays[index],
                           vision::draw_overlay(picture, measured.angle, notes));
   } catch (const std::invalid_argument& fault) {
@@ -35,6 +38,10 @@ MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
     const vision::Picture picture = vision::read_picture(plan.pictures[index]);
     measured.angle = vision::measure_repose_angle(picture, plan.options);
     if (!plan.overlays.empty()) draw(picture, plan, index, measured);
+    if (plan.keeps_overlays) {
+      measured.overlay = calibrate::report::overlay_for_page(
+          picture, measured.angle, notes_for(plan, index), plan.pictures.size());
+    }
     measured.angle.outline = {};
     measured.angle.upper_edge = {};
     measured.angle.left.edge = {};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/report/measure_report.h"
 #include "cli/measure_options.h"
 #include "vision/repose_angle.h"
 
@@ -20,8 +21,9 @@ struct MeasuredPicture {
   std::string file;
   Outcome outcome = Outcome::measured;
   std::string fault;
-  vision::ReposeAngle angle;  ///< without the outline and edge points, which are large
-  std::string overlay_fault;  ///< why there is no overlay
+  vision::ReposeAngle angle;            ///< without the outline and edge points, which are large
+  std::string overlay_fault;            ///< why there is no overlay
+  calibrate::report::PageJpeg overlay;  ///< where the plan keeps them
 };
 
 /// Measures the plan's pictures, several at a time, each from reading to overlay before the next,

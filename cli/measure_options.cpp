@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/number.h"
+#include "cli/output.h"
 #include "cli/output_places.h"
 #include "cli/picture_list.h"
 #include "cli/picture_options.h"
@@ -70,6 +71,10 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   read_pitch(arguments.pitch_deg, plan.options, plan.faults);
   read_boxes("--exclude", arguments.exclude, plan.options, plan.faults);
   read_threads(arguments.threads, plan);
+  plan.keeps_overlays = !arguments.report_file.empty();
+  if (arguments.report_file == kStandardOutput) {
+    plan.faults.emplace_back("--report -: is a page, not for a terminal. Fix: name a file.");
+  }
 
   PictureList list = list_pictures(arguments.pictures);
   plan.pictures = std::move(list.files);
@@ -77,7 +82,8 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   plan.faults.insert(plan.faults.end(), list.faults.begin(), list.faults.end());
   const std::vector<OutputPlace> places = {{"--json", arguments.json_file},
                                            {"--csv", arguments.csv_file},
-                                           {"--summary", arguments.summary_file}};
+                                           {"--summary", arguments.summary_file},
+                                           {"--report", arguments.report_file}};
   check_output_places(places, plan.pictures, plan.faults);
   if (arguments.overlay_folder.empty()) return plan;
 

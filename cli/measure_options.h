@@ -13,6 +13,7 @@ namespace repose::cli {
 struct MeasurePlan {
   std::vector<std::filesystem::path> pictures;
   std::vector<std::filesystem::path> overlays;  ///< one a picture, or none
+  bool keeps_overlays = false;                  ///< in memory, for a report
   vision::MeasureOptions options;
   int threads = 1;
 

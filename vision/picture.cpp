@@ -1,5 +1,6 @@
 #include "vision/picture.h"
 
+#include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <span>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "io/whole_file.h"
 #include "vision/codec/bmp.h"
@@ -140,6 +142,26 @@ void write_picture(const fs::path& file, const Picture& picture) {
                is_jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, kJpegQuality}
                        : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, kPngCompression});
   io::write_whole_file(file, std::as_bytes(std::span(content)));
+}
+
+std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality) {
+  if (picture.empty()) {
+    throw std::invalid_argument("a picture without pixels cannot be written. Fix: give one.");
+  }
+  std::vector<std::uint8_t> content;
+  cv::imencode(".jpg", mat_of(picture), content, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return content;
+}
+
+Picture reduced(const Picture& picture, int longest_side_px) {
+  const int longest = std::max(picture.width, picture.height);
+  if (longest <= longest_side_px) return picture;
+  const double scale = static_cast<double>(longest_side_px) / longest;
+  Picture smaller = blank_picture(std::max(1, cvRound(picture.width * scale)),
+                                  std::max(1, cvRound(picture.height * scale)));
+  cv::Mat target = mat_of(smaller);
+  cv::resize(mat_of(picture), target, target.size(), 0, 0, cv::INTER_AREA);
+  return smaller;
 }
 
 }  // namespace repose::vision

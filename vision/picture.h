@@ -52,4 +52,12 @@ Picture read_picture(const std::filesystem::path& file);
 /// @throws std::invalid_argument  when the place cannot be written.
 void write_picture(const std::filesystem::path& file, const Picture& picture);
 
+/// The content of a JPEG file.
+/// @param quality  0 to 100
+/// @throws std::invalid_argument  the picture has no pixels.
+std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality);
+
+/// The picture made smaller until no side is longer than that [px]; smaller ones stay as they are.
+Picture reduced(const Picture& picture, int longest_side_px);
+
 }  // namespace repose::vision

@@ -1,0 +1,248 @@
+#include "calibrate/report/heap_chapter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "calibrate/report/figures.h"
+#include "calibrate/report/heap_model.h"
+#include "calibrate/report/picture_data.h"
+#include "calibrate/report/wording.h"
+#include "dem/state/state_file.h"
+#include "render/renderer.h"
+#include "vision/heap_comparison.h"
+#include "vision/heap_comparison_overlay.h"
+#include "vision/overlay.h"
+
+namespace repose::calibrate::report {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::array kViews_deg = {0.0, 60.0, 120.0};
+
+/// A picture and what was measured in it.
+struct MeasuredHeap {
+  std::string title;
+  vision::Picture picture;
+  vision::ReposeAngle angle;
+};
+
+std::string angle_text(const vision::ReposeAngle& angle) {
+  if (!angle.angle_rad) return "refused: " + angle.reason;
+  std::string text = fmt::format("angle of repose {}°", shown(*angle.angle_rad / kDegree, 2));
+  if (angle.uncertainty_rad) {
+    text += fmt::format(" ± {}°", shown(*angle.uncertainty_rad / kDegree, 2));
+  }
+  if (angle.status == vision::MeasureStatus::flagged) text += ", flagged";
+  return text;
+}
+
+ShownPicture with_overlay(const MeasuredHeap& heap, int side_px, const std::string& what) {
+  const vision::Picture overlay =
+      vision::draw_overlay(heap.picture, heap.angle, {.title = heap.title, .excluded = {}});
+  const std::string measured = angle_text(heap.angle);
+  return shown_picture(
+      overlay, side_px,
+      fmt::format("{} {} with its outline, ground line and fitted flanks drawn "
+                  "in; {}",
+                  what, heap.title, measured),
+      fmt::format("{} {}: {}{}", what, heap.title, measured, measured.ends_with('.') ? "" : "."));
+}
+
+std::optional<MeasuredHeap> measured_photograph(const BenchPicture& picture,
+                                                std::vector<std::string>& remarks) {
+  const std::string name = shortened(picture.file.filename().string());
+  try {
+    MeasuredHeap heap{.title = name, .picture = vision::read_picture(picture.file), .angle = {}};
+    heap.angle = vision::measure_repose_angle(heap.picture);
+    constexpr double kSame_deg = 0.01;
+    const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;
+    if (picture.angle_deg && std::abs(now_deg - *picture.angle_deg) > kSame_deg) {
+      remarks.push_back(fmt::format(
+          "{} gave {}° when the study was made and does not now: the file was changed since.", name,
+          shown(picture.angle_deg, 2)));
+    }
+    return heap;
+  } catch (const std::invalid_argument& fault) {
+    remarks.push_back(
+        fmt::format("The photograph {} cannot be shown: {}", name, shortened(fault.what(), 400)));
+    return std::nullopt;
+  }
+}
+
+/// The photographs; returns the first that gave an angle.
+std::optional<MeasuredHeap> show_photographs(const StudyFolder& study, HeapPictures& shown) {
+  const int side_px = longest_side_px(study.pictures.size());
+  std::optional<MeasuredHeap> best;
+  for (const BenchPicture& picture : study.pictures) {
+    std::optional<MeasuredHeap> heap = measured_photograph(picture, shown.remarks);
+    if (!heap) continue;
+    if (!best && heap->angle.angle_rad) shown.best_photograph = shown.photographs.size();
+    shown.photographs.push_back(with_overlay(*heap, side_px, "Photograph"));
+    if (!best && heap->angle.angle_rad) best = std::move(heap);
+  }
+  return best;
+}
+
+MeasuredHeap rendered(const render::Scene& scene, double azimuth_deg) {
+  constexpr render::PictureSize kSize{.width = 1600, .height = 900};
+  render::OrthographicCamera camera = render::fitted_all_around({}, scene, kSize);
+  camera.azimuth_rad = azimuth_deg * kDegree;
+  render::Renderer renderer;
+  MeasuredHeap heap{.title = fmt::format("from {:.0f}°", azimuth_deg), .picture = {}, .angle = {}};
+  heap.picture = renderer.draw(scene, camera, kSize, render::SilhouetteStyle{}).picture;
+  heap.angle = vision::measure_repose_angle(heap.picture);
+  return heap;
+}
+
+ShownPicture camera_look(const render::Scene& scene) {
+  constexpr render::PictureSize kSize{.width = 1050, .height = 700};
+  constexpr int kPasses = 8;
+  const render::LabStand stand{.distance_m = 1.5, .height_m = 0.038};
+  render::PhotoStyle style;
+  style.passes = kPasses;
+  render::Renderer renderer;
+  MeasuredHeap heap{.title = "as a camera sees it", .picture = {}, .angle = {}};
+  heap.picture = renderer.draw(scene, render::camera_on(stand, scene, kSize), kSize, style).picture;
+  heap.angle = vision::measure_repose_angle(heap.picture);
+  if (heap.angle.angle_rad) return with_overlay(heap, kSize.width, "Simulated heap");
+  return shown_picture(heap.picture, kSize.width, "The simulated heap as a camera would see it",
+                       "The heap simulated with the coefficients found, drawn as a camera would "
+                       "see it.");
+}
+
+Table comparison_table(const vision::HeapComparison& comparison) {
+  Table table{.name = "outline_comparison",
+              .title = "Photograph against simulation, heaps enlarged to the same silhouette",
+              .data = {.columns = {{.name = "quantity", .unit = {}},
+                                   {.name = "value", .unit = {}, .decimals = 3}},
+                       .rows = {}}};
+  const auto add = [&](const char* name, const std::optional<double>& value) {
+    table.data.add({std::string(name), cell(value)});
+  };
+  add("overlap of the silhouettes (1 is the same)", comparison.iou);
+  add("root mean square difference of height, of the silhouette's side", comparison.profile_rmse);
+  add("farthest distance of the outlines, of the silhouette's side", comparison.hausdorff);
+  if (comparison.angle) {
+    add("difference of the angles, photograph minus simulation [°]",
+        comparison.angle->difference_rad / kDegree);
+    add("95 % interval from [°]", comparison.angle->interval_rad[0] / kDegree);
+    add("95 % interval to [°]", comparison.angle->interval_rad[1] / kDegree);
+  }
+  return table;
+}
+
+Chart outline_chart(const vision::HeapComparison& comparison) {
+  const std::string unit = comparison.unit == vision::LengthUnit::metre ? "m" : "√area";
+  Chart chart =
+      plane_chart("outlines", "Outlines laid over each other",
+                  {.name = "along the ground", .unit = unit}, {.name = "height", .unit = unit});
+  chart.caption =
+      "Ground on ground, axis on axis. Solid: photograph; dashed: simulation. Single grains may "
+      "differ; slopes should not.";
+  const std::array<std::string, 2> names = {"photograph", "simulation"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    // More points than a page is wide show nothing more.
+    constexpr std::size_t kMostPoints = 600;
+    const auto& outline = comparison.outlines[k];
+    const std::size_t stride = outline.size() / kMostPoints + 1;
+    for (std::size_t i = 0; i < outline.size(); i += stride) {
+      add_point(chart, names[k], k == 0 ? Look::fit : Look::limit, outline[i].along,
+                outline[i].height);
+    }
+  }
+  return chart;
+}
+
+void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, HeapPictures& shown) {
+  const vision::CompareOptions options;
+  const vision::HeapComparison comparison =
+      vision::compare_heaps(photograph.angle, simulated.angle, options);
+  if (comparison.status == vision::MeasureStatus::refused) {
+    shown.remarks.push_back("Photograph and simulation are not compared: " + comparison.reason);
+    return;
+  }
+  const vision::ComparisonOverlayNotes notes{.titles = {photograph.title, "simulation"},
+                                             .margin_rad = options.margin_rad};
+  constexpr int kSide_px = 1200;
+  shown.outlines = shown_picture(
+      vision::draw_comparison(photograph.picture, photograph.angle, comparison, notes), kSide_px,
+      fmt::format("Outlines of the heap in {} (solid) and of the simulated one (dashed)",
+                  photograph.title),
+      fmt::format("Outlines on {}: solid the photograph's, dashed the simulation's.",
+                  photograph.title));
+  shown.outline_chart = outline_chart(comparison);
+  shown.comparison = comparison_table(comparison);
+}
+
+}  // namespace
+
+HeapPictures heap_pictures(const StudyFolder& study) {
+  HeapPictures shown;
+  const std::optional<MeasuredHeap> photograph = show_photographs(study, shown);
+  const std::filesystem::path file = study.folder / "heap.vtp";
+  std::error_code ignored;
+  if (!study.is_finished()) return shown;
+  if (!std::filesystem::exists(file, ignored)) {
+    shown.remarks.emplace_back("There is no simulated heap (heap.vtp) to be shown.");
+    return shown;
+  }
+  try {
+    const render::Scene scene = render::scene_of(dem::read_state(file));
+    shown.heap_model = heap_model(scene);
+    constexpr int kRenderSide_px = 900;
+    std::optional<MeasuredHeap> compared;
+    for (const double azimuth_deg : kViews_deg) {
+      MeasuredHeap heap = rendered(scene, azimuth_deg);
+      if (!compared && heap.angle.angle_rad) shown.best_render = shown.renders.size();
+      shown.renders.push_back(with_overlay(heap, kRenderSide_px, "Simulated heap"));
+      if (!compared && heap.angle.angle_rad) compared = std::move(heap);
+    }
+    shown.look = camera_look(scene);
+    if (photograph && compared) compare(*photograph, *compared, shown);
+  } catch (const std::exception& fault) {
+    shown.remarks.push_back(
+        fmt::format("The simulated heap cannot be shown: {}", shortened(fault.what(), 400)));
+  }
+  return shown;
+}
+
+Chapter heap_chapter(const HeapPictures& pictures) {
+  Chapter chapter{.id = "heaps", .title = "The heaps", .blocks = {}};
+  for (const std::string& remark : pictures.remarks) chapter.blocks.push_back(Remark{remark});
+  chapter.blocks.push_back(Paragraph{
+      "Photographs and pictures of the simulation are measured by the same program in the same "
+      "way: on each side a line is fitted to the heap's edge between 20 and 80 % of its height, "
+      "and "
+      "the angle of repose is the mean of both sides, from the ground line. What was found is "
+      "drawn "
+      "in; ± is a 95 % interval."});
+  if (!pictures.photographs.empty()) {
+    chapter.blocks.push_back(Heading{"Photographs"});
+    chapter.blocks.push_back(PictureRow{pictures.photographs});
+  }
+  if (!pictures.renders.empty()) {
+    chapter.blocks.push_back(Heading{"The simulated heap from three sides"});
+    chapter.blocks.push_back(PictureRow{pictures.renders});
+  }
+  if (pictures.outlines) {
+    chapter.blocks.push_back(Heading{"Outlines compared"});
+    chapter.blocks.push_back(PictureRow{{*pictures.outlines}});
+    chapter.blocks.push_back(ChartRow{{*pictures.outline_chart}});
+    chapter.blocks.push_back(*pictures.comparison);
+    chapter.blocks.push_back(Paragraph{
+        "Two heaps of the same grains differ, too: this says how alike these two are, not how well "
+        "the coefficients fit."});
+  }
+  if (pictures.heap_model) {
+    chapter.blocks.push_back(Heading{"The heap, to be turned"});
+    chapter.blocks.push_back(ChartRow{{*pictures.heap_model}});
+  }
+  return chapter;
+}
+
+}  // namespace repose::calibrate::report

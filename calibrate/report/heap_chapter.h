@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/report/document.h"
+#include "calibrate/report/study_folder.h"
+
+namespace repose::calibrate::report {
+
+/// Everything that is seen of the heaps: photographs measured again, the simulated heap drawn and
+/// measured in the same way, and both outlines.
+struct HeapPictures {
+  std::vector<ShownPicture> photographs;       ///< with what was measured
+  std::optional<std::size_t> best_photograph;  ///< the first that gave an angle
+  std::vector<ShownPicture> renders;           ///< silhouettes, with what was measured
+  std::size_t best_render = 0;                 ///< the first that gave an angle
+  std::optional<ShownPicture> look;            ///< as a camera would see the simulated heap
+  std::optional<ShownPicture> outlines;
+  std::optional<Chart> outline_chart;
+  std::optional<Table> comparison;
+  std::optional<Chart> heap_model;   ///< to be turned
+  std::vector<std::string> remarks;  ///< what is not there, and why
+};
+
+HeapPictures heap_pictures(const StudyFolder& study);
+
+Chapter heap_chapter(const HeapPictures& pictures);
+
+}  // namespace repose::calibrate::report

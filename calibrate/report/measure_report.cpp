@@ -1,0 +1,193 @@
+#include "calibrate/report/measure_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "calibrate/report/document.h"
+#include "calibrate/report/figures.h"
+#include "calibrate/report/picture_data.h"
+#include "calibrate/report/report_of.h"
+#include "calibrate/report/wording.h"
+#include "vision/repeats.h"
+
+namespace repose::calibrate::report {
+namespace {
+
+using vision::MeasureStatus;
+
+std::optional<double> degrees(const std::optional<double>& angle_rad) {
+  if (!angle_rad) return std::nullopt;
+  return *angle_rad * 180 / std::numbers::pi;
+}
+
+std::string name_of_file(const MeasuredPhotograph& picture) {
+  const std::size_t slash = picture.file.find_last_of('/');
+  return shortened(slash == std::string::npos ? picture.file : picture.file.substr(slash + 1));
+}
+
+std::string status_of(const MeasuredPhotograph& picture) {
+  if (!picture.fault.empty()) return "not read";
+  switch (picture.angle.status) {
+    case MeasureStatus::ok:
+      return "ok";
+    case MeasureStatus::flagged:
+      return "flagged";
+    case MeasureStatus::refused:
+      break;
+  }
+  return "refused";
+}
+
+std::string remarks_of(const MeasuredPhotograph& picture) {
+  if (!picture.fault.empty()) return shortened(picture.fault, 500);
+  std::string text = picture.angle.reason;
+  for (const vision::Warning& warning : picture.angle.warnings) {
+    if (!text.empty()) text += ' ';
+    text += warning.message;
+  }
+  return shortened(text, 1000);
+}
+
+std::optional<vision::Repeats> mean_of(const std::vector<MeasuredPhotograph>& pictures) {
+  std::vector<double> angles;
+  for (const MeasuredPhotograph& picture : pictures) {
+    const bool counts = picture.fault.empty() && picture.angle.status == MeasureStatus::ok;
+    if (counts && picture.angle.angle_rad) angles.push_back(*degrees(picture.angle.angle_rad));
+  }
+  if (angles.empty()) return std::nullopt;
+  return vision::summarise(angles);
+}
+
+std::string mean_text(const std::vector<MeasuredPhotograph>& pictures,
+                      const std::optional<vision::Repeats>& mean) {
+  const auto left_out = static_cast<long>(pictures.size()) - (mean ? mean->n : 0);
+  std::string text;
+  if (!mean) {
+    text = "No picture gave a number that can be used.";
+  } else if (!mean->mean_uncertainty) {
+    text = fmt::format("Angle of repose {}°, from one picture, which has no scatter.",
+                       shown(mean->mean, 2));
+  } else {
+    text = fmt::format(
+        "Mean angle of repose {}°, 95 % interval {}° to {}° (standard deviation {}°, {} pictures).",
+        shown(mean->mean, 2), shown(mean->mean - *mean->mean_uncertainty, 2),
+        shown(mean->mean + *mean->mean_uncertainty, 2), shown(mean->sd, 2), mean->n);
+  }
+  if (left_out > 0) {
+    text += fmt::format(" Left out: {} flagged, refused or not read.", left_out);
+  }
+  return text;
+}
+
+Table pictures_table(const std::vector<MeasuredPhotograph>& pictures) {
+  Table table{.name = "pictures",
+              .title = "Pictures (± is the half-width of the 95 % interval)",
+              .data = {.columns = {{.name = "picture", .unit = {}},
+                                   {.name = "angle", .unit = "°", .decimals = 2},
+                                   {.name = "±", .unit = "°", .decimals = 2},
+                                   {.name = "left", .unit = "°", .decimals = 2},
+                                   {.name = "right", .unit = "°", .decimals = 2},
+                                   {.name = "status", .unit = {}},
+                                   {.name = "remarks", .unit = {}}},
+                       .rows = {}}};
+  for (const MeasuredPhotograph& picture : pictures) {
+    const vision::ReposeAngle& angle = picture.angle;
+    table.data.add({name_of_file(picture), cell(degrees(angle.angle_rad)),
+                    cell(degrees(angle.uncertainty_rad)), cell(degrees(angle.left.angle_rad)),
+                    cell(degrees(angle.right.angle_rad)), status_of(picture), remarks_of(picture)});
+  }
+  return table;
+}
+
+/// Dots stacked where angles are alike.
+Chart angles_chart(const std::vector<MeasuredPhotograph>& pictures,
+                   const std::optional<vision::Repeats>& mean) {
+  Chart chart = plane_chart("angles", "The angles", {.name = "angle of repose", .unit = "°"},
+                            {.name = "pictures", .unit = {}});
+  constexpr double kBin_deg = 0.5;
+  std::map<long, int> stacks;
+  for (const MeasuredPhotograph& picture : pictures) {
+    const auto angle = degrees(picture.angle.angle_rad);
+    if (!angle || !picture.fault.empty()) continue;
+    const int height = ++stacks[std::lround(*angle / kBin_deg)];
+    const bool is_ok = picture.angle.status == MeasureStatus::ok;
+    add_point(chart, is_ok ? "ok" : "flagged, not in the mean", is_ok ? Look::dots : Look::runs,
+              *angle, static_cast<double>(height));
+  }
+  int highest = 1;
+  for (const auto& [bin, height] : stacks) highest = std::max(highest, height);
+  if (mean) {
+    const double half = mean->mean_uncertainty.value_or(0);
+    add_point(chart, "mean with its 95 % interval", Look::best, mean->mean, 0.0, mean->mean - half,
+              mean->mean + half);
+  }
+  chart.y_range = {{-0.6, highest + 0.8}};
+  chart.caption =
+      "Each dot is a picture. The diamond is the mean of those with status ok, its bar the "
+      "interval "
+      "of the mean.";
+  return chart;
+}
+
+PictureRow overlays_row(const std::vector<MeasuredPhotograph>& pictures) {
+  PictureRow row;
+  for (const MeasuredPhotograph& picture : pictures) {
+    if (picture.overlay.bytes.empty()) continue;
+    const auto angle = degrees(picture.angle.angle_rad);
+    const std::string what =
+        angle ? fmt::format("angle of repose {}° ± {}°, {}", shown(angle, 2),
+                            shown(degrees(picture.angle.uncertainty_rad), 2), status_of(picture))
+              : "refused: " + shortened(picture.angle.reason, 300);
+    const std::string text = name_of_file(picture) + ": " + what;
+    row.pictures.push_back(
+        shown_jpeg(picture.overlay, "Photograph with what was measured. " + text, text));
+  }
+  return row;
+}
+
+}  // namespace
+
+PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAngle& angle,
+                          const vision::OverlayNotes& notes, std::size_t pictures) {
+  return page_jpeg(vision::draw_overlay(picture, angle, notes), longest_side_px(pictures));
+}
+
+Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
+  const std::optional<vision::Repeats> mean = mean_of(pictures);
+  Document document{
+      .title = fmt::format("{} picture{}", pictures.size(), pictures.size() == 1 ? "" : "s"),
+      .kind = "Angles of repose",
+      .state = {},
+      .chapters = {},
+      .program = "repose " REPOSE_VERSION};
+  Chapter answer{.id = "answer", .title = "The answer", .blocks = {}};
+  answer.blocks.push_back(Paragraph{mean_text(pictures, mean)});
+  Chart chart = angles_chart(pictures, mean);
+  if (!chart.data.rows.empty()) answer.blocks.push_back(ChartRow{{std::move(chart)}});
+  answer.blocks.push_back(pictures_table(pictures));
+  document.chapters.push_back(std::move(answer));
+  PictureRow row = overlays_row(pictures);
+  if (!row.pictures.empty()) {
+    document.chapters.push_back(
+        {.id = "pictures", .title = "What was measured", .blocks = {std::move(row)}});
+  }
+  document.chapters.push_back(
+      {.id = "methods",
+       .title = "What the number is",
+       .blocks = {Paragraph{
+           "On each flank a straight line is fitted to the heap's edge over the stretch named with "
+           "the result, 20 to 80 % of the height unless chosen otherwise; the angle of repose is "
+           "the "
+           "mean of both lines' angles to the ground line. ± is a 95 % interval of that one heap: "
+           "how "
+           "much heaps differ shows in their scatter."}}});
+  return report_of(std::move(document));
+}
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calibrate/report/study_report.h"
+#include "vision/overlay.h"
+#include "vision/picture.h"
+#include "vision/repose_angle.h"
+
+namespace repose::calibrate::report {
+
+/// A picture as it is put into a page.
+struct PageJpeg {
+  std::vector<std::uint8_t> bytes;
+  int width = 0;
+  int height = 0;
+};
+
+/// A picture with what was measured drawn in, as large as a page with so many has room for.
+PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAngle& angle,
+                          const vision::OverlayNotes& notes, std::size_t pictures);
+
+/// A picture of a batch.
+struct MeasuredPhotograph {
+  std::string file;
+  std::string fault;          ///< why it was not read; empty: it was
+  vision::ReposeAngle angle;  ///< or the refusal
+  PageJpeg overlay;           ///< without bytes: not shown
+};
+
+/// A page about a batch of pictures, as `repose measure` measured them: the mean of those with
+/// status ok and its interval, each picture with its overlay, and why some gave no number.
+Report measure_report(const std::vector<MeasuredPhotograph>& pictures);
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,196 @@
+#include <map>
+
+#include <fmt/format.h>
+
+#include "calibrate/report/chapters.h"
+#include "calibrate/report/wording.h"
+
+/// Formulas: calibrate/fit/THEORY.md, dem/THEORY.md and vision/repose_angle.h, which name their
+/// sources and the tests that prove them.
+namespace repose::calibrate::report {
+namespace {
+
+/// A paragraph, or an equation as people read it and as LaTeX has it.
+struct Piece {
+  std::string text;
+  std::string latex;  ///< of an equation; empty for a paragraph
+};
+
+/// "mu_r F_n" of the definition's plain text.
+std::string rolling_text(std::string definition) {
+  for (const auto& [plain, sign] : {std::pair("mu_r", "μᵣ"), {"F_n", "Fₙ"}}) {
+    const std::string_view word = plain;
+    for (std::size_t at = definition.find(word); at != std::string::npos;
+         at = definition.find(word)) {
+      definition.replace(at, word.size(), sign);
+    }
+  }
+  return definition;
+}
+
+/// Nothing in a name is a command.
+std::string latex_text(const std::string& text) {
+  static const std::map<std::string, std::string> kSpelled = {{"\\", "\\textbackslash{}"},
+                                                              {"%", "\\%"},
+                                                              {"_", "\\_"},
+                                                              {"#", "\\#"},
+                                                              {"&", "\\&"},
+                                                              {"$", "\\$"},
+                                                              {"{", "\\{"},
+                                                              {"}", "\\}"},
+                                                              {"^", "\\^{}"},
+                                                              {"~", "\\~{}"}};
+  static const std::array<std::pair<std::string, std::string>, 18> kSigns = {{{"χ²", "$\\chi^2$"},
+                                                                              {"μₛ", "$\\mu_s$"},
+                                                                              {"μᵣ", "$\\mu_r$"},
+                                                                              {"fᵢ", "$f_i$"},
+                                                                              {"vᵢ", "$v_i$"},
+                                                                              {"mᵢ", "$m_i$"},
+                                                                              {"sᵢ", "$s_i$"},
+                                                                              {"nᵢ", "$n_i$"},
+                                                                              {"xⱼ", "$x_j$"},
+                                                                              {"Fₙ", "$F_n$"},
+                                                                              {"é", "\\'e"},
+                                                                              {"μ", "$\\mu$"},
+                                                                              {"σ", "$\\sigma$"},
+                                                                              {"°", "$^\\circ$"},
+                                                                              {"×", "$\\times$"},
+                                                                              {"±", "$\\pm$"},
+                                                                              {"–", "--"},
+                                                                              {"−", "$-$"}}};
+  std::string escaped;
+  for (const char letter : text) {
+    const auto spelled = kSpelled.find(std::string(1, letter));
+    escaped += spelled == kSpelled.end() ? std::string(1, letter) : spelled->second;
+  }
+  for (const auto& [sign, command] : kSigns) {
+    for (std::size_t at = escaped.find(sign); at != std::string::npos;
+         at = escaped.find(sign, at + command.size())) {
+      escaped.replace(at, sign.size(), command);
+    }
+  }
+  return escaped;
+}
+
+std::string stiffness_text(const JsonView& provenance) {
+  std::string text;
+  for (const auto& [experiment, factor] : provenance["stiffness_factor"].members()) {
+    if (!text.empty()) text += ", ";
+    text += shortened(experiment) + ' ' + shown(factor.number());
+  }
+  return text;
+}
+
+void add_simulation(const JsonView& provenance, std::vector<Piece>& pieces) {
+  const JsonView clump = provenance["clump"];
+  pieces.push_back(
+      {fmt::format("Grains were simulated with the discrete element method ({}) as clumps of {} "
+                   "overlapping "
+                   "spheres ({}; volume error {} %, inertia error {} %); volume, mass and inertia "
+                   "are those "
+                   "of the surface. Contacts follow {}: with overlap d of two surfaces,",
+                   provenance["program"].shown(), clump["spheres"].shown(),
+                   shortened(clump["source"].shown(), 300),
+                   shown(100 * clump["volume_error"].number().value_or(0), 2),
+                   shown(100 * clump["inertia_error"].number().value_or(0), 2),
+                   provenance["contact_model"].shown()),
+       ""});
+  pieces.push_back(
+      {"Fₙ = (4/3) E* √R* d^(3/2),   1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂,   1/R* = 1/R₁ + "
+       "1/R₂,  |Fₜ| ≤ μₛ Fₙ",
+       "F_n = \\tfrac43 E^* \\sqrt{R^*}\\, d^{3/2}, \\quad "
+       "\\frac{1}{E^*} = \\frac{1-\\nu_1^2}{E_1} + \\frac{1-\\nu_2^2}{E_2}, \\quad "
+       "\\frac{1}{R^*} = \\frac{1}{R_1} + \\frac{1}{R_2}, \\quad "
+       "|F_t| \\le \\mu_s F_n"});
+  pieces.push_back(
+      {fmt::format("with damping that gives the stated coefficient of restitution, and sliding "
+                   "friction μₛ. Rolling friction μᵣ: {}. Young's moduli were multiplied by these "
+                   "factors: {}.",
+                   shortened(rolling_text(provenance["rolling_definition"].shown()), 400),
+                   stiffness_text(provenance)),
+       ""});
+}
+
+void add_angle(std::vector<Piece>& pieces) {
+  pieces.push_back(
+      {"The angle of repose was measured in photographs and in silhouettes of the simulated heaps "
+       "by "
+       "the same program: on each side a straight line was fitted to the heap's edge between 20 "
+       "and "
+       "80 % of its height, and the angle is the mean of both sides' angles to the ground line,",
+       ""});
+  pieces.push_back({"θ = (θ_left + θ_right) / 2",
+                    "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})"});
+}
+
+void add_joint_fit(const StudyFolder& study, std::vector<Piece>& pieces) {
+  pieces.push_back(
+      {fmt::format(
+           "All {} coefficients were fitted to all {} measured means at once. {} simulations "
+           "were spread over the bounds; each measured quantity was described by a Gaussian "
+           "process with expectation fᵢ and variance vᵢ (Matérn 5/2, seed noise included), and "
+           "the coefficients x minimise",
+           study.result["parameters"].items().size(), study.measured.size(), study.runs.size()),
+       ""});
+  pieces.push_back(
+      {"χ²(x) = Σᵢ (fᵢ(x) − mᵢ)² / (uᵢ² + vᵢ(x)),  uᵢ = (sᵢ/√nᵢ) · t(0.975; nᵢ−1)/1.960",
+       "\\chi^2(x) = \\sum_i \\frac{(f_i(x)-m_i)^2}{u_i^2+v_i(x)}, \\quad "
+       "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}"});
+  pieces.push_back(
+      {"where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
+       "is "
+       "Student's quantile. Intervals are 95 % profile-likelihood intervals (Venzon and Moolgavkar "
+       "1988), the values xⱼ for which",
+       ""});
+  pieces.push_back(
+      {"min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
+       "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84"});
+  pieces.push_back(
+      {"A coefficient is called determined when both ends of its interval lie inside the bounds, "
+       "one-sided when one does, undetermined otherwise. The coefficients found were simulated "
+       "again "
+       "with seeds that the fit had not seen and compared with the bench by Welch's test.",
+       ""});
+}
+
+void add_paper_way(std::vector<Piece>& pieces) {
+  pieces.push_back(
+      {"The coefficients against the wall were found one after the other: each was swept over nine "
+       "levels, a parabola was fitted to the results, and solved for the measured value. Those "
+       "between grains were approached by steepest ascent and refined by a central composite "
+       "design, "
+       "to whose relative errors of the angle a quadratic surface was fitted:",
+       ""});
+  pieces.push_back({"|θ − θ_measured| / θ_measured = b₀ + Σ bᵢxᵢ + Σ bᵢⱼxᵢxⱼ + Σ bᵢᵢxᵢ²",
+                    "\\frac{|\\theta-\\theta_m|}{\\theta_m} = b_0 + \\sum_i b_i x_i + "
+                    "\\sum_{i<j} b_{ij} x_i x_j + \\sum_i b_{ii} x_i^2"});
+  pieces.push_back({"Its least value in the design's box was taken and simulated ten times.", ""});
+}
+
+}  // namespace
+
+Chapter methods_chapter(const StudyFolder& study) {
+  Chapter chapter{.id = "methods", .title = "Methods, to be cited", .blocks = {}};
+  std::vector<Piece> pieces;
+  add_simulation(study.result["provenance"], pieces);
+  add_angle(pieces);
+  if (study.is_paper_way()) {
+    add_paper_way(pieces);
+  } else {
+    add_joint_fit(study, pieces);
+  }
+  std::string latex;
+  for (const Piece& piece : pieces) {
+    if (piece.latex.empty()) {
+      chapter.blocks.push_back(Paragraph{piece.text});
+      latex += latex_text(piece.text) + '\n';
+    } else {
+      chapter.blocks.push_back(Equation{piece.text});
+      latex += "\\begin{equation}\n  " + piece.latex + "\n\\end{equation}\n";
+    }
+  }
+  chapter.blocks.push_back(CodeText{.label = "The same for LaTeX", .text = latex});
+  return chapter;
+}
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,170 @@
+#include "calibrate/report/page.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+#include <ctemplate/template.h>
+#include <ctemplate/template_cache.h>
+#include <fmt/format.h>
+
+#include "calibrate/report/tables.h"
+#include "calibrate/report/wording.h"
+
+namespace repose::calibrate::report {
+
+/// Defined by cmake/embed.cmake.
+std::string_view embedded_file(std::string_view name);
+
+namespace {
+
+using Dictionary = ctemplate::TemplateDictionary;
+
+/// How a column is laid out: numbers to the right, sentences with room.
+const char* class_of(const DataTable& table, std::size_t column) {
+  constexpr std::size_t kSentence = 60;
+  const char* kind = "number";
+  for (const std::vector<Cell>& row : table.rows) {
+    const auto* text = column < row.size() ? std::get_if<std::string>(&row[column]) : nullptr;
+    if (text == nullptr) continue;
+    if (text->size() > kSentence) return "sentence";
+    kind = "text";
+  }
+  return kind;
+}
+
+/// From 0 to 200 along the strip.
+double place_in_strip(double value, double min, double max) {
+  constexpr double kLength = 200;
+  return max > min ? std::clamp(kLength * (value - min) / (max - min), 0.0, kLength) : 0;
+}
+
+void fill_strip(const Table& table, const std::vector<Cell>& row, Dictionary& into) {
+  std::array<double, 5> numbers{};
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto* number = std::get_if<double>(&row.at((*table.strip)[k]));
+    if (number == nullptr) return;
+    numbers[k] = *number;
+  }
+  const auto& [value, low, high, min, max] = numbers;
+  Dictionary& strip = *into.AddSectionDictionary("STRIP");
+  strip.SetValue("LOW", fmt::format("{:.1f}", place_in_strip(low, min, max)));
+  strip.SetValue("HIGH", fmt::format("{:.1f}", place_in_strip(high, min, max)));
+  strip.SetValue("VALUE", fmt::format("{:.1f}", place_in_strip(value, min, max)));
+  strip.SetValue("ALT", fmt::format("{} within {} to {}, of what {} to {} allow", shown(value),
+                                    shown(low), shown(high), shown(min), shown(max)));
+}
+
+void fill(const Table& table, Dictionary& block) {
+  Dictionary& into = *block.AddSectionDictionary("TABLE");
+  if (!table.title.empty()) {
+    into.AddSectionDictionary("CAPTION")->SetValue("TEXT", table.title);
+  }
+  std::vector<const char*> kinds;
+  for (std::size_t k = 0; k < table.data.columns.size(); ++k) {
+    const Column& column = table.data.columns[k];
+    kinds.push_back(class_of(table.data, k));
+    Dictionary& head = *into.AddSectionDictionary("HEAD");
+    head.SetValue("CLASS", kinds.back());
+    head.SetValue("TEXT", column.unit.empty() ? column.name
+                                              : fmt::format("{} [{}]", column.name, column.unit));
+  }
+  if (table.strip) {
+    Dictionary& head = *into.AddSectionDictionary("HEAD");
+    head.SetValue("CLASS", "strip");
+    head.SetValue("TEXT", "interval between the bounds");
+  }
+  for (const std::vector<Cell>& row : table.data.rows) {
+    Dictionary& line = *into.AddSectionDictionary("ROW");
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      Dictionary& cell = *line.AddSectionDictionary("CELL");
+      cell.SetValue("CLASS", kinds.at(k));
+      cell.SetValue("TEXT", shown(row[k], table.data.columns[k]));
+    }
+    if (table.strip) fill_strip(table, row, line);
+  }
+}
+
+void fill(const ChartRow& row, Dictionary& block) {
+  Dictionary& into = *block.AddSectionDictionary("CHARTS");
+  for (const Chart& chart : row.charts) {
+    Dictionary& figure = *into.AddSectionDictionary("CHART");
+    figure.SetValue("NAME", chart.name);
+    figure.SetValue("TITLE", chart.title + ".");
+    figure.SetValue("TEXT", chart.caption);
+    figure.SetValue("ALT", chart.title + ". " + chart.caption);
+  }
+}
+
+void fill(const PictureRow& row, Dictionary& block) {
+  Dictionary& into = *block.AddSectionDictionary("PICTURES");
+  for (const ShownPicture& picture : row.pictures) {
+    Dictionary& figure = *into.AddSectionDictionary("PICTURE");
+    figure.SetValue("SOURCE", picture.data_uri);
+    figure.SetIntValue("WIDTH", picture.width);
+    figure.SetIntValue("HEIGHT", picture.height);
+    figure.SetValue("ALT", picture.alt);
+    figure.SetValue("TEXT", picture.caption);
+  }
+}
+
+void fill_text(const char* section, const std::string& text, Dictionary& block) {
+  block.AddSectionDictionary(section)->SetValue("TEXT", text);
+}
+void fill(const Heading& heading, Dictionary& block) { fill_text("HEADING", heading.text, block); }
+void fill(const Paragraph& text, Dictionary& block) { fill_text("PARAGRAPH", text.text, block); }
+void fill(const Equation& text, Dictionary& block) { fill_text("EQUATION", text.text, block); }
+void fill(const Remark& remark, Dictionary& block) { fill_text("REMARK", remark.text, block); }
+void fill(const SurfaceViewer& viewer, Dictionary& block) {
+  fill_text("SURFACE", viewer.caption, block);
+}
+void fill(const CodeText& code, Dictionary& block) {
+  Dictionary& into = *block.AddSectionDictionary("CODE");
+  into.SetValue("LABEL", code.label);
+  into.SetValue("TEXT", code.text);
+}
+
+ctemplate::TemplateString without_copy(std::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+std::string html_of(const Document& document) {
+  Dictionary page("report");
+  page.SetValue("TITLE", document.title);
+  page.SetValue("KIND", document.kind);
+  page.SetValue("PROGRAM", document.program);
+  if (!document.state.empty()) {
+    page.AddSectionDictionary("STATE")->SetValue("TEXT", document.state);
+  }
+  for (const Chapter& chapter : document.chapters) {
+    Dictionary& link = *page.AddSectionDictionary("LINK");
+    link.SetValue("ID", chapter.id);
+    link.SetValue("TEXT", chapter.title);
+    Dictionary& section = *page.AddSectionDictionary("CHAPTER");
+    section.SetValue("ID", chapter.id);
+    section.SetValue("TITLE", chapter.title);
+    for (const Block& block : chapter.blocks) {
+      Dictionary& into = *section.AddSectionDictionary("BLOCK");
+      std::visit([&](const auto& shown) { fill(shown, into); }, block);
+    }
+  }
+  const std::string data = charts_json(document);
+  page.SetValueWithoutCopy("DATA", without_copy(data));
+  page.SetValueWithoutCopy("STYLE", without_copy(embedded_file("report/page/report.css")));
+  page.SetValueWithoutCopy("SCRIPT", without_copy(embedded_file("report/page/report.js")));
+  page.SetValueWithoutCopy(
+      "PLOTLY",
+      without_copy(embedded_file("report/node_modules/plotly.js-dist-min/plotly.min.js")));
+
+  ctemplate::TemplateCache templates;
+  const std::string_view html = embedded_file("report/page/report.html");
+  std::string result;
+  if (!templates.StringToTemplateCache("report", html.data(), html.size(),
+                                       ctemplate::DO_NOT_STRIP) ||
+      !templates.ExpandWithData("report", ctemplate::DO_NOT_STRIP, &page, nullptr, &result)) {
+    throw std::runtime_error("the report's template is damaged");
+  }
+  return result;
+}
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "calibrate/report/chapters.h"
+#include "calibrate/report/figures.h"
+#include "calibrate/report/wording.h"
+
+namespace repose::calibrate::report {
+namespace {
+
+constexpr double kNormal95 = 1.96;
+constexpr const char* kRuns = "simulated runs";
+constexpr const char* kMeasured = "measured, 95 %";
+constexpr const char* kBest = "best fit";
+
+std::string unit_shown(const std::string& unit) { return unit == "deg" ? "°" : unit; }
+
+JsonView fitted_parameter(const StudyFolder& study, const std::string& name) {
+  for (const JsonView& parameter : study.result["parameters"].items()) {
+    if (parameter["name"].text() == name) return parameter;
+  }
+  return {};
+}
+
+/// What the fit gives for an observable at the best coefficients.
+std::optional<double> best_value(const StudyFolder& study, const std::string& observable) {
+  for (const JsonView& fitted : study.result["observables"].items()) {
+    if (fitted["name"].text() == observable) return fitted["simulated"].number();
+  }
+  return std::nullopt;
+}
+
+void add_measured(Chart& chart, const MeasuredNumber& measured, std::array<double, 2> x_range) {
+  if (!measured.measured) return;
+  const double half = kNormal95 * measured.uncertainty.value_or(0);
+  add_level(chart, kMeasured, Look::measured, x_range, *measured.measured,
+            *measured.measured - half, *measured.measured + half);
+}
+
+/// Returns what the coefficient spans.
+std::array<double, 2> add_runs(Chart& chart, const StudyFolder& study,
+                               const MeasuredNumber& measured, const std::string& parameter) {
+  std::array<double, 2> span = {std::numeric_limits<double>::infinity(),
+                                -std::numeric_limits<double>::infinity()};
+  for (const KeptRun& run : study.runs) {
+    if (run.experiment != measured.experiment || !run.failure.empty()) continue;
+    const auto x = run.values.find(parameter);
+    const auto y = run.readings.find(measured.reading);
+    if (x == run.values.end() || y == run.readings.end()) continue;
+    add_point(chart, kRuns, Look::runs, x->second, y->second);
+    span = {std::min(span[0], x->second), std::max(span[1], x->second)};
+  }
+  return span;
+}
+
+Chart response_chart(const MeasuredNumber& measured, const std::string& parameter) {
+  const std::string label = label_of(parameter);
+  return plane_chart(
+      "response_" + measured.name + '_' + parameter,
+      fmt::format("{} along {}", titled(axis_of_observable(measured.name, "")), label),
+      {.name = label, .unit = {}},
+      {.name = axis_of_observable(measured.name, ""), .unit = unit_shown(measured.unit)});
+}
+
+Chart curve_chart(const StudyFolder& study, const MeasuredNumber& measured, const JsonView& curve) {
+  const std::string parameter = curve["parameter"].text();
+  Chart chart = response_chart(measured, parameter);
+  const std::vector<double> x = curve["values"].numbers(), fit = curve["simulated"].numbers(),
+                            sure = curve["uncertainty"].numbers(),
+                            scatter = curve["scatter"].numbers();
+  const std::size_t points = std::min({x.size(), fit.size(), sure.size(), scatter.size()});
+  if (points == 0) return chart;
+  for (std::size_t k = 0; k < points; ++k) {
+    const double half = kNormal95 * sure[k];
+    add_point(chart, "95 % of the fit", Look::band, x[k], {}, cell(fit[k] - half),
+              cell(fit[k] + half));
+  }
+  for (std::size_t k = 0; k < points; ++k) {
+    add_point(chart, "scatter of single runs (± sd)", Look::scatter, x[k], {},
+              cell(fit[k] - scatter[k]), cell(fit[k] + scatter[k]));
+  }
+  add_runs(chart, study, measured, parameter);
+  for (std::size_t k = 0; k < points; ++k) {
+    add_point(chart, "fit", Look::fit, x[k], cell(fit[k]));
+  }
+  add_measured(chart, measured, {x.front(), x[points - 1]});
+  const JsonView fitted = fitted_parameter(study, parameter);
+  const std::vector<double> interval = fitted["interval"].numbers();
+  if (const auto best = best_value(study, measured.name); best && interval.size() == 2) {
+    add_point(chart, kBest, Look::best, cell(fitted["value"].number()), *best, cell(interval[0]),
+              cell(interval[1]));
+    chart.caption =
+        fmt::format("Best at {}, 95 % interval {} … {}.", shown(fitted["value"].number(), 3),
+                    shown(interval[0], 3), shown(interval[1], 3));
+  }
+  return chart;
+}
+
+Chart surface_chart(const StudyFolder& study, const MeasuredNumber& measured,
+                    const JsonView& surface) {
+  const std::string x_name = surface["x_parameter"].text(), y_name = surface["y_parameter"].text();
+  const std::string what = axis_of_observable(measured.name, measured.unit);
+  Chart chart{
+      .name = file_stem("surface_" + measured.name + '_' + x_name + '_' + y_name),
+      .kind = ChartKind::contour,
+      .title = fmt::format("{} over {} and {}", titled(axis_of_observable(measured.name, "")),
+                           label_of(x_name), label_of(y_name)),
+      .caption = fmt::format("Lines of equal {}.", what),
+      .x_title = label_of(x_name),
+      .y_title = label_of(y_name),
+      .z_title = what};
+  chart.data.columns = {
+      {.name = "series", .unit = {}},
+      {.name = label_of(x_name), .unit = {}},
+      {.name = label_of(y_name), .unit = {}},
+      {.name = axis_of_observable(measured.name, ""), .unit = unit_shown(measured.unit)}};
+  const std::vector<double> x = surface["x"].numbers(), y = surface["y"].numbers();
+  std::vector<std::vector<double>> heights;
+  for (const JsonView& row : surface["simulated"].items()) {
+    heights.push_back(row.numbers());
+    heights.back().resize(x.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  heights.resize(y.size(), std::vector<double>(x.size(), std::nan("")));
+  chart.layers.push_back({.series = "fit", .look = Look::grid});
+  for (std::size_t row = 0; row < y.size(); ++row) {
+    for (std::size_t column = 0; column < x.size(); ++column) {
+      chart.data.add(
+          {std::string("fit"), cell(x[column]), cell(y[row]), cell(heights[row][column])});
+    }
+  }
+  const auto add = [&](const std::string& series, Look look, const Cell& at_x, const Cell& at_y,
+                       const Cell& z) {
+    if (chart.layers.back().series != series) {
+      chart.layers.push_back({.series = series, .look = look});
+    }
+    chart.data.add({series, at_x, at_y, z});
+  };
+  if (measured.measured) {
+    const auto ridge = ridge_of(x, y, heights, *measured.measured);
+    for (const auto& [at_x, at_y] : ridge) {
+      add(fmt::format("as measured: {} {}", shown(measured.measured), unit_shown(measured.unit)),
+          Look::ridge, at_x, at_y, *measured.measured);
+    }
+    chart.caption += ridge.empty() ? " The measured value is not on this surface."
+                                   : " On the thick one the measured value is met.";
+  }
+  const auto best_x = fitted_parameter(study, x_name)["value"].number();
+  const auto best_y = fitted_parameter(study, y_name)["value"].number();
+  if (best_x && best_y) {
+    add(kBest, Look::best, *best_x, *best_y, cell(best_value(study, measured.name)));
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::vector<Chart> run_charts(const StudyFolder& study, const MeasuredNumber& measured) {
+  std::vector<std::string> parameters;
+  for (const KeptRun& run : study.runs) {
+    if (run.experiment != measured.experiment) continue;
+    for (const auto& [name, value] : run.values) parameters.push_back(name);
+    break;
+  }
+  std::vector<Chart> charts;
+  for (const std::string& parameter : parameters) {
+    Chart chart = response_chart(measured, parameter);
+    const auto span = add_runs(chart, study, measured, parameter);
+    if (!(span[0] < span[1])) continue;
+    add_measured(chart, measured, span);
+    chart.caption = "Each circle is a run; the other coefficients differ, too.";
+    charts.push_back(std::move(chart));
+  }
+  return charts;
+}
+
+Chapter curves_chapter(const StudyFolder& study) {
+  Chapter chapter{.id = "curves", .title = "What moves what", .blocks = {}};
+  for (const MeasuredNumber& measured : study.measured) {
+    ChartRow row;
+    for (const JsonView& curve : study.result["responses"].items()) {
+      if (curve["observable"].text() == measured.name) {
+        row.charts.push_back(curve_chart(study, measured, curve));
+      }
+    }
+    if (row.charts.empty()) row.charts = run_charts(study, measured);
+    if (row.charts.empty()) continue;
+    chapter.blocks.push_back(Heading{titled(axis_of_observable(measured.name, ""))});
+    chapter.blocks.push_back(std::move(row));
+  }
+  if (chapter.blocks.empty()) return chapter;
+  const Block lead = Paragraph{
+      "Every experiment along every coefficient that moves it. The line is the fit with the other "
+      "coefficients at their best values, its band what the fit does not know, dots how far single "
+      "runs scatter; dashed is what the bench measured. Circles are the simulated runs, each with "
+      "its "
+      "own values of the other coefficients: that is why they lie off the line."};
+  chapter.blocks.insert(chapter.blocks.begin(), lead);
+  return chapter;
+}
+
+Chapter surfaces_chapter(const StudyFolder& study) {
+  Chapter chapter{.id = "surfaces", .title = "Response surfaces", .blocks = {}};
+  for (const MeasuredNumber& measured : study.measured) {
+    ChartRow row;
+    for (const JsonView& surface : study.result["surfaces"].items()) {
+      if (surface["observable"].text() == measured.name) {
+        row.charts.push_back(surface_chart(study, measured, surface));
+      }
+    }
+    if (row.charts.empty()) continue;
+    chapter.blocks.push_back(Heading{titled(axis_of_observable(measured.name, ""))});
+    chapter.blocks.push_back(std::move(row));
+  }
+  if (chapter.blocks.empty()) return chapter;
+  const std::vector<Block> lead = {
+      Paragraph{
+          "The fitted simulation over two coefficients at a time, the others at their best "
+          "values. The thick black line is the ridge of solutions: every pair on it meets the "
+          "measured value, so one experiment alone does not tell the two apart. Where ridges "
+          "of several experiments cross, the coefficients are determined."},
+      SurfaceViewer{"One of the surfaces below, to be turned by hand. The black dots are where "
+                    "the measured value is met."}};
+  chapter.blocks.insert(chapter.blocks.begin(), lead.begin(), lead.end());
+  return chapter;
+}
+
+}  // namespace repose::calibrate::report

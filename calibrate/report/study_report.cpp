@@ -1,0 +1,89 @@
+#include "calibrate/report/study_report.h"
+
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "calibrate/report/chapters.h"
+#include "calibrate/report/page.h"
+#include "calibrate/report/report_of.h"
+#include "calibrate/report/tables.h"
+#include "calibrate/report/wording.h"
+
+namespace repose::calibrate::report {
+namespace {
+
+std::vector<Chapter> finished_chapters(const StudyFolder& study) {
+  const HeapPictures pictures = heap_pictures(study);
+  std::vector<Chapter> chapters;
+  if (study.is_paper_way()) {
+    chapters = paper_chapters(study, pictures);
+  } else {
+    chapters = {answer_chapter(study, pictures), heap_chapter(pictures),
+                agreement_chapter(study),        curves_chapter(study),
+                surfaces_chapter(study),         knowledge_chapter(study),
+                statistics_chapter(study),       convergence_chapter(study)};
+  }
+  chapters.push_back(limits_chapter(study));
+  chapters.push_back(methods_chapter(study));
+  chapters.push_back(provenance_chapter(study));
+  return chapters;
+}
+
+Document document_of(const StudyFolder& study) {
+  Document document{.title = shortened(study.named_study()["file"].text()),
+                    .kind = "Calibration of contact coefficients",
+                    .state = {},
+                    .chapters = {},
+                    .program = "repose " REPOSE_VERSION};
+  if (document.title.empty()) document.title = shortened(study.folder.filename().string());
+  std::vector<Chapter> chapters;
+  if (study.is_finished()) {
+    chapters = finished_chapters(study);
+  } else {
+    document.state = "Unfinished: this study has no result yet.";
+    chapters = unfinished_chapters(study);
+    if (!study.pictures.empty()) chapters.push_back(heap_chapter(heap_pictures(study)));
+    if (study.study.exists()) chapters.push_back(provenance_chapter(study));
+  }
+  for (Chapter& chapter : chapters) {
+    if (!chapter.blocks.empty()) document.chapters.push_back(std::move(chapter));
+  }
+  return document;
+}
+
+/// Names that were cut or spelled alike get a number.
+void number_alike(Document& document) {
+  std::set<std::string> taken;
+  const auto number = [&](std::string& name) {
+    if (name.empty()) return;
+    const std::string first = name;
+    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}_{}", first, k);
+  };
+  for (Chapter& chapter : document.chapters) {
+    for (Block& block : chapter.blocks) {
+      if (auto* table = std::get_if<Table>(&block)) number(table->name);
+      if (auto* row = std::get_if<ChartRow>(&block)) {
+        for (Chart& chart : row->charts) number(chart.name);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Report report_of(Document document) {
+  number_alike(document);
+  Report report{.html = html_of(document), .tables = {}};
+  for (const NamedTable& table : tables_of(document)) {
+    report.tables.push_back({.name = table.name + ".csv", .text = csv_of(*table.data)});
+  }
+  return report;
+}
+
+Report study_report(const std::filesystem::path& folder) {
+  return report_of(document_of(read_study_folder(folder)));
+}
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "calibrate/report/chapters.h"
+#include "calibrate/report/wording.h"
+
+namespace repose::calibrate::report {
+namespace {
+
+/// For a POSIX shell.
+std::string quoted_word(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char letter : word)
+    quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return quoted + "'";
+}
+
+std::string command_to_go_on(const StudyFolder& study) {
+  const std::string file = study.study["study"]["file"].text();
+  std::string command =
+      "repose calibrate " + (file.empty() ? std::string("STUDY.toml") : quoted_word(file));
+  const std::string method = study.study["method"].text();
+  const std::string budget = study.study["budget"]["name"].text();
+  if (!method.empty() && method != "joint") command += " --method " + quoted_word(method);
+  if (!budget.empty() && budget != "quick") command += " --budget " + quoted_word(budget);
+  for (const JsonView& setting : study.study["study"]["settings"].items()) {
+    command += " --set " + quoted_word(setting.text());
+  }
+  return command + " --out " + quoted_word(study.folder.string());
+}
+
+Table counts_table(const StudyFolder& study) {
+  std::map<std::string, std::array<double, 2>> counts;
+  for (const KeptRun& run : study.runs) {
+    auto& [done, failed] = counts[run.experiment];
+    ++done;
+    if (!run.failure.empty()) ++failed;
+  }
+  Table table{.name = "simulations",
+              .title = "Simulations that are there",
+              .data = {.columns = {{.name = "experiment", .unit = {}},
+                                   {.name = "simulations", .unit = {}, .decimals = 0},
+                                   {.name = "without a reading", .unit = {}, .decimals = 0}},
+                       .rows = {}}};
+  for (const auto& [experiment, count] : counts) {
+    table.data.add({shortened(experiment), count[0], count[1]});
+  }
+  return table;
+}
+
+/// Of a folder that does not say what was measured: the experiments themselves.
+std::vector<MeasuredNumber> shown_numbers(const StudyFolder& study) {
+  if (!study.measured.empty()) return study.measured;
+  std::vector<MeasuredNumber> numbers;
+  for (const KeptRun& run : study.runs) {
+    const bool is_known = std::any_of(numbers.begin(), numbers.end(), [&](const auto& number) {
+      return number.name == run.experiment;
+    });
+    if (is_known) continue;
+    numbers.push_back({.name = run.experiment,
+                       .experiment = run.experiment,
+                       .reading = "value",
+                       .unit = unit_of_experiment(run.experiment),
+                       .measured = {},
+                       .uncertainty = {}});
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<Chapter> unfinished_chapters(const StudyFolder& study) {
+  Chapter state{.id = "answer", .title = "How far it is", .blocks = {}};
+  state.blocks.push_back(Paragraph{
+      fmt::format("{} simulations are there, and no result yet. Nothing of them is lost: the same "
+                  "command goes on where it was interrupted.",
+                  study.runs.size())});
+  if (study.has_other_result) {
+    state.blocks.push_back(Remark{
+        "The folder's result.json is of another study, budget or method, and is not shown here."});
+  }
+  if (!study.runs.empty()) state.blocks.push_back(counts_table(study));
+  state.blocks.push_back(CodeText{.label = "To go on", .text = command_to_go_on(study)});
+
+  Chapter runs{.id = "curves", .title = "What the runs gave", .blocks = {}};
+  for (const MeasuredNumber& number : shown_numbers(study)) {
+    std::vector<Chart> charts = run_charts(study, number);
+    if (charts.empty()) continue;
+    runs.blocks.push_back(Heading{titled(axis_of_observable(number.name, ""))});
+    runs.blocks.push_back(ChartRow{std::move(charts)});
+  }
+  return {std::move(state), std::move(runs)};
+}
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,133 @@
+#include "calibrate/report/wording.h"
+
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace repose::calibrate::report {
+namespace {
+
+bool is_inside_letter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
+std::string spaced(std::string name) {
+  for (char& letter : name) {
+    if (letter == '_') letter = ' ';
+  }
+  return name;
+}
+
+/// An exponent.
+std::string raised(long power) {
+  constexpr std::array<const char*, 10> kDigits = {"⁰", "¹", "²", "³", "⁴",
+                                                   "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "⁻" : "";
+  for (const char digit : fmt::format("{}", std::abs(power))) {
+    text += kDigits.at(static_cast<std::size_t>(digit - '0'));
+  }
+  return text;
+}
+
+struct KnownExperiment {
+  std::string_view name;
+  const char* reading;
+  const char* unit;
+};
+
+const KnownExperiment* known_experiment(const std::string& name) {
+  static constexpr std::array<KnownExperiment, 4> kKnown = {{{"drop", "rebound height", "mm"},
+                                                             {"tilt", "angle of sliding", "deg"},
+                                                             {"roll", "rolling distance", "mm"},
+                                                             {"heap", "angle of repose", "deg"}}};
+  for (const KnownExperiment& known : kKnown) {
+    if (known.name == name) return &known;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string shown(std::optional<double> value, std::optional<int> decimals) {
+  if (!value || !std::isfinite(*value)) return "–";
+  std::string text =
+      decimals ? fmt::format("{:.{}f}", *value, *decimals) : fmt::format("{:.4g}", *value);
+  if (const std::size_t e = text.find('e'); e != std::string::npos) {
+    text = text.substr(0, e) + "·10" + raised(std::strtol(text.c_str() + e + 1, nullptr, 10));
+  }
+  // The hyphen is too short for a minus.
+  return text.starts_with('-') ? "−" + text.substr(1) : text;
+}
+
+std::string shown(const Cell& cell, const Column& column) {
+  if (const auto* number = std::get_if<double>(&cell)) return shown(*number, column.decimals);
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return "–";
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t head = most * 2 / 3, tail = text.size() - most / 3;
+  while (head > 0 && is_inside_letter(text[head])) --head;
+  while (tail < text.size() && is_inside_letter(text[tail])) ++tail;
+  return text.substr(0, head) + "…" + text.substr(tail);
+}
+
+std::string label_of(const std::string& parameter) {
+  constexpr std::string_view kContact = "contact.";
+  const std::size_t start = parameter.starts_with(kContact) ? kContact.size() : 0;
+  const std::size_t dot = parameter.find('.', start);
+  if (dot == std::string::npos) return shortened(spaced(parameter.substr(start)));
+  const std::string pair = parameter.substr(start, dot - start);
+  const std::string what = spaced(parameter.substr(dot + 1));
+  if (pair == "particle_wall") return shortened(what + ", particle–wall");
+  if (pair == "particle_particle") return shortened(what + ", particle–particle");
+  return shortened(what + ", " + spaced(pair));
+}
+
+std::string unit_of_experiment(const std::string& name) {
+  const auto* known = known_experiment(name);
+  return known == nullptr ? "" : known->unit;
+}
+
+std::string axis_of_observable(const std::string& name, const std::string& unit) {
+  const auto* known = known_experiment(name);
+  const std::string what = known == nullptr ? shortened(spaced(name)) : known->reading;
+  if (unit.empty()) return what;
+  return fmt::format("{} [{}]", what, unit == "deg" ? "°" : unit);
+}
+
+std::string titled(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string file_stem(const std::string& text) {
+  constexpr std::size_t kLongest = 100;
+  constexpr std::string_view kContact = "contact.";
+  std::string name = text;
+  for (std::size_t at = name.find(kContact); at != std::string::npos; at = name.find(kContact)) {
+    name.erase(at, kContact.size());
+  }
+  std::string stem;
+  for (const char letter : name.substr(0, kLongest)) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    if (is_plain) {
+      stem += letter;
+    } else if (!stem.empty() && stem.back() != '_') {
+      stem += '_';
+    }
+  }
+  return stem.empty() ? "table" : stem;
+}
+
+Cell cell(std::optional<double> value) {
+  if (!value || !std::isfinite(*value)) return std::monostate{};
+  return *value;
+}
+
+Cell cell(const std::string& text) { return text; }
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "calibrate/report/document.h"
+
+/// How a report writes numbers and names.
+namespace repose::calibrate::report {
+
+/// Four significant digits, or so many decimals; "–" for none and for what is not finite.
+std::string shown(std::optional<double> value, std::optional<int> decimals = std::nullopt);
+std::string shown(const Cell& cell, const Column& column);
+
+/// The middle of what is longer than `most` letters is left out. UTF-8 letters stay whole.
+std::string shortened(const std::string& text, std::size_t most = 80);
+
+/// "restitution, particle–wall" for "contact.particle_wall.restitution"; other names as they are.
+std::string label_of(const std::string& parameter);
+
+/// "mm" for "drop"; empty for what is not known.
+std::string unit_of_experiment(const std::string& name);
+
+/// "rebound height [mm]" for an observable called "drop" in mm.
+std::string axis_of_observable(const std::string& name, const std::string& unit);
+
+/// With a capital letter.
+std::string titled(std::string text);
+
+/// A name for a file: letters, digits and _, not too long, without the "contact." of coefficients.
+std::string file_stem(const std::string& text);
+
+Cell cell(std::optional<double> value);
+Cell cell(const std::string& text);
+
+}  // namespace repose::calibrate::report

@@ -1,0 +1,149 @@
+// Opens reports in Chromium, as a reader would: node browser_test.mjs REPOSE CHROMIUM PHOTOGRAPH HEAP
+//
+//   REPOSE      the program
+//   CHROMIUM    the browser
+//   PHOTOGRAPH  a picture of a heap
+//   HEAP        a study file whose heap is quickly simulated
+//
+// What must hold: nothing is fetched, no error is told, no name becomes markup, every chart is drawn
+// with its titles inside it, on a desk and on a telephone, and what can be clicked reacts. Load times
+// are only printed.
+import assert from 'node:assert/strict';
+import {spawnSync} from 'node:child_process';
+import {copyFileSync, mkdtempSync, rmSync, statSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import puppeteer from 'puppeteer-core';
+import {writeStudyFolder} from './study_folder.mjs';
+
+const [repose, chromium, photograph, heapStudy] = process.argv.slice(2);
+const kMegabyte = 1e6, kPatience_ms = 240_000;
+
+const run = (...words) => {
+  const {status, stderr} = spawnSync(repose, words, {encoding: 'utf8'});
+  assert.equal(status, 0, `repose ${words.join(' ')}: ${stderr}`);
+};
+
+const makeReports = (folder) => {
+  const study = join(folder, 'study'), heaps = join(folder, 'heaps');
+  run('simulate', 'heap', heapStudy, '--views', '0', '--out', heaps);
+  writeStudyFolder(study, {pictures: [
+    {file: photograph, status: 'ok', angle_deg: null, reason: ''},
+    {file: '/nowhere/<b>gone.jpg', status: 'ok', angle_deg: 20, reason: ''}]});
+  copyFileSync(join(heaps, 'heap_seed_1.vtp'), join(study, 'heap.vtp'));
+  run('report', study);
+  const half = join(folder, 'half');
+  writeStudyFolder(half, {finished: false});
+  run('report', half, '--tables', 'none');
+  const measured = join(folder, 'measured.html');
+  run('measure', photograph, '--report', measured);
+  return [join(study, 'report.html'), join(half, 'report.html'), measured];
+};
+
+// A page that notes what it must not do.
+const open = async (browser, file, width) => {
+  const page = await browser.newPage();
+  const faults = [];
+  page.on('console', (message) => { if (message.type() === 'error') faults.push(`console: ${message.text()}`); });
+  page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (!url.startsWith('data:') && !url.startsWith('blob:') && url !== pathToFileURL(file).href) faults.push(`request: ${url.slice(0, 200)}`);
+  });
+  await page.setViewport({width, height: 900});
+  const start = Date.now();
+  await page.goto(pathToFileURL(file).href);
+  console.log(`${file} at ${width} px: loaded in ${Date.now() - start} ms`);
+  await page.waitForFunction(() => [...document.querySelectorAll('.chart')].every(({dataset}) => dataset.state === 'drawn'),
+    {timeout: kPatience_ms});
+  return {page, faults};
+};
+
+// What is wrong with the charts of a page, a line each.
+const chartFaults = (page) => page.evaluate(() => {
+  const faults = [];
+  for (const figure of document.querySelectorAll('.chart')) {
+    const name = figure.dataset.chart ?? figure.id, plot = figure.querySelector('.plot');
+    const canvas = plot.querySelector('canvas');
+    const marks = plot.querySelectorAll('.scatterlayer path, .contourlayer path').length;
+    if (!canvas && marks === 0) faults.push(`${name}: nothing is drawn`);
+    if (canvas && !(canvas.width > 0 && canvas.height > 0)) faults.push(`${name}: its canvas is empty`);
+    if (!plot.getAttribute('aria-label')) faults.push(`${name}: no label`);
+    const frame = plot.getBoundingClientRect();
+    for (const text of plot.querySelectorAll('.xtitle, .ytitle, .legendtext, .xtick text, .ytick text')) {
+      const box = text.getBoundingClientRect();
+      const slack = 2;
+      if (box.width > 0 && (box.left < frame.left - slack || box.right > frame.right + slack || box.top < frame.top - slack || box.bottom > frame.bottom + slack)) {
+        faults.push(`${name}: “${text.textContent}” leaves the chart`);
+      }
+    }
+    const below = [...plot.querySelectorAll('.xtitle')].map((text) => text.getBoundingClientRect().bottom);
+    const legend = plot.querySelector('.legend')?.getBoundingClientRect();
+    if (legend && below.some((bottom) => bottom > legend.top + 3)) faults.push(`${name}: the legend hides the axis title`);
+  }
+  return faults;
+});
+
+const checkPage = async (page, faults) => {
+  assert.deepEqual(await chartFaults(page), []);
+  assert.equal(await page.evaluate(() => window.hacked), undefined, 'a name became a script');
+  assert.equal(await page.evaluate(() => document.querySelectorAll('main script, main img[src=x], main b b').length), 0);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false, 'the page is wider than the screen');
+  assert.deepEqual(await page.evaluate(() => [...document.images].filter((image) => !image.alt || (image.getAttribute('src') && !image.naturalWidth)).length), 0, 'a picture lacks its text or does not open');
+  assert.deepEqual(faults, []);
+};
+
+const click = (page, figure, text) => page.evaluate((id, wanted) => {
+  const button = [...document.querySelectorAll(`${id} button`)].find(({textContent}) => textContent === wanted);
+  button.click();
+}, figure, text);
+
+const checkInteraction = async (page) => {
+  const camera = () => page.evaluate(() => JSON.stringify(document.querySelector('#chart-heap .plot').layout.scene.camera));
+  const before = await camera();
+  await click(page, '#chart-heap', 'from above');
+  await page.waitForFunction((old) => JSON.stringify(document.querySelector('#chart-heap .plot').layout.scene.camera) !== old, {}, before);
+
+  const first = '#chart-response_drop_particle_wall_restitution';
+  await click(page, first, 'data');
+  assert.ok(await page.evaluate((id) => document.querySelector(`${id} .data`).innerText.includes('simulated runs'), first));
+
+  const surface = () => page.evaluate(() => JSON.stringify(document.querySelector('#surface-viewer .plot').data[0].z));
+  const old = await surface();
+  await page.evaluate(() => {
+    const choice = document.querySelector('#surface-viewer select');
+    choice.selectedIndex = choice.options.length - 1;
+    choice.dispatchEvent(new Event('change'));
+  });
+  await page.waitForFunction((z) => JSON.stringify(document.querySelector('#surface-viewer .plot').data[0].z) !== z, {}, old);
+
+  const toggle = await page.$(`${first} .legendtoggle`);
+  await toggle.evaluate((mark) => mark.scrollIntoView({block: 'center'}));
+  await toggle.click();
+  await page.waitForFunction((id) => document.querySelector(`${id} .plot`).data.some(({visible}) => visible === 'legendonly'), {}, first);
+};
+
+const folder = mkdtempSync(join(tmpdir(), 'repose-report-'));
+const browser = await puppeteer.launch({executablePath: chromium, headless: true, protocolTimeout: kPatience_ms,
+  args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist']});
+try {
+  const reports = makeReports(folder);
+  for (const file of reports) {
+    assert.ok(statSync(file).size <= 12 * kMegabyte, `${file}: ${statSync(file).size} bytes`);
+    for (const width of [1280, 390]) {
+      const {page, faults} = await open(browser, file, width);
+      await checkPage(page, faults);
+      if (file === reports[0] && width === 1280) {
+        await checkInteraction(page);
+        await page.pdf({preferCSSPageSize: true, printBackground: true, timeout: kPatience_ms});
+        assert.deepEqual(faults, []);
+      }
+      await page.close();
+    }
+  }
+  console.log('every report is as it should be');
+} finally {
+  await browser.close();
+  rmSync(folder, {recursive: true});
+}
