@@ -28,7 +28,8 @@ struct MeasureOptions {
   /// Parts of the picture that are no evidence: timers, labels, hands [px of the picture].
   std::vector<Box> excluded;
   /// Camera's downward pitch; the angle is corrected for it, as a far camera's. Its interval allows
-  /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. 0 is level.
+  /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. 0: not told,
+  /// and taken for level; the interval then allows for the pitch that the base's bow gives away.
   double camera_pitch_rad = 0;
   /// Same picture + same seed = same bytes (bootstrap, GrabCut).
   std::uint64_t seed = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -114,6 +115,59 @@ TEST(FarCameraError, IsNoneForALevelCameraNorForAnApexInThePicturesMiddle) {
   EXPECT_EQ(far_camera_error(0.4, 0, 0.3), 0);
   EXPECT_NEAR(far_camera_error(0.4, 0.1, 0), 0, 1e-14);
   EXPECT_GT(far_camera_error(0.4, 0.1, -0.3), 1e-3);
+}
+
+/// Bow of the base's near rim as that camera sees it, between its widest points in the picture: of
+/// the least-squares parabola, as find_ground takes it.
+double near_bow(double angle_rad, double pitch_rad, double distance, double rise) {
+  const double eye_z = std::tan(angle_rad) - rise + distance * std::tan(pitch_rad);
+  const double widest = std::asin(1 / (distance + eye_z * std::tan(pitch_rad)));
+  std::vector<Point> rim;
+  constexpr int kPoints = 20'000;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double around = std::numbers::pi + widest + (std::numbers::pi - 2 * widest) * i / kPoints;
+    const double away = std::sin(around) + distance;
+    const double depth = away * std::cos(pitch_rad) + eye_z * std::sin(pitch_rad);
+    const double down = eye_z * std::cos(pitch_rad) - away * std::sin(pitch_rad);
+    rim.push_back({std::cos(around) / depth, down / depth});
+  }
+  const double reach = rim.back().x;
+  double product = 0;
+  double squares = 0;
+  for (std::size_t i = 1; i < rim.size(); ++i) {  // integrals over the width, by trapezoids
+    const double u = (rim[i].x + rim[i - 1].x) / 2 / reach;
+    const double du = (rim[i].x - rim[i - 1].x) / reach;
+    const double centred = u * u - 1.0 / 3;
+    product += (rim[i].y + rim[i - 1].y) / 2 / reach * centred * du;
+    squares += centred * centred * du;
+  }
+  return -product / squares / 2;
+}
+
+TEST(UntoldPitchError, CoversEveryCameraFromTheHeapsMiddleUp) {
+  for (const double angle_deg : {15.0, 25.0, 35.0}) {
+    for (const double pitch_deg : {0.0, 2.0, 5.0, 9.0}) {
+      for (const double distance : {2.5, 4.0, 8.0, 100.0}) {
+        const double angle = angle_deg * kDegree;
+        const double pitch = pitch_deg * kDegree;
+        const double rise = std::tan(angle) / 2;  // the camera looks at the heap's middle
+        const double seen = near_silhouette_rad(angle, pitch, distance, rise);
+        const double bow = near_bow(angle, pitch, distance, rise);
+        EXPECT_LE(std::abs(angle - seen),
+                  untold_pitch_error(seen, pitch_from_bow(bow)) + 0.02 * kDegree)
+            << angle_deg << " seen from " << distance << ", " << pitch_deg;
+      }
+    }
+  }
+}
+
+TEST(UntoldPitchError, IsAFarCamerasCorrection) {
+  for (const double pitch_deg : {2.0, 6.0}) {
+    const double angle = 25 * kDegree;
+    const double seen = near_silhouette_rad(angle, pitch_deg * kDegree, 1000, 0.2);
+    const double bow = near_bow(angle, pitch_deg * kDegree, 1000, 0.2);
+    EXPECT_NEAR(untold_pitch_error(seen, pitch_from_bow(bow)), angle - seen, 0.01 * kDegree);
+  }
 }
 
 TEST(CameraPitch, ChangesUsualAnglesLittle) {

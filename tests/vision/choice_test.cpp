@@ -1,5 +1,8 @@
 #include "vision/measure/choice.h"
 
+#include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -98,6 +101,48 @@ TEST(ChooseReading, WhereNoReadingSeesTheFootTheFlanksAboveTheTablesEdgeAreMeasu
   ASSERT_TRUE(choice.best.has_flank());
   EXPECT_GT(choice.best.score, 0.5);
   EXPECT_NEAR(choice.best.angle_rad(), std::atan(140. / 210), 0.5 * kDegree);
+}
+
+TEST(ChooseReading, AnEdgeAboveARoundFootIsBehindTheHeap) {
+  // Only colour sees the foot. Lightness ends at the table's far edge, the sharpest line of all;
+  // the heap is darker below it, so that its material does not seem to go on.
+  cv::Mat3b picture(400, 600, cv::Vec3b(220, 220, 220));
+  cv::rectangle(picture, {0, 250, 600, 150}, {100, 100, 100}, cv::FILLED);
+  cv::Mat1b heap(picture.size(), std::uint8_t{0});
+  const std::vector<std::vector<cv::Point>> cone = {{{90, 290}, {300, 150}, {510, 290}}};
+  cv::fillPoly(heap, cone, 255);
+  cv::ellipse(heap, {300, 290}, {210, 18}, 0, 0, 360, 255, cv::FILLED);
+  picture.rowRange(0, 250).setTo(cv::Scalar(40, 100, 150), heap.rowRange(0, 250));
+  picture.rowRange(250, 400).setTo(cv::Scalar(20, 70, 110), heap.rowRange(250, 400));
+  const Choice choice = choice_of(picture);
+  ASSERT_TRUE(choice.best.has_flank());
+  EXPECT_FALSE(choice.best.body.ground.behind);
+  EXPECT_GT(choice.best.body.ground.y(300), 285);
+  EXPECT_GT(choice.best.body.ground.bow.value_or(0), 0.02);
+}
+
+TEST(ChooseReading, APlateThatCarriesAHeapIsNoHeap) {
+  // As bright as its backdrop, on a dark plate whose far edge tilts and whose right side slopes:
+  // lightness shows the plate alone, more sharply than colour shows the heap.
+  cv::Mat3b picture(400, 600, cv::Vec3b(140, 140, 140));
+  const std::vector<std::vector<cv::Point>> plate = {
+      {{-60, 340}, {-60, 316}, {520, 296}, {620, 340}}};
+  const std::vector<std::vector<cv::Point>> heap = {{{150, 312}, {300, 220}, {450, 312}}};
+  const cv::Scalar grains(132, 140, 143);
+  cv::fillPoly(picture, plate, {40, 40, 40});
+  cv::fillPoly(picture, heap, grains);
+  cv::ellipse(picture, {300, 312}, {150, 10}, 0, 0, 360, grains, cv::FILLED);
+  const WorkingPicture work = work_of(picture);
+  Reading sharpest;
+  for (const Segmentation& segmentation : blind_segmentations(work)) {
+    const Reading reading = read_heap(segmentation, work, {});
+    if (reading.score > sharpest.score) sharpest = reading;
+  }
+  ASSERT_LT(sharpest.profile.crest_height, 60) << "the plate is no easier to see than its heap";
+  const Choice choice = choose_reading(work, {});
+  ASSERT_TRUE(choice.best.has_flank());
+  EXPECT_GT(choice.best.profile.crest_height, 80);
+  EXPECT_NEAR(choice.best.angle_rad(), std::atan(92. / 150), 0.5 * kDegree);
 }
 
 TEST(ChooseReading, AnUprightBodyIsSaidToBeOne) {

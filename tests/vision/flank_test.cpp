@@ -1,6 +1,7 @@
 #include "vision/measure/flank.h"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -104,6 +105,16 @@ TEST(FitFlank, AnApronInTheWindowIsLeftOut) {
   const FlankFit with = fit(profile, Side::right, {.leave_apron_out = false, .grain = kGrain});
   EXPECT_FALSE(with.apron_cut);
   EXPECT_LT(std::atan(-with.least_squares.slope), 23 * kDegree);
+}
+
+TEST(FitFlank, AStepBetweenLargeGrainsOfUnknownSizeIsNoApron) {
+  // Three grains high: over the length of one of them the edge may lie level anywhere.
+  for (double phase = 0; phase < 6; phase += 0.5) {
+    const Profile silhouette = right_flank(0.6, [&](double u, double h) {
+      return std::max(0.0, h + 8 * std::sin(2 * std::numbers::pi * u / 30 + phase));
+    });
+    EXPECT_FALSE(fit(silhouette, Side::right).apron_cut) << phase;
+  }
 }
 
 TEST(FitFlank, AnUprightFaceIsNoFlank) {

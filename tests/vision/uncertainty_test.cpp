@@ -94,5 +94,17 @@ TEST(Uncertainty, TheWindowsPartDoesNotAverageOut) {
   EXPECT_NEAR(u.mean_rad, u.left_rad, 1e-12);
 }
 
+TEST(Uncertainty, AnEdgeBehindTheHeapCountsByTheFlanksBend) {
+  Choice choice = choice_of(0.01, 0.01);
+  choice.best.left.bend_rad = -0.04;
+  choice.best.right.bend_rad = 0.02;
+  const Uncertainty before = uncertainty_of(choice);
+  choice.best.body.ground.behind = true;
+  const Uncertainty after = uncertainty_of(choice);
+  EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, 0.04), 1e-9);
+  EXPECT_NEAR(after.right_rad, std::hypot(before.right_rad, 0.02), 1e-9);
+  EXPECT_NEAR(after.mean_rad, std::hypot(before.mean_rad, 0.03), 1e-9);
+}
+
 }  // namespace
 }  // namespace repose::vision

@@ -104,6 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
               "steeper than loose grains"},
         Fault{"ball", [](Case& c) { c.choice.best.left.bend_rad = -20 * kDegree; },
               "left side is round"},
+        Fault{"stepped", [](Case& c) { c.choice.best.left.window_spread_rad = 15 * kDegree; },
+              "left side's angle changes by 15 degrees"},
         Fault{"ragged", [](Case& c) { c.choice.best.right.least_squares.r2 = 0.7; }, "no line"}),
     name_of);
 
@@ -126,7 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"window", [](Case& c) { c.choice.best.left.window_spread_rad = 4 * kDegree; },
               "window_sensitive"},
         Fault{"low", [](Case& c) { c.choice.best.profile.crest_height = 30; }, "low_heap"},
-        Fault{"bow", [](Case& c) { c.choice.best.body.ground.bow = 0.045; }, "base_bows"}),
+        Fault{"bow", [](Case& c) { c.choice.best.body.ground.bow = 0.045; }, "base_bows"},
+        Fault{"behind", [](Case& c) { c.choice.best.body.ground.behind = true; }, "edge_behind"}),
     name_of);
 
 class Noted : public ::testing::TestWithParam<Fault> {};

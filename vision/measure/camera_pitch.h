@@ -51,4 +51,14 @@ double far_camera_error(double apparent_rad, double pitch_rad, double apex_rise)
 /// Proved by tests/vision/camera_pitch_test.cpp and tests/vision/body_test.cpp.
 double pitch_from_bow(double bow);
 
+/// How far an angle may lie below the heap's, rad, when the pitch was not told and the camera was
+/// taken for level: by what angle_without_pitch adds for `pitch_rad`, the pitch that the base's bow
+/// gives away, or the largest to be expected where no base is seen.
+///
+/// Holds for a lens in the middle of the heap's height or above it. At the distance D (base radii)
+/// and the height z it sees the base bow as a far camera of pitch z / (D - 1) does, and the apex,
+/// h high, in the direction d = (z - h) / D below the horizon: with z >= h / 2, |d| is the smaller.
+/// Proved by tests/vision/camera_pitch_test.cpp against a search for the outline.
+double untold_pitch_error(double apparent_rad, double pitch_rad);
+
 }  // namespace repose::vision

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "vision/measure/refinement.h"
+#include "vision/measure/regions.h"
 #include "vision/measure/segmentation.h"
 
 namespace repose::vision {
@@ -18,6 +19,9 @@ constexpr double kAgreement_rad = 0.3 * std::numbers::pi / 180;
 constexpr double kFairlyGood = 0.5;  // score below which texture is tried, too, and no foot is seen
 constexpr double kHardlyAnEdge = 0.25;  // score of a chance line through clutter
 constexpr double kSeesTheHeap = 0.5;    // of the best score: such a reading knows where the foot is
+constexpr double kCrossed = 0.1;        // of the heap's height above its foot: no error of the line
+constexpr double kSameLine_px = 3;      // grounds that two segmentations see so close are one
+constexpr double kCarried = 0.8;        // of a body's columns, under which another one begins
 
 /// A body whose sides stand upright: says more than a chance line through clutter.
 bool is_upright(const Reading& reading) {
@@ -90,9 +94,76 @@ const Reading& middle_of_best(const std::vector<Reading>& readings) {
   return lower->score > upper->score ? *lower : *upper;
 }
 
+/// Whether what the lower reading takes for a heap begins below the middle of the upper one's: the
+/// heap stands on it, or the upper reading sees both.
+bool stands_on(const Reading& upper, const Reading& lower) {
+  if (upper.body.mask.empty() || lower.body.mask.empty()) return false;
+  const Spans below = spans_of(lower.body.mask);
+  const GroundFrame ground(upper.body.ground);
+  const Profile& profile = upper.profile;
+  int columns = 0;
+  int carried = 0;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (profile.height[i] < profile.crest_height / 2) continue;  // its own plate, perhaps
+    ++columns;
+    const Point middle = ground.picture(profile.along[i], profile.height[i] / 2);
+    const double last = static_cast<double>(below.top.size()) - 1;
+    const auto col = static_cast<std::size_t>(std::clamp(middle.x, 0.0, last));
+    carried += below.top[col] > middle.y ? 1 : 0;
+  }
+  return carried >= kCarried * columns;
+}
+
+/// What carries a heap is no heap: a plate seen a little from above has flanks, too, where the
+/// frame or its own corners end it, and often a sharper edge than the grains.
+void leave_out_plates(std::vector<Reading>& readings) {
+  std::vector<Reading> heaps;
+  for (const Reading& reading : readings) {
+    const bool carries = std::any_of(readings.begin(), readings.end(), [&](const Reading& other) {
+      return other.score >= kSeesTheHeap * reading.score && other.score > kHardlyAnEdge &&
+             !other.profile.leaves_frame_top && stands_on(other, reading);
+    });
+    if (!carries) heaps.push_back(reading);
+  }
+  if (!heaps.empty()) readings = std::move(heaps);
+}
+
+/// Whether a reading sees the foot of a heap a little from above: a round base, that bows.
+bool sees_round_foot(const Reading& reading) {
+  const Ground& ground = reading.body.ground;
+  const Profile& profile = reading.profile;
+  return reading.score >= kFairlyGood && !ground.behind && ground.bow.value_or(0) > kFlatBase &&
+         !reading.left.apron_cut && !reading.right.apron_cut && !profile.leaves_frame_left &&
+         !profile.leaves_frame_right;
+}
+
+/// Where the reading's ground line passes below its crest.
+Point below_crest(const Reading& reading) {
+  const Profile& profile = reading.profile;
+  return GroundFrame(reading.body.ground).picture(profile.along[profile.crest], 0);
+}
+
+/// Lines that cross the heap whose round foot another reading sees are behind it, and so is any
+/// line that lies on one of which another reading says so.
+void mark_edges_behind(std::vector<Reading>& readings) {
+  const std::vector<Reading> witnesses = readings;
+  for (const Reading& witness : witnesses) {
+    if (witness.score < kFairlyGood) continue;
+    const Point foot = below_crest(witness);
+    const double crossed = kCrossed * witness.profile.crest_height;
+    for (Reading& reading : readings) {
+      const double above = foot.y - reading.body.ground.y(foot.x);
+      const bool is_crossed = sees_round_foot(witness) && above > crossed;
+      const bool is_same = witness.body.ground.behind && std::abs(above) < kSameLine_px;
+      if (is_crossed || is_same) reading.body.ground.behind = true;
+    }
+  }
+}
+
 /// A line that the heap crosses is not what it stands on. It is left out where a reading sees the
 /// heap down to its foot; else the flanks above it are all that is seen, and stand on it.
 void prefer_seen_feet(std::vector<Reading>& readings) {
+  mark_edges_behind(readings);
   const bool is_foot_seen =
       std::any_of(readings.begin(), readings.end(), [](const Reading& reading) {
         return reading.score >= kFairlyGood && !reading.body.ground.behind;
@@ -159,6 +230,7 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
   if (best_of(readings).score < kFairlyGood) {
     readings.push_back(read_heap(rough_segmentation(work), work, options));
   }
+  leave_out_plates(readings);
   prefer_seen_feet(readings);
   Choice choice;
   if (best_of(readings).score < kHardlyAnEdge) {

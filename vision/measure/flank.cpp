@@ -15,6 +15,7 @@ constexpr double kFewestVisible = 0.8;  // of the window that must be in the pic
                                         // stretch is another angle, flanks are hollow
 constexpr double kMadToSigma = 1.4826;  // of a normal distribution
 constexpr double kBlockGrains = 2;      // neighbours within 2 grains are one piece of evidence
+constexpr double kFewestGrains = 5;     // high: a bump longer than such a heap's grain is none
 
 /// The points of one side from the crest outwards: u grows outwards, h is the height.
 struct Descent {
@@ -217,7 +218,7 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
   FlankFit fit;
   fit.status = FlankStatus::ok;
   fit.frame_cut = stretch.frame_cut;
-  fit.grain = options.grain.value_or(std::min(bump_length(d, w), crest / 8));
+  fit.grain = options.grain.value_or(std::min(bump_length(d, w), crest / kFewestGrains));
   const std::size_t cut = options.leave_apron_out ? apron_start(d, w, fit.grain) : w.last;
   if (cut < w.last && cut > w.first + kFewestPoints) {
     w.last = cut;

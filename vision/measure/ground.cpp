@@ -15,7 +15,6 @@ constexpr int kTailDepth = 15;          // px of the ground that are compared wi
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
 constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a share of its width
-constexpr double kFlatBase = 0.006;     // bow of a base that is seen from its own level
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
 // Standard uncertainty of the tilt where the base is the frame's edge or a box: a camera held by
 // eye.

@@ -19,6 +19,9 @@ struct Ground : PictureLine {
   bool behind = false;             ///< the heap goes on below it: an edge behind the heap
 };
 
+/// Bow of a base that is seen from its own level.
+inline constexpr double kFlatBase = 0.006;
+
 /// Finds the ground below one region: bare ground beside the heap when the region holds the ground,
 /// too; else the region's own base; else the axis of a reflection; else the line through the two
 /// ends of a base that bows. Empty when none of these is near level.

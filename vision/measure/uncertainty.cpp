@@ -39,31 +39,38 @@ double window_95(const FlankFit& flank) {
   return kWindowShare * std::sqrt(std::max(0.0, spread * spread - chance * chance));
 }
 
+/// What a window that lies too high may change: by how much the flank bends over half of it.
+double unseen_foot_95(const FlankFit& flank, const Ground& ground) {
+  return ground.behind ? std::abs(flank.bend_rad) : 0;
+}
+
 double combined(std::initializer_list<double> parts) {
   double squares = kFloor_rad * kFloor_rad;
   for (const double part : parts) squares += part * part;
   return std::sqrt(squares);
 }
 
-double side_95(const FlankFit& flank, double ground_rad, double disagreement_rad) {
+double side_95(const FlankFit& flank, const Ground& ground, double disagreement_rad) {
   if (flank.status != FlankStatus::ok) return 0;
-  return combined({grains_95(flank), window_95(flank), kNormal95 * ground_rad, disagreement_rad});
+  return combined({grains_95(flank), window_95(flank), unseen_foot_95(flank, ground),
+                   kNormal95 * ground.deviation_rad, disagreement_rad});
 }
 
 }  // namespace
 
 Uncertainty uncertainty_of(const Choice& choice) {
   const Reading& best = choice.best;
-  const double ground = best.body.ground.deviation_rad;
+  const Ground& ground = best.body.ground;
   Uncertainty u;
   u.left_rad = side_95(best.left, ground, choice.left_disagreement_rad);
   u.right_rad = side_95(best.right, ground, choice.right_disagreement_rad);
   const bool left = best.left.status == FlankStatus::ok;
   const bool right = best.right.status == FlankStatus::ok;
   if (left && right) {
-    u.mean_rad =
-        combined({grains_95(best.left, best.right),
-                  (window_95(best.left) + window_95(best.right)) / 2, choice.disagreement_rad});
+    u.mean_rad = combined(
+        {grains_95(best.left, best.right), (window_95(best.left) + window_95(best.right)) / 2,
+         (unseen_foot_95(best.left, ground) + unseen_foot_95(best.right, ground)) / 2,
+         choice.disagreement_rad});
   } else {
     u.mean_rad = left ? u.left_rad : u.right_rad;
   }

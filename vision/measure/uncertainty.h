@@ -15,6 +15,8 @@ struct Uncertainty {
 /// - grains: block bootstrap of the line, times Student's t for the independent stretches of edge;
 /// - window: half the largest change when the window is 10-90 % or 30-70 % instead, less what the
 ///   grains' scatter explains of it; both flanks share the choice, so their parts add up;
+/// - unseen foot: where the ground line is an edge behind the heap, the window lies too high by an
+///   unknown part of it; the flank's bend between the window's halves tells what that may change;
 /// - ground line: its tilt, which enters the two sides with opposite sign, so the mean is free of
 /// it;
 /// - segmentation: how far the other good segmentations are on average, as it is: the best one has

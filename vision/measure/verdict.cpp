@@ -21,6 +21,7 @@ constexpr double kFewestGrains = 2.5;
 constexpr double kLeastR2 = 0.85;
 constexpr double kRoundest_rad = 17 * kDegree;  // the upper half of a ball lies 20 degrees flatter
 constexpr double kLargestPitch_rad = 10 * kDegree;
+constexpr double kLargestSpread_rad = 12 * kDegree;
 
 // Warnings that ask a person to look.
 constexpr double kDoubtfulConfidence = 0.55;
@@ -85,6 +86,15 @@ std::string reason_against(const FlankFit& flank, const std::string& name) {
         "the {} side is round, {:.0f} degrees flatter at the top than at the foot: no straight "
         "flank. Fix: check that the picture shows a heap.",
         name, -degrees(flank.bend_rad));
+  }
+  if (flank.window_spread_rad > kLargestSpread_rad) {
+    return fmt::format(
+        "the {} side's angle changes by {:.0f} degrees with the stretch that is fitted: no "
+        "straight "
+        "flank, or a heap and its plate taken for one thing. Fix: use a level camera and a plate "
+        "of "
+        "another colour than the grains.",
+        name, degrees(flank.window_spread_rad));
   }
   if (flank.least_squares.r2 < kLeastR2) {
     return fmt::format(
@@ -209,6 +219,11 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
          fmt::format("The ground is tilted by {:.1f} degrees in the picture; angles are measured "
                      "from it.",
                      degrees(ground.tilt_rad())));
+  }
+  if (ground.behind) {
+    flag(result, "edge_behind",
+         "The line taken for the ground is an edge behind the heap, which goes on below it: its "
+         "foot is not seen. Use a plate of another colour than the grains.");
   }
   if (ground.mirrored) {
     note(result, "mirror", "The ground line is the axis of the heap's reflection.");
