@@ -16,7 +16,7 @@ needed="g++ cmake ninja-build pkg-config
   libassimp-dev libtomlplusplus-dev libpugixml-dev
   libosmesa6-dev libmeshoptimizer-dev libgif-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev libcsv-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev fonts-dejavu-core
+  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev"
 if [ "${1-}" = --tests ]; then
   needed="$needed clang-format-14 clang-tidy-22 libopenmpi-dev openmpi-bin"

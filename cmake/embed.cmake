@@ -1,0 +1,82 @@
+# repose_embed(TARGET NAMESPACE FILE...) puts files into a library or program:
+#
+#   repose_embed(repose_calibrate repose::calibrate::templates templates/deck.tpl templates/page.css)
+#
+# defines there, for a header of the module's own to declare,
+#
+#   namespace repose::calibrate::templates {
+#   std::string_view embedded_file(std::string_view name);
+#   }
+#
+# which gives a file's bytes by its name as written above, relative to the folder of the
+# CMakeLists.txt, and throws std::out_of_range for a name that is not there. The bytes stay until the
+# program ends and are followed by a NUL. A changed file is taken in by the next build.
+#
+# The same file is the script that writes the source while building:
+#   cmake -D OUTPUT=FILE.cpp -D NAMESPACE=N -D FOLDER=F "-DNAMES=a|b" -P embed.cmake
+
+function(repose_embed target namespace)
+  string(REPLACE "::" "_" stem ${namespace})
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded/${stem}.cpp)
+  list(JOIN ARGN "|" names)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE files)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -D OUTPUT=${output} -D NAMESPACE=${namespace}
+      -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR} "-DNAMES=${names}"
+      -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
+    DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
+    COMMENT "Embedding files as ${namespace}"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()
+
+function(repose_write_embedded)
+  string(REPLACE "|" ";" names "${NAMES}")
+  set(arrays "")
+  set(entries "")
+  set(number 0)
+  foreach(name IN LISTS names)
+    file(READ ${FOLDER}/${name} bytes HEX)
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${bytes}")
+    # Some 20 bytes a line, for tools that do not like long ones.
+    string(REGEX REPLACE "(......,......,......,......,......,......,......,......,......,......,......,......,......,......,......,......,......,......,......,......,)"
+      "\\1\n" bytes "${bytes}")
+    string(APPEND arrays "constexpr char kFile${number}[] = {\n${bytes}'\\0'};\n")
+    string(APPEND entries "    {\"${name}\", {kFile${number}, sizeof(kFile${number}) - 1}},\n")
+    math(EXPR number "${number} + 1")
+  endforeach()
+  file(WRITE ${OUTPUT} "// Written by cmake/embed.cmake.
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace ${NAMESPACE} {
+namespace {
+
+${arrays}
+struct Embedded {
+  std::string_view name;
+  std::string_view content;
+};
+
+constexpr Embedded kEmbedded[] = {
+${entries}};
+
+}  // namespace
+
+std::string_view embedded_file(std::string_view name);
+
+std::string_view embedded_file(std::string_view name) {
+  for (const Embedded& file : kEmbedded) {
+    if (file.name == name) return file.content;
+  }
+  throw std::out_of_range(\"no embedded file is called \" + std::string(name));
+}
+
+}  // namespace ${NAMESPACE}
+")
+endfunction()
+
+if(CMAKE_SCRIPT_MODE_FILE)
+  repose_write_embedded()
+endif()
