@@ -6,6 +6,7 @@
 
 #include "cli/calibrate.h"
 #include "cli/compare.h"
+#include "cli/export.h"
 #include "cli/measure.h"
 #include "cli/render.h"
 #include "cli/report.h"
@@ -135,6 +136,26 @@ The tables hold the numbers of every chart, as CSV.
 Examples:
   repose report study_calibration
   repose report hazelnut --out hazelnut.html --tables none
+)";
+
+constexpr const char* kExportNotes = R"(
+FOLDER is what repose calibrate left (--out). Material, contacts, clump and a
+deck for each experiment go to FOLDER/export/PROGRAM, with a README.txt that
+says of each coefficient what it means here and there.
+
+Programs:
+  liggghts    decks for drop, tilt, roll and heap
+  yade        the same as scripts
+  lammps      decks for drop, tilt and roll
+  mercurydpm  a driver for the drop, not run by us
+  edem        tables to type in
+
+Rolling friction means something else in each. What a program has exactly, or
+nearly, is converted. Where its law is another one the export is refused, and
+the reason told; --approximate writes the value that is the same in the mean.
+
+Example:
+  repose export hazelnut --to yade --approximate
 )";
 
 constexpr const char* kRenderNotes = R"(
@@ -328,6 +349,27 @@ Command report_command(CLI::App& app) {
           "no folder is named. Fix: repose report FOLDER, the one of repose calibrate --out."};
 }
 
+Command export_command(CLI::App& app) {
+  const auto given = std::make_shared<ExportArguments>();
+  ExportArguments& arguments = *given;
+  CLI::App* exported = app.add_subcommand("export", "Write a calibrated study for other programs");
+  exported->add_option("folder", arguments.folder, "Folder of a study that has ended")
+      ->option_text("FOLDER")
+      ->required();
+  exported->add_option("--to", arguments.target, "For which program")
+      ->option_text("PROGRAM")
+      ->required();
+  exported->add_flag("--approximate", arguments.takes_approximate,
+                     "Convert what has no exact counterpart");
+  exported->add_option("--out", arguments.out_folder, "Decks (FOLDER/export/PROGRAM)")
+      ->option_text("FOLDER");
+  exported->add_option("--json", arguments.json_file, "Files and conversions, for programs")
+      ->option_text("FILE|-");
+  exported->footer(kExportNotes);
+  return {exported, [given] { return run_export(*given); },
+          "a study's folder and a program are needed. Fix: repose export FOLDER --to liggghts."};
+}
+
 Command render_command(CLI::App& app) {
   const auto given = std::make_shared<RenderArguments>();
   RenderArguments& arguments = *given;
@@ -374,9 +416,9 @@ Command verify_command(CLI::App& app) {
 
 std::vector<Command> add_commands(CLI::App& app) {
   std::vector<Command> commands = {
-      measure_command(app), compare_command(app),   shape_command(app),  simulate_command(app),
-      render_command(app),  calibrate_command(app), report_command(app), bench_command(app),
-      design_command(app),  regress_command(app),   verify_command(app)};
+      measure_command(app), compare_command(app),   shape_command(app),   simulate_command(app),
+      render_command(app),  calibrate_command(app), report_command(app),  export_command(app),
+      bench_command(app),   design_command(app),    regress_command(app), verify_command(app)};
   for (const Command& command : commands) command.app->get_formatter()->column_width(32);
   return commands;
 }

@@ -12,8 +12,7 @@
 # CMakeLists.txt, and throws std::out_of_range for a name that is not there. The bytes stay until the
 # program ends and are followed by a NUL. A changed file is taken in by the next build.
 #
-# The assembler takes the bytes in: as an array in C++, five megabytes take a minute and a gigabyte
-# to compile.
+# The assembler takes the bytes in: arrays of megabytes are slow to compile in C++.
 #
 # The same file is the script that writes the source while building:
 #   cmake -D OUTPUT=FILE.cpp -D NAMESPACE=N -D FOLDER=F "-DNAMES=a|b" -P embed.cmake

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -7,8 +6,7 @@
 #include "dem/experiment/bench_setup.h"
 #include "dem/experiment/course.h"
 #include "dem/experiment/experiment.h"
-#include "dem/experiment/placing.h"
-#include "dem/experiment/random.h"
+#include "dem/experiment/incline.h"
 #include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
@@ -31,21 +29,6 @@ void check(const Bench& bench, const RollProtocol& protocol) {
   faults.throw_if_any();
 }
 
-/// The incline: its foot is the y axis, and down it goes +x.
-struct Incline {
-  Quaternion orientation = Quaternion::Identity();  ///< x down the slope, z away from it
-  Vector down = Vector::UnitX();
-  Vector normal = Vector::UnitZ();
-};
-
-Incline incline(const RollProtocol& protocol) {
-  const double angle = protocol.incline_deg * std::numbers::pi / 180;
-  Incline slope{.orientation = Quaternion(Eigen::AngleAxisd(angle, Vector::UnitY()))};
-  slope.down = slope.orientation * Vector::UnitX();
-  slope.normal = slope.orientation * Vector::UnitZ();
-  return slope;
-}
-
 /// A flat without end, and on it a box whose upper face meets it at the foot, without a step.
 std::vector<Wall> walls_of(const RollProtocol& protocol, const Incline& slope, double reach_m) {
   const double length = protocol.release_m + 10 * reach_m;
@@ -54,21 +37,6 @@ std::vector<Wall> walls_of(const RollProtocol& protocol, const Incline& slope, d
   const Vector centre = -.5 * length * slope.down - .5 * thickness * slope.normal;
   return {bench_wall(Plane{}), bench_wall(Box{.half_size = .5 * Vector(length, width, thickness)},
                                           {.position = centre, .orientation = slope.orientation})};
-}
-
-/// Lying on the incline, turned at random about the incline's normal and about its own long axis.
-Grain released(const ClumpShape& shape, const RollProtocol& protocol, const Incline& slope,
-               std::uint64_t seed) {
-  Random random(seed);
-  const double about_normal = 2 * std::numbers::pi * random.uniform();
-  const double about_long_axis = 2 * std::numbers::pi * random.uniform();
-  Grain grain;
-  grain.orientation =
-      slope.orientation * Quaternion(Eigen::AngleAxisd(about_normal, Vector::UnitZ())) *
-      Quaternion(Eigen::AngleAxisd(about_long_axis, Vector::UnitY())) * lying_pose(shape);
-  grain.position = -protocol.release_m * slope.down +
-                   reach_towards(shape, grain.orientation, -slope.normal) * slope.normal;
-  return grain;
 }
 
 void roll_to_rest(Course& course) {
@@ -91,7 +59,7 @@ void roll_to_rest(Course& course) {
 Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {
   check(bench, protocol);
-  const Incline slope = incline(protocol);
+  const Incline slope = incline_of(protocol);
   const double reach = bench.grain.reach_m();
   // No part of the grain meets a wall faster than by a free fall from where it is let go.
   const double speed =
@@ -99,7 +67,7 @@ Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t 
   Course course(
       Simulation(bench_setup(bench, bench.grain, walls_of(protocol, slope, reach), speed)),
       {report, record});
-  course.simulation().add(released(bench.grain, protocol, slope, seed));
+  course.simulation().add(released(bench.grain, protocol, seed));
   roll_to_rest(course);
   const Vector end = course.simulation().grain(0).position;
   const bool stopped_on_incline = end.x() < 0;

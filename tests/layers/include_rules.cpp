@@ -34,9 +34,9 @@ const std::array<Module, 6> kModules = {{
 }};
 
 /// Libraries that users of an installed header need not have.
-constexpr std::array<std::string_view, 10> kHiddenLibraries = {
-    "opencv2/", "ceres/",    "tbb/", "assimp/",       "toml++/",
-    "pugixml",  "nlohmann/", "GL/",  "meshoptimizer", "gif_lib"};
+constexpr std::array<std::string_view, 11> kHiddenLibraries = {
+    "opencv2/",  "ceres/", "tbb/",          "assimp/", "toml++/",   "pugixml",
+    "nlohmann/", "GL/",    "meshoptimizer", "gif_lib", "ctemplate/"};
 
 struct Include {
   int line = 0;

@@ -1,0 +1,212 @@
+#include "calibrate/export/conversions.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/export/rolling.h"
+#include "dem/contact/restitution.h"
+#include "dem/study/rolling_name.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// LIGGGHTS takes restitution above .05 only.
+constexpr double kLeastLiggghtsRestitution = .0501;
+
+struct RestitutionLaw {
+  const char* name;
+  const char* law;
+  const char* limits;
+};
+
+RestitutionLaw restitution_law(ExportTarget target) {
+  constexpr const char* kPulls =
+      "The damper may pull and has the textbook factor, which then gives the same rebound of a "
+      "sphere. Spheres of a clump that land at once lose another share of the speed than with us.";
+  switch (target) {
+    case ExportTarget::liggghts:
+      return {"coefficientRestitution", "speed after per speed before a central impact", kPulls};
+    case ExportTarget::lammps:
+      return {"damping tsuji",
+              "damper p(value) sqrt(2/3 S_n m*), p a polynomial of degree 6; it may pull",
+              "The value is that for which p is the textbook factor times sqrt(3/2), and may be "
+              "below 0. Spheres of a clump that land at once lose another share of the speed than "
+              "with us."};
+    case ExportTarget::yade:
+      return {"betan",
+              "damper 2 betan sqrt(S_n m*), which never pulls: betan is half of our factor c(e)",
+              "A clump's spheres are given the clump's mass, which YADE damps them by."};
+    case ExportTarget::mercurydpm:
+      return {"restitution coefficient", "speed after per speed before a central impact",
+              "Whether the damper may pull depends on the version of MercuryDPM."};
+    case ExportTarget::edem:
+      break;
+  }
+  return {"Coefficient of Restitution", "speed after per speed before a central impact",
+          "EDEM's damper has the textbook factor. Where it is not allowed to pull, low values "
+          "rebound higher than they say (.25 for .1): calibrate the drop there."};
+}
+
+/// The polynomial by which LAMMPS turns a restitution into the factor of its `damping tsuji`
+/// (LAMMPS documentation, "pair_style granular", eq. for alpha); falls with `value` below 1.
+double tsuji_polynomial(double value) {
+  double sum = 0;
+  for (const double term : {4.8218, -18.022, 27.467, -22.348, 11.087, -4.2783, 1.2728}) {
+    sum = sum * value + term;
+  }
+  return sum;
+}
+
+/// Where it takes a value, 0 to 6 (restitution from .01 on): by halving.
+double tsuji_value(double factor) {
+  double low = -1;
+  double high = 1;
+  constexpr int kHalvings = 60;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = .5 * (low + high);
+    (tsuji_polynomial(middle) > factor ? low : high) = middle;
+  }
+  return .5 * (low + high);
+}
+
+double exported_restitution(ExportTarget target, double restitution) {
+  if (target == ExportTarget::yade) return dem::damping_factor(restitution) / 2;
+  if (target == ExportTarget::lammps) {
+    return tsuji_value(std::sqrt(1.5) * dem::textbook_damping_factor(restitution));
+  }
+  if (target == ExportTarget::liggghts) return std::max(restitution, kLeastLiggghtsRestitution);
+  return restitution;
+}
+
+Conversion restitution(ExportTarget target, const std::string& pair, double value) {
+  const RestitutionLaw law = restitution_law(target);
+  Conversion converted{.coefficient = pair + "restitution",
+                       .value = value,
+                       .exported = exported_restitution(target, value),
+                       .target_name = law.name,
+                       .ours =
+                           "speed after per speed before a central impact of two spheres; the "
+                           "damper never pulls",
+                       .theirs = law.law,
+                       .limits = law.limits};
+  if (target == ExportTarget::mercurydpm || target == ExportTarget::edem) {
+    converted.standing = Standing::close;
+  }
+  if (target == ExportTarget::liggghts && converted.exported > value) {
+    converted.standing = Standing::approximate;
+    converted.limits = "LIGGGHTS takes values above .05 only.";
+  }
+  return converted;
+}
+
+std::string friction_name(ExportTarget target) {
+  switch (target) {
+    case ExportTarget::liggghts:
+      return "coefficientFriction";
+    case ExportTarget::lammps:
+      return "tangential mindlin_rescale, last value";
+    case ExportTarget::yade:
+      return "frictAngle, its tangent";
+    case ExportTarget::mercurydpm:
+      return "sliding friction coefficient";
+    case ExportTarget::edem:
+      break;
+  }
+  return "Coefficient of Static Friction";
+}
+
+Conversion sliding(ExportTarget target, const std::string& pair, double value) {
+  Conversion converted{.coefficient = pair + "sliding_friction",
+                       .value = value,
+                       .exported = value,
+                       .target_name = friction_name(target),
+                       .ours = "Coulomb's limit of a Mindlin spring without slip",
+                       .theirs = "the same"};
+  if (target == ExportTarget::liggghts || target == ExportTarget::yade) {
+    converted.limits =
+        "Their spring keeps its force when the contact unloads, ours shrinks with the contact: "
+        "oblique impacts turn a little more.";
+  }
+  return converted;
+}
+
+std::string rolling_name(ExportTarget target) {
+  switch (target) {
+    case ExportTarget::liggghts:
+      return "coefficientRollingFriction";
+    case ExportTarget::lammps:
+      return "rolling sds, last value";
+    case ExportTarget::yade:
+      return "eta";
+    case ExportTarget::mercurydpm:
+      return "rolling friction coefficient";
+    case ExportTarget::edem:
+      break;
+  }
+  return "Coefficient of Rolling Friction";
+}
+
+Conversion rolling(ExportTarget target, const std::string& pair, Partner partner,
+                   const ExportFacts& facts, double value) {
+  const dem::RollingModel model = facts.study().bench.rolling;
+  const RollingConversion own = convert_rolling(target, model, partner, facts.grain());
+  Conversion converted{.coefficient = pair + "rolling_friction",
+                       .value = value,
+                       .exported = value * own.factor,
+                       .target_name = rolling_name(target),
+                       .standing = own.standing,
+                       .ours = rolling_law(model),
+                       .theirs = rolling_law(target, model),
+                       .limits = own.limits};
+  if (value == 0 || model == dem::RollingModel::none) {
+    converted.exported = 0;
+    converted.standing = Standing::exact;
+    converted.limits = "Without rolling friction there is nothing to convert.";
+  }
+  return converted;
+}
+
+void add_pair(const ExportFacts& facts, ExportTarget target, Partner partner,
+              std::vector<Conversion>& all) {
+  const bool is_wall = partner == Partner::wall;
+  const std::string pair = is_wall ? "contact.particle_wall." : "contact.particle_particle.";
+  const dem::Bench& bench = facts.study().bench;
+  const dem::PairCoefficients& values = is_wall ? bench.grain_wall : bench.grain_grain;
+  all.push_back(restitution(target, pair, values.restitution));
+  all.push_back(sliding(target, pair, values.sliding_friction));
+  all.push_back(rolling(target, pair, partner, facts, values.rolling_friction));
+}
+
+}  // namespace
+
+std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget target) {
+  std::vector<Conversion> all;
+  add_pair(facts, target, Partner::wall, all);
+  if (facts.study().heap) add_pair(facts, target, Partner::grain, all);
+  return all;
+}
+
+double exported(const std::vector<Conversion>& conversions, const std::string& coefficient) {
+  for (const Conversion& conversion : conversions) {
+    if (conversion.coefficient == coefficient) return conversion.exported;
+  }
+  return std::nan("");
+}
+
+std::vector<std::string> refusals(const ExportFacts& facts, const ExportRequest& request,
+                                  const std::vector<Conversion>& conversions) {
+  std::vector<std::string> faults;
+  if (request.takes_approximate) return faults;
+  for (const Conversion& conversion : conversions) {
+    if (conversion.standing != Standing::approximate) continue;
+    faults.push_back(fmt::format(
+        "{} = {:.4g} ({}) has no exact counterpart in {}. {} Fix: --approximate exports {:.4g}; or "
+        "calibrate with a rolling_model that {} has.",
+        conversion.coefficient, conversion.value, dem::name_of(facts.study().bench.rolling),
+        name_of(request.target), conversion.limits, conversion.exported, name_of(request.target)));
+  }
+  return faults;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "calibrate/export/export.h"
+#include "calibrate/export/facts.h"
+
+namespace repose::calibrate {
+
+/// What becomes of each coefficient that the study's experiments need: walls first.
+std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget target);
+
+/// The exported value of one: `conversions` as above. NaN for a pair that is not needed.
+double exported(const std::vector<Conversion>& conversions, const std::string& coefficient);
+
+/// What keeps a conversion from being written, a line each; empty: nothing does.
+std::vector<std::string> refusals(const ExportFacts& facts, const ExportRequest& request,
+                                  const std::vector<Conversion>& conversions);
+
+}  // namespace repose::calibrate

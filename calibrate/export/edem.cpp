@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include "calibrate/export/conversions.h"
+#include "calibrate/export/targets.h"
+#include "calibrate/study/study_bench.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// G = E / 2(1 + nu).
+double shear_modulus_pa(const dem::Material& material) {
+  return material.young_modulus_pa / (2 * (1 + material.poisson_ratio));
+}
+
+void add_interaction(const std::string& pair, const std::string& other,
+                     const Conversions& conversions, DeckFields& fields) {
+  DeckFields& interaction = fields.add_section("INTERACTION");
+  interaction.set("OTHER", other);
+  interaction.set("RESTITUTION", exported(conversions, pair + "restitution"));
+  interaction.set("SLIDING", exported(conversions, pair + "sliding_friction"));
+  interaction.set("ROLLING", exported(conversions, pair + "rolling_friction"));
+}
+
+ExportedFile values_text(const ExportFacts& facts, const Conversions& conversions) {
+  const dem::Material& grain = facts.study().bench.grain_material;
+  const dem::Material& wall = facts.study().bench.wall_material;
+  DeckFields fields = common_fields(facts);
+  set_body(facts.grain(), grain.density_kg_m3, fields);
+  fields.set("VOLUME", facts.grain().volume_m3);
+  fields.set("DENSITY", grain.density_kg_m3);
+  fields.set("GRAIN_YOUNG", grain.young_modulus_pa);
+  fields.set("GRAIN_SHEAR", shear_modulus_pa(grain));
+  fields.set("GRAIN_POISSON", grain.poisson_ratio);
+  fields.set("WALL_YOUNG", wall.young_modulus_pa);
+  fields.set("WALL_SHEAR", shear_modulus_pa(wall));
+  fields.set("WALL_POISSON", wall.poisson_ratio);
+  add_interaction("contact.particle_wall.", harmless(wall.name), conversions, fields);
+  if (facts.study().heap) {
+    add_interaction("contact.particle_particle.", "itself", conversions, fields);
+    fields.add_section("HEAP").set("STIFFNESS", facts.stiffness(dem::Experiment::heap));
+  }
+  for (const dem::Experiment experiment : facts.experiments()) {
+    DeckFields& step = fields.add_section("STEP");
+    step.set("EXPERIMENT", name_of(experiment));
+    step.set("TIMESTEP", fmt::format("{:.3g}", facts.timestep_s(experiment)));
+  }
+  return {.name = "values.txt", .text = filled("edem/values.txt", fields)};
+}
+
+std::string material_rows(const std::string& part, const dem::Material& material) {
+  return fmt::format(
+      "{0},Poisson's Ratio,{1},\n{0},Shear Modulus,{2},Pa\n{0},Solids Density,{3},"
+      "kg/m3\n",
+      part, material.poisson_ratio, number(shear_modulus_pa(material)), material.density_kg_m3);
+}
+
+ExportedFile values_table(const ExportFacts& facts, const Conversions& conversions) {
+  const dem::Bench& bench = facts.study().bench;
+  const double mass = facts.mass_kg();
+  std::string text = "part,value,number,unit\n" + material_rows("grain", bench.grain_material) +
+                     material_rows("wall", bench.wall_material);
+  for (const Conversion& conversion : conversions) {
+    const bool is_wall = conversion.coefficient.starts_with("contact.particle_wall");
+    text += fmt::format("{},{},{},\n", is_wall ? "grain with wall" : "grain with grain",
+                        conversion.target_name, number(conversion.exported));
+  }
+  text +=
+      fmt::format("particle,Mass,{},kg\nparticle,Volume,{},m3\n", mass, facts.grain().volume_m3);
+  const dem::Vector inertia = mass * facts.grain().gyration_m2;
+  for (int axis = 0; axis < 3; ++axis) {
+    text += fmt::format("particle,Moment of Inertia {},{},kg m2\n", "XYZ"[axis], inertia[axis]);
+  }
+  return {.name = "values.csv", .text = text};
+}
+
+ExportedFile clump_table(const dem::ClumpShape& grain) {
+  std::string text = "x_m,y_m,z_m,radius_m\n";
+  for (const dem::ClumpSphere& sphere : grain.spheres) {
+    text += fmt::format("{},{},{},{}\n", sphere.centre.x(), sphere.centre.y(), sphere.centre.z(),
+                        sphere.radius);
+  }
+  return {.name = "clump.csv", .text = text};
+}
+
+}  // namespace
+
+std::vector<ExportedFile> edem_files(const ExportFacts& facts, const Conversions& conversions) {
+  return {values_text(facts, conversions), values_table(facts, conversions),
+          clump_table(facts.grain())};
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,105 @@
+#include "calibrate/export/export.h"
+
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "calibrate/export/conversions.h"
+#include "calibrate/export/facts.h"
+#include "calibrate/export/readme.h"
+#include "calibrate/export/targets.h"
+#include "dem/experiment/faults.h"
+#include "io/whole_file.h"
+
+namespace repose::calibrate {
+namespace {
+
+std::vector<ExportedFile> files_for(ExportTarget target, const ExportFacts& facts,
+                                    const Conversions& conversions) {
+  switch (target) {
+    case ExportTarget::liggghts:
+      return liggghts_files(facts, conversions);
+    case ExportTarget::lammps:
+      return lammps_files(facts, conversions);
+    case ExportTarget::yade:
+      return yade_files(facts, conversions);
+    case ExportTarget::mercurydpm:
+      return mercurydpm_files(facts, conversions);
+    case ExportTarget::edem:
+      break;
+  }
+  return edem_files(facts, conversions);
+}
+
+/// Values that are no more than a place within the bounds.
+std::vector<std::string> warnings_of(const ExportFacts& facts) {
+  std::vector<std::string> warnings;
+  for (const FittedValue& value : facts.fitted()) {
+    if (value.verdict == "determined") continue;
+    if (value.verdict.empty()) {
+      warnings.push_back(fmt::format("{} = {:.4g} is a single point without an interval.",
+                                     value.name, value.value));
+    } else {
+      warnings.push_back(
+          fmt::format("{} = {:.4g} is {}: the measurements allow {:.3g} to {:.3g}. It is exported "
+                      "all the same.",
+                      value.name, value.value, value.verdict, value.low, value.high));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace
+
+std::string name_of(ExportTarget target) {
+  for (const auto& [known, name] : kExportTargets) {
+    if (known == target) return std::string(name);
+  }
+  return {};
+}
+
+std::optional<ExportTarget> export_target_named(std::string_view name) {
+  for (const auto& [target, known] : kExportTargets) {
+    if (known == name) return target;
+  }
+  return std::nullopt;
+}
+
+std::string name_of(Standing standing) {
+  switch (standing) {
+    case Standing::exact:
+      return "exact";
+    case Standing::close:
+      return "close";
+    case Standing::approximate:
+      break;
+  }
+  return "approximate";
+}
+
+StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
+                         const std::vector<FittedValue>& fitted, const ExportRequest& request) {
+  const ExportFacts facts(study, grain, fitted);
+  StudyExport made{.conversions = conversions_of(facts, request.target)};
+  dem::Faults faults;
+  for (const std::string& line : refusals(facts, request, made.conversions)) faults.add(line);
+  faults.throw_if_any();
+  made.files = files_for(request.target, facts, made.conversions);
+  made.files.push_back(readme_of(facts, request.target, made.conversions));
+  made.warnings = warnings_of(facts);
+  return made;
+}
+
+void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder, error)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: the folder cannot be made. Fix: another place with --out.", folder.string()));
+  }
+  for (const ExportedFile& file : files) io::check_can_write(folder / file.name);
+  for (const ExportedFile& file : files) io::write_whole_file(folder / file.name, file.text);
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dem/shape/clump_shape.h"
+#include "dem/study/study.h"
+
+/// A calibrated study as input of other discrete element programs, in their own definitions.
+namespace repose::calibrate {
+
+enum class ExportTarget { liggghts, lammps, yade, mercurydpm, edem };
+
+/// What the command line and the folders call them.
+inline constexpr std::array<std::pair<ExportTarget, std::string_view>, 5> kExportTargets = {{
+    {ExportTarget::liggghts, "liggghts"},
+    {ExportTarget::lammps, "lammps"},
+    {ExportTarget::yade, "yade"},
+    {ExportTarget::mercurydpm, "mercurydpm"},
+    {ExportTarget::edem, "edem"},
+}};
+
+std::string name_of(ExportTarget target);
+std::optional<ExportTarget> export_target_named(std::string_view name);
+
+/// A coefficient that was found.
+struct FittedValue {
+  std::string name = {};  ///< "contact.particle_wall.restitution"
+  double value = 0;
+  double low = 0;  ///< of the 95 % interval; both 0: there is none
+  double high = 0;
+  std::string verdict = {};  ///< "determined", "one-sided", "undetermined"; empty: nothing was said
+};
+
+/// Reads them from the text of a result.json; `name` is what faults call it.
+/// @throws std::invalid_argument  it is none.
+std::vector<FittedValue> parse_fitted_values(const std::string& json, const std::string& name);
+
+/// How well the target's law stands for ours.
+enum class Standing {
+  exact,        ///< the same equation
+  close,        ///< the same force or torque while it slides or rolls; another way there
+  approximate,  ///< another law, which gives the same only in the mean or in part of the motions
+};
+
+std::string name_of(Standing standing);
+
+/// What becomes of one coefficient.
+struct Conversion {
+  std::string coefficient = {};  ///< "contact.particle_wall.rolling_friction"
+  double value = 0;              ///< ours
+  double exported = 0;           ///< the target's
+  std::string target_name = {};  ///< what the target calls it
+  Standing standing = Standing::exact;
+  std::string ours = {};    ///< definition
+  std::string theirs = {};  ///< definition
+  std::string limits = {};  ///< what does not carry over; may be empty
+};
+
+struct ExportedFile {
+  std::string name;
+  std::string text;
+};
+
+struct StudyExport {
+  std::vector<ExportedFile> files = {};
+  std::vector<Conversion> conversions = {};
+  std::vector<std::string> warnings = {};  ///< such as coefficients that the data did not determine
+};
+
+struct ExportRequest {
+  ExportTarget target = ExportTarget::liggghts;
+  /// Otherwise a coefficient whose conversion is approximate is refused.
+  bool takes_approximate = false;
+};
+
+/// Decks for the material, the contacts, the clump and each experiment of the study, and a
+/// README.txt that says what became of each coefficient.
+/// @param study  as simulated; coefficients that were sought are NaN in it, or have their value
+/// @throws std::invalid_argument  a coefficient without a value, or one that the target cannot have
+///   or has only approximately: all of them, a line each.
+StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
+                         const std::vector<FittedValue>& fitted, const ExportRequest& request);
+
+/// Writes each file whole or not at all; makes the folder.
+/// @throws std::invalid_argument  the folder or a file cannot be written.
+void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,234 @@
+#include "calibrate/export/facts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "calibrate/study/coefficients.h"
+#include "dem/engine/time_step.h"
+#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/bonded.h"
+#include "dem/experiment/faults.h"
+#include "dem/experiment/incline.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/random.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::Experiment;
+
+constexpr std::array kExperiments = {Experiment::drop, Experiment::tilt, Experiment::roll,
+                                     Experiment::heap};
+/// Other programs do not average the first and last step of an impact as ours does.
+constexpr double kTimestepShare = .5;
+/// How far short of sliding the plate begins to turn, degrees.
+constexpr double kTiltLead_deg = 3;
+constexpr double kDegree = std::numbers::pi / 180;
+/// A grain without rolling friction that its shape alone brings to rest.
+constexpr double kLongestFlat_m = 20;
+
+TouchingPose touching(const dem::ClumpShape& shape, const dem::Quaternion& orientation) {
+  return {.orientation = orientation,
+          .height_m = dem::reach_towards(shape, orientation, -dem::Vector::UnitZ())};
+}
+
+/// Of the fastest impact that an experiment may see.
+double speed_m_s(const ExportFacts& facts, Experiment experiment) {
+  const double reach = facts.grain().reach_m();
+  double fall_m = 8 * reach;  // grains that rain into a tube
+  if (experiment == Experiment::drop) fall_m = facts.study().drop->height_m;
+  if (experiment == Experiment::tilt) fall_m = .01 * reach;
+  if (experiment == Experiment::roll) {
+    fall_m =
+        reach + facts.study().roll->release_m * std::sin(facts.study().roll->incline_deg * kDegree);
+  }
+  return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m);
+}
+
+}  // namespace
+
+ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted)
+    : study_(std::move(study)), fitted_(std::move(fitted)) {
+  study_.bench.grain = std::move(grain);
+  for (const NamedCoefficient& named : coefficients_of(study_)) {
+    if (named.coefficient.is_sought()) {
+      coefficient_named(named.name, study_.bench) = std::nan("");
+    }
+  }
+  for (const FittedValue& value : fitted_) {
+    coefficient_named(value.name, study_.bench) = value.value;
+  }
+  dem::Faults faults;
+  for (const NamedCoefficient& named : coefficients_of(study_)) {
+    const bool is_needed = named.name.starts_with("contact.particle_wall") || study_.heap;
+    faults.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.bench)),
+                   fmt::format("{}: has no value in the result. Fix: give the study a value for "
+                               "it, or bounds and something measured to find it by.",
+                               named.name));
+  }
+  faults.throw_if_any();
+}
+
+double ExportFacts::mass_kg() const {
+  return study_.bench.grain_material.density_kg_m3 * grain().volume_m3;
+}
+
+double ExportFacts::ball_density_kg_m3() const {
+  return mass_kg() / dem::sphere_shape(grain().spheres.front().radius).volume_m3;
+}
+
+std::vector<Experiment> ExportFacts::experiments() const {
+  std::vector<Experiment> there;
+  for (const Experiment experiment : kExperiments) {
+    if (has(experiment)) there.push_back(experiment);
+  }
+  return there;
+}
+
+double ExportFacts::stiffness(Experiment experiment) const {
+  return dem::bench_for(study_, experiment).stiffness_factor;
+}
+
+dem::ContactTable ExportFacts::contacts(Experiment experiment) const {
+  const dem::Bench bench = dem::bench_for(study_, experiment);
+  return dem::bench_setup(bench, grain(), {dem::bench_wall(dem::Plane{})}, 1).contacts;
+}
+
+double ExportFacts::timestep_s(Experiment experiment) const {
+  dem::Bench bench = dem::bench_for(study_, experiment);
+  bench.timestep_fraction = kTimestepShare;
+  bench.timestep_s = {};
+  const dem::ClumpShape shape = experiment == Experiment::tilt ? tilt_body() : grain();
+  const dem::Wall wall = dem::bench_wall(dem::Plane{});
+  return dem::bench_setup(bench, shape, {wall}, speed_m_s(*this, experiment)).timestep_s;
+}
+
+std::vector<TouchingPose> ExportFacts::drop_poses() const {
+  dem::Random random(study_.seed);
+  std::vector<TouchingPose> poses;
+  for (int k = 0; k < study_.drop->grains; ++k) {
+    poses.push_back(touching(grain(), random.orientation()));
+  }
+  return poses;
+}
+
+double ExportFacts::drop_speed_m_s() const { return speed_m_s(*this, Experiment::drop); }
+
+double ExportFacts::longest_drop_s() const {
+  return 2 * drop_speed_m_s() / dem::kStandardGravity_m_s2 +
+         4 * std::sqrt(2 * grain().reach_m() / dem::kStandardGravity_m_s2);
+}
+
+dem::ClumpShape ExportFacts::tilt_body() const {
+  return dem::bonded_shape(grain(), study_.tilt->bonded);
+}
+
+TouchingPose ExportFacts::tilt_pose() const {
+  return touching(tilt_body(), dem::lying_pose(grain()));
+}
+
+double ExportFacts::tilt_begin_deg() const {
+  const double slides_deg = std::atan(study_.bench.grain_wall.sliding_friction) / kDegree;
+  return std::max({0.0, study_.tilt->start_deg, slides_deg - kTiltLead_deg});
+}
+
+dem::Grain ExportFacts::roll_start() const {
+  return dem::released(grain(), *study_.roll, study_.seed);
+}
+
+double ExportFacts::roll_flat_m() const {
+  const double friction = study_.bench.grain_wall.rolling_friction;
+  const double slope = study_.roll->incline_deg * kDegree;
+  // Without loss at the foot: L = S (sin - mu_r cos) / mu_r, see dem/THEORY.md.
+  const double longest =
+      study_.roll->release_m * std::max(0.0, std::sin(slope) / friction - std::cos(slope));
+  const double room = .5 + 20 * grain().reach_m();
+  return std::isfinite(longest) ? std::min(longest + room, kLongestFlat_m) : kLongestFlat_m;
+}
+
+LikeMaterial like_material(const dem::ContactLaw& pair) {
+  const double share = pair.reduced_shear_pa / pair.reduced_young_pa;
+  const double poisson = (1 - 4 * share) / (1 - 2 * share);
+  return {.young_modulus_pa = 2 * pair.reduced_young_pa * (1 - poisson * poisson),
+          .poisson_ratio = poisson};
+}
+
+double rolling_stiffness(const dem::ContactLaw& pair, double mass_kg, double radius_m) {
+  const double weight = mass_kg * dem::kStandardGravity_m_s2;
+  const double spring = 4.0 / 3 * pair.reduced_young_pa * std::sqrt(radius_m);
+  const double overlap = std::pow(weight / spring, 2.0 / 3);
+  const double arm = pair.rolling_friction * radius_m;
+  return 2.25 * spring * std::sqrt(overlap) * arm * arm;
+}
+
+DeckFields common_fields(const ExportFacts& facts) {
+  const dem::Study& study = facts.study();
+  DeckFields fields;
+  fields.set("PROGRAM", "repose " REPOSE_VERSION);
+  fields.set("STUDY", harmless(study.file.filename().string()));
+  fields.set("HASH", study.hash);
+  fields.set("GRAIN_NAME", harmless(study.bench.grain_material.name));
+  fields.set("WALL_NAME", harmless(study.bench.wall_material.name));
+  fields.set("GRAVITY", dem::kStandardGravity_m_s2);
+  fields.set("MASS", facts.mass_kg());
+  for (const FittedValue& value : facts.fitted()) {
+    DeckFields& fitted = fields.add_section("FITTED");
+    fitted.set("NAME", value.name);
+    fitted.set("VALUE", fmt::format("{:.4g}", value.value));
+    fitted.set("INTERVAL", value.high > value.low ? fmt::format("95 % interval {:.3g} to {:.3g}",
+                                                                value.low, value.high)
+                                                  : std::string("no interval"));
+    fitted.set("VERDICT", value.verdict.empty() ? "not judged" : value.verdict);
+  }
+  return fields;
+}
+
+void set_body(const dem::ClumpShape& shape, double density_kg_m3, DeckFields& fields) {
+  const double mass = density_kg_m3 * shape.volume_m3;
+  fields.set("SPHERES", static_cast<int>(shape.spheres.size()));
+  fields.set("BODY_MASS", mass);
+  fields.set("IXX", mass * shape.gyration_m2.x());
+  fields.set("IYY", mass * shape.gyration_m2.y());
+  fields.set("IZZ", mass * shape.gyration_m2.z());
+}
+
+void add_balls(const dem::ClumpShape& shape, DeckFields& fields) {
+  for (const dem::ClumpSphere& sphere : shape.spheres) {
+    DeckFields& ball = fields.add_section("BALL");
+    ball.set("X", sphere.centre.x());
+    ball.set("Y", sphere.centre.y());
+    ball.set("Z", sphere.centre.z());
+    ball.set("R", sphere.radius);
+  }
+}
+
+void set_pose(const dem::Quaternion& orientation, DeckFields& fields) {
+  fields.set("QW", orientation.w());
+  fields.set("QX", orientation.x());
+  fields.set("QY", orientation.y());
+  fields.set("QZ", orientation.z());
+}
+
+std::string steps(double time_s, double timestep_s) {
+  return fmt::format("{:.0f}", std::ceil(time_s / timestep_s));
+}
+
+int grains_in_heap(const ExportFacts& facts) {
+  const dem::HeapProtocol& protocol = *facts.study().heap;
+  constexpr double kPacked = .58;  // share of a tube some grains across that poured grains fill
+  const double area = std::numbers::pi / 4 * protocol.tube_diameter_m * protocol.tube_diameter_m;
+  const double fitting = kPacked * area * protocol.tube_height_m / facts.grain().volume_m3;
+  return protocol.grains.value_or(static_cast<int>(fitting));
+}
+
+double lift_s(const dem::HeapProtocol& protocol) {
+  constexpr double kLifted = .6;  // of the tube's height; heaps are a third of it
+  return kLifted * protocol.tube_height_m / protocol.lift_speed_m_s;
+}
+
+}  // namespace repose::calibrate

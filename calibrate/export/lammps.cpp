@@ -1,0 +1,164 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "calibrate/export/conversions.h"
+#include "calibrate/export/targets.h"
+#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/incline.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::Experiment;
+
+/// Of the rolling spring, as in `elastic_plastic` (dem/THEORY.md): a share of the critical one.
+constexpr double kRollingDamping = .3;
+
+ExportedFile material_file(const ExportFacts& facts, const Conversions& conversions) {
+  const Experiment any = facts.experiments().front();
+  const dem::ContactTable contacts = facts.contacts(any);
+  const dem::ContactLaw& wall = contacts.law(dem::kGrainMaterial, dem::kWallMaterial);
+  DeckFields fields = common_fields(facts);
+  fields.set("SKIN", .2 * facts.grain().reach_m());
+  fields.set("K_NORMAL", 4.0 / 3 * wall.reduced_young_pa / facts.stiffness(any));
+  fields.set("K_TANGENTIAL", 8 * wall.reduced_shear_pa / facts.stiffness(any));
+  // LAMMPS multiplies the normal damper with it; ours goes with sqrt(S_t m*), S_t / S_n = 4 G* /
+  // E*.
+  fields.set("TANGENTIAL_DAMPING", std::sqrt(4 * wall.reduced_shear_pa / wall.reduced_young_pa));
+  fields.set("WALL_RESTITUTION", exported(conversions, "contact.particle_wall.restitution"));
+  fields.set("WALL_SLIDING", exported(conversions, "contact.particle_wall.sliding_friction"));
+  fields.set("WALL_ROLLING", exported(conversions, "contact.particle_wall.rolling_friction"));
+  return {.name = "material.lmp", .text = filled("lammps/material.lmp", fields)};
+}
+
+DeckFields deck_fields(const ExportFacts& facts, Experiment experiment, bool is_sphere) {
+  const dem::ContactTable contacts = facts.contacts(experiment);
+  const double radius = facts.grain().spheres.front().radius;
+  const double mass = facts.mass_kg();
+  const double spring =
+      rolling_stiffness(contacts.law(dem::kGrainMaterial, dem::kWallMaterial), mass, radius) /
+      (radius * radius);
+  DeckFields fields = common_fields(facts);
+  if (!is_sphere) fields.add_section("CLUMP");
+  fields.set("STIFFNESS", facts.stiffness(experiment));
+  fields.set("TIMESTEP", facts.timestep_s(experiment));
+  fields.set("REACH", 2 * facts.grain().reach_m());
+  fields.set("K_ROLL", spring);
+  fields.set("GAMMA_ROLL", 2 * kRollingDamping * std::sqrt(1.4 * mass * spring));
+  return fields;
+}
+
+/// Mass, centre and moments of inertia about the world's axes, as `fix rigid infile` reads them.
+ExportedFile inertia_file(const std::string& name, const dem::ClumpShape& shape, double mass_kg,
+                          const dem::Grain& grain) {
+  const Eigen::Matrix3d turn = grain.orientation.toRotationMatrix();
+  const Eigen::Matrix3d inertia =
+      turn * (mass_kg * shape.gyration_m2).asDiagonal() * turn.transpose();
+  const dem::Vector& at = grain.position;
+  const dem::Vector& speed = grain.velocity;
+  return {.name = name,
+          .text = fmt::format("1\n1 {} {} {} {} {} {} {} {} {} {} {} {} {} 0 0 0 0 0 0\n", mass_kg,
+                              at.x(), at.y(), at.z(), inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                              inertia(0, 1), inertia(0, 2), inertia(1, 2), speed.x(), speed.y(),
+                              speed.z())};
+}
+
+/// The body's spheres where they are, and for a clump its mass and inertia.
+void add_body(const std::string& name, const dem::ClumpShape& shape, double mass_kg,
+              const dem::Grain& grain, std::vector<ExportedFile>& files) {
+  const bool is_sphere = shape.spheres.size() == 1;
+  DeckFields fields;
+  fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
+  fields.set("INFILE", name + ".txt");
+  fields.set("VZ", grain.velocity.z());
+  // Of a sphere alone it gives the mass.
+  const double density = mass_kg / dem::sphere_shape(shape.spheres.front().radius).volume_m3;
+  int count = 0;
+  for (const dem::ClumpSphere& sphere : shape.spheres) {
+    const dem::Vector at = grain.position + grain.orientation * sphere.centre;
+    DeckFields& ball = fields.add_section("BALL");
+    ball.set("NUMBER", ++count);
+    ball.set("X", at.x());
+    ball.set("Y", at.y());
+    ball.set("Z", at.z());
+    ball.set("DIAMETER", 2 * sphere.radius);
+    ball.set("DENSITY", density);
+  }
+  files.push_back({.name = name + ".lmp", .text = filled("lammps/body.lmp", fields)});
+  if (!is_sphere) files.push_back(inertia_file(name + ".txt", shape, mass_kg, grain));
+}
+
+void add_drop(const ExportFacts& facts, std::vector<ExportedFile>& files) {
+  const dem::DropProtocol& protocol = *facts.study().drop;
+  const double reach = facts.grain().reach_m();
+  const double speed = facts.drop_speed_m_s();
+  DeckFields fields = deck_fields(facts, Experiment::drop, facts.is_sphere());
+  fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
+  fields.set("GRAINS", protocol.grains);
+  fields.set("ROOM", protocol.height_m + 10 * reach);
+  fields.set("TOP", protocol.height_m + 10 * reach);
+  fields.set("STEPS", steps(facts.longest_drop_s(), facts.timestep_s(Experiment::drop)));
+  int number = 0;
+  for (const TouchingPose& pose : facts.drop_poses()) {
+    fields.add_section("POSE").set("NUMBER", ++number);
+    add_body(fmt::format("drop_grain_{}", number), facts.grain(), facts.mass_kg(),
+             {.position = {0, 0, pose.height_m},
+              .orientation = pose.orientation,
+              .velocity = {0, 0, -speed}},
+             files);
+  }
+  files.push_back({.name = "drop.lmp", .text = filled("lammps/drop.lmp", fields)});
+}
+
+void add_tilt(const ExportFacts& facts, std::vector<ExportedFile>& files) {
+  const dem::TiltProtocol& protocol = *facts.study().tilt;
+  const dem::ClumpShape body = facts.tilt_body();
+  const TouchingPose pose = facts.tilt_pose();
+  const double timestep = facts.timestep_s(Experiment::tilt);
+  DeckFields fields = deck_fields(facts, Experiment::tilt, body.spheres.size() == 1);
+  fields.set("BONDED", protocol.bonded);
+  fields.set("RATE", protocol.rate_deg_s);
+  fields.set("BEGIN", facts.tilt_begin_deg());
+  fields.set("ROOM", 10 * body.reach_m());
+  fields.set("SETTLE_STEPS", steps(.05, timestep));
+  fields.set("EVERY", steps(.002, timestep));
+  add_body("tilt_body", body, protocol.bonded * facts.mass_kg(),
+           {.position = {0, 0, pose.height_m}, .orientation = pose.orientation}, files);
+  files.push_back({.name = "tilt.lmp", .text = filled("lammps/tilt.lmp", fields)});
+}
+
+void add_roll(const ExportFacts& facts, std::vector<ExportedFile>& files) {
+  const dem::RollProtocol& protocol = *facts.study().roll;
+  const dem::Vector normal = dem::incline_of(protocol).normal;
+  const double reach = facts.grain().reach_m();
+  const double timestep = facts.timestep_s(Experiment::roll);
+  DeckFields fields = deck_fields(facts, Experiment::roll, facts.is_sphere());
+  fields.set("RELEASE_MM", 1e3 * protocol.release_m);
+  fields.set("INCLINE", protocol.incline_deg);
+  fields.set("NORMAL_X", normal.x());
+  fields.set("NORMAL_Z", normal.z());
+  fields.set("BEHIND", 2 * (protocol.release_m + 10 * reach));
+  fields.set("FLAT", facts.roll_flat_m());
+  fields.set("END", facts.roll_flat_m() - 2 * reach);  // there it would be lost
+  fields.set("ROOM", protocol.release_m + 10 * reach);
+  fields.set("TOP", 2 * (protocol.release_m + 10 * reach));
+  fields.set("EVERY", steps(.1, timestep));
+  fields.set("STEPS", steps(60, timestep));
+  fields.set("REST", 1e-3 * reach);
+  add_body("roll_grain", facts.grain(), facts.mass_kg(), facts.roll_start(), files);
+  files.push_back({.name = "roll.lmp", .text = filled("lammps/roll.lmp", fields)});
+}
+
+}  // namespace
+
+std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversions& conversions) {
+  std::vector<ExportedFile> files = {material_file(facts, conversions)};
+  if (facts.has(Experiment::drop)) add_drop(facts, files);
+  if (facts.has(Experiment::tilt)) add_tilt(facts, files);
+  if (facts.has(Experiment::roll)) add_roll(facts, files);
+  return files;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "calibrate/export/conversions.h"
+#include "calibrate/export/stl.h"
+#include "calibrate/export/targets.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::Experiment;
+
+constexpr double kHard_pa = 1e9;
+constexpr double kSoft_pa = 5e6;
+constexpr int kTubeSides = 96;
+
+/// Spheres of a body, a line each: x, y, z, radius.
+std::string spheres_text(const dem::ClumpShape& shape) {
+  std::string text;
+  for (const dem::ClumpSphere& sphere : shape.spheres) {
+    const dem::Vector& at = sphere.centre;
+    text += fmt::format("{} {} {} {}\n", at.x(), at.y(), at.z(), sphere.radius);
+  }
+  return text;
+}
+
+/// Marks what is there for spheres, and what for clumps.
+void mark_shape(bool is_sphere, DeckFields& fields) {
+  fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
+}
+
+void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
+  const dem::Study& study = facts.study();
+  double softest = HUGE_VAL;
+  double hardest = 0;
+  for (const Experiment experiment : facts.experiments()) {
+    for (const dem::Material* material :
+         {&study.bench.grain_material, &study.bench.wall_material}) {
+      const double young = material->young_modulus_pa * facts.stiffness(experiment);
+      softest = std::min(softest, young);
+      hardest = std::max(hardest, young);
+    }
+  }
+  if (hardest > kHard_pa) fields.add_section("HARD");
+  if (softest < kSoft_pa) fields.add_section("SOFT");
+}
+
+std::string rolling_words(dem::RollingModel model) {
+  switch (model) {
+    case dem::RollingModel::none:
+      return "";
+    case dem::RollingModel::elastic_plastic:
+      return " rolling_friction epsd";
+    case dem::RollingModel::constant_torque:
+    case dem::RollingModel::relative_constant_torque:
+      break;
+  }
+  return " rolling_friction cdt";
+}
+
+ExportedFile material_file(const ExportFacts& facts, const Conversions& conversions) {
+  const dem::Study& study = facts.study();
+  DeckFields fields = common_fields(facts);
+  mark_stiffness(facts, fields);
+  fields.set("SKIN", .2 * facts.grain().reach_m());
+  fields.set("GRAIN_YOUNG", study.bench.grain_material.young_modulus_pa);
+  fields.set("WALL_YOUNG", study.bench.wall_material.young_modulus_pa);
+  fields.set("GRAIN_POISSON", study.bench.grain_material.poisson_ratio);
+  fields.set("WALL_POISSON", study.bench.wall_material.poisson_ratio);
+  for (const auto& [field, name] : {std::pair("RESTITUTION", "restitution"),
+                                    {"SLIDING", "sliding_friction"},
+                                    {"ROLLING", "rolling_friction"}}) {
+    const double wall = exported(conversions, fmt::format("contact.particle_wall.{}", name));
+    // Without a heap grains never touch each other.
+    const double grain =
+        study.heap ? exported(conversions, fmt::format("contact.particle_particle.{}", name))
+                   : wall;
+    fields.set(fmt::format("WALL_{}", field), wall);
+    fields.set(fmt::format("GRAIN_{}", field), grain);
+  }
+  fields.set("ROLLING_MODEL", rolling_words(study.bench.rolling));
+  if (study.bench.rolling == dem::RollingModel::elastic_plastic) fields.add_section("VISCOUS");
+  return {.name = "material.lig", .text = filled("liggghts/material.lig", fields)};
+}
+
+ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphere) {
+  DeckFields fields = common_fields(facts);
+  mark_shape(is_sphere, fields);
+  fields.set("DIAMETER", 2 * facts.grain().spheres.front().radius);
+  fields.set("DENSITY", is_sphere ? facts.ball_density_kg_m3()
+                                  : facts.study().bench.grain_material.density_kg_m3);
+  return {.name = name, .text = filled("liggghts/place.lig", fields)};
+}
+
+DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
+  DeckFields fields = common_fields(facts);
+  fields.set("STIFFNESS", facts.stiffness(experiment));
+  fields.set("TIMESTEP", facts.timestep_s(experiment));
+  fields.set("REACH", 2 * facts.grain().reach_m());
+  return fields;
+}
+
+ExportedFile drop_file(const ExportFacts& facts) {
+  const dem::DropProtocol& protocol = *facts.study().drop;
+  const double timestep = facts.timestep_s(Experiment::drop);
+  const double speed = facts.drop_speed_m_s();
+  DeckFields fields = deck_fields(facts, Experiment::drop);
+  set_body(facts.grain(), facts.study().bench.grain_material.density_kg_m3, fields);
+  fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
+  fields.set("GRAINS", protocol.grains);
+  fields.set("SPEED", speed);
+  fields.set("ROOM", protocol.height_m + 10 * facts.grain().reach_m());
+  fields.set("TOP", protocol.height_m + 10 * facts.grain().reach_m());
+  fields.set("STEPS", steps(facts.longest_drop_s(), timestep));
+  fields.set("EVERY", 5);
+  int number = 0;
+  for (const TouchingPose& pose : facts.drop_poses()) {
+    DeckFields& own = fields.add_section("POSE");
+    own.set("NUMBER", ++number);
+    own.set("HEIGHT", pose.height_m);
+    set_pose(pose.orientation, own);
+  }
+  return {.name = "drop.lig", .text = filled("liggghts/drop.lig", fields)};
+}
+
+ExportedFile tilt_file(const ExportFacts& facts) {
+  const dem::TiltProtocol& protocol = *facts.study().tilt;
+  const dem::ClumpShape body = facts.tilt_body();
+  const TouchingPose pose = facts.tilt_pose();
+  const double timestep = facts.timestep_s(Experiment::tilt);
+  const double begin = facts.tilt_begin_deg();
+  DeckFields fields = deck_fields(facts, Experiment::tilt);
+  set_body(body, facts.study().bench.grain_material.density_kg_m3, fields);
+  set_pose(pose.orientation, fields);
+  fields.set("BONDED", protocol.bonded);
+  fields.set("RATE", protocol.rate_deg_s);
+  fields.set("BEGIN", begin);
+  fields.set("HEIGHT", pose.height_m);
+  fields.set("ROOM", 10 * body.reach_m());
+  fields.set("SETTLE_STEPS", steps(.05, timestep));
+  fields.set("EVERY", steps(.002, timestep));
+  return {.name = "tilt.lig", .text = filled("liggghts/tilt.lig", fields)};
+}
+
+ExportedFile roll_file(const ExportFacts& facts) {
+  const dem::RollProtocol& protocol = *facts.study().roll;
+  const dem::Grain start = facts.roll_start();
+  const double reach = facts.grain().reach_m();
+  const double timestep = facts.timestep_s(Experiment::roll);
+  DeckFields fields = deck_fields(facts, Experiment::roll);
+  set_body(facts.grain(), facts.study().bench.grain_material.density_kg_m3, fields);
+  set_pose(start.orientation, fields);
+  fields.set("RELEASE_MM", 1e3 * protocol.release_m);
+  fields.set("INCLINE", protocol.incline_deg);
+  fields.set("X", start.position.x());
+  fields.set("Z", start.position.z());
+  fields.set("BEHIND", 5 * (protocol.release_m + 10 * reach));
+  fields.set("FLAT", facts.roll_flat_m());
+  fields.set("END", facts.roll_flat_m() - 2 * reach);  // there it would be lost
+  fields.set("ROOM", 10 * (protocol.release_m + 10 * reach));
+  fields.set("TOP", 5 * (protocol.release_m + 10 * reach));
+  fields.set("EVERY", steps(.1, timestep));
+  fields.set("STEPS", steps(60, timestep));
+  fields.set("REST", 1e-3 * reach);
+  return {.name = "roll.lig", .text = filled("liggghts/roll.lig", fields)};
+}
+
+ExportedFile heap_file(const ExportFacts& facts) {
+  const dem::HeapProtocol& protocol = *facts.study().heap;
+  const double reach = facts.grain().reach_m();
+  const double timestep = facts.timestep_s(Experiment::heap);
+  const double tube_m3 = std::numbers::pi / 4 * protocol.tube_diameter_m *
+                         protocol.tube_diameter_m * protocol.tube_height_m;
+  const int grains = grains_in_heap(facts);
+  constexpr double kLoose = .12;  // of a column that random insertion fills without trouble
+  const double column =
+      grains * facts.grain().volume_m3 / (kLoose * tube_m3) * protocol.tube_height_m;
+  DeckFields fields = deck_fields(facts, Experiment::heap);
+  mark_shape(facts.is_sphere(), fields);
+  set_body(facts.grain(), facts.study().bench.grain_material.density_kg_m3, fields);
+  fields.set("RADIUS", facts.grain().spheres.front().radius);
+  fields.set("DENSITY", facts.is_sphere() ? facts.ball_density_kg_m3()
+                                          : facts.study().bench.grain_material.density_kg_m3);
+  fields.set("GRAINS", grains);
+  fields.set("LIFT", protocol.lift_speed_m_s);
+  fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
+  fields.set("TUBE_RADIUS", .5 * protocol.tube_diameter_m);
+  fields.set("COLUMN", column);
+  fields.set("ROOM", .5 * protocol.plate_m + 4 * reach);
+  fields.set("BELOW", protocol.plate_thickness_m + 5 * reach);
+  fields.set("TOP", column + 2 * protocol.tube_height_m);
+  fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / 9.8), timestep));
+  fields.set("LIFT_STEPS", steps(lift_s(protocol), timestep));
+  fields.set("REST_STEPS", steps(kHeapRest_s, timestep));
+  return {.name = "heap.lig", .text = filled("liggghts/heap.lig", fields)};
+}
+
+}  // namespace
+
+std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Conversions& conversions) {
+  std::vector<ExportedFile> files = {material_file(facts, conversions),
+                                     place_file(facts, "place.lig", facts.is_sphere()),
+                                     {.name = "clump.txt", .text = spheres_text(facts.grain())}};
+  if (facts.has(Experiment::drop)) files.push_back(drop_file(facts));
+  if (facts.has(Experiment::tilt)) {
+    const bool is_sphere = facts.is_sphere() && facts.study().tilt->bonded == 1;
+    files.push_back(tilt_file(facts));
+    files.push_back(place_file(facts, "place_body.lig", is_sphere));
+    files.push_back({.name = "body.txt", .text = spheres_text(facts.tilt_body())});
+  }
+  if (facts.has(Experiment::roll)) {
+    files.push_back(roll_file(facts));
+    files.push_back(
+        {.name = "incline.stl", .text = incline_stl(*facts.study().roll, facts.grain().reach_m())});
+  }
+  if (facts.has(Experiment::heap)) {
+    files.push_back(heap_file(facts));
+    files.push_back({.name = "tube.stl", .text = tube_stl(*facts.study().heap, kTubeSides)});
+    files.push_back({.name = "plate.stl", .text = plate_stl(*facts.study().heap)});
+  }
+  return files;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,72 @@
+#include "calibrate/export/readme.h"
+
+#include <fmt/format.h>
+
+#include "dem/study/rolling_name.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// As its makers write it, and the version that the decks are written for.
+const char* program_of(ExportTarget target) {
+  switch (target) {
+    case ExportTarget::liggghts:
+      return "LIGGGHTS-PUBLIC 3.8";
+    case ExportTarget::lammps:
+      return "LAMMPS of 29 September 2021, with the packages GRANULAR and RIGID";
+    case ExportTarget::yade:
+      return "YADE 2023.02";
+    case ExportTarget::mercurydpm:
+      return "MercuryDPM 1.0 (a driver in C++)";
+    case ExportTarget::edem:
+      break;
+  }
+  return "EDEM: Hertz-Mindlin (no slip) with standard rolling friction";
+}
+
+/// A text of the target's own, without its last line break.
+std::string text_of(ExportTarget target, const char* name) {
+  std::string text = filled(name_of(target) + '/' + name, {});
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+/// Dampers are no multiples of the restitution that they give.
+std::string factor_text(const Conversion& conversion) {
+  const bool is_same = conversion.exported == conversion.value;
+  const bool is_damper = conversion.coefficient.ends_with("restitution") && !is_same;
+  if (conversion.value == 0 || is_damper) return "no constant factor";
+  return fmt::format("factor {:.4g}", conversion.exported / conversion.value);
+}
+
+void add_conversion(const Conversion& conversion, DeckFields& fields) {
+  DeckFields& one = fields.add_section("CONVERSION");
+  one.set("COEFFICIENT", conversion.coefficient);
+  one.set("VALUE", fmt::format("{:.6g}", conversion.value));
+  one.set("EXPORTED", fmt::format("{:.6g}", conversion.exported));
+  one.set("FACTOR", factor_text(conversion));
+  one.set("THEIR_NAME", conversion.target_name);
+  one.set("OURS", conversion.ours);
+  one.set("THEIRS", conversion.theirs);
+  one.set("STANDING", name_of(conversion.standing));
+  if (!conversion.limits.empty()) one.add_section("BUT").set("LIMITS", conversion.limits);
+}
+
+}  // namespace
+
+ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
+                       const std::vector<Conversion>& conversions) {
+  DeckFields fields = common_fields(facts);
+  fields.set("TARGET", program_of(target));
+  fields.set("ROLLING_MODEL", dem::name_of(facts.study().bench.rolling));
+  fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
+  fields.set("STIFFNESS_HEAP", facts.has(dem::Experiment::heap)
+                                   ? number(facts.stiffness(dem::Experiment::heap))
+                                   : std::string("no heap"));
+  fields.set("RUNNING", text_of(target, "running.txt"));
+  fields.set("LIMITS", text_of(target, "limits.txt"));
+  for (const Conversion& conversion : conversions) add_conversion(conversion, fields);
+  return {.name = "README.txt", .text = filled("readme.txt", fields)};
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "calibrate/export/export.h"
+#include "dem/contact/material.h"
+#include "dem/shape/clump_shape.h"
+
+namespace repose::calibrate {
+
+enum class Partner { wall, grain };
+
+/// Distance from a clump's centre of mass to its contact with a flat partner, per radius of the
+/// sphere that touches.
+struct ArmRatio {
+  double mean = 1;
+  double low = 1;
+  double high = 1;
+};
+
+/// Over poses that are all as likely: on a wall, where grains roll lying, those with the axis of
+/// the least moment of inertia level; against other grains all there are. Proved by ArmRatio.* in
+/// tests/calibrate/export_rolling_test.cpp.
+ArmRatio arm_ratio(const dem::ClumpShape& grain, Partner partner);
+
+/// What the rolling friction of a pair becomes.
+struct RollingConversion {
+  double factor = 1;  ///< theirs / ours
+  Standing standing = Standing::exact;
+  std::string limits = {};
+};
+
+/// Our models: dem/THEORY.md, "Rolling resistance". Theirs: `rolling_law`. With F the normal force,
+/// R the radius of the touching sphere, r the distance from the centre of mass to the contact and
+/// R* = R1 R2 / (R1 + R2), the coefficients are such that the torques while rolling are the same.
+RollingConversion convert_rolling(ExportTarget target, dem::RollingModel model, Partner partner,
+                                  const dem::ClumpShape& grain);
+
+/// Our definition, and the target's for grains of the model, each a sentence.
+std::string rolling_law(dem::RollingModel model);
+std::string rolling_law(ExportTarget target, dem::RollingModel model);
+
+}  // namespace repose::calibrate

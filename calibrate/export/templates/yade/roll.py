@@ -1,0 +1,30 @@
+# A grain let go {{RELEASE_MM}} mm up an incline of {{INCLINE}} degrees, which ends on a flat plate.
+#   yade -n -x roll.py
+# The reading is how far from the foot (x = 0) its centre of mass lies when it is at rest.
+exec(open('grain.py').read())
+STIFFNESS = {{STIFFNESS}}
+add_materials(STIFFNESS, PAIR)
+O.bodies.append(utils.wall((0, 0, 0), axis=2, sense=1, material='wall'))
+incline = O.bodies.append(utils.facet([(0, {{HALF_FOOT}}, 0), ({{APEX_X}}, 0, {{APEX_Z}}), (0, -{{HALF_FOOT}}, 0)], material='wall'))
+number = add_grain(({{X}}, {{Y}}, {{Z}}), Quaternion({{QW}}, {{QX}}, {{QY}}, {{QZ}}))
+state = O.bodies[number].state
+place = state.pos[0]
+def level():
+    """YADE takes a facet for a sphere twice as large, a wall for one as large: make them alike."""
+    for contact in O.interactions:
+        if contact.isReal and incline in (contact.id1, contact.id2):
+            limit = WALL['eta'] * contact.geom.refR2
+            if contact.phys.maxBendPl > 1.1 * limit:
+                contact.phys.kno *= sqrt(3 / 4)
+                contact.phys.kso *= sqrt(3 / 4)
+                contact.phys.maxBendPl = limit
+def rest():
+    global place
+    if abs(state.pos[0] - place) < 1e-3 * REACH:
+        O.pause()
+    place = state.pos[0]
+set_engines(STIFFNESS, WALL, watch=[PyRunner(command='level()', iterPeriod=5),
+                                    PyRunner(command='rest()', iterPeriod={{EVERY}}, initRun=False)])
+O.dt = {{TIMESTEP}}
+O.run({{STEPS}}, True)
+print('reading: roll_mm %.6f' % (1000 * state.pos[0]))

@@ -1,0 +1,162 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "calibrate/export/conversions.h"
+#include "calibrate/export/rolling.h"
+#include "calibrate/export/targets.h"
+#include "dem/contact/restitution.h"
+#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/incline.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::Experiment;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// The real pair, neither softened nor needing a value between grains where there is no heap.
+dem::ContactTable real_contacts(const ExportFacts& facts) {
+  const Experiment any = facts.experiments().front();
+  dem::Bench bench = dem::bench_for(facts.study(), any);
+  bench.stiffness_factor = 1;
+  const dem::Wall wall = dem::bench_wall(dem::Plane{});
+  return dem::bench_setup(bench, facts.grain(), {wall}, 1).contacts;
+}
+
+void set_pair(const std::string& prefix, const std::string& pair, const ExportFacts& facts,
+              const Conversions& conversions, const dem::ContactLaw& law, DeckFields& fields) {
+  const dem::Bench& bench = facts.study().bench;
+  const bool is_wall = prefix == "WALL";
+  const double restitution =
+      is_wall || !facts.study().heap ? bench.grain_wall.restitution : bench.grain_grain.restitution;
+  const double radius = facts.grain().spheres.front().radius;
+  fields.set(prefix + "_BETAN", exported(conversions, pair + "restitution"));
+  fields.set(prefix + "_BETAS", dem::textbook_damping_factor(restitution) / 2);
+  fields.set(prefix + "_SLIDING", exported(conversions, pair + "sliding_friction"));
+  fields.set(prefix + "_ETA", exported(conversions, pair + "rolling_friction"));
+  fields.set(prefix + "_KROT", rolling_stiffness(law, facts.mass_kg(), radius));
+}
+
+ExportedFile grain_file(const ExportFacts& facts, const Conversions& conversions) {
+  const dem::Study& study = facts.study();
+  const dem::ContactTable contacts = real_contacts(facts);
+  const dem::ContactLaw& wall = contacts.law(dem::kGrainMaterial, dem::kWallMaterial);
+  const dem::ContactLaw& grain = contacts.law(dem::kGrainMaterial, dem::kGrainMaterial);
+  const LikeMaterial pair = like_material(wall);
+  DeckFields fields = common_fields(facts);
+  add_balls(facts.grain(), fields);
+  set_body(facts.grain(), study.bench.grain_material.density_kg_m3, fields);
+  fields.set("REACH", facts.grain().reach_m());
+  fields.set("DENSITY", study.bench.grain_material.density_kg_m3);
+  // YADE's reduced radius on a wall is half the sphere's, and stiffness goes with its root.
+  fields.set("PAIR_YOUNG", std::numbers::sqrt2 * pair.young_modulus_pa);
+  fields.set("PAIR_POISSON", pair.poisson_ratio);
+  fields.set("GRAIN_YOUNG", study.bench.grain_material.young_modulus_pa);
+  fields.set("GRAIN_POISSON", study.bench.grain_material.poisson_ratio);
+  const std::string walls = "contact.particle_wall.";
+  // Without a heap grains never touch each other.
+  const std::string grains = study.heap ? "contact.particle_particle." : walls;
+  set_pair("WALL", walls, facts, conversions, wall, fields);
+  set_pair("GRAIN", grains, facts, conversions, grain, fields);
+  return {.name = "grain.py", .text = filled("yade/grain.py", fields)};
+}
+
+DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
+  DeckFields fields = common_fields(facts);
+  fields.set("STIFFNESS", facts.stiffness(experiment));
+  fields.set("TIMESTEP", facts.timestep_s(experiment));
+  return fields;
+}
+
+ExportedFile drop_file(const ExportFacts& facts) {
+  const dem::DropProtocol& protocol = *facts.study().drop;
+  const double speed = facts.drop_speed_m_s();
+  const double reach = facts.grain().reach_m();
+  DeckFields fields = deck_fields(facts, Experiment::drop);
+  fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
+  fields.set("GRAINS", protocol.grains);
+  fields.set("SPEED", speed);
+  fields.set("SPACING", 8 * (protocol.height_m + reach));
+  fields.set("EVERY", 5);
+  fields.set("STEPS", steps(facts.longest_drop_s(), facts.timestep_s(Experiment::drop)));
+  for (const TouchingPose& pose : facts.drop_poses()) {
+    DeckFields& own = fields.add_section("POSE");
+    own.set("HEIGHT", pose.height_m);
+    set_pose(pose.orientation, own);
+  }
+  return {.name = "drop.py", .text = filled("yade/drop.py", fields)};
+}
+
+ExportedFile tilt_file(const ExportFacts& facts) {
+  const dem::TiltProtocol& protocol = *facts.study().tilt;
+  const TouchingPose pose = facts.tilt_pose();
+  const double begin = facts.tilt_begin_deg();
+  DeckFields fields = deck_fields(facts, Experiment::tilt);
+  add_balls(facts.tilt_body(), fields);
+  set_body(facts.tilt_body(), facts.study().bench.grain_material.density_kg_m3, fields);
+  set_pose(pose.orientation, fields);
+  fields.set("BONDED", protocol.bonded);
+  fields.set("RATE", protocol.rate_deg_s);
+  fields.set("BEGIN", begin);
+  fields.set("HEIGHT", pose.height_m);
+  fields.set("STEPS",
+             steps(.1 + (90 - begin) / protocol.rate_deg_s, facts.timestep_s(Experiment::tilt)));
+  return {.name = "tilt.py", .text = filled("yade/tilt.py", fields)};
+}
+
+ExportedFile roll_file(const ExportFacts& facts) {
+  const dem::RollProtocol& protocol = *facts.study().roll;
+  const dem::Grain start = facts.roll_start();
+  const double timestep = facts.timestep_s(Experiment::roll);
+  const double length = 4 * (protocol.release_m + 10 * facts.grain().reach_m());
+  DeckFields fields = deck_fields(facts, Experiment::roll);
+  set_pose(start.orientation, fields);
+  fields.set("RELEASE_MM", 1e3 * protocol.release_m);
+  fields.set("INCLINE", protocol.incline_deg);
+  fields.set("HALF_FOOT", 2 * length);
+  fields.set("APEX_X", -length * std::cos(protocol.incline_deg * kDegree));
+  fields.set("APEX_Z", length * std::sin(protocol.incline_deg * kDegree));
+  fields.set("X", start.position.x());
+  fields.set("Y", start.position.y());
+  fields.set("Z", start.position.z());
+  fields.set("EVERY", steps(.1, timestep));
+  fields.set("STEPS", steps(60, timestep));
+  return {.name = "roll.py", .text = filled("yade/roll.py", fields)};
+}
+
+ExportedFile heap_file(const ExportFacts& facts) {
+  const dem::HeapProtocol& protocol = *facts.study().heap;
+  const double timestep = facts.timestep_s(Experiment::heap);
+  const double reach = facts.grain().reach_m();
+  const int grains = grains_in_heap(facts);
+  DeckFields fields = deck_fields(facts, Experiment::heap);
+  fields.set("GRAINS", grains);
+  fields.set("LIFT", protocol.lift_speed_m_s);
+  fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
+  fields.set("PLATE", protocol.plate_m);
+  fields.set("TUBE_RADIUS", .5 * protocol.tube_diameter_m);
+  fields.set("TUBE_HEIGHT", protocol.tube_height_m);
+  // A layer holds at least one grain.
+  const double column = 2.02 * reach * grains;
+  fields.set("COLUMN", column);
+  fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / dem::kStandardGravity_m_s2), timestep));
+  fields.set("LIFT_STEPS", steps(lift_s(protocol), timestep));
+  fields.set("REST_STEPS", steps(kHeapRest_s, timestep));
+  return {.name = "heap.py", .text = filled("yade/heap.py", fields)};
+}
+
+}  // namespace
+
+std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions& conversions) {
+  std::vector<ExportedFile> files = {grain_file(facts, conversions)};
+  if (facts.has(Experiment::drop)) files.push_back(drop_file(facts));
+  if (facts.has(Experiment::tilt)) files.push_back(tilt_file(facts));
+  if (facts.has(Experiment::roll)) files.push_back(roll_file(facts));
+  if (facts.has(Experiment::heap)) files.push_back(heap_file(facts));
+  return files;
+}
+
+}  // namespace repose::calibrate

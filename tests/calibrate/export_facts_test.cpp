@@ -1,0 +1,87 @@
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/export/facts.h"
+#include "tests/dem/experiment_bench.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+dem::Study hazelnuts() {
+  dem::Study study;
+  study.bench = dem::test::clump_bench();
+  study.drop = dem::DropProtocol{};
+  study.tilt = dem::TiltProtocol{};
+  study.roll = dem::RollProtocol{};
+  study.particle_wall.restitution.min = .1;
+  study.particle_wall.restitution.max = .9;
+  return study;
+}
+
+std::string faults_of(const dem::Study& study, const std::vector<FittedValue>& fitted) {
+  return dem::test::message_of<std::invalid_argument>(
+      [&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted); });
+}
+
+constexpr const char* kRestitution = "contact.particle_wall.restitution";
+
+TEST(ExportFacts, TakeTheFittedValues) {
+  const ExportFacts facts(hazelnuts(), dem::test::spheroid_clump(3),
+                          {{.name = kRestitution, .value = .42}});
+  EXPECT_EQ(facts.study().bench.grain_wall.restitution, .42);
+  EXPECT_EQ(facts.study().bench.grain_wall.sliding_friction, .39);
+}
+
+TEST(ExportFacts, RefuseACoefficientWithoutAValue) {
+  EXPECT_THAT(faults_of(hazelnuts(), {}), AllOf(HasSubstr(kRestitution), HasSubstr("Fix: ")));
+  dem::Study study = hazelnuts();
+  study.particle_particle.sliding_friction.min = .1;
+  study.particle_particle.sliding_friction.max = .9;
+  const std::vector<FittedValue> fitted = {{.name = kRestitution, .value = .42}};
+  EXPECT_EQ(faults_of(study, fitted), "") << "grains touch each other in heaps only";
+  study.heap = dem::HeapProtocol{};
+  EXPECT_THAT(faults_of(study, fitted),
+              AllOf(HasSubstr("particle_particle.sliding_friction"), Not(HasSubstr(kRestitution))));
+}
+
+TEST(ExportFacts, RefuseUnknownNamesAndNumbersThatAreNone) {
+  EXPECT_THAT(faults_of(hazelnuts(), {{.name = "contact.love", .value = 1}}),
+              HasSubstr("contact.love"));
+  EXPECT_THAT(faults_of(hazelnuts(), {{.name = kRestitution,
+                                       .value = std::numeric_limits<double>::quiet_NaN()}}),
+              HasSubstr(kRestitution));
+}
+
+// Johnson (1985), eqs. 4.24 and 7.43, forwards.
+TEST(ExportFacts, TwoLikeBodiesHaveThePairsModuli) {
+  for (const double stiff : {1e7, 1e9, 1e12}) {
+    const dem::Material grain{"grain", 1000, 1e8, .38};
+    const dem::Material wall{"wall", 1000, stiff, .2};
+    const dem::ContactTable pair({grain, wall}, std::vector<dem::PairCoefficients>(4),
+                                 dem::RollingModel::none);
+    const LikeMaterial like = like_material(pair.law(0, 1));
+    const dem::Material both{"both", 1000, like.young_modulus_pa, like.poisson_ratio};
+    const dem::ContactTable same({both, both}, std::vector<dem::PairCoefficients>(4),
+                                 dem::RollingModel::none);
+    const double young = pair.law(0, 1).reduced_young_pa;
+    const double shear = pair.law(0, 1).reduced_shear_pa;
+    EXPECT_NEAR(same.law(0, 1).reduced_young_pa, young, 1e-9 * young);
+    EXPECT_NEAR(same.law(0, 1).reduced_shear_pa, shear, 1e-9 * shear);
+  }
+}
+
+TEST(HarmlessName, KeepsWordsAndTakesOutWhatBreaksDecks) {
+  EXPECT_EQ(harmless("hazel nut 2.0 (dry)"), "hazel nut 2.0 _dry_");
+  EXPECT_EQ(harmless("No\xC3\xBCsse"), "No\xC3\xBCsse");
+  EXPECT_EQ(harmless("a\nrun 1\r\t\"'`$&\\{}#*/"), "a_run 1_____________");
+  EXPECT_EQ(harmless(""), "");
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,122 @@
+#include <gmock/gmock.h>
+
+#include "calibrate/export/rolling.h"
+#include "tests/dem/experiment_bench.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::RollingModel;
+
+const dem::ClumpShape kSphere = dem::sphere_shape(.01);
+
+RollingConversion sphere(ExportTarget target, RollingModel model, Partner partner) {
+  return convert_rolling(target, model, partner, kSphere);
+}
+
+TEST(ArmRatio, IsOneForASphereAndLongerForAClump) {
+  for (const Partner partner : {Partner::wall, Partner::grain}) {
+    const ArmRatio ball = arm_ratio(kSphere, partner);
+    EXPECT_NEAR(ball.mean, 1, 1e-12);
+    EXPECT_NEAR(ball.low, 1, 1e-12);
+    EXPECT_NEAR(ball.high, 1, 1e-12);
+  }
+}
+
+// Two spheres of radius R at +-R on the long axis: lying, a wall is touched at sqrt(2) R; upright
+// at 2 R. Over all directions at u to the axis r^2 = R^2 (2 + 2 u), u even over 0 ... 1: the mean
+// of its root is (16 - 4 sqrt(2)) / 6 ... worked out: sqrt(2) (2/3) (2 sqrt(2) - 1).
+TEST(ArmRatio, OfTwoTouchingSpheresIsThatOfTheirGeometry) {
+  dem::ClumpShape pair;
+  pair.spheres = {{.centre = {.01, 0, 0}, .radius = .01}, {.centre = {-.01, 0, 0}, .radius = .01}};
+  pair.gyration_m2 = {1e-5, 3e-5, 3e-5};
+  const ArmRatio lying = arm_ratio(pair, Partner::wall);
+  EXPECT_NEAR(lying.mean, std::sqrt(2), 1e-9);
+  EXPECT_NEAR(lying.low, lying.high, 1e-9);
+  const ArmRatio any = arm_ratio(pair, Partner::grain);
+  EXPECT_NEAR(any.mean, std::sqrt(2) * 2 / 3 * (2 * std::sqrt(2) - 1), 1e-4);
+  EXPECT_NEAR(any.low, std::sqrt(2), 1e-3);
+  EXPECT_NEAR(any.high, 2, 1e-3);
+}
+
+TEST(ConvertRolling, LiggghtsHasTwoOfOurModels) {
+  for (const Partner partner : {Partner::wall, Partner::grain}) {
+    for (const RollingModel model :
+         {RollingModel::relative_constant_torque, RollingModel::elastic_plastic}) {
+      for (const dem::ClumpShape& grain : {kSphere, dem::test::spheroid_clump(3)}) {
+        const auto converted = convert_rolling(ExportTarget::liggghts, model, partner, grain);
+        EXPECT_EQ(converted.factor, 1);
+        EXPECT_EQ(converted.standing, Standing::exact);
+      }
+    }
+  }
+}
+
+TEST(ConvertRolling, ConstantTorqueIsLiggghtssOnAWallAndDoubleBetweenSpheres) {
+  const auto wall = sphere(ExportTarget::liggghts, RollingModel::constant_torque, Partner::wall);
+  EXPECT_NEAR(wall.factor, 1, 1e-12);
+  EXPECT_EQ(wall.standing, Standing::exact);
+  const auto grain = sphere(ExportTarget::liggghts, RollingModel::constant_torque, Partner::grain);
+  EXPECT_NEAR(grain.factor, 2, 1e-12);
+  EXPECT_EQ(grain.standing, Standing::approximate);
+  EXPECT_THAT(grain.limits, ::testing::HasSubstr("own spin"));
+}
+
+TEST(ConvertRolling, OwnSpinOfAClumpIsApproximate) {
+  const dem::ClumpShape clump = dem::test::spheroid_clump(3);
+  const auto wall =
+      convert_rolling(ExportTarget::liggghts, RollingModel::constant_torque, Partner::wall, clump);
+  EXPECT_EQ(wall.standing, Standing::approximate);
+  EXPECT_NEAR(wall.factor, arm_ratio(clump, Partner::wall).mean, 1e-12);
+  EXPECT_THAT(wall.limits, ::testing::HasSubstr("lever"));
+}
+
+TEST(ConvertRolling, EdemHasConstantTorqueAndTheInverseOfTheOthers) {
+  const dem::ClumpShape clump = dem::test::spheroid_clump(3);
+  for (const Partner partner : {Partner::wall, Partner::grain}) {
+    const auto same =
+        convert_rolling(ExportTarget::edem, RollingModel::constant_torque, partner, clump);
+    EXPECT_EQ(same.factor, 1);
+    EXPECT_EQ(same.standing, Standing::exact);
+    const auto there =
+        convert_rolling(ExportTarget::edem, RollingModel::relative_constant_torque, partner, clump);
+    const auto back =
+        convert_rolling(ExportTarget::liggghts, RollingModel::constant_torque, partner, clump);
+    EXPECT_NEAR(there.factor * back.factor, 1, 1e-12);
+    EXPECT_EQ(there.standing, Standing::approximate);
+  }
+  EXPECT_EQ(sphere(ExportTarget::edem, RollingModel::elastic_plastic, Partner::wall).standing,
+            Standing::approximate);
+}
+
+// Their lever of mu_r F: YADE (R1 + R2) / 2, MercuryDPM 2 R*; ours R* = R on a wall, R / 2 between
+// equal spheres.
+TEST(ConvertRolling, LeversOfOtherProgramsAreTakenOut) {
+  const auto factor = [](ExportTarget target, Partner partner) {
+    return sphere(target, RollingModel::elastic_plastic, partner).factor;
+  };
+  EXPECT_NEAR(factor(ExportTarget::yade, Partner::wall), 1, 1e-12);
+  EXPECT_NEAR(factor(ExportTarget::yade, Partner::grain), .5, 1e-12);
+  EXPECT_NEAR(factor(ExportTarget::mercurydpm, Partner::wall), .5, 1e-12);
+  EXPECT_NEAR(factor(ExportTarget::mercurydpm, Partner::grain), .5, 1e-12);
+  EXPECT_NEAR(factor(ExportTarget::lammps, Partner::grain), 1, 1e-12);
+}
+
+TEST(ConvertRolling, SpringsThatYieldAreCloseAndUnequalRadiiAreNot) {
+  const auto wall = sphere(ExportTarget::yade, RollingModel::elastic_plastic, Partner::wall);
+  EXPECT_EQ(wall.standing, Standing::close);
+  const auto clump = convert_rolling(ExportTarget::yade, RollingModel::elastic_plastic,
+                                     Partner::grain, dem::test::spheroid_clump(3));
+  EXPECT_EQ(clump.standing, Standing::approximate);
+}
+
+TEST(ConvertRolling, WithoutAModelNothingIsConverted) {
+  for (const auto& [target, name] : kExportTargets) {
+    const auto none = convert_rolling(target, RollingModel::none, Partner::grain, kSphere);
+    EXPECT_EQ(none.standing, Standing::exact) << name;
+    EXPECT_EQ(none.factor, 1) << name;
+  }
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,244 @@
+#include "calibrate/export/export.h"
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "dem/contact/restitution.h"
+#include "tests/dem/experiment_bench.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+constexpr const char* kWallRolling = "contact.particle_wall.rolling_friction";
+
+dem::Study hazelnuts(dem::RollingModel rolling = dem::RollingModel::relative_constant_torque) {
+  dem::Study study;
+  study.bench = dem::test::clump_bench();
+  study.bench.rolling = rolling;
+  study.drop = dem::DropProtocol{};
+  study.tilt = dem::TiltProtocol{};
+  study.roll = dem::RollProtocol{};
+  study.heap = dem::HeapProtocol{};
+  study.heap_stiffness = .01;
+  return study;
+}
+
+StudyExport exported(const dem::Study& study, ExportTarget target, bool approximate = true) {
+  return export_study(study, study.bench.grain, {},
+                      {.target = target, .takes_approximate = approximate});
+}
+
+std::string text_of(const StudyExport& made, const std::string& name) {
+  for (const ExportedFile& file : made.files) {
+    if (file.name == name) return file.text;
+  }
+  return "";
+}
+
+std::vector<std::string> names_of(const StudyExport& made) {
+  std::vector<std::string> names;
+  for (const ExportedFile& file : made.files) names.push_back(file.name);
+  return names;
+}
+
+TEST(ExportStudy, EachProgramHasItsDecksAndAReadme) {
+  const std::vector<std::pair<ExportTarget, std::vector<std::string>>> expected = {
+      {ExportTarget::liggghts,
+       {"drop.lig", "tilt.lig", "roll.lig", "heap.lig", "clump.txt", "tube.stl"}},
+      {ExportTarget::lammps, {"drop.lmp", "tilt.lmp", "roll.lmp", "tilt_body.txt"}},
+      {ExportTarget::yade, {"drop.py", "tilt.py", "roll.py", "heap.py", "grain.py"}},
+      {ExportTarget::mercurydpm, {"drop.cpp", "clump.csv"}},
+      {ExportTarget::edem, {"values.csv", "values.txt", "clump.csv"}}};
+  for (const auto& [target, names] : expected) {
+    const StudyExport made = exported(hazelnuts(), target);
+    for (const std::string& name : names) EXPECT_THAT(names_of(made), Contains(name));
+    EXPECT_THAT(text_of(made, "README.txt"),
+                AllOf(HasSubstr(kWallRolling), HasSubstr("What does not carry over")));
+    EXPECT_THAT(made.conversions, SizeIs(6));
+    for (const ExportedFile& file : made.files) {
+      EXPECT_THAT(file.text, AllOf(Not(IsEmpty()), Not(HasSubstr("{{")), Not(HasSubstr("nan")),
+                                   Not(HasSubstr("inf "))))
+          << file.name;
+    }
+  }
+}
+
+TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
+  dem::Study study = hazelnuts();
+  study.heap = {};
+  study.roll = {};
+  const StudyExport made = exported(study, ExportTarget::liggghts);
+  EXPECT_THAT(names_of(made), AllOf(Contains("drop.lig"), Not(Contains("heap.lig")),
+                                    Not(Contains("roll.lig")), Not(Contains("tube.stl"))));
+  EXPECT_THAT(made.conversions, SizeIs(3)) << "grains touch each other in heaps only";
+}
+
+TEST(ExportStudy, AnotherLawIsRefusedUnlessApproximateIsAskedFor) {
+  const dem::Study study = hazelnuts(dem::RollingModel::constant_torque);
+  const std::string refused = dem::test::message_of<std::invalid_argument>(
+      [&] { exported(study, ExportTarget::liggghts, false); });
+  EXPECT_THAT(refused, AllOf(HasSubstr(kWallRolling), HasSubstr("--approximate"),
+                             HasSubstr("contact.particle_particle.rolling_friction")));
+  EXPECT_THAT(exported(study, ExportTarget::liggghts).files, Not(IsEmpty()));
+  EXPECT_THAT(exported(study, ExportTarget::edem, false).files, Not(IsEmpty())) << "EDEM's own law";
+  EXPECT_THAT(exported(hazelnuts(), ExportTarget::liggghts, false).files, Not(IsEmpty()));
+}
+
+TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
+  const dem::Study study = hazelnuts();
+  const double mass = 851 * study.bench.grain.volume_m3;
+  const dem::Vector inertia = mass * study.bench.grain.gyration_m2;
+  const auto digits = [](double value) {
+    std::ostringstream text;
+    text.precision(6);
+    text << value;
+    return text.str().substr(0, 6);
+  };
+  for (const auto& [target, file] : {std::pair(ExportTarget::liggghts, "drop.lig"),
+                                     {ExportTarget::yade, "grain.py"},
+                                     {ExportTarget::edem, "values.csv"},
+                                     {ExportTarget::mercurydpm, "clump.csv"}}) {
+    const std::string text = text_of(exported(study, target), file);
+    EXPECT_THAT(text, AllOf(HasSubstr(digits(mass)), HasSubstr(digits(inertia.x())),
+                            HasSubstr(digits(inertia.z()))))
+        << file;
+  }
+}
+
+// LAMMPS takes the tensor in world axes: its trace does not depend on the pose.
+TEST(ExportStudy, InertiaTurnsWithTheGrainForLammps) {
+  const dem::Study study = hazelnuts();
+  const double mass = 851 * study.bench.grain.volume_m3;
+  for (int grain = 1; grain <= 3; ++grain) {
+    std::istringstream words(text_of(exported(study, ExportTarget::lammps),
+                                     "drop_grain_" + std::to_string(grain) + ".txt"));
+    double bodies = 0, number = 0, own_mass = 0, x = 0, y = 0, z = 0, xx = 0, yy = 0, zz = 0;
+    words >> bodies >> number >> own_mass >> x >> y >> z >> xx >> yy >> zz;
+    EXPECT_NEAR(own_mass, mass, 1e-12);
+    EXPECT_NEAR(xx + yy + zz, mass * study.bench.grain.gyration_m2.sum(), 1e-15);
+  }
+}
+
+// YADE's damper never pulls, like ours; LAMMPS's may, and then gives e with the textbook factor.
+TEST(ExportStudy, DampersGiveTheRestitutionInYadeAndLammps) {
+  const dem::Study study = hazelnuts();
+  for (const Conversion& conversion : exported(study, ExportTarget::yade).conversions) {
+    if (conversion.target_name != "betan") continue;
+    EXPECT_NEAR(conversion.exported, dem::damping_factor(conversion.value) / 2, 1e-12);
+  }
+  for (const Conversion& conversion : exported(study, ExportTarget::lammps).conversions) {
+    if (conversion.target_name != "damping tsuji") continue;
+    const double v = conversion.exported;
+    const double alpha = 1.2728 - 4.2783 * v + 11.087 * v * v - 22.348 * std::pow(v, 3) +
+                         27.467 * std::pow(v, 4) - 18.022 * std::pow(v, 5) +
+                         4.8218 * std::pow(v, 6);
+    EXPECT_NEAR(alpha, std::sqrt(1.5) * dem::textbook_damping_factor(conversion.value), 1e-9);
+  }
+}
+
+TEST(ExportStudy, RestitutionThatLiggghtsCannotHaveIsRefused) {
+  dem::Study study = hazelnuts();
+  study.bench.grain_wall.restitution = .03;
+  const std::string refused = dem::test::message_of<std::invalid_argument>(
+      [&] { exported(study, ExportTarget::liggghts, false); });
+  EXPECT_THAT(refused, AllOf(HasSubstr("contact.particle_wall.restitution"), HasSubstr(".05")));
+}
+
+TEST(ExportStudy, WhatTheDataDidNotDetermineIsSaidInTheDeckAndAsAWarning) {
+  const std::vector<FittedValue> fitted = {
+      {.name = "contact.particle_particle.restitution",
+       .value = .6,
+       .low = .05,
+       .high = .9,
+       .verdict = "undetermined"},
+      {.name = kWallRolling, .value = .1, .low = .09, .high = .11, .verdict = "determined"}};
+  const dem::Study study = hazelnuts();
+  const StudyExport made =
+      export_study(study, study.bench.grain, fitted, {.target = ExportTarget::liggghts});
+  ASSERT_THAT(made.warnings, SizeIs(1));
+  EXPECT_THAT(made.warnings[0], AllOf(HasSubstr("particle_particle.restitution"),
+                                      HasSubstr("undetermined"), HasSubstr("0.05 to 0.9")));
+  EXPECT_THAT(text_of(made, "material.lig"), HasSubstr("undetermined"));
+}
+
+// A name may hold what ends a line, a comment or a string of some program.
+TEST(ExportStudy, NamesCannotBreakADeck) {
+  dem::Study study = hazelnuts();
+  study.bench.grain_material.name = "nut\nshell rm -rf & \\\n*/ '''\" $(x) ${y} {{MASS}} ; %s";
+  study.bench.wall_material.name = "steel\r\nquit";
+  for (const auto& [target, name] : kExportTargets) {
+    const StudyExport clean = exported(hazelnuts(), target);
+    const StudyExport odd = exported(study, target);
+    ASSERT_EQ(names_of(odd), names_of(clean)) << name;
+    for (std::size_t k = 0; k < odd.files.size(); ++k) {
+      const std::string& text = odd.files[k].text;
+      EXPECT_EQ(std::count(text.begin(), text.end(), '\n'),
+                std::count(clean.files[k].text.begin(), clean.files[k].text.end(), '\n'))
+          << odd.files[k].name;
+      for (const char* part : {"\nshell", "\nquit", "$(x)", "*/ '''", "rm -rf &"}) {
+        EXPECT_THAT(text, Not(HasSubstr(part))) << odd.files[k].name;
+      }
+    }
+  }
+}
+
+TEST(ExportStudy, TheSameStudyGivesTheSameBytes) {
+  for (const auto& [target, name] : kExportTargets) {
+    const StudyExport one = exported(hazelnuts(), target);
+    const StudyExport other = exported(hazelnuts(), target);
+    for (std::size_t k = 0; k < one.files.size(); ++k) {
+      EXPECT_EQ(one.files[k].text, other.files[k].text) << name;
+    }
+  }
+}
+
+TEST(WriteExport, MakesTheFolderAndRefusesAFileInItsPlace) {
+  const repose::testing::TemporaryFolder folder;
+  write_export(folder.path() / "a" / "b", {{.name = "deck.txt", .text = "run 1\n"}});
+  EXPECT_EQ(repose::testing::text_of(folder.path() / "a" / "b" / "deck.txt"), "run 1\n");
+  folder.write("taken", std::string("a file"));
+  EXPECT_THAT(dem::test::message_of<std::invalid_argument>([&] {
+                write_export(folder.path() / "taken", {{.name = "deck.txt", .text = ""}});
+              }),
+              AllOf(HasSubstr("taken"), HasSubstr("Fix: ")));
+}
+
+TEST(FittedValues, AreReadFromBothMethodsResults) {
+  const auto joint = parse_fitted_values(
+      R"({"parameters": [{"name": "contact.particle_wall.restitution", "value": 0.3,
+          "interval": [0.2, 0.4], "verdict": "determined"},
+          {"name": "contact.particle_wall.rolling_friction", "value": 0.1,
+          "interval": [null, null], "verdict": "undetermined"}]})",
+      "result.json");
+  ASSERT_THAT(joint, SizeIs(2));
+  EXPECT_EQ(joint[0].high, .4);
+  EXPECT_EQ(joint[1].high, 0);
+  const auto paper = parse_fitted_values(R"({"method": "paper", "values": {"a": 1.5}})", "r");
+  ASSERT_THAT(paper, SizeIs(1));
+  EXPECT_EQ(paper[0].value, 1.5);
+  EXPECT_EQ(paper[0].verdict, "");
+}
+
+TEST(FittedValues, DamagedResultsAreRefused) {
+  for (const char* text : {"", "{", "[]", "{}", R"({"parameters": [{"name": "a"}]})",
+                           R"({"parameters": [{"name": "a", "value": null}]})"}) {
+    EXPECT_THAT(dem::test::message_of<std::invalid_argument>(
+                    [&] { parse_fitted_values(text, "result.json"); }),
+                AllOf(HasSubstr("result.json"), HasSubstr("Fix: ")))
+        << text;
+  }
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,111 @@
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/calibrate/sphere_study.h"
+#include "tests/cli/run_program.h"
+
+namespace repose::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Words = std::vector<std::string>;
+
+/// A folder as repose calibrate leaves it, of a study that has ended.
+class Export : public ::testing::Test {
+ protected:
+  Export() {
+    folder_.write("study.toml", calibrate::test::kSphereStudy);
+    run_repose(folder_, {"shape", "--size-mm", "20,20,20", "--spheres", "1", "--out", "ball.json"});
+    const auto study = folder_.path() / "study";
+    std::filesystem::create_directory(study);
+    std::filesystem::copy(folder_.path() / "study.toml", study / "study.toml");
+    std::filesystem::copy(folder_.path() / "ball.json", study / "clump.json");
+    folder_.write("study/study.json",
+                  std::string(R"({"study": {"file": "study.toml", "hash": "h", "settings": []},
+                      "method": "joint", "budget": {"name": "standard"}, "pictures": []})"));
+    folder_.write("study/result.json", std::string(R"({"parameters": [
+        {"name": "contact.particle_wall.restitution", "value": 0.5, "interval": [0.4, 0.6],
+         "verdict": "determined"},
+        {"name": "contact.particle_wall.sliding_friction", "value": 0.3, "interval": [0.1, 0.8],
+         "verdict": "undetermined"}]})"));
+  }
+
+  Finished run(Words words) const {
+    words.insert(words.begin(), "export");
+    return run_repose(folder_, words);
+  }
+  std::string text(const std::string& name) const { return text_of(folder_.path() / name); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Export, WritesDecksAndSaysWhatBecameOfEachCoefficient) {
+  const Finished done = run({"study", "--to", "liggghts"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("coefficientRestitution"), HasSubstr("exact"),
+                              HasSubstr("study/export/liggghts")));
+  EXPECT_THAT(done.err, HasSubstr("sliding_friction = 0.3 is undetermined"));
+  EXPECT_THAT(text("study/export/liggghts/material.lig"), HasSubstr("peratomtypepair 2 0.5"));
+  EXPECT_THAT(text("study/export/liggghts/README.txt"), HasSubstr("undetermined"));
+  EXPECT_THAT(text("study/export/liggghts/drop.lig"), HasSubstr("jump drop.lig next_grain"));
+}
+
+TEST_F(Export, JsonListsFilesAndConversions) {
+  const Finished done = run({"study", "--to", "edem", "--out", "tables", "--json", "-"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json made = json::parse(done.out);
+  EXPECT_EQ(made["target"], "edem");
+  EXPECT_EQ(made["folder"], "tables");
+  EXPECT_THAT(made["files"].get<Words>(), AllOf(Contains("values.csv"), Contains("README.txt")));
+  EXPECT_EQ(made["conversions"][0]["coefficient"], "contact.particle_wall.restitution");
+  EXPECT_EQ(made["conversions"][0]["exported"], .5);
+  EXPECT_EQ(made["conversions"][2]["standing"], "exact");
+  EXPECT_FALSE(made["warnings"].empty());
+  EXPECT_THAT(text("tables/clump.csv"), HasSubstr("radius_m"));
+}
+
+TEST_F(Export, AnUnfinishedStudyIsRefused) {
+  std::filesystem::remove(folder_.path() / "study/result.json");
+  const Finished refused = run({"study", "--to", "yade"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.out, IsEmpty());
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("has not ended"), HasSubstr("Fix: ")));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "study/export"));
+}
+
+TEST_F(Export, EveryFaultIsTold) {
+  const Finished wrong = run({"nowhere", "--to", "excel"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("--to excel: must be one of liggghts"),
+                               HasSubstr("nowhere"), HasSubstr("Fix: ")));
+  EXPECT_EQ(run({}).exit_code, 2);
+  EXPECT_EQ(run({"study"}).exit_code, 2);
+  folder_.write("study/result.json", std::string("{"));
+  const Finished damaged = run({"study", "--to", "edem"});
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("result.json: is no result"));
+}
+
+TEST_F(Export, AnotherLawIsRefusedUntilApproximateIsGiven) {
+  std::string study = text("study/study.toml");
+  study += "[experiment.heap]\ngrains = 20\n";
+  folder_.write("study/study.toml", study);
+  const Finished refused = run({"study", "--to", "lammps"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr("particle_particle.rolling_friction"), HasSubstr("--approximate"),
+                    Not(HasSubstr("particle_wall.rolling_friction = "))));
+  EXPECT_EQ(run({"study", "--to", "lammps", "--approximate"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace repose::testing

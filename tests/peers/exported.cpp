@@ -1,0 +1,140 @@
+#include "tests/peers/exported.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "dem/experiment/experiment.h"
+
+namespace repose::testing {
+namespace {
+
+using calibrate::ExportTarget;
+
+/// The program, and what its decks are called: "drop" + ending.
+struct Program {
+  std::string name;
+  std::string ending;
+};
+
+Program program_of(ExportTarget target) {
+  switch (target) {
+    case ExportTarget::liggghts:
+      return {"liggghts", ".lig"};
+    case ExportTarget::lammps:
+      return {"lmp", ".lmp"};
+    case ExportTarget::yade:
+      return {"yade", ".py"};
+    case ExportTarget::mercurydpm:
+    case ExportTarget::edem:
+      break;
+  }
+  throw std::invalid_argument("there is no program to run this export");
+}
+
+/// The end of what a program printed.
+std::string last_of(const std::string& text) {
+  constexpr std::size_t kShown = 600;
+  return text.substr(text.size() - std::min(text.size(), kShown));
+}
+
+/// All that the deck prints.
+std::string run_deck(const TemporaryFolder& folder, ExportTarget target, const std::string& deck) {
+  const Program program = program_of(target);
+  const std::string file = deck + program.ending;
+  const Finished done = target == ExportTarget::yade
+                            ? run_program(program.name, folder, {"-n", "-x", file})
+                            : run_program(program.name, folder, {"-in", file, "-log", "none"});
+  if (done.exit_code != 0) {
+    throw std::runtime_error(file + " failed: " + last_of(done.out) + last_of(done.err));
+  }
+  return done.out;
+}
+
+/// The number after "reading: NAME ".
+double reading_in(const std::string& out, const std::string& name) {
+  const std::string key = "\nreading: " + name + ' ';
+  const std::size_t place = out.find(key);
+  if (place == std::string::npos) throw std::runtime_error("no " + name + ": " + last_of(out));
+  return std::stod(out.substr(place + key.size()));
+}
+
+/// Top of the first flight less the lowest height before it, from rows of step, height and speed.
+/// In flight the speed falls evenly; a grain that topples on the wall is no flight.
+double rise_in(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  double lowest = HUGE_VAL;
+  double speed_before = 0;
+  double fall_before = 0;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    double step = 0;
+    double height = 0;
+    double speed = 0;
+    if (!(words >> step >> height >> speed)) continue;
+    lowest = std::min(lowest, height);
+    const double fall = speed_before - speed;
+    const bool is_flying = std::abs(fall - fall_before) < .02 * fall;
+    if (speed_before > 0 && speed <= 0 && is_flying) return height - lowest;
+    speed_before = speed;
+    fall_before = fall;
+  }
+  throw std::runtime_error(file.filename().string() + ": the grain never rose");
+}
+
+double mean_rise_mm(const TemporaryFolder& folder, int grains) {
+  double sum_m = 0;
+  for (int k = 1; k <= grains; ++k) {
+    sum_m += rise_in(folder.path() / ("drop_" + std::to_string(k) + ".txt"));
+  }
+  return 1e3 * sum_m / grains;
+}
+
+}  // namespace
+
+dem::Study short_study(dem::RollingModel rolling, double restitution) {
+  dem::Study study;
+  study.bench.grain_material = {"ball", 1000, 1e7, .3};
+  study.bench.wall_material = {"wall", 1000, 1e9, .25};
+  study.bench.grain_wall = {restitution, .4, .1};
+  study.bench.rolling = rolling;
+  study.drop = {.height_m = .05, .grains = 3};
+  study.tilt = {.bonded = 2, .rate_deg_s = 10};
+  study.roll = {.incline_deg = 10, .release_m = .08};
+  return study;
+}
+
+Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain) {
+  dem::Bench bench = study.bench;
+  bench.grain = grain;
+  bench.grain_grain = bench.grain_wall;  // of no effect
+  return {.drop_mm = run_drop(bench, *study.drop, study.seed).value,
+          .tilt_deg = run_tilt(bench, *study.tilt, study.seed).readings.at("half_mm_slip_deg"),
+          .roll_mm = run_roll(bench, *study.roll, study.seed).value};
+}
+
+Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target) {
+  const TemporaryFolder folder;
+  calibrate::write_export(
+      folder.path(),
+      calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true})
+          .files);
+  Readings readings;
+  const std::string dropped = run_deck(folder, target, "drop");
+  readings.drop_mm = target == ExportTarget::yade ? reading_in(dropped, "drop_mm")
+                                                  : mean_rise_mm(folder, study.drop->grains);
+  readings.tilt_deg = reading_in(run_deck(folder, target, "tilt"), "half_mm_slip_deg");
+  readings.roll_mm = reading_in(run_deck(folder, target, "roll"), "roll_mm");
+  return readings;
+}
+
+bool has_program_for(ExportTarget target) {
+  const std::string name = program_of(target).name;
+  if (target == ExportTarget::yade) return run_program(name, {}, {"--version"}).exit_code == 0;
+  // LIGGGHTS knows no option that only tells its version: an empty deck ends at once.
+  return run_program(name, {}, {"-in", "/dev/null", "-log", "none"}).exit_code == 0;
+}
+
+}  // namespace repose::testing

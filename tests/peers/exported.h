@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "calibrate/export/export.h"
+#include "dem/study/study.h"
+#include "tests/support/run_program.h"
+
+/// Exported studies as other programs run them.
+namespace repose::testing {
+
+/// Soft grains on a stiffer wall, short ways: a run takes seconds everywhere.
+dem::Study short_study(dem::RollingModel rolling, double restitution = .5);
+
+/// What the experiments of a study read: rebound (mm), plate's angle after half a millimetre of
+/// slip (degrees), way along the flat (mm).
+struct Readings {
+  double drop_mm = 0;
+  double tilt_deg = 0;
+  double roll_mm = 0;
+};
+
+Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain);
+
+/// The export, run by its program. Throws std::runtime_error with the last of its output when it
+/// fails or reads nothing.
+Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain,
+                     calibrate::ExportTarget target);
+
+/// Whether the program starts.
+bool has_program_for(calibrate::ExportTarget target);
+
+}  // namespace repose::testing
