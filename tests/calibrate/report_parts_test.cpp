@@ -94,7 +94,8 @@ TEST(Page, TextsStayTexts) {
 }
 
 vision::Picture grey_picture() {
-  return {.width = 40, .height = 20, .bgr = std::vector<std::uint8_t>(40 * 20 * 3, 128)};
+  return {
+      .width = 40, .height = 20, .bgr = std::vector<std::uint8_t>(std::size_t{40} * 20 * 3, 128)};
 }
 
 TEST(MeasureReport, SaysMeanAndWhatWasLeftOut) {
@@ -130,7 +131,7 @@ render::Scene heap_of(int grains) {
   render::Scene scene{.shapes = {dem::sphere_shape(0.01)}, .grains = {}, .walls = {}};
   for (int k = 0; k < grains; ++k) {
     dem::Pose pose;
-    pose.position = {0.02 * (k % 50), 0.02 * (k / 50 % 50), 0.02 * (k / 2500)};
+    pose.position = {0.02 * (k % 50), 0.02 * ((k / 50) % 50), 0.02 * std::floor(k / 2500.)};
     scene.grains.push_back({.shape = 0, .number = k, .pose = pose});
   }
   return scene;
