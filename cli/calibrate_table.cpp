@@ -14,13 +14,13 @@
 #include "dem/study/rolling_name.h"
 
 namespace repose::cli {
-namespace {
 
-constexpr std::string_view kPrefix = "contact.";
-
-std::string short_name(const std::string& name) {
-  return name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name;
+std::string short_name(const std::string& coefficient) {
+  constexpr std::string_view kPrefix = "contact.";
+  return coefficient.starts_with(kPrefix) ? coefficient.substr(kPrefix.size()) : coefficient;
 }
+
+namespace {
 
 /// "0.310", or with as many digits as a quantity of that size needs.
 std::string number(double value) {

@@ -9,6 +9,7 @@
 
 #include "calibrate/study/coefficients.h"
 #include "cli/calibrate_json.h"
+#include "cli/calibrate_table.h"
 #include "cli/terminal.h"
 #include "vision/repeats.h"
 
@@ -40,8 +41,9 @@ std::string sweeps_text(const PaperOutcome& outcome) {
   std::string text = fmt::format("{}{:>10}{:>10}{:>10}{:>8}\n", padded("sweep of", 34), "measured",
                                  "found", "runs", "R2");
   for (const calibrate::PaperSweep& sweep : outcome.sweeps) {
-    text += fmt::format("{}{:>10.2f}{:>10.4f}{:>10}{:>8.3f}{}\n", padded(sweep.parameter, 34),
-                        sweep.measured, sweep.value, sweep.levels.size(), sweep.parabola.r2,
+    text += fmt::format("{}{:>10.2f}{:>10.4f}{:>10}{:>8.3f}{}\n",
+                        padded(short_name(sweep.parameter), 34), sweep.measured, sweep.value,
+                        sweep.levels.size(), sweep.parabola.r2,
                         sweep.is_reached ? "" : "  not reached");
   }
   return text;
@@ -62,11 +64,11 @@ std::string heaps_text(const char* title, const std::vector<PaperHeap>& heaps) {
 
 std::string result_text(const CalibratePlan& plan, const PaperOutcome& outcome) {
   std::string text =
-      fmt::format("\n{}{:>10}{:>16}\n", padded("coefficient", 40), "found", "study's value");
+      fmt::format("\n{}{:>10}{:>16}\n", padded("coefficient", 36), "found", "study's value");
   for (std::size_t k = 0; k < outcome.values.size(); ++k) {
     const std::string& name = plan.problem.problem.parameters[k].name;
     const auto value = earlier(plan.record.study, name);
-    text += fmt::format("{}{:>10.4f}{:>16}\n", padded(name, 40), outcome.values[k],
+    text += fmt::format("{}{:>10.4f}{:>16}\n", padded(short_name(name), 36), outcome.values[k],
                         value ? fmt::format("{:.4f}", *value) : "–");
   }
   return text;
