@@ -13,6 +13,7 @@
 
 #include "calibrate/export/export.h"
 #include "calibrate/study/study_record.h"
+#include "cli/calibrate_table.h"
 #include "cli/output.h"
 #include "cli/output_places.h"
 #include "cli/terminal.h"
@@ -105,15 +106,15 @@ std::string export_json(const ExportPlan& plan) {
 }
 
 std::string export_table(const ExportPlan& plan) {
-  std::string text = fmt::format("{}{:>10}{:>12}  {}{}\n", padded("coefficient", 42), "ours",
-                                 "theirs", padded("", 13), "called");
+  std::string text =
+      fmt::format("{}{:>9}{:>10}  conversion\n", padded("coefficient", 35), "ours", "theirs");
   for (const Conversion& conversion : plan.made.conversions) {
-    text += fmt::format("{}{:>10.4g}{:>12.4g}  {}{}\n", padded(conversion.coefficient, 42),
-                        conversion.value, conversion.exported,
-                        padded(name_of(conversion.standing), 13), conversion.target_name);
+    text += fmt::format("{}{:>9.4g}{:>10.4g}  {}\n", padded(short_name(conversion.coefficient), 35),
+                        conversion.value, conversion.exported, name_of(conversion.standing));
   }
-  return text + fmt::format("\n{}: {} files; README.txt says what carries over and what does not\n",
-                            plan.out_folder.string(), plan.made.files.size());
+  return text +
+         fmt::format("\n{}: {} files.\nREADME.txt says what carries over and what does not.\n",
+                     plan.out_folder.string(), plan.made.files.size());
 }
 
 }  // namespace

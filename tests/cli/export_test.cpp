@@ -51,7 +51,7 @@ class Export : public ::testing::Test {
 TEST_F(Export, WritesDecksAndSaysWhatBecameOfEachCoefficient) {
   const Finished done = run({"study", "--to", "liggghts"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, AllOf(HasSubstr("coefficientRestitution"), HasSubstr("exact"),
+  EXPECT_THAT(done.out, AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("exact"),
                               HasSubstr("study/export/liggghts")));
   EXPECT_THAT(done.err, HasSubstr("sliding_friction = 0.3 is undetermined"));
   EXPECT_THAT(text("study/export/liggghts/material.lig"), HasSubstr("peratomtypepair 2 0.5"));
