@@ -97,7 +97,7 @@ Window window_between(const Flank& flank, double low, double high) {
 
 /// What counts for a grain's size, m.
 double grain_m(const Flank& flank, const Window& window) {
-  constexpr double kLargest = .125;  // of the crest's height
+  constexpr double kLargest = .2;  // of the crest's height
   const FlankLine line = plain_line(flank.height, window);
   const auto is_above = [&](std::size_t k) {
     return flank.height[k] >= line.at_crest - line.fall * static_cast<double>(k);

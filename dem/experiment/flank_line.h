@@ -24,8 +24,8 @@ struct FlankLine {
 /// thin layer that runs out from the foot, is left out: it begins where the slope over two grains
 /// has sunk under a third of the upper half's, or where less than two grains of height are left and
 /// the foot is still twice as far as that slope would take. A silhouette does not show its grains:
-/// for one counts the mean distance between the edge's upward crossings of the line, at most an
-/// eighth of the crest's height. Least squares, then Tukey's biweight (Huber & Ronchetti 2009,
+/// for one counts the mean distance between the edge's upward crossings of the line, at most a
+/// fifth of the crest's height. Least squares, then Tukey's biweight (Huber & Ronchetti 2009,
 /// Robust Statistics, sec. 4.8). It is what silhouettes are measured with.
 /// None where there are too few columns, or where the line does not fall.
 std::optional<FlankLine> fit_flank_line(const Flank& flank, double low, double high);
