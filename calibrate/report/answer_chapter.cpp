@@ -94,9 +94,9 @@ Chapter answer_chapter(const StudyFolder& study, const HeapPictures& pictures) {
   chapter.blocks.push_back(coefficients_table(study));
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
-  if (pictures.photographs.empty()) {
+  if (study.pictures.empty()) {
     chapter.blocks.push_back(Paragraph{
-        "The study names no photographs of heaps that could be shown: its angle was typed in."});
+        "The study names no photographs of heaps: nothing can be held beside the simulated one."});
   }
   chapter.blocks.push_back(Paragraph{
       "A coefficient belongs to its clump, contact model, stiffness and time step; all are under "

@@ -62,9 +62,10 @@ std::optional<MeasuredHeap> measured_photograph(const BenchPicture& picture,
     constexpr double kSame_deg = 0.01;
     const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;
     if (picture.angle_deg && std::abs(now_deg - *picture.angle_deg) > kSame_deg) {
-      remarks.push_back(fmt::format(
-          "{} gave {}° when the study was made and does not now: the file was changed since.", name,
-          shown(picture.angle_deg, 2)));
+      remarks.push_back(
+          fmt::format("{} gave {}° when the study was made and does not now: the file or the "
+                      "program was changed since.",
+                      name, shown(picture.angle_deg, 2)));
     }
     return heap;
   } catch (const std::invalid_argument& fault) {

@@ -3,15 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/profile.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/wording.h"
 
 namespace repose::calibrate::report {
 namespace {
-
-/// 95 % of the chi-squared distribution of one degree of freedom.
-constexpr double kLimit95 = 3.84;
 
 Chart profile_chart(const JsonView& parameter) {
   const std::string label = label_of(parameter["name"].text());
@@ -28,8 +26,8 @@ Chart profile_chart(const JsonView& parameter) {
   for (const auto& [value, chi2] : points) {
     add_point(chart, "others fitted again", Look::points, value, chi2);
   }
-  add_level(chart, "95 % limit", Look::limit, {points.front()[0], points.back()[0]}, kLimit95,
-            kLimit95, kLimit95);
+  add_level(chart, "95 % limit", Look::limit, {points.front()[0], points.back()[0]}, kChi2Limit,
+            kChi2Limit, kChi2Limit);
   const std::vector<double> interval = parameter["interval"].numbers();
   if (interval.size() == 2) {
     add_point(chart, "best fit", Look::best, cell(parameter["value"].number()), 0.0,
@@ -135,8 +133,8 @@ Chapter knowledge_chapter(const StudyFolder& study) {
     chapter.blocks.push_back(Heading{"Profile likelihoods"});
     chapter.blocks.push_back(Paragraph{fmt::format(
         "Each coefficient is held at one value after the other while all others are fitted again. "
-        "Values whose misfit χ² rises by less than {} form the 95 % interval.",
-        kLimit95)});
+        "Values whose misfit χ² rises by less than {:.2f} form the 95 % interval.",
+        kChi2Limit)});
     chapter.blocks.push_back(std::move(profiles));
   }
   if (!study.result["equivalence_family"].items().empty()) {

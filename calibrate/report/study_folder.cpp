@@ -149,15 +149,12 @@ StudyFolder read_study_folder(const fs::path& folder) {
     read.result = {};
     read.has_other_result = true;
   }
-  const JsonView& source = read.is_finished() ? read.result : read.study;
   read.runs = read.is_finished() ? runs_of_result(read.result) : runs_in(folder / "runs");
-  for (const JsonView& observable : source["observables"].items()) {
+  for (const JsonView& observable : read.result["observables"].items()) {
     read.measured.push_back(measured_of(observable));
   }
   if (!read.is_finished()) read.measured = measured_of_record(folder);
-  const JsonView pictures =
-      source["pictures"].exists() ? source["pictures"] : read.study["pictures"];
-  for (const JsonView& picture : pictures.items()) {
+  for (const JsonView& picture : read.study["pictures"].items()) {
     read.pictures.push_back({.file = picture["file"].text(),
                              .status = picture["status"].text(),
                              .angle_deg = picture["angle_deg"].number()});
