@@ -10,10 +10,10 @@
 #include "cli/number.h"
 #include "cli/output.h"
 #include "cli/picture_list.h"
-#include "cli/status_name.h"
 #include "io/whole_file.h"
 #include "vision/picture.h"
 #include "vision/repose_angle.h"
+#include "vision/status_name.h"
 
 namespace repose::cli {
 namespace {

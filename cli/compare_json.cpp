@@ -6,7 +6,7 @@
 
 #include "cli/compare_names.h"
 #include "cli/degrees.h"
-#include "cli/status_name.h"
+#include "vision/status_name.h"
 
 namespace repose::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/degrees.h"
-#include "cli/status_name.h"
+#include "vision/status_name.h"
 
 namespace repose::cli {
 namespace {

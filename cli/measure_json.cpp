@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/degrees.h"
-#include "cli/status_name.h"
+#include "vision/status_name.h"
 
 namespace repose::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/degrees.h"
-#include "cli/status_name.h"
 #include "cli/terminal.h"
+#include "vision/status_name.h"
 
 namespace repose::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include "cli/simulate_names.h"
 #include "cli/simulate_values.h"
 #include "cli/simulate_warnings.h"
-#include "cli/status_name.h"
 #include "dem/study/rolling_name.h"
+#include "vision/status_name.h"
 
 namespace repose::cli {
 namespace {

@@ -15,6 +15,7 @@
 #include "calibrate/report/report_of.h"
 #include "calibrate/report/wording.h"
 #include "vision/repeats.h"
+#include "vision/status_name.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -32,16 +33,7 @@ std::string name_of_file(const MeasuredPhotograph& picture) {
 }
 
 std::string status_of(const MeasuredPhotograph& picture) {
-  if (!picture.fault.empty()) return "not read";
-  switch (picture.angle.status) {
-    case MeasureStatus::ok:
-      return "ok";
-    case MeasureStatus::flagged:
-      return "flagged";
-    case MeasureStatus::refused:
-      break;
-  }
-  return "refused";
+  return picture.fault.empty() ? name_of(picture.angle.status) : "not read";
 }
 
 std::string remarks_of(const MeasuredPhotograph& picture) {
