@@ -10,6 +10,8 @@
 #include "calibrate/study/coefficients.h"
 #include "cli/calibrate_json.h"
 #include "cli/calibrate_table.h"
+#include "cli/regress_json.h"
+#include "cli/surface_report.h"
 #include "cli/terminal.h"
 #include "vision/repeats.h"
 
@@ -134,6 +136,17 @@ std::string paper_table(const CalibratePlan& plan, const PaperOutcome& outcome, 
   return text;
 }
 
+namespace {
+
+/// The surface of the error, without its runs: those are the composite design.
+Json surface_json(const PaperOutcome& outcome) {
+  Json surface = Json::parse(regress_json(report_on(outcome.surface, std::nullopt)));
+  surface.erase("runs");
+  return surface;
+}
+
+}  // namespace
+
 std::string paper_json(const CalibratePlan& plan, const PaperOutcome& outcome) {
   Json values = Json::object();
   for (std::size_t k = 0; k < outcome.values.size(); ++k) {
@@ -149,6 +162,7 @@ std::string paper_json(const CalibratePlan& plan, const PaperOutcome& outcome) {
             {"sweeps", sweeps_json(outcome)},
             {"steepest_ascent", heaps_json(outcome.ascent)},
             {"composite", heaps_json(outcome.composite)},
+            {"error_surface", surface_json(outcome)},
             {"least_error_percent", outcome.optimum.value},
             {"verification",
              {{"heaps", heaps_json(outcome.verification)},

@@ -142,55 +142,6 @@ Chart heaps_chart(const StudyFolder& study, const JsonView& heaps, const std::st
   return chart;
 }
 
-void add_variance(DataTable& data, const std::string& source,
-                  const std::optional<Variance>& variance) {
-  if (!variance) return;
-  const double mean_square = variance->df > 0 ? variance->mean_square() : std::nan("");
-  data.add({source, variance->sum_of_squares, static_cast<double>(variance->df), cell(mean_square),
-            cell(variance->f), cell(variance->p)});
-}
-
-/// Analysis of variance of the central composite design's errors.
-std::optional<Table> composite_anova(const JsonView& heaps) {
-  std::vector<std::vector<double>> levels(kCoefficients.size());
-  std::vector<double> errors;
-  for (const JsonView& heap : heaps.items()) {
-    const auto error = heap["error_percent"].number();
-    if (!error) continue;
-    errors.push_back(*error);
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-      levels[k].push_back(heap[kCoefficients[k]].number().value_or(std::nan("")));
-    }
-  }
-  if (errors.empty()) return std::nullopt;
-  std::vector<Factor> factors;
-  for (std::size_t k = 0; k < levels.size(); ++k) {
-    const auto [low, high] = std::minmax_element(levels[k].begin(), levels[k].end());
-    factors.push_back({.name = kCoefficients[k], .low = *low, .high = *high});
-  }
-  const auto fit = regression_of("error_percent", factors, levels, errors);
-  if (!fit) return std::nullopt;
-  Table table{.name = "anova_composite",
-              .title = fmt::format("Analysis of variance of the error, quadratic surface (R² {})",
-                                   shown(fit->r2, 3)),
-              .data = {.columns = {{.name = "source", .unit = {}},
-                                   {.name = "sum of squares", .unit = {}},
-                                   {.name = "df", .unit = {}, .decimals = 0},
-                                   {.name = "mean square", .unit = {}},
-                                   {.name = "F", .unit = {}},
-                                   {.name = "p", .unit = {}}},
-                       .rows = {}}};
-  add_variance(table.data, "model", fit->explained);
-  for (std::size_t k = 0; k < factors.size(); ++k) {
-    add_variance(table.data, "all terms of " + label_of(kCoefficients[k]), fit->of_factor[k]);
-  }
-  add_variance(table.data, "residual", fit->residual);
-  add_variance(table.data, "lack of fit", fit->lack_of_fit);
-  add_variance(table.data, "pure error", fit->pure_error);
-  add_variance(table.data, "total", fit->total);
-  return table;
-}
-
 Chapter grains_chapter(const StudyFolder& study) {
   Chapter chapter{.id = "grains", .title = "Between the grains", .blocks = {}};
   struct Stage {
@@ -211,9 +162,9 @@ Chapter grains_chapter(const StudyFolder& study) {
         study, stage.heaps, std::string("chart_") + stage.name, stage.title, stage.look)}});
     chapter.blocks.push_back(heaps_table(stage.heaps, stage.name, ""));
   }
-  if (auto anova = composite_anova(study.result["composite"])) {
+  if (const JsonView surface = study.result["error_surface"]; surface.exists()) {
     chapter.blocks.push_back(Heading{"Surface of the error"});
-    chapter.blocks.push_back(std::move(*anova));
+    add_regression(surface, "composite", chapter.blocks);
     chapter.blocks.push_back(
         Paragraph{fmt::format("Least error on the surface, in the design's box: {} %.",
                               shown(study.result["least_error_percent"].number()))});
