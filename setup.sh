@@ -4,7 +4,7 @@
 #   ./setup.sh [--tests] [PRESET [TARGET]...]
 #
 #   --tests   also install what only the tests need: clang-format, clang-tidy, MPI, Chromium
-#   PRESET    release (default), dev, sanitize or tidy
+#   PRESET    release (default), dev or sanitize
 #   TARGET    build only this, not everything
 #
 # Started again it only looks whether something is to be done. It reports to stderr, a line a step.

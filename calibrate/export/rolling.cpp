@@ -80,8 +80,7 @@ RollingConversion from_own_spin(ExportTarget target, Partner partner,
     converted.standing = Standing::approximate;
     converted.limits = fmt::format(
         "Our torque has the grain's own lever, theirs that of the sphere that touches: {:.3g} "
-        "times "
-        "as long in the mean over {} poses, {:.3g} to {:.3g} in single ones. ",
+        "times as long in the mean over {} poses, {:.3g} to {:.3g} in single ones. ",
         arm.mean, partner == Partner::wall ? "lying" : "all", arm.low, arm.high);
   }
   if (partner == Partner::grain) {

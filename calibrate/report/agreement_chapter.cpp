@@ -42,8 +42,7 @@ Chapter agreement_chapter(const StudyFolder& study) {
   chapter.blocks.push_back(Paragraph{
       "The fit was made from runs all over the bounds; then the coefficients found were simulated "
       "again with seeds that it had not seen. σ is the uncertainty of the difference: beyond 2 to "
-      "3 "
-      "bench and simulation disagree. Within reach is what the simulation can give between the "
+      "3 bench and simulation disagree. Within reach is what the simulation can give between the "
       "bounds."});
   return chapter;
 }

@@ -78,8 +78,7 @@ Chapter convergence_chapter(const StudyFolder& study) {
     chapter.blocks.push_back(surrogates_table(study));
     chapter.blocks.push_back(
         Paragraph{"Each run is predicted from all others; errors should be about 1 σ. Where they "
-                  "are larger, σ "
-                  "was widened by that."});
+                  "are larger, σ was widened by that."});
   }
   return chapter;
 }

@@ -218,10 +218,8 @@ Chapter heap_chapter(const HeapPictures& pictures) {
   chapter.blocks.push_back(Paragraph{
       "Photographs and pictures of the simulation are measured by the same program in the same "
       "way: on each side a line is fitted to the heap's edge between 20 and 80 % of its height, "
-      "and "
-      "the angle of repose is the mean of both sides, from the ground line. What was found is "
-      "drawn "
-      "in; ± is a 95 % interval."});
+      "and the angle of repose is the mean of both sides, from the ground line. What was found is "
+      "drawn in; ± is a 95 % interval."});
   if (!pictures.photographs.empty()) {
     chapter.blocks.push_back(Heading{"Photographs"});
     chapter.blocks.push_back(PictureRow{pictures.photographs});

@@ -122,8 +122,7 @@ Chart angles_chart(const std::vector<MeasuredPhotograph>& pictures,
   chart.y_range = {{-0.6, highest + 0.8}};
   chart.caption =
       "Each dot is a picture. The diamond is the mean of those with status ok, its bar the "
-      "interval "
-      "of the mean.";
+      "interval of the mean.";
   return chart;
 }
 
@@ -175,10 +174,8 @@ Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
        .blocks = {Paragraph{
            "On each flank a straight line is fitted to the heap's edge over the stretch named with "
            "the result, 20 to 80 % of the height unless chosen otherwise; the angle of repose is "
-           "the "
-           "mean of both lines' angles to the ground line. ± is a 95 % interval of that one heap: "
-           "how "
-           "much heaps differ shows in their scatter."}}});
+           "the mean of both lines' angles to the ground line. ± is a 95 % interval of that one "
+           "heap: how much heaps differ shows in their scatter."}}});
   return report_of(std::move(document));
 }
 

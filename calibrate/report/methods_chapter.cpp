@@ -85,10 +85,9 @@ void add_simulation(const JsonView& provenance, std::vector<Piece>& pieces) {
   const JsonView clump = provenance["clump"];
   pieces.push_back(
       {fmt::format("Grains were simulated with the discrete element method ({}) as clumps of {} "
-                   "overlapping "
-                   "spheres ({}; volume error {} %, inertia error {} %); volume, mass and inertia "
-                   "are those "
-                   "of the surface. Contacts follow {}: with overlap d of two surfaces,",
+                   "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
+                   "and inertia are those of the surface. Contacts follow {}: with overlap d of "
+                   "two surfaces,",
                    provenance["program"].shown(), clump["spheres"].shown(),
                    shortened(clump["source"].shown(), 300),
                    shown(100 * clump["volume_error"].number().value_or(0), 2),
@@ -114,10 +113,9 @@ void add_simulation(const JsonView& provenance, std::vector<Piece>& pieces) {
 void add_angle(std::vector<Piece>& pieces) {
   pieces.push_back(
       {"The angle of repose was measured in photographs and in silhouettes of the simulated heaps "
-       "by "
-       "the same program: on each side a straight line was fitted to the heap's edge between 20 "
-       "and "
-       "80 % of its height, and the angle is the mean of both sides' angles to the ground line,",
+       "by the same program: on each side a straight line was fitted to the heap's edge between 20 "
+       "and 80 % of its height, and the angle is the mean of both sides' angles to the ground "
+       "line,",
        ""});
   pieces.push_back({"θ = (θ_left + θ_right) / 2",
                     "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})"});
@@ -138,9 +136,8 @@ void add_joint_fit(const StudyFolder& study, std::vector<Piece>& pieces) {
        "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}"});
   pieces.push_back(
       {"where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
-       "is "
-       "Student's quantile. Intervals are 95 % profile-likelihood intervals (Venzon and Moolgavkar "
-       "1988), the values xⱼ for which",
+       "is Student's quantile. Intervals are 95 % profile-likelihood intervals (Venzon and "
+       "Moolgavkar 1988), the values xⱼ for which",
        ""});
   pieces.push_back(
       {"min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
@@ -148,8 +145,7 @@ void add_joint_fit(const StudyFolder& study, std::vector<Piece>& pieces) {
   pieces.push_back(
       {"A coefficient is called determined when both ends of its interval lie inside the bounds, "
        "one-sided when one does, undetermined otherwise. The coefficients found were simulated "
-       "again "
-       "with seeds that the fit had not seen and compared with the bench by Welch's test.",
+       "again with seeds that the fit had not seen and compared with the bench by Welch's test.",
        ""});
 }
 
@@ -158,8 +154,7 @@ void add_paper_way(std::vector<Piece>& pieces) {
       {"The coefficients against the wall were found one after the other: each was swept over nine "
        "levels, a parabola was fitted to the results, and solved for the measured value. Those "
        "between grains were approached by steepest ascent and refined by a central composite "
-       "design, "
-       "to whose relative errors of the angle a quadratic surface was fitted:",
+       "design, to whose relative errors of the angle a quadratic surface was fitted:",
        ""});
   pieces.push_back({"|θ − θ_measured| / θ_measured = b₀ + Σ bᵢxᵢ + Σ bᵢⱼxᵢxⱼ + Σ bᵢᵢxᵢ²",
                     "\\frac{|\\theta-\\theta_m|}{\\theta_m} = b_0 + \\sum_i b_i x_i + "

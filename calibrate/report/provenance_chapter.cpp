@@ -98,8 +98,7 @@ Chapter limits_chapter(const StudyFolder& study) {
   for (const char* text :
        {"An interval says what these measurements allow if the simulation can be right at all: "
         "errors of the contact model, of the clump's shape and of the protocol on the bench are "
-        "not "
-        "in it.",
+        "not in it.",
         "Coefficients found at a lower stiffness than the real one belong to that stiffness.",
         "A heap's angle hardly tells restitution, and tells sliding and rolling friction between "
         "grains together, not one by one."}) {

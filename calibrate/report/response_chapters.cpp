@@ -195,8 +195,7 @@ Chapter curves_chapter(const StudyFolder& study) {
       "Every experiment along every coefficient that moves it. The line is the fit with the other "
       "coefficients at their best values, its band what the fit does not know, dots how far single "
       "runs scatter; dashed is what the bench measured. Circles are the simulated runs, each with "
-      "its "
-      "own values of the other coefficients: that is why they lie off the line."};
+      "its own values of the other coefficients: that is why they lie off the line."};
   chapter.blocks.insert(chapter.blocks.begin(), lead);
   return chapter;
 }

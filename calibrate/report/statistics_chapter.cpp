@@ -97,10 +97,9 @@ Chapter statistics_chapter(const StudyFolder& study) {
   if (chapter.blocks.empty()) return chapter;
   const Block lead = Paragraph{
       "A polynomial through each experiment's runs, as a response-surface program would fit it. "
-      "The "
-      "coefficients above were not found with it, but with Gaussian processes, which follow bends "
-      "that a polynomial cannot; it shows which coefficients move an experiment at all. A small p "
-      "says that chance alone would hardly do it."};
+      "The coefficients above were not found with it, but with Gaussian processes, which follow "
+      "bends that a polynomial cannot; it shows which coefficients move an experiment at all. A "
+      "small p says that chance alone would hardly do it."};
   chapter.blocks.insert(chapter.blocks.begin(), lead);
   return chapter;
 }

@@ -1,0 +1,32 @@
+# repose_register_suites(TARGET LABEL) makes every suite of a GoogleTest program one test of ctest,
+# LABEL/SUITE: tests of a suite share what is costly to prepare, and programs that draw in OpenCV
+# take longer to start than most tests.
+#
+# The same file is the script that ctest runs, once it has read PROGRAM and LABEL: suites are listed
+# then, not while building, so that a busy machine cannot break the build.
+
+function(repose_register_suites target label)
+  set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
+  file(GENERATE OUTPUT ${script} CONTENT "set(PROGRAM [[$<TARGET_FILE:${target}>]])
+set(LABEL [[${label}]])
+include([[${CMAKE_CURRENT_FUNCTION_LIST_FILE}]])
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
+endfunction()
+
+if(PROGRAM)
+  execute_process(COMMAND ${PROGRAM} --gtest_list_tests
+    OUTPUT_VARIABLE listing RESULT_VARIABLE result TIMEOUT 120)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${PROGRAM} does not list its tests: ${result}")
+  endif()
+  # Suites begin a line and end in a full stop; their tests are indented.
+  string(REGEX MATCHALL "\n[^ \n]+\\." suites "\n${listing}")
+  foreach(suite IN LISTS suites)
+    string(STRIP "${suite}" suite)
+    string(REGEX REPLACE "\\.$" "" name "${suite}")
+    add_test("${LABEL}/${name}" "${PROGRAM}" "--gtest_filter=${suite}*")
+    set_tests_properties("${LABEL}/${name}" PROPERTIES
+      LABELS "${LABEL}" SKIP_REGULAR_EXPRESSION "\\[  PASSED  \\] 0 tests")
+  endforeach()
+endif()
