@@ -347,8 +347,7 @@ TEST_F(StudyFile, OpenCoefficientsAreNamedWhereTheyMatter) {
 }
 
 TEST(HazelnutStudy, IsThePublishedOne) {
-  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  const Study study = read_study(root / "samples/hazelnut/study.toml");
+  const Study study = read_study(REPOSE_SAMPLES "/hazelnut/study.toml");
   EXPECT_EQ(study.bench.grain_material.density_kg_m3, 851);
   EXPECT_EQ(study.bench.grain_wall.restitution, .31);
   EXPECT_EQ(study.bench.grain_grain.restitution, .11);
