@@ -4,15 +4,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/calibrate.h"
-#include "cli/compare.h"
+#include "cli/calibrate/calibrate.h"
+#include "cli/compare/compare.h"
 #include "cli/export.h"
-#include "cli/measure.h"
-#include "cli/render.h"
+#include "cli/measure/measure.h"
+#include "cli/render/render.h"
 #include "cli/report.h"
-#include "cli/shape.h"
-#include "cli/simulate.h"
-#include "cli/statistics_commands.h"
+#include "cli/shape/shape.h"
+#include "cli/simulate/simulate.h"
+#include "cli/statistics/statistics_commands.h"
 #include "cli/verify.h"
 
 namespace repose::cli {

@@ -13,7 +13,7 @@
 
 #include "calibrate/export/export.h"
 #include "calibrate/study/study_record.h"
-#include "cli/calibrate_table.h"
+#include "cli/calibrate/calibrate_table.h"
 #include "cli/output.h"
 #include "cli/output_places.h"
 #include "cli/terminal.h"

@@ -1,0 +1,170 @@
+#include "cli/calibrate/calibrate.h"
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibrate/study/rank_executor.h"
+#include "calibrate/study/run_folder.h"
+#include "calibrate/study/study_run.h"
+#include "calibrate/study/thread_executor.h"
+#include "cli/calibrate/calibrate_json.h"
+#include "cli/calibrate/calibrate_options.h"
+#include "cli/calibrate/calibrate_progress.h"
+#include "cli/calibrate/calibrate_table.h"
+#include "cli/calibrate/paper_report.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/terminal.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr int kHeapViews = 9;
+
+std::vector<std::string> parameter_names(const CalibratePlan& plan) {
+  std::vector<std::string> names;
+  for (const calibrate::Parameter& parameter : plan.problem.problem.parameters) {
+    names.push_back(parameter.name);
+  }
+  return names;
+}
+
+/// The result of another study or budget is kept, under another name.
+void set_aside_old_result(const CalibratePlan& plan) {
+  const std::filesystem::path file = plan.out_folder / "result.json";
+  std::ifstream in(file, std::ios::binary);
+  const std::string old{std::istreambuf_iterator<char>(in), {}};
+  const std::string name = name_when_set_aside(old, plan);
+  if (name.empty()) return;
+  std::filesystem::rename(file, plan.out_folder / name);
+  print_lines({fmt::format("{}: was of another study, its settings or budget; it is now {}",
+                           file.string(), name)});
+}
+
+void write_results(const CalibratePlan& plan, const std::string& json, const std::string& table) {
+  set_aside_old_result(plan);
+  write_output((plan.out_folder / "result.json").string(), json);
+  if (!plan.json_file.empty()) write_output(plan.json_file, json);
+  if (plan.json_file == kStandardOutput) return;
+  write_output(std::string(kStandardOutput), table);
+}
+
+/// The heap of the fitted coefficients, to look at and to compare with a photograph.
+void keep_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
+               const calibrate::StudyBench& bench, const std::vector<calibrate::Run>& checks) {
+  constexpr const char* kHeap = "heap.vtp";
+  for (const calibrate::Run& run : checks) {
+    const bool is_heap = run.job.experiment == "heap" && run.failure.empty();
+    if (is_heap && folder.copy_state(bench, run.job, kHeap)) return;
+  }
+  // That of other coefficients must not stand for these.
+  std::error_code ignored;
+  std::filesystem::remove(plan.out_folder / kHeap, ignored);
+}
+
+calibrate::StudyBench bench_of(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
+  calibrate::StudyBench bench(plan.record.study, plan.record.grain, parameter_names(plan),
+                              kHeapViews);
+  bench.keep_states_in(folder.runs());
+  return bench;
+}
+
+ExitCode interrupted(const calibrate::RunFolder& folder) {
+  fmt::print(stderr,
+             "repose: interrupted, no result was written. The same command again goes on from "
+             "here: what was simulated is in {}.\n",
+             folder.runs().string());
+  return ExitCode::interrupted;
+}
+
+ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder& folder,
+                          const calibrate::StudyBench& bench, calibrate::Executor& executor,
+                          const std::atomic<bool>& is_interrupted) {
+  const auto outcome = [&] {
+    StudyProgressLine progress;
+    const calibrate::StudyReport report = [&](const auto& now) { progress.tell(now); };
+    calibrate::Workshop workshop(plan.problem.problem, bench, folder, executor, report,
+                                 is_interrupted);
+    return calibrate_as_published(plan.problem.problem, workshop);
+  }();
+  if (!outcome) return interrupted(folder);
+  keep_heap(plan, folder, bench, outcome->checks);
+  write_results(plan, paper_json(plan, *outcome), paper_table(plan, *outcome, columns_of(stdout)));
+  return ExitCode::done;
+}
+
+/// The whole study, from rank 0 where there are ranks.
+ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& folder,
+                        const calibrate::StudyBench& bench, calibrate::Executor& executor,
+                        const std::atomic<bool>& is_interrupted) {
+  if (plan.record.method == "paper") {
+    return run_as_published(plan, folder, bench, executor, is_interrupted);
+  }
+  const auto outcome = [&] {
+    StudyProgressLine progress;
+    return run_study(
+        plan.problem.problem, plan.record.budget, bench, folder, executor,
+        [&](const calibrate::StudyProgress& now) { progress.tell(now); }, is_interrupted);
+  }();
+  if (!outcome) return interrupted(folder);
+  if (outcome->reused > 0) {
+    print_lines({fmt::format("{} of {} simulations were there already, in {}", outcome->reused,
+                             outcome->reused + outcome->simulated, folder.runs().string())});
+  }
+  print_lines(outcome->notes);
+  print_lines(outcome->fit.warnings);
+  keep_heap(plan, folder, bench, outcome->checks);
+  write_results(plan, calibrate_json(plan, *outcome),
+                calibrate_table(plan, *outcome, columns_of(stdout)));
+  return ExitCode::done;
+}
+
+/// As one of the processes of an MPI job.
+ExitCode run_as_rank(const CalibrateArguments& arguments) {
+  const calibrate::RankSession session;
+  const CalibratePlan plan = plan_calibrate(arguments);
+  if (session.rank() == 0) print_lines(plan.faults);
+  if (!plan.faults.empty()) return ExitCode::bad_input;
+  const calibrate::RunFolder folder(plan.out_folder);
+  const calibrate::StudyBench bench = bench_of(plan, folder);
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
+  if (session.rank() > 0) {
+    session.serve(bench, is_interrupted);
+    return ExitCode::done;
+  }
+  print_lines(plan.notes);
+  calibrate::write_study_record(plan.out_folder, plan.record);
+  calibrate::RankExecutor executor(session, bench);
+  return run_study_with(plan, folder, bench, executor, is_interrupted);
+}
+
+}  // namespace
+
+ExitCode run_calibrate(const CalibrateArguments& arguments) {
+  if (calibrate::is_launched_as_rank()) {
+    if (calibrate::has_ranks()) return run_as_rank(arguments);
+    print_lines(
+        {"started as several processes, but built without MPI: each would do the whole "
+         "study. Fix: install an MPI (libopenmpi-dev) and build again, or start one "
+         "process with --jobs."});
+    return ExitCode::bad_input;
+  }
+  const CalibratePlan plan = plan_calibrate(arguments);
+  print_lines(plan.faults);
+  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.notes);
+  const calibrate::RunFolder folder(plan.out_folder);
+  calibrate::write_study_record(plan.out_folder, plan.record);
+  const calibrate::StudyBench bench = bench_of(plan, folder);
+  calibrate::ThreadExecutor executor(bench, plan.jobs);
+  return run_study_with(plan, folder, bench, executor, watch_for_interrupt());
+}
+
+}  // namespace repose::cli

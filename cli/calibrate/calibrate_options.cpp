@@ -1,0 +1,134 @@
+#include "cli/calibrate/calibrate_options.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "cli/degrees.h"
+#include "cli/number.h"
+#include "cli/output.h"
+#include "cli/picture_list.h"
+#include "io/whole_file.h"
+#include "vision/picture.h"
+#include "vision/repose_angle.h"
+#include "vision/status_name.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr int kMostJobs = 1024;
+
+/// Does `work`; what it refuses becomes faults.
+template <typename Work>
+bool attempt(std::vector<std::string>& faults, const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const std::invalid_argument& fault) {
+    add_lines(fault.what(), faults);
+    return false;
+  }
+}
+
+calibrate::PictureReading reading_of(const std::filesystem::path& file) {
+  const vision::ReposeAngle angle = vision::measure_repose_angle(vision::read_picture(file));
+  calibrate::PictureReading reading{.file = std::filesystem::absolute(file),
+                                    .status = name_of(angle.status),
+                                    .angle_deg = {},
+                                    .reason = angle.reason};
+  if (angle.angle_rad) reading.angle_deg = to_degrees(*angle.angle_rad);
+  return reading;
+}
+
+/// What keeps a picture from counting; flagged ones do not, as in the mean of repose measure.
+std::string note_on(const calibrate::PictureReading& picture) {
+  return picture.angle_deg
+             ? fmt::format("{}: flagged, left out. Look at it with repose measure --overlay.",
+                           picture.file.string())
+             : fmt::format("{}: refused, left out: {}", picture.file.string(), picture.reason);
+}
+
+/// Photographs of the bench's heaps: each gives a reading, or it is said why it gives none.
+void measure_pictures(const std::vector<std::filesystem::path>& pictures, CalibratePlan& plan) {
+  if (pictures.empty()) return;
+  std::vector<std::string> names;
+  for (const std::filesystem::path& picture : pictures) names.push_back(picture.string());
+  const PictureList list = list_pictures(names);
+  plan.faults.insert(plan.faults.end(), list.faults.begin(), list.faults.end());
+  plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
+  bool any = false;
+  for (const std::filesystem::path& file : list.files) {
+    attempt(plan.faults, [&] {
+      const calibrate::PictureReading& reading =
+          plan.record.pictures.emplace_back(reading_of(file));
+      if (reading.status == "ok") any = true;
+      if (reading.status != "ok") plan.notes.push_back(note_on(reading));
+    });
+  }
+  if (plan.faults.empty() && !any) {
+    plan.faults.push_back(fmt::format(
+        "{}: none of the {} pictures of the heap could be measured. Fix: look at them with repose "
+        "measure --overlay, or give the angles as values.",
+        plan.record.study.file.string(), list.files.size()));
+  }
+}
+
+void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
+  plan.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (plan.record.study.threads) plan.jobs = *plan.record.study.threads;
+  if (arguments.jobs.empty()) return;
+  const auto jobs = number_in<int>(arguments.jobs);
+  if (!jobs || *jobs < 1 || *jobs > kMostJobs) {
+    plan.faults.push_back(fmt::format(
+        "--jobs {}: must be a whole number from 1 to {}. Fix: leave it out to use all cores.",
+        arguments.jobs, kMostJobs));
+    return;
+  }
+  plan.jobs = *jobs;
+}
+
+void check_places(CalibratePlan& plan) {
+  if (plan.out_folder.empty()) {
+    plan.out_folder = plan.record.study.file.stem().string() + "_calibration";
+  }
+  if (plan.json_file.empty() || plan.json_file == kStandardOutput) return;
+  attempt(plan.faults, [&] { io::check_can_write(plan.json_file); });
+}
+
+}  // namespace
+
+CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
+  CalibratePlan plan;
+  plan.record.settings = arguments.settings;
+  plan.out_folder = arguments.out_folder;
+  plan.json_file = arguments.json_file;
+  plan.record.method = arguments.method;
+  if (plan.record.method != "joint" && plan.record.method != "paper") {
+    plan.faults.push_back(fmt::format(
+        "--method {}: must be joint or paper. Fix: leave it out for joint.", arguments.method));
+  }
+  attempt(plan.faults, [&] { plan.record.budget = calibrate::budget_named(arguments.budget); });
+  const bool is_read = attempt(plan.faults, [&] {
+    plan.record.study = dem::read_study(arguments.study, arguments.settings);
+  });
+  read_jobs(arguments, plan);
+  if (!is_read) return plan;
+  check_places(plan);
+  measure_pictures(plan.record.study.heap_measured.pictures, plan);
+  if (!plan.faults.empty()) return plan;
+  plan.record.study =
+      calibrate::as_simulated(plan.record.study, plan.record.budget, plan.record.pictures);
+  attempt(plan.faults, [&] {
+    plan.record.grain = dem::build_grain(plan.record.study.grain);
+    plan.problem = calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);
+  });
+  for (const std::string& repair : plan.record.grain.repairs) {
+    plan.notes.push_back(fmt::format("{}: {}", plan.record.grain.source, repair));
+  }
+  plan.notes.insert(plan.notes.end(), plan.problem.notes.begin(), plan.problem.notes.end());
+  return plan;
+}
+
+}  // namespace repose::cli

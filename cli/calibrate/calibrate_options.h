@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibrate/study/study_problem.h"
+#include "calibrate/study/study_record.h"
+#include "cli/calibrate/calibrate.h"
+
+namespace repose::cli {
+
+/// What `repose calibrate` will do.
+struct CalibratePlan {
+  calibrate::StudyRecord record;
+  calibrate::StudyProblem problem;
+  int jobs = 1;
+  std::filesystem::path out_folder;
+  std::string json_file;
+
+  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> notes;   ///< for the user to know
+};
+
+CalibratePlan plan_calibrate(const CalibrateArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "calibrate/study/study_run.h"
+#include "cli/calibrate/calibrate_options.h"
+
+namespace repose::cli {
+
+/// As tables call a coefficient: "particle_wall.restitution".
+std::string short_name(const std::string& coefficient);
+
+/// For people: coefficients with intervals and verdicts, what was measured and simulated, sets that
+/// fit as well, what would determine the rest, and what the values belong to.
+std::string calibrate_table(const CalibratePlan& plan, const calibrate::StudyOutcome& outcome,
+                            int columns);
+
+}  // namespace repose::cli

@@ -1,0 +1,103 @@
+#include "cli/compare/compare.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "cli/compare/compare_json.h"
+#include "cli/compare/compare_options.h"
+#include "cli/compare/compare_table.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/picture_list.h"
+#include "cli/terminal.h"
+#include "vision/heap_comparison_overlay.h"
+
+namespace repose::cli {
+namespace {
+
+struct MeasuredHeap {
+  vision::Picture picture;
+  vision::ReposeAngle angle;
+  std::string fault;
+};
+
+std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
+  std::array<MeasuredHeap, 2> heaps;
+  tbb::parallel_for(std::size_t{0}, heaps.size(), [&](std::size_t i) {
+    try {
+      heaps[i].picture = vision::read_picture(plan.pictures[i]);
+      heaps[i].angle = vision::measure_repose_angle(heaps[i].picture, plan.measuring[i]);
+    } catch (const std::invalid_argument& fault) {
+      heaps[i].fault = naming_file(plan.pictures[i].string(), fault.what());
+    }
+  });
+  return heaps;
+}
+
+bool is_same_measurement(const ComparePlan& plan, const std::array<MeasuredHeap, 2>& heaps) {
+  const auto& [a, b] = plan.measuring;
+  const auto same_box = [](const vision::Box& p, const vision::Box& q) {
+    return p.x == q.x && p.y == q.y && p.width == q.width && p.height == q.height;
+  };
+  return heaps[0].picture.width == heaps[1].picture.width &&
+         heaps[0].picture.bgr == heaps[1].picture.bgr && a.camera_pitch_rad == b.camera_pitch_rad &&
+         std::equal(a.excluded.begin(), a.excluded.end(), b.excluded.begin(), b.excluded.end(),
+                    same_box);
+}
+
+void write_overlay(const ComparePlan& plan, const MeasuredHeap& first,
+                   const vision::HeapComparison& comparison) {
+  if (plan.overlay_file.empty()) return;
+  if (comparison.status == vision::MeasureStatus::refused) {
+    fmt::print(stderr, "repose: {}: not drawn, as there is nothing to compare\n",
+               plan.overlay_file);
+    return;
+  }
+  const vision::ComparisonOverlayNotes notes{
+      .titles = {plan.pictures[0].filename().string(), plan.pictures[1].filename().string()},
+      .margin_rad = plan.comparing.margin_rad};
+  vision::write_picture(plan.overlay_file,
+                        vision::draw_comparison(first.picture, first.angle, comparison, notes));
+}
+
+void write_results(const ComparePlan& plan, const vision::HeapComparison& comparison) {
+  if (plan.json_file != kStandardOutput) {
+    write_output(std::string(kStandardOutput), compare_table(plan, comparison, columns_of(stdout)));
+  }
+  if (!plan.json_file.empty()) write_output(plan.json_file, compare_json(plan, comparison));
+}
+
+}  // namespace
+
+ExitCode run_compare(const CompareArguments& arguments) {
+  ComparePlan plan = plan_compare(arguments);
+  print_lines(plan.faults);
+  if (!plan.faults.empty()) return ExitCode::bad_input;
+
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
+  const std::array<MeasuredHeap, 2> heaps = measure_both(plan);
+  if (is_interrupted) {
+    fmt::print(stderr, "repose: interrupted, no results were written\n");
+    return ExitCode::interrupted;
+  }
+  std::vector<std::string> faults;
+  for (const MeasuredHeap& heap : heaps) {
+    if (!heap.fault.empty()) faults.push_back(heap.fault);
+  }
+  print_lines(faults);
+  if (!faults.empty()) return ExitCode::bad_input;
+
+  plan.comparing.same_measurement = is_same_measurement(plan, heaps);
+  const vision::HeapComparison comparison =
+      vision::compare_heaps(heaps[0].angle, heaps[1].angle, plan.comparing);
+  write_overlay(plan, heaps[0], comparison);
+  write_results(plan, comparison);
+  return comparison.status == vision::MeasureStatus::refused ? ExitCode::nothing_measurable
+                                                             : ExitCode::done;
+}
+
+}  // namespace repose::cli

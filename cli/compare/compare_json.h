@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "cli/compare/compare_options.h"
+
+namespace repose::cli {
+
+/// One object. A number that does not exist is null.
+std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& comparison);
+
+}  // namespace repose::cli

@@ -1,0 +1,107 @@
+#include "cli/measure/measure.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibrate/report/measure_report.h"
+#include "cli/interrupt.h"
+#include "cli/measure/measure_batch.h"
+#include "cli/measure/measure_csv.h"
+#include "cli/measure/measure_json.h"
+#include "cli/measure/measure_options.h"
+#include "cli/measure/measure_table.h"
+#include "cli/measure/summary.h"
+#include "cli/output.h"
+#include "cli/terminal.h"
+
+namespace repose::cli {
+namespace {
+
+void print_faults(const std::vector<MeasuredPicture>& pictures) {
+  for (const MeasuredPicture& picture : pictures) {
+    const char* whose = picture.outcome == Outcome::internal_error ? "internal error: " : "";
+    if (!picture.fault.empty()) fmt::print(stderr, "repose: {}{}\n", whose, picture.fault);
+    if (!picture.overlay_fault.empty()) fmt::print(stderr, "repose: {}\n", picture.overlay_fault);
+  }
+}
+
+std::string human_text(const std::vector<MeasuredPicture>& pictures,
+                       const MeasureArguments& arguments) {
+  const auto is_unread = [](const auto& picture) { return picture.outcome != Outcome::measured; };
+  if (std::all_of(pictures.begin(), pictures.end(), is_unread)) return {};
+  const TableStyle style{.columns = columns_of(stdout),
+                         .has_colour = wants_colour(stdout),
+                         .shows_definitions = arguments.shows_definitions};
+  std::string text = measure_table(pictures, style);
+  if (pictures.size() > 1) text += '\n' + summary_text(summarise(pictures)) + '\n';
+  return text;
+}
+
+std::string report_page(const std::vector<MeasuredPicture>& pictures) {
+  std::vector<calibrate::report::MeasuredPhotograph> shown;
+  for (const MeasuredPicture& picture : pictures) {
+    shown.push_back({.file = picture.file,
+                     .fault = picture.outcome == Outcome::measured ? "" : picture.fault,
+                     .angle = picture.angle,
+                     .overlay = picture.overlay});
+  }
+  return calibrate::report::measure_report(shown).html;
+}
+
+void write_results(const std::vector<MeasuredPicture>& pictures,
+                   const MeasureArguments& arguments) {
+  const std::string& json = arguments.json_file;
+  const std::string& csv = arguments.csv_file;
+  const std::string& summary = arguments.summary_file;
+  const bool stdout_is_taken =
+      json == kStandardOutput || csv == kStandardOutput || summary == kStandardOutput;
+  if (!stdout_is_taken) {
+    write_output(std::string(kStandardOutput), human_text(pictures, arguments));
+  }
+  if (!json.empty()) write_output(json, measure_json(pictures));
+  if (!csv.empty()) write_output(csv, measure_csv(pictures));
+  if (!summary.empty()) write_output(summary, summary_json(summarise(pictures)));
+  if (!arguments.report_file.empty()) write_output(arguments.report_file, report_page(pictures));
+}
+
+ExitCode exit_code(const std::vector<MeasuredPicture>& pictures) {
+  const auto any = [&](auto predicate) {
+    return std::any_of(pictures.begin(), pictures.end(), predicate);
+  };
+  if (any([](const auto& picture) { return picture.outcome == Outcome::internal_error; })) {
+    return ExitCode::internal_error;
+  }
+  if (any([](const auto& picture) {
+        return picture.outcome == Outcome::bad_input || !picture.overlay_fault.empty();
+      })) {
+    return ExitCode::bad_input;
+  }
+  const bool any_angle = any(
+      [](const auto& picture) { return picture.angle.status != vision::MeasureStatus::refused; });
+  return any_angle ? ExitCode::done : ExitCode::nothing_measurable;
+}
+
+}  // namespace
+
+ExitCode run_measure(const MeasureArguments& arguments) {
+  const MeasurePlan plan = plan_measure(arguments);
+  print_lines(plan.faults);
+  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.notes);
+
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
+  const std::vector<MeasuredPicture> pictures = measure_batch(plan, is_interrupted);
+  if (is_interrupted) {
+    fmt::print(stderr, "repose: interrupted, no results were written\n");
+    return ExitCode::interrupted;
+  }
+  print_faults(pictures);
+  write_results(pictures, arguments);
+  return exit_code(pictures);
+}
+
+}  // namespace repose::cli

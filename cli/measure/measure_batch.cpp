@@ -1,0 +1,79 @@
+#include "cli/measure/measure_batch.h"
+
+#include <cstddef>
+#include <exception>
+#include <stdexcept>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "cli/picture_list.h"
+#include "cli/progress.h"
+#include "vision/overlay.h"
+#include "vision/picture.h"
+
+namespace repose::cli {
+namespace {
+
+vision::OverlayNotes notes_for(const MeasurePlan& plan, std::size_t index) {
+  return {.title = plan.pictures[index].filename().string(), .excluded = plan.options.excluded};
+}
+
+void draw(const vision::Picture& picture, const MeasurePlan& plan, std::size_t index,
+          MeasuredPicture& measured) {
+  try {
+    const vision::OverlayNotes notes = notes_for(plan, index);
+    vision::write_picture(plan.overlays[index],
+                          vision::draw_overlay(picture, measured.angle, notes));
+  } catch (const std::invalid_argument& fault) {
+    measured.overlay_fault = fault.what();
+  }
+}
+
+MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
+  MeasuredPicture measured;
+  measured.file = plan.pictures[index].string();
+  try {
+    const vision::Picture picture = vision::read_picture(plan.pictures[index]);
+    measured.angle = vision::measure_repose_angle(picture, plan.options);
+    if (!plan.overlays.empty()) draw(picture, plan, index, measured);
+    if (plan.keeps_overlays) {
+      measured.overlay = calibrate::report::overlay_for_page(
+          picture, measured.angle, notes_for(plan, index), plan.pictures.size());
+    }
+    measured.angle.outline = {};
+    measured.angle.upper_edge = {};
+    measured.angle.left.edge = {};
+    measured.angle.right.edge = {};
+  } catch (const std::invalid_argument& fault) {
+    measured.outcome = Outcome::bad_input;
+    measured.fault = naming_file(measured.file, fault.what());
+  } catch (const std::exception& error) {
+    measured.outcome = Outcome::internal_error;
+    measured.fault = naming_file(measured.file, error.what());
+  }
+  return measured;
+}
+
+}  // namespace
+
+std::vector<MeasuredPicture> measure_batch(const MeasurePlan& plan,
+                                           const std::atomic<bool>& is_interrupted) {
+  std::vector<MeasuredPicture> results(plan.pictures.size());
+  Progress progress(results.size());
+  // The control holds for the parallel loops inside OpenCV too.
+  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(plan.threads));
+  tbb::task_arena arena(plan.threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t index) {
+      if (is_interrupted) return;
+      results[index] = measure_one(plan, index);
+      progress.advance();
+    });
+  });
+  return results;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/measure/measure.h"
+#include "vision/repose_angle.h"
+
+namespace repose::cli {
+
+/// A `repose measure` that can be carried out.
+struct MeasurePlan {
+  std::vector<std::filesystem::path> pictures;
+  std::vector<std::filesystem::path> overlays;  ///< one a picture, or none
+  bool keeps_overlays = false;                  ///< in memory, for a report
+  vision::MeasureOptions options;
+  int threads = 1;
+
+  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> notes;   ///< for the user to know
+};
+
+/// Reads and checks all that was typed, also whether the output can be written, so that no work is
+/// lost. All faults at once.
+MeasurePlan plan_measure(const MeasureArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/measure/measure_batch.h"
+
+namespace repose::cli {
+
+struct TableStyle {
+  int columns = 80;
+  bool has_colour = false;
+  bool shows_definitions = false;
+};
+
+/// A row for each picture for people to read; below it its warnings, or why it was refused.
+std::string measure_table(const std::vector<MeasuredPicture>& pictures, const TableStyle& style);
+
+}  // namespace repose::cli

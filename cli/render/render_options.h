@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/render/render.h"
+#include "render/camera.h"
+#include "render/style.h"
+
+namespace repose::cli {
+
+/// A lens on a stand, from --camera.
+struct LensPlan {
+  render::LabStand stand;
+  double roll_rad = 0;
+  double k1 = 0;
+  double k2 = 0;
+};
+
+enum class RenderOutput { picture, model, film };
+
+/// What the words of `repose render` come down to.
+struct RenderPlan {
+  RenderOutput output = RenderOutput::picture;
+  bool is_series = false;  ///< the state is a trajectory
+  render::OrthographicCamera level;
+  std::optional<LensPlan> lens;  ///< instead of `level`
+  render::PictureSize size;
+  render::Style style;
+  int turntable_frames = 0;
+  std::vector<std::string> faults;  ///< all of them; empty when it can be carried out
+};
+
+RenderPlan plan_render(const RenderArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,78 @@
+#include "cli/shape/shape.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/output.h"
+#include "cli/shape/shape_options.h"
+#include "cli/shape/shape_report.h"
+#include "dem/shape/clump_file.h"
+
+namespace repose::cli {
+namespace {
+
+/// Grains shorter than this are rare, and scans in metres read as mm are common.
+constexpr double kDoubtfulLength_m = 1e-3;
+
+dem::Scan grain(const ShapeArguments& arguments, const ShapePlan& plan) {
+  if (plan.sizes) return {.surface = dem::calliper_surface(*plan.sizes), .repairs = {}};
+  return dem::read_scan(arguments.scan, plan.unit);
+}
+
+std::string source_of(const ShapeArguments& arguments) {
+  if (!arguments.scan.empty()) return arguments.scan;
+  return fmt::format("{} mm, tip {}", arguments.size_mm,
+                     arguments.tip.empty() ? "0" : arguments.tip);
+}
+
+void doubt_unit(const ShapeArguments& arguments, const dem::ClumpShape& shape) {
+  if (arguments.scan.empty() || !arguments.unit.empty()) return;
+  const double reach = shape.reach_m();
+  if (2 * reach >= kDoubtfulLength_m) return;
+  fmt::print(stderr,
+             "repose: {}: is about {:.2g} mm long, taken in mm. If the scan is in metres, pass "
+             "--unit m.\n",
+             arguments.scan, 2e3 * reach);
+}
+
+void write_results(const dem::ClumpFile& clump, const ShapeArguments& arguments,
+                   const ShapePlan& plan) {
+  if (!arguments.out_file.empty()) write_output(arguments.out_file, dem::clump_json(clump));
+  if (!arguments.mesh_file.empty()) {
+    const auto content = dem::export_shape(clump.shape, plan.mesh_format);
+    write_output(arguments.mesh_file,
+                 {reinterpret_cast<const char*>(content.data()), content.size()});
+  }
+  if (!arguments.json_file.empty()) {
+    write_output(arguments.json_file, shape_json(clump, plan.density_kg_m3));
+  }
+  const bool stdout_is_taken = arguments.json_file == kStandardOutput ||
+                               arguments.out_file == kStandardOutput ||
+                               arguments.mesh_file == kStandardOutput;
+  if (!stdout_is_taken) {
+    write_output(std::string(kStandardOutput), shape_table(clump, plan.density_kg_m3));
+  }
+}
+
+}  // namespace
+
+ExitCode run_shape(const ShapeArguments& arguments) {
+  const ShapePlan plan = plan_shape(arguments);
+  print_lines(plan.faults);
+  if (!plan.faults.empty()) return ExitCode::bad_input;
+
+  dem::Scan scan = grain(arguments, plan);
+  dem::FilledClump filled = dem::clump_of(scan.surface, plan.fill);
+  const dem::ClumpFile clump{.source = source_of(arguments),
+                             .repairs = std::move(scan.repairs),
+                             .shape = std::move(filled.shape),
+                             .errors = filled.errors};
+  doubt_unit(arguments, clump.shape);
+  write_results(clump, arguments, plan);
+  return ExitCode::done;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/shape/shape.h"
+#include "dem/shape/calliper.h"
+#include "dem/shape/fill.h"
+#include "dem/shape/scan.h"
+#include "dem/shape/shape_export.h"
+
+namespace repose::cli {
+
+/// What the words of `repose shape` come down to.
+struct ShapePlan {
+  std::optional<dem::CalliperSizes> sizes;  ///< else the scan is read
+  dem::ScanUnit unit = dem::ScanUnit::millimetre;
+  dem::FillOptions fill;
+  std::optional<double> density_kg_m3;
+  dem::ShapeFormat mesh_format = dem::ShapeFormat::glb;
+  std::vector<std::string> faults;  ///< all of them; empty when it can be carried out
+};
+
+ShapePlan plan_shape(const ShapeArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,95 @@
+#include "cli/simulate/simulate.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/simulate/simulate_json.h"
+#include "cli/simulate/simulate_options.h"
+#include "cli/simulate/simulate_pictures.h"
+#include "cli/simulate/simulate_runs.h"
+#include "cli/simulate/simulate_table.h"
+#include "cli/simulate/simulate_values.h"
+#include "cli/simulate/simulate_warnings.h"
+#include "cli/terminal.h"
+
+namespace repose::cli {
+namespace {
+
+std::size_t count(const std::vector<Run>& runs, RunOutcome outcome) {
+  return static_cast<std::size_t>(std::count_if(
+      runs.begin(), runs.end(), [&](const Run& run) { return run.outcome == outcome; }));
+}
+
+/// What is left of a batch that gave no result.
+std::string finished_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  const std::size_t done = count(runs, RunOutcome::done);
+  return fmt::format("{} of {} repeats were finished{}", done, runs.size(),
+                     done > 0 && !plan.out_folder.empty()
+                         ? ", their states are in " + plan.out_folder.string()
+                         : "");
+}
+
+/// How an interrupted batch goes on.
+std::string continue_text(const SimulatePlan& plan) {
+  return plan.out_folder.empty() ? "With --out FOLDER it could be gone on with."
+                                 : "The same command again goes on from here.";
+}
+
+/// Says why there is no result. What is wrong with the input is so for every seed, and told once.
+ExitCode fail(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  std::set<std::string> told;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Run& run = runs[k];
+    std::string whose = fmt::format("seed {}: ", plan.seeds[k]);
+    if (run.outcome == RunOutcome::internal_error) whose += "internal error: ";
+    if (run.outcome == RunOutcome::bad_input) whose.clear();
+    const std::string line = whose + run.fault;
+    if (!run.fault.empty() && told.insert(line).second) fmt::print(stderr, "repose: {}\n", line);
+  }
+  fmt::print(stderr, "repose: no result; {}\n", finished_text(plan, runs));
+  if (count(runs, RunOutcome::internal_error) > 0) return ExitCode::internal_error;
+  return count(runs, RunOutcome::bad_input) > 0 ? ExitCode::bad_input
+                                                : ExitCode::nothing_measurable;
+}
+
+void write_results(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  const std::string json = simulate_json(plan, runs);
+  if (!plan.out_folder.empty()) write_output((plan.out_folder / "result.json").string(), json);
+  if (!plan.json_file.empty()) write_output(plan.json_file, json);
+  if (plan.json_file == kStandardOutput) return;
+  write_output(std::string(kStandardOutput), simulate_table(plan, runs, columns_of(stdout)));
+}
+
+}  // namespace
+
+ExitCode run_simulate(const SimulateArguments& arguments) {
+  const SimulatePlan plan = plan_simulate(arguments);
+  print_lines(plan.faults);
+  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.notes);
+
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
+  std::vector<Run> runs = run_repeats(plan, is_interrupted);
+  const std::size_t done = count(runs, RunOutcome::done);
+  const bool is_all_done = done == runs.size();
+  if (is_all_done) take_pictures(plan, runs, is_interrupted);
+  if (is_interrupted && (!is_all_done || plan.views > 0)) {
+    fmt::print(stderr, "repose: interrupted, no result was written; {}. {}\n",
+               finished_text(plan, runs), continue_text(plan));
+    return ExitCode::interrupted;
+  }
+  if (!is_all_done) return fail(plan, runs);
+  for (const RunWarning& warning : warnings_of(plan, runs)) {
+    fmt::print(stderr, "repose: {}{}\n",
+               warning.seed ? fmt::format("seed {}: ", *warning.seed) : "", warning.message);
+  }
+  write_results(plan, runs);
+  return summarise(runs) ? ExitCode::done : ExitCode::nothing_measurable;
+}
+
+}  // namespace repose::cli

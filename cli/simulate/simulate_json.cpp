@@ -1,0 +1,197 @@
+#include "cli/simulate/simulate_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/degrees.h"
+#include "cli/simulate/simulate_names.h"
+#include "cli/simulate/simulate_values.h"
+#include "cli/simulate/simulate_warnings.h"
+#include "dem/study/rolling_name.h"
+#include "vision/status_name.h"
+
+namespace repose::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kIndent = 2;
+constexpr double kMillimetres = 1e3;
+
+std::string text_of(const Json& json) {
+  // Names of files need not be UTF-8, JSON must be.
+  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+/// JSON has no NaN: a number that does not exist is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json material_json(const dem::Material& material) {
+  return {{"name", material.name},
+          {"density_kg_m3", material.density_kg_m3},
+          {"young_modulus_pa", material.young_modulus_pa},
+          {"poisson_ratio", material.poisson_ratio}};
+}
+
+Json pair_json(const dem::PairCoefficients& pair) {
+  return {{"restitution", pair.restitution},
+          {"sliding_friction", pair.sliding_friction},
+          {"rolling_friction", pair.rolling_friction}};
+}
+
+Json clump_json(const SimulatePlan& plan) {
+  const dem::ClumpShape& shape = plan.grain.shape;
+  const auto smallest =
+      std::min_element(shape.spheres.begin(), shape.spheres.end(),
+                       [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  return {{"source", plan.grain.source},
+          {"spheres", shape.spheres.size()},
+          {"smallest_radius_mm", smallest->radius * kMillimetres},
+          {"mass_g", shape.volume_m3 * plan.bench.grain_material.density_kg_m3 * 1e3},
+          {"volume_error", plan.grain.errors.volume_error},
+          {"inertia_error", plan.grain.errors.inertia_error}};
+}
+
+/// All that a value belongs to but its seed and time step.
+void add_context(const SimulatePlan& plan, Json& json) {
+  const dem::Bench& bench = plan.bench;
+  json["contact_model"] = contact_model_text();
+  json["rolling_model"] = dem::name_of(bench.rolling);
+  json["rolling_definition"] = rolling_definition(bench.rolling);
+  json["stiffness_factor"] = bench.stiffness_factor;
+  json["timestep_fraction"] = bench.timestep_s ? Json(nullptr) : Json(bench.timestep_fraction);
+  json["clump"] = clump_json(plan);
+  json["materials"] = {{"particle", material_json(bench.grain_material)},
+                       {"wall", material_json(bench.wall_material)}};
+  json["contact"] = {{"particle_wall", pair_json(bench.grain_wall)}};
+  if (plan.experiment == dem::Experiment::heap) {
+    json["contact"]["particle_particle"] = pair_json(bench.grain_grain);
+  }
+  json["study"] = {
+      {"file", plan.study.file.string()}, {"hash", plan.study.hash}, {"settings", plan.settings}};
+  json["program"] = "repose " REPOSE_VERSION;
+}
+
+Json optional_number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+/// A heap's angle from both sources, and each view of it.
+void add_pictures(const Run& run, Json& json) {
+  const HeapPictures& pictures = *run.pictures;
+  const auto seen = calibrate::angle_deg(pictures.views);
+  json["angle_from_pictures_deg"] = seen ? number(seen->mean) : Json(nullptr);
+  json["sd_between_views_deg"] = seen ? optional_number(seen->sd) : Json(nullptr);
+  json["angle_from_positions_deg"] = number(run.repeat.value);
+  json["overlay"] = pictures.overlay_file.empty() ? Json(nullptr) : Json(pictures.overlay_file);
+  json["views"] = Json::array();
+  for (const calibrate::HeapView& view : pictures.views) {
+    json["views"].push_back(
+        {{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
+         {"status", name_of(view.status)},
+         {"angle_deg", view.angle_rad ? Json(rounded_degrees(*view.angle_rad)) : Json(nullptr)}});
+  }
+}
+
+/// The same for all repeats together.
+void add_sources(const std::vector<Run>& runs, Json& json) {
+  const auto angles = heap_angles(runs);
+  if (!angles) return;
+  json["source"] = is_from_pictures(runs) ? "pictures" : "positions";
+  const auto& pictures = angles->pictures;
+  json["angle_from_pictures_deg"] = pictures ? Json(pictures->mean) : Json(nullptr);
+  json["angle_from_positions_deg"] = number(angles->positions.mean);
+  json["sd_from_pictures_deg"] = pictures ? optional_number(pictures->sd) : Json(nullptr);
+  json["sd_from_positions_deg"] = optional_number(angles->positions.sd);
+  json["sd_between_views_deg"] = optional_number(angles->between_views_pictures);
+  json["views"] = angles->views;
+  json["views_refused"] = angles->refused;
+  json["views_flagged"] = angles->flagged;
+}
+
+Json run_json(const Run& run, double angle_or_length) {
+  const dem::Repeat& repeat = run.repeat;
+  Json readings = Json::object();
+  for (const auto& [name, value] : repeat.readings) readings[name] = number(value);
+  Json json{{"seed", repeat.seed},
+            {"value", number(angle_or_length)},
+            {"wall_s", run.wall_s},
+            {"steps", repeat.steps},
+            {"clump_steps_per_s", number(repeat.clump_steps / run.wall_s)},
+            {"timestep_s", repeat.timestep_s},
+            {"state", run.state_file.empty() ? Json(nullptr) : Json(run.state_file)},
+            {"readings", readings}};
+  if (run.pictures) add_pictures(run, json);
+  return json;
+}
+
+Json measured_json(const dem::Measured& measured) {
+  Json json{{"values", measured.values},
+            {"mean", measured.mean ? Json(*measured.mean) : Json(nullptr)},
+            {"sd", measured.sd ? Json(*measured.sd) : Json(nullptr)},
+            {"n", measured.count ? Json(*measured.count) : Json(nullptr)}};
+  if (measured.values.empty()) return json;
+  const vision::Repeats repeats = vision::summarise(measured.values);
+  json["mean"] = repeats.mean;
+  if (repeats.sd) json["sd"] = *repeats.sd;
+  json["n"] = repeats.n;
+  return json;
+}
+
+}  // namespace
+
+std::string contact_model_text() { return "Hertz-Mindlin (no slip)"; }
+
+std::string rolling_definition(dem::RollingModel model) {
+  switch (model) {
+    case dem::RollingModel::none:
+      return "no rolling friction";
+    case dem::RollingModel::constant_torque:
+      return "on each body mu_r F_n times its own distance from centre of mass to contact, against "
+             "its own spin";
+    case dem::RollingModel::relative_constant_torque:
+      return "mu_r F_n times the reduced radius, against the relative spin";
+    case dem::RollingModel::elastic_plastic:
+      break;
+  }
+  return "rolling spring with a plastic limit of mu_r F_n times the reduced radius";
+}
+
+std::string provenance_json(const SimulatePlan& plan, std::uint64_t seed) {
+  Json json{{"experiment", names_of(plan.experiment).name}, {"seed", seed}};
+  add_context(plan, json);
+  return text_of(json);
+}
+
+std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  const ExperimentName& names = names_of(plan.experiment);
+  const auto summary = summarise(runs);
+  Json json{{"experiment", names.name}, {"unit", names.unit}, {"value", nullptr},
+            {"interval", nullptr},      {"sd", nullptr},      {"repeats", Json::array()}};
+  if (summary) {
+    json["value"] = summary->mean;
+    if (summary->sd) json["sd"] = *summary->sd;
+    if (summary->mean_uncertainty) {
+      json["interval"] = {summary->mean - *summary->mean_uncertainty,
+                          summary->mean + *summary->mean_uncertainty};
+    }
+  }
+  add_sources(runs, json);
+  const std::vector<double> values = values_of(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    json["repeats"].push_back(run_json(runs[k], values[k]));
+  }
+  json["warnings"] = Json::array();
+  for (const RunWarning& warning : warnings_of(plan, runs)) {
+    json["warnings"].push_back({{"code", warning.code},
+                                {"seed", warning.seed ? Json(*warning.seed) : Json(nullptr)},
+                                {"message", warning.message}});
+  }
+  json["measured"] = measured_json(dem::measured_in(plan.study, plan.experiment));
+  add_context(plan, json);
+  return text_of(json);
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,174 @@
+#include "cli/simulate/simulate_options.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "cli/number.h"
+#include "cli/output.h"
+#include "cli/simulate/simulate_kept.h"
+#include "cli/simulate/simulate_names.h"
+#include "io/whole_file.h"
+
+namespace repose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostRepeats = 100'000;
+constexpr int kMostThreads = 1024;
+constexpr int kUsualViews = 18;
+constexpr int kMostViews = 360;
+
+/// The whole text as a number from `least` to `most`; a fault otherwise. None when it is empty.
+template <typename Number>
+std::optional<Number> number_of(const std::string& option, const std::string& text, Number least,
+                                Number most, const std::string& fix, SimulatePlan& plan) {
+  if (text.empty()) return std::nullopt;
+  const auto number = number_in<Number>(text);
+  if (number && *number >= least && *number <= most) return number;
+  plan.faults.push_back(fmt::format("{} {}: must be a {}number from {} to {}. Fix: {}.", option,
+                                    text, std::is_integral_v<Number> ? "whole " : "", least, most,
+                                    fix));
+  return std::nullopt;
+}
+
+void read_numbers(const SimulateArguments& arguments, SimulatePlan& plan) {
+  const std::uint64_t seed =
+      number_of<std::uint64_t>("--seed", arguments.seed, 0,
+                               std::numeric_limits<std::int64_t>::max(), "--seed 1", plan)
+          .value_or(plan.study.seed);
+  const int repeats =
+      number_of("--repeats", arguments.repeats, 1, kMostRepeats, "--repeats 5", plan)
+          .value_or(plan.study.replicates);
+  for (int k = 0; k < repeats; ++k) plan.seeds.push_back(seed + static_cast<std::uint64_t>(k));
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  plan.threads = number_of("--threads", arguments.threads, 1, kMostThreads,
+                           "leave it out to use all cores", plan)
+                     .value_or(plan.study.threads.value_or(cores));
+  constexpr double kShortest_s = 1e-9, kLongest_s = 1e6;
+  plan.trajectory_s = number_of("--trajectory-s", arguments.trajectory_s, kShortest_s, kLongest_s,
+                                "--trajectory-s 0.1", plan);
+  if (!arguments.trajectory_s.empty() && arguments.out_folder.empty()) {
+    plan.faults.emplace_back(
+        "--trajectory-s: there is no place for its frames. Fix: add --out FOLDER.");
+  }
+}
+
+void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
+  if (plan.experiment == dem::Experiment::heap) {
+    plan.views = number_of("--views", arguments.views, 0, kMostViews,
+                           "--views 18, or 1 for the XZ view alone", plan)
+                     .value_or(kUsualViews);
+  } else if (!arguments.views.empty()) {
+    plan.faults.emplace_back("--views: only heaps are measured in pictures. Fix: leave it out.");
+  }
+}
+
+/// The experiment must be described, and what it needs must have a value.
+void check_study(SimulatePlan& plan) {
+  const std::string file = plan.study.file.string();
+  const std::string_view name = names_of(plan.experiment).name;
+  if (!dem::has_protocol(plan.study, plan.experiment)) {
+    plan.faults.push_back(fmt::format(
+        "{}: section [experiment.{}] is missing. Fix: add it to the study, or for this run "
+        "--set 'experiment.{}={{}}' for the usual way of doing it.",
+        file, name, name));
+  }
+  for (const std::string& key : dem::open_coefficients(plan.study, plan.experiment)) {
+    plan.faults.push_back(fmt::format(
+        "{}: {} has bounds but no value, and one run needs one. Fix: --set {}=0.3, or find it with "
+        "repose calibrate.",
+        file, key, key));
+  }
+  if (plan.experiment == dem::Experiment::drop && plan.study.drop_stiffness != 1) {
+    plan.notes.push_back(fmt::format(
+        "{}: a drop with stiffness_factor = {:g} rebounds less than one with the real stiffness. "
+        "Fix: take it out of [experiment.drop].",
+        file, plan.study.drop_stiffness));
+  }
+}
+
+void check_places(SimulatePlan& plan) {
+  const auto check = [&plan](const std::string& option, const fs::path& file) {
+    try {
+      io::check_can_write(file);
+    } catch (const std::invalid_argument& fault) {
+      plan.faults.push_back(fmt::format("{} {}", option, fault.what()));
+    }
+  };
+  if (!plan.json_file.empty() && plan.json_file != kStandardOutput) check("--json", plan.json_file);
+  if (plan.out_folder.empty()) return;
+  std::error_code error;
+  fs::create_directories(plan.out_folder, error);
+  if (error) {
+    plan.faults.push_back(fmt::format(
+        "--out {}: the folder cannot be made ({}). Fix: choose a place you may write to.",
+        plan.out_folder.string(), error.message()));
+    return;
+  }
+  check("--out", plan.out_folder / "result.json");
+}
+
+/// What the folder holds may be gone on with, if it is of the same run.
+void check_kept(SimulatePlan& plan) {
+  const std::string fault = fault_of_kept(plan);
+  if (!fault.empty()) {
+    plan.faults.push_back(fault);
+    return;
+  }
+  const std::string kept = kept_text(plan);
+  if (!kept.empty()) plan.notes.push_back(kept);
+}
+
+void build_bench(SimulatePlan& plan) {
+  try {
+    plan.grain = dem::build_grain(plan.study.grain);
+  } catch (const std::invalid_argument& fault) {
+    add_lines(fault.what(), plan.faults);
+    return;
+  }
+  for (const std::string& repair : plan.grain.repairs) {
+    plan.notes.push_back(fmt::format("{}: {}", plan.grain.source, repair));
+  }
+  plan.bench = dem::bench_for(plan.study, plan.experiment);
+  plan.bench.grain = plan.grain.shape;
+}
+
+}  // namespace
+
+SimulatePlan plan_simulate(const SimulateArguments& arguments) {
+  SimulatePlan plan;
+  plan.settings = arguments.settings;
+  plan.out_folder = arguments.out_folder;
+  plan.json_file = arguments.json_file;
+  const auto experiment = experiment_named(arguments.experiment);
+  if (!experiment) {
+    plan.faults.push_back(
+        fmt::format("simulate {}: there is no such experiment. Fix: drop, tilt, roll or heap.",
+                    arguments.experiment));
+  }
+  plan.experiment = experiment.value_or(plan.experiment);
+  bool is_read = false;
+  try {
+    plan.study = dem::read_study(arguments.study, arguments.settings);
+    is_read = true;
+  } catch (const std::invalid_argument& fault) {
+    add_lines(fault.what(), plan.faults);
+  }
+  read_numbers(arguments, plan);
+  if (experiment) read_views(arguments, plan);
+  if (is_read && experiment) check_study(plan);
+  check_places(plan);
+  if (is_read && experiment) check_kept(plan);
+  if (plan.faults.empty()) build_bench(plan);
+  return plan;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/simulate/simulate.h"
+#include "dem/study/study.h"
+
+namespace repose::cli {
+
+/// A `repose simulate` that can be carried out.
+struct SimulatePlan {
+  dem::Experiment experiment = dem::Experiment::drop;
+  dem::Study study;
+  std::vector<std::string> settings;
+  dem::ClumpFile grain;
+  dem::Bench bench;  ///< with the grain, for this experiment
+  std::vector<std::uint64_t> seeds;
+  int threads = 1;
+  std::filesystem::path out_folder;  ///< empty: none
+  std::string json_file;
+  std::optional<double> trajectory_s;
+  int views = 0;  ///< pictures of each heap
+
+  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> notes;   ///< for the user to know
+};
+
+/// Reads and checks all that was typed, the study and the place for the results, then builds the
+/// grain, which may take seconds. All faults at once.
+SimulatePlan plan_simulate(const SimulateArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,190 @@
+#include "cli/simulate/simulate_table.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "cli/simulate/simulate_json.h"
+#include "cli/simulate/simulate_names.h"
+#include "cli/simulate/simulate_values.h"
+#include "cli/terminal.h"
+#include "dem/study/rolling_name.h"
+
+namespace repose::cli {
+namespace {
+
+std::string unit_sign(const SimulatePlan& plan) {
+  const std::string_view unit = names_of(plan.experiment).unit;
+  return unit == "deg" ? "°" : fmt::format(" {}", unit);
+}
+
+std::string repeats_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  constexpr double kMicroseconds = 1e6, kMillion = 1e6;
+  const ExperimentName& names = names_of(plan.experiment);
+  std::size_t width = 4;
+  for (const Run& run : runs) width = std::max(width, std::to_string(run.repeat.seed).size());
+  std::string text = fmt::format("{}: {}\n", names.name, names.value);
+  text += fmt::format("{:>{}}{:>14}{:>12}{:>10}{:>10}{:>12}\n", "seed", width,
+                      fmt::format("value [{}]", names.unit), "steps", "step [us]", "time [s]",
+                      "Mclump-st/s");
+  const std::vector<double> values = values_of(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Run& run = runs[k];
+    text += fmt::format("{:>{}}{:>14.3f}{:>12}{:>10.3f}{:>10.1f}{:>12.3f}\n", run.repeat.seed,
+                        width, values[k], run.repeat.steps, run.repeat.timestep_s * kMicroseconds,
+                        run.wall_s, run.repeat.clump_steps / run.wall_s / kMillion);
+  }
+  return text;
+}
+
+std::string mean_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  const auto summary = summarise(runs);
+  const std::string unit = unit_sign(plan);
+  if (!summary) return "no mean: a repeat gave no number\n";
+  if (!summary->sd && summary->n > 1) {
+    return fmt::format("mean {:.3f}{} n = {}, all the same: no scatter and no interval\n",
+                       summary->mean, unit, summary->n);
+  }
+  if (!summary->sd || !summary->mean_uncertainty) {
+    return fmt::format("mean {:.3f}{} n = 1, which has no scatter and no interval: --repeats 5\n",
+                       summary->mean, unit);
+  }
+  return fmt::format(
+      "mean {:.3f}{} sd {:.3f}{} n = {}, 95 % interval of the mean {:.3f} … {:.3f}{}"
+      " (Student)\n",
+      summary->mean, unit, *summary->sd, unit, summary->n,
+      summary->mean - *summary->mean_uncertainty, summary->mean + *summary->mean_uncertainty, unit);
+}
+
+std::string number_or_dash(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "–";
+}
+
+/// A heap's angle from its pictures and from where its grains lie.
+std::string sources_text(const std::vector<Run>& runs) {
+  const auto angles = heap_angles(runs);
+  if (!angles) return {};
+  const auto row = [](const char* source, const std::optional<vision::Repeats>& repeats,
+                      const std::optional<double>& between_views, bool is_value) {
+    const auto mean = repeats ? std::optional(repeats->mean) : std::nullopt;
+    const auto sd = repeats ? repeats->sd : std::nullopt;
+    return fmt::format("  {}{:>9}{:>15}{:>15}{}\n", padded(source, 14), number_or_dash(mean),
+                       number_or_dash(sd), number_or_dash(between_views),
+                       is_value ? "   the value" : "");
+  };
+  const bool is_pictured = is_from_pictures(runs);
+  return fmt::format("\n  {}{:>9}{:>15}{:>15}\n", padded("angle [deg]", 14), "mean",
+                     "sd of repeats", "sd of views") +
+         row("pictures", angles->pictures, angles->between_views_pictures, is_pictured) +
+         row("positions", angles->positions, angles->between_views_positions, !is_pictured) +
+         fmt::format("  {} {}: {} refused, {} flagged\n", angles->views,
+                     angles->views == 1 ? "picture" : "pictures", angles->refused, angles->flagged);
+}
+
+/// "measured 9.420 mm, n = 10; simulated - measured = -0.290 mm (-3.1 %)"
+std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  const dem::Measured& measured = dem::measured_in(plan.study, plan.experiment);
+  if (!measured.pictures.empty()) {
+    return "measured in pictures: repose measure gives their angle\n";
+  }
+  std::optional<double> mean = measured.mean, sd = measured.sd;
+  std::optional<int> n = measured.count;
+  if (!measured.values.empty()) {
+    const vision::Repeats repeats = vision::summarise(measured.values);
+    mean = repeats.mean;
+    sd = repeats.sd;
+    n = repeats.n;
+  }
+  if (!mean) return {};
+  const std::string unit = unit_sign(plan);
+  std::string text = fmt::format("measured {:.3f}{}", *mean, unit);
+  if (sd) text += fmt::format(" sd {:.3f}{}", *sd, unit);
+  if (n) text += fmt::format(" n = {}", *n);
+  if (const auto summary = summarise(runs)) {
+    const double difference = summary->mean - *mean;
+    text += fmt::format("; simulated is {:+.3f}{} off", difference, unit);
+    if (*mean != 0) text += fmt::format(" ({:+.1f} %)", 100 * difference / *mean);
+  }
+  return text + '\n';
+}
+
+/// The mean of each other reading over the repeats.
+std::string readings_text(const std::vector<Run>& runs) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  struct Spread {
+    double sum = 0, least = kInfinity, greatest = -kInfinity;
+    int count = 0;
+  };
+  std::map<std::string, Spread> spreads;
+  std::size_t width = 0;
+  for (const Run& run : runs) {
+    for (const auto& [name, value] : run.repeat.readings) {
+      Spread& spread = spreads[name];
+      spread.sum += value;
+      spread.least = std::min(spread.least, value);
+      spread.greatest = std::max(spread.greatest, value);
+      ++spread.count;
+      width = std::max(width, name.size());
+    }
+  }
+  std::string text = spreads.empty() ? "" : "\nother readings\n";
+  for (const auto& [name, spread] : spreads) {
+    text += fmt::format("  {}  {:.4g}", padded(name, width), spread.sum / spread.count);
+    if (spread.count > 1) text += fmt::format("  ({:.4g} … {:.4g})", spread.least, spread.greatest);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string coefficients_text(const dem::PairCoefficients& pair) {
+  return fmt::format("restitution {:g}, sliding friction {:g}, rolling friction {:g}",
+                     pair.restitution, pair.sliding_friction, pair.rolling_friction);
+}
+
+/// Coefficients mean nothing without these.
+std::string belongs_to_text(const SimulatePlan& plan, std::size_t width) {
+  const dem::Bench& bench = plan.bench;
+  const std::string step =
+      bench.timestep_s ? fmt::format("{:g} s, as asked for", *bench.timestep_s)
+                       : fmt::format("{:g} of the longest accurate one", bench.timestep_fraction);
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"contact model", contact_model_text()},
+      {"rolling model",
+       fmt::format("{}: {}", dem::name_of(bench.rolling), rolling_definition(bench.rolling))},
+      {"clump", fmt::format("{} spheres, volume error {:.1f} % ({})", bench.grain.spheres.size(),
+                            100 * plan.grain.errors.volume_error, plan.grain.source)},
+      {"stiffness factor", fmt::format("{:g}", bench.stiffness_factor)},
+      {"time step", step},
+      {"with the wall", coefficients_text(bench.grain_wall)}};
+  if (plan.experiment == dem::Experiment::heap) {
+    facts.emplace_back("between grains", coefficients_text(bench.grain_grain));
+  }
+  constexpr std::size_t kNames = 20;
+  std::string text = "these values belong to\n";
+  for (const auto& [name, fact] : facts) {
+    std::string before = padded("  " + name, kNames);
+    for (const std::string& line : wrapped(fact, width - kNames)) {
+      text += before + line + '\n';
+      before = std::string(kNames, ' ');
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string simulate_table(const SimulatePlan& plan, const std::vector<Run>& runs, int columns) {
+  constexpr int kNarrowest = 40;
+  std::string text = repeats_text(plan, runs) + '\n';
+  const auto width = static_cast<std::size_t>(std::max(kNarrowest, columns));
+  for (const std::string& line : {mean_text(plan, runs), measured_text(plan, runs)}) {
+    for (const std::string& part : wrapped(line, width)) text += part + '\n';
+  }
+  text += sources_text(runs);
+  text += readings_text(runs) + '\n';
+  return text + belongs_to_text(plan, width);
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cli/simulate/simulate_runs.h"
+#include "vision/repeats.h"
+
+/// Which number of a repeat is its value.
+namespace repose::cli {
+
+/// A heap's angle is that of its pictures when at least half of the views of every repeat gave one:
+/// it is what a photograph is compared with. Else it is that of the grains' positions.
+bool is_from_pictures(const std::vector<Run>& runs);
+
+/// The repeats' values, in their order: of all from the same source.
+std::vector<double> values_of(const std::vector<Run>& runs);
+
+/// Mean and scatter of the repeats' values; none when one of them is no number. Values that are all
+/// the same to the last bit, as where nothing is left to chance, have a mean but no scatter: an
+/// interval of no width would claim what was not found out.
+std::optional<vision::Repeats> summarise(const std::vector<Run>& runs);
+
+/// The two sources of a heap's angle beside each other, in degrees.
+struct HeapAngles {
+  vision::Repeats positions;                ///< over repeats
+  std::optional<vision::Repeats> pictures;  ///< over repeats; none when one of them has no number
+  double between_views_positions = 0;       ///< standard deviation, mean of the repeats
+  std::optional<double> between_views_pictures;  ///< as above; none with a single view
+  int views = 0;                                 ///< of all repeats together
+  int refused = 0;
+  int flagged = 0;
+};
+
+/// None when no pictures were taken.
+std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs);
+
+}  // namespace repose::cli

@@ -1,0 +1,207 @@
+#include "cli/statistics/bench_options.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "calibrate/table/table.h"
+#include "cli/number.h"
+#include "cli/output.h"
+#include "cli/output_places.h"
+#include "dem/study/suggestion.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr std::string_view kSampleColumn = "sample";
+
+/// Readings from --set, by their names.
+using Settings = std::map<std::string, std::vector<double>>;
+
+std::vector<std::string> names_of(const std::vector<calibrate::ReadingColumn>& columns) {
+  std::vector<std::string> names;
+  for (const calibrate::ReadingColumn& column : columns) names.push_back(column.name);
+  return names;
+}
+
+std::optional<calibrate::BenchTest> test_named(const std::string& name, BenchPlan& plan) {
+  const auto& names = calibrate::kBenchTestNames;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    plan.faults.push_back(
+        fmt::format("bench {}: there is no such test. Fix: {}.", name, fmt::join(names, ", ")));
+    return std::nullopt;
+  }
+  return static_cast<calibrate::BenchTest>(found - names.begin());
+}
+
+/// "V,V,V" with as many numbers as there are; none if one is none.
+std::optional<std::vector<double>> list_in(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    const auto number = number_in<double>(text.substr(0, comma));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    if (comma == std::string_view::npos) return numbers;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+Settings read_settings(const BenchArguments& arguments, const std::vector<std::string>& names,
+                       BenchPlan& plan) {
+  Settings settings;
+  for (const std::string& text : arguments.settings) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const auto numbers = equals == std::string::npos
+                             ? std::nullopt
+                             : list_in(std::string_view(text).substr(equals + 1));
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      const std::string guess = dem::closest_word(name, names);
+      plan.faults.push_back(fmt::format(
+          "--set {}: {} is not read in this test. {}Fix: {}.", text, name,
+          guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), fmt::join(names, ", ")));
+    } else if (!settings.emplace(name, numbers.value_or(std::vector{0.0})).second) {
+      plan.faults.push_back(
+          fmt::format("--set {}: {} is set twice. Fix: set it once.", text, name));
+    } else if (!numbers) {
+      plan.faults.push_back(
+          fmt::format("--set {}: must be a number, or several with commas between them. Fix: --set "
+                      "{}=1.5 or --set {}=1.5,1.7.",
+                      text, name, name));
+    }
+  }
+  return settings;
+}
+
+/// Readings without a table: lists of the same length; a single value holds for all.
+void add_typed_readings(const Settings& settings, const std::vector<std::string>& names,
+                        BenchPlan& plan) {
+  std::size_t count = 1;
+  for (const auto& [name, values] : settings) count = std::max(count, values.size());
+  std::vector<std::string> missing;
+  for (const std::string& name : names) {
+    const auto found = settings.find(name);
+    if (found == settings.end()) {
+      missing.push_back(name);
+    } else if (found->second.size() != 1 && found->second.size() != count) {
+      plan.faults.push_back(
+          fmt::format("--set {}: has {} values, another reading has {}. Fix: give one for each "
+                      "repeat, or a single one that holds for all.",
+                      name, found->second.size(), count));
+    }
+  }
+  if (!missing.empty()) {
+    plan.faults.push_back(fmt::format(
+        "bench: readings are missing: {0}. Fix: name a CSV file with these columns, or --set "
+        "{1}=VALUE,VALUE,...",
+        fmt::join(missing, ", "), missing.front()));
+  }
+  if (!plan.faults.empty()) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    calibrate::BenchReading reading{
+        .place = fmt::format("reading {}", i + 1), .values = {}, .sample = {}};
+    for (const std::string& name : names) {
+      const std::vector<double>& values = settings.at(name);
+      reading.values.push_back(values.size() == 1 ? values.front() : values[i]);
+    }
+    plan.readings.push_back(std::move(reading));
+  }
+}
+
+/// A row's readings, and those that hold for all rows; none if one is missing or no number.
+std::optional<std::vector<double>> values_in(const calibrate::Table& table,
+                                             const calibrate::TableRow& row,
+                                             const Settings& settings,
+                                             const std::vector<std::string>& names) {
+  std::vector<double> values;
+  for (const std::string& name : names) {
+    const auto setting = settings.find(name);
+    if (setting != settings.end()) {
+      values.push_back(setting->second.front());
+      continue;
+    }
+    const auto column = table.column(name);
+    const auto number = column ? calibrate::number_of(table, row.cells[*column]) : std::nullopt;
+    if (!number) return std::nullopt;
+    values.push_back(*number);
+  }
+  return values;
+}
+
+/// A table's rows; columns that it lacks come from the settings.
+void add_table_readings(const std::string& file, const Settings& settings,
+                        const std::vector<std::string>& names, BenchPlan& plan) {
+  const calibrate::Table table = calibrate::read_table(file);
+  std::vector<std::string> read;
+  for (const std::string& name : names) {
+    const auto setting = settings.find(name);
+    if (setting == settings.end()) {
+      read.push_back(name);
+    } else if (table.column(name)) {
+      plan.faults.push_back(fmt::format(
+          "{}: has a column {}, and --set gives it too. Fix: leave one of them out.", file, name));
+    } else if (setting->second.size() != 1) {
+      plan.faults.push_back(fmt::format(
+          "--set {}: has {} values. Rule: beside a table, one that holds for all rows. Fix: make "
+          "it a column of {}.",
+          name, setting->second.size(), file));
+    }
+  }
+  try {
+    calibrate::numbers_of(table, read);
+  } catch (const std::invalid_argument& fault) {
+    add_lines(fault.what(), plan.faults);
+  }
+  for (const calibrate::TableRow& row : table.rows) {
+    auto values = values_in(table, row, settings, names);
+    if (!values) continue;  // said above
+    const auto sample = table.column(kSampleColumn);
+    plan.readings.push_back({.place = fmt::format("{}:{}", file, row.line),
+                             .values = std::move(*values),
+                             .sample = sample ? row.cells[*sample] : ""});
+  }
+}
+
+/// Also where something else is wrong, to tell impossible readings at the same time.
+void evaluate(BenchPlan& plan) {
+  if (plan.readings.empty()) return;
+  try {
+    plan.result = calibrate::evaluate_bench(plan.test, plan.readings);
+  } catch (const std::invalid_argument& fault) {
+    add_lines(fault.what(), plan.faults);
+  }
+}
+
+}  // namespace
+
+BenchPlan plan_bench(const BenchArguments& arguments) {
+  BenchPlan plan;
+  plan.json_file = arguments.json_file;
+  if (const auto test = test_named(arguments.test, plan)) {
+    plan.test = *test;
+    const std::vector<std::string> names = names_of(calibrate::columns_of(*test));
+    const Settings settings = read_settings(arguments, names, plan);
+    if (arguments.files.empty()) add_typed_readings(settings, names, plan);
+    for (const std::string& file : arguments.files) {
+      try {
+        add_table_readings(file, settings, names, plan);
+      } catch (const std::invalid_argument& fault) {
+        add_lines(fault.what(), plan.faults);
+      }
+    }
+  }
+  evaluate(plan);
+  check_output_places({{"--json", plan.json_file}},
+                      {arguments.files.begin(), arguments.files.end()}, plan.faults);
+  return plan;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,256 @@
+#include "cli/statistics/design_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "calibrate/design/steepest_ascent.h"
+#include "calibrate/regress/run_table.h"
+#include "cli/number.h"
+#include "cli/output.h"
+#include "cli/output_places.h"
+#include "cli/statistics/factor_options.h"
+
+namespace repose::cli {
+namespace {
+
+using calibrate::Factor;
+
+constexpr int kUsualCentreRuns = 6;
+constexpr int kUsualLevels = 9;
+constexpr int kUsualSteps = 5;
+
+/// Which options a kind of design understands.
+struct Kind {
+  std::string_view name;
+  std::vector<std::string_view> options;
+};
+
+const std::array<Kind, 5> kKinds = {{
+    {"ccd", {"--factor", "--alpha", "--centre", "--inscribed"}},
+    {"box-behnken", {"--factor", "--centre"}},
+    {"lhs", {"--factor", "--runs", "--seed"}},
+    {"sweep", {"--factor", "--levels"}},
+    {"ascent",
+     {"--start", "--step", "--runs", "--fit", "--response", "--factor", "--stride", "--descend"}},
+}};
+
+/// The options that were typed, of those that not every kind has.
+std::vector<std::string_view> typed_options(const DesignArguments& given) {
+  const std::vector<std::pair<std::string_view, bool>> typed = {
+      {"--factor", !given.factors.empty()},
+      {"--alpha", !given.alpha.empty()},
+      {"--centre", !given.centre_runs.empty()},
+      {"--inscribed", given.is_inscribed},
+      {"--runs", !given.runs.empty()},
+      {"--levels", !given.levels.empty()},
+      {"--seed", !given.seed.empty()},
+      {"--start", !given.starts.empty()},
+      {"--step", !given.steps.empty()},
+      {"--fit", !given.fitted_table.empty()},
+      {"--response", !given.response.empty()},
+      {"--stride", !given.stride.empty()},
+      {"--descend", given.descends}};
+  std::vector<std::string_view> names;
+  for (const auto& [name, is_typed] : typed) {
+    if (is_typed) names.push_back(name);
+  }
+  return names;
+}
+
+void check_kind(const DesignArguments& arguments, DesignPlan& plan) {
+  const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+                                 [&](const Kind& known) { return known.name == arguments.kind; });
+  if (kind == kKinds.end()) {
+    plan.faults.push_back(fmt::format(
+        "design {}: there is no such design. Fix: ccd, box-behnken, lhs, sweep or ascent.",
+        arguments.kind));
+    return;
+  }
+  for (const std::string_view option : typed_options(arguments)) {
+    if (std::find(kind->options.begin(), kind->options.end(), option) != kind->options.end()) {
+      continue;
+    }
+    plan.faults.push_back(
+        fmt::format("{}: means nothing in {}. Fix: leave it out.", option, kind->name));
+  }
+}
+
+/// The whole text as a number; `otherwise` when it is empty, a fault when it is no number.
+template <typename Number>
+Number number_or(Number otherwise, const char* option, const std::string& text, DesignPlan& plan) {
+  if (text.empty()) return otherwise;
+  if (const auto number = number_in<Number>(text)) return *number;
+  plan.faults.push_back(fmt::format("{0} {1}: must be a {2}number. Fix: {0} 3.", option, text,
+                                    std::is_integral_v<Number> ? "whole " : ""));
+  return otherwise;
+}
+
+void check_name(const char* option, const std::string& text, const std::string& name,
+                DesignPlan& plan) {
+  const std::set<std::string_view> taken = {"run", "standard", "point"};
+  if (!taken.contains(name) && !name.ends_with("_coded")) return;
+  plan.faults.push_back(
+      fmt::format("{} {}: {} is the name of another column of the table. Fix: choose another name.",
+                  option, text, name));
+}
+
+std::vector<Factor> read_factors(const DesignArguments& arguments, DesignPlan& plan) {
+  std::vector<Factor> factors;
+  for (const std::string& text : arguments.factors) {
+    const auto factor = factor_in("--factor", text, plan.faults);
+    if (!factor) continue;
+    check_name("--factor", text, factor->name, plan);
+    factors.push_back(*factor);
+  }
+  return factors;
+}
+
+calibrate::CompositeOptions composite_options(const DesignArguments& arguments, DesignPlan& plan) {
+  calibrate::CompositeOptions options;
+  options.centre_runs = number_or(kUsualCentreRuns, "--centre", arguments.centre_runs, plan);
+  options.is_inscribed = arguments.is_inscribed;
+  if (arguments.alpha.empty() || arguments.alpha == "rotatable") return options;
+  if (arguments.alpha == "orthogonal") {
+    options.rule = calibrate::AxialRule::orthogonal;
+  } else if (arguments.alpha == "face") {
+    options.rule = calibrate::AxialRule::face;
+  } else if (const auto alpha = number_in<double>(arguments.alpha)) {
+    options.alpha = alpha;
+  } else {
+    plan.faults.push_back(
+        fmt::format("--alpha {}: must be rotatable, orthogonal, face or a number. Fix: leave it "
+                    "out for rotatable.",
+                    arguments.alpha));
+  }
+  return options;
+}
+
+/// From --start and --step.
+calibrate::Design typed_line(const DesignArguments& arguments, int runs, DesignPlan& plan) {
+  std::vector<std::string> names;
+  std::vector<double> start, step;
+  for (const std::string& text : arguments.starts) {
+    if (const auto named = named_number_in("--start", text, plan.faults)) {
+      check_name("--start", text, named->first, plan);
+      names.push_back(named->first);
+      start.push_back(named->second);
+    }
+  }
+  step.resize(names.size(), 0.0);
+  for (const std::string& text : arguments.steps) {
+    const auto named = named_number_in("--step", text, plan.faults);
+    if (!named) continue;
+    const auto found = std::find(names.begin(), names.end(), named->first);
+    if (found == names.end()) {
+      plan.faults.push_back(fmt::format("--step {}: {} has no start. Fix: add --start {}=NUMBER.",
+                                        text, named->first, named->first));
+    } else {
+      step[static_cast<std::size_t>(found - names.begin())] = named->second;
+    }
+  }
+  if (!plan.faults.empty()) return {};
+  return calibrate::line_of_runs(names, start, step, runs);
+}
+
+/// From the runs of an earlier design.
+calibrate::Design fitted_line(const DesignArguments& arguments, const std::vector<Factor>& codings,
+                              int runs, DesignPlan& plan) {
+  constexpr double kUsualStride = .5;
+  const double stride = number_or(kUsualStride, "--stride", arguments.stride, plan);
+  if (arguments.response.empty()) {
+    plan.faults.emplace_back("--fit: the response is not named. Fix: add --response COLUMN.");
+  }
+  if (!plan.faults.empty()) return {};
+  const calibrate::RunTable table = calibrate::runs_in(
+      calibrate::read_table(arguments.fitted_table), arguments.response, {}, codings);
+  const calibrate::Regression plane = calibrate::regress(table, calibrate::SurfaceModel::linear);
+  constexpr double kSignificant = .05;
+  if (plane.explained.p.value_or(0) > kSignificant) {
+    plan.notes.push_back(fmt::format(
+        "{}: the plane explains no more than chance does (p = {:.2g}): this direction is a guess.",
+        arguments.fitted_table, *plane.explained.p));
+  }
+  return calibrate::steepest_ascent(plane, runs, stride, arguments.descends);
+}
+
+calibrate::Design ascent(const DesignArguments& arguments, const std::vector<Factor>& factors,
+                         DesignPlan& plan) {
+  const int runs = number_or(kUsualSteps, "--runs", arguments.runs, plan);
+  const bool is_typed = !arguments.starts.empty() || !arguments.steps.empty();
+  if (is_typed == !arguments.fitted_table.empty()) {
+    plan.faults.emplace_back(
+        "ascent: the direction must be given in one way. Fix: --start and --step for each factor, "
+        "or --fit TABLE.csv --response COLUMN.");
+    return {};
+  }
+  return is_typed ? typed_line(arguments, runs, plan) : fitted_line(arguments, factors, runs, plan);
+}
+
+calibrate::Design make_design(const DesignArguments& arguments, DesignPlan& plan) {
+  const std::vector<Factor> factors = read_factors(arguments, plan);
+  if (arguments.kind == "ascent") return ascent(arguments, factors, plan);
+  const calibrate::CompositeOptions composite = composite_options(arguments, plan);
+  const std::optional<int> centre =
+      arguments.centre_runs.empty() ? std::nullopt : std::optional(composite.centre_runs);
+  const int levels = number_or(kUsualLevels, "--levels", arguments.levels, plan);
+  // Ten runs for each factor: Loeppky, Sacks, Welch (2009), Technometrics 51, 366.
+  constexpr int kRunsForEach = 10;
+  const int runs =
+      number_or(kRunsForEach * static_cast<int>(factors.size()), "--runs", arguments.runs, plan);
+  const auto seed = number_or<std::uint64_t>(1, "--seed", arguments.seed, plan);
+  if (!plan.faults.empty()) return {};
+  if (arguments.kind == "ccd") return calibrate::central_composite(factors, composite);
+  if (arguments.kind == "box-behnken") return calibrate::box_behnken(factors, centre);
+  if (arguments.kind == "lhs") return calibrate::latin_hypercube(factors, runs, seed);
+  return calibrate::sweep(factors, levels);
+}
+
+/// Axial points and ascents leave the given range, and few quantities here can be negative.
+void note_negative_levels(DesignPlan& plan) {
+  for (std::size_t i = 0; i < plan.design.factors.size(); ++i) {
+    const Factor& factor = plan.design.factors[i];
+    double least = 0;
+    for (const calibrate::DesignRun& run : plan.design.runs) {
+      least = std::min(least, factor.natural(run.coded[i]));
+    }
+    const double rounding = 1e-12 * std::abs(factor.high);
+    if (std::min(factor.low, factor.high) < 0 || least >= -rounding) continue;
+    plan.notes.push_back(
+        fmt::format("{}: some runs have a level below 0 ({:.4g}). If that is impossible, choose "
+                    "another range, or --inscribed or --alpha face for a ccd.",
+                    factor.name, least));
+  }
+}
+
+}  // namespace
+
+DesignPlan plan_design(const DesignArguments& arguments) {
+  DesignPlan plan;
+  plan.out_file = arguments.out_file.empty() ? std::string(kStandardOutput) : arguments.out_file;
+  plan.csv = {.with_coded = arguments.with_coded, .with_standard = !arguments.random_order.empty()};
+  check_kind(arguments, plan);
+  const auto order_seed =
+      number_or<std::uint64_t>(1, "--random-order", arguments.random_order, plan);
+  check_output_places({{"--out", arguments.out_file}}, {arguments.fitted_table}, plan.faults);
+  try {
+    plan.design = make_design(arguments, plan);
+  } catch (const std::invalid_argument& fault) {
+    add_lines(fault.what(), plan.faults);
+  }
+  if (!plan.faults.empty()) return plan;
+  if (!arguments.random_order.empty()) calibrate::randomise_order(plan.design, order_seed);
+  note_negative_levels(plan);
+  return plan;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/statistics/regress.h"
+#include "cli/statistics/surface_report.h"
+
+namespace repose::cli {
+
+/// A `repose regress` worked out, but for its output.
+struct RegressPlan {
+  calibrate::SurfaceModel model = calibrate::SurfaceModel::quadratic;
+  std::optional<double> target;
+  std::string json_file;
+  SurfaceReport report;
+
+  std::vector<std::string> faults;  ///< empty: it can be carried out
+};
+
+/// Reads all that was typed and the table that it names, and fits the surface. All faults at once.
+RegressPlan plan_regress(const RegressArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/problem.h"
+#include "cli/statistics/surface_report.h"
+
+namespace repose::cli {
+
+/// A polynomial of the coefficients that an observable depends on, through the runs of its
+/// experiment: quadratic, or of as many terms as there are runs for. None where even a plane has
+/// too many, or where nothing varies.
+std::optional<SurfaceReport> surface_of_runs(const calibrate::Problem& problem,
+                                             const calibrate::Observable& observable,
+                                             const std::vector<calibrate::Run>& runs);
+
+}  // namespace repose::cli
