@@ -8,6 +8,10 @@ namespace repose::dem {
 namespace {
 
 constexpr std::size_t kFewestColumns = 12;
+/// A line that would meet the crest's axis higher than this many times the crest is the edge of a
+/// plateau, such as the outermost grain of a layer, and no slope. It is 1 for a cone, up to 1.7 for
+/// heaps of hazelnuts, and was 14 and 15 for layers of them.
+constexpr double kHighestAtCrest = 3;
 
 struct Window {
   std::size_t first = 0;
@@ -136,7 +140,8 @@ std::optional<FlankLine> fit_flank_line(const Flank& flank, double low, double h
   const std::size_t cut = apron_start(flank, window);
   if (cut > window.first + kFewestColumns) window.last = std::min(window.last, cut);
   const FlankLine line = robust_line(flank.height, window);
-  return line.fall > 0 ? std::optional(line) : std::nullopt;
+  const bool is_slope = line.fall > 0 && line.at_crest <= kHighestAtCrest * flank.crest_m;
+  return is_slope ? std::optional(line) : std::nullopt;
 }
 
 }  // namespace repose::dem

@@ -18,8 +18,9 @@ struct SurfaceReading {
   double between_views_deg = 0;  ///< standard deviation
   double first_view_deg = 0;     ///< of the first view alone
   double height_m = 0;           ///< of the highest point
-  double base_radius_m = 0;      ///< from the crest to where the fitted lines meet the ground; mean
-  int flanks = 0;                ///< how many there were to fit, two a view
+  /// From the crest to where the fitted lines meet the ground, at most to the heap's edge; mean.
+  double base_radius_m = 0;
+  int flanks = 0;  ///< how many there were to fit, two a view
 };
 
 /// The angle of a heap of spheres on the ground z = 0, as a picture from the side gives it.
@@ -29,7 +30,8 @@ struct SurfaceReading {
 /// gap are not part of it. A view's angle is the mean of both sides' slopes (flank_line.h), each
 /// fitted in the window as to a rendered silhouette; the crest is that of the smoothed envelope.
 /// Over 54 views of 17 heaps it is as a silhouette of the same view is measured, -.03 degrees off
-/// in the mean, .9 standard deviation, four of five within .25. Proved by SurfaceProfile.* in
+/// in the mean, .9 standard deviation, four of five within .25. A layer, which falls only at its
+/// outermost grains, has no flank. Proved by SurfaceProfile.* in
 /// tests/dem/experiment_surface_test.cpp.
 ///
 /// Throws std::invalid_argument for no spheres, for none above the ground, and for a window or a

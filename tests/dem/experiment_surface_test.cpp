@@ -1,10 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "dem/experiment/random.h"
 #include "dem/experiment/surface_profile.h"
 
 namespace repose::dem {
@@ -26,6 +26,16 @@ std::vector<ClumpSphere> cone(double angle_deg, double height_m, double radius_m
       spheres.push_back(
           {.centre = at + Vector(i * step, j * step, top - radius_m), .radius = radius_m});
     }
+  }
+  return spheres;
+}
+
+/// The same with a flat top of this radius.
+std::vector<ClumpSphere> frustum(double angle_deg, double height_m, double top_m, double radius_m) {
+  const double cut_off_m = top_m * std::tan(angle_deg * kDegree);
+  std::vector<ClumpSphere> spheres = cone(angle_deg, height_m + cut_off_m, radius_m);
+  for (ClumpSphere& sphere : spheres) {
+    sphere.centre.z() = std::min(sphere.centre.z(), height_m - radius_m);
   }
   return spheres;
 }
@@ -97,15 +107,27 @@ TEST(SurfaceProfile, MeasuresBothSidesOfALopsidedHeap) {
   EXPECT_NEAR(measure_surface(ridge, {.views = 1}).angle_deg, 30, .4);
 }
 
-TEST(SurfaceProfile, ALayerHasAlmostNoAngle) {
-  std::vector<ClumpSphere> layer;
-  Random random(1);
-  for (int k = 0; k < 3000; ++k) {
-    layer.push_back(
-        {.centre = {random.between(-.2, .2), random.between(-.2, .2), .01}, .radius = .01});
+TEST(SurfaceProfile, ALayerHasNoFlank) {
+  // It falls at its rim alone.
+  const SurfaceReading reading = measure_surface(frustum(45, .02, .2, .001));
+  EXPECT_EQ(reading.flanks, 0);
+  EXPECT_EQ(reading.angle_deg, 0);
+  EXPECT_NEAR(reading.height_m, .02, 1e-4);
+}
+
+TEST(SurfaceProfile, AHeapWithAFlatTopHasFlanks) {
+  const SurfaceReading reading = measure_surface(frustum(25, .03, .064, .002));
+  EXPECT_EQ(reading.flanks, 36);
+  EXPECT_NEAR(reading.angle_deg, 25, 1);
+}
+
+TEST(SurfaceProfile, AHeapEndsAtItsLastGrains) {
+  std::vector<ClumpSphere> heap;
+  for (double x = -.4; x <= .4; x += .002) {
+    heap.push_back({.centre = {x, 0, .05 - .1 * std::abs(x)}, .radius = .004});
   }
-  EXPECT_LT(measure_surface(layer).angle_deg, 90);
-  EXPECT_NEAR(measure_surface(layer).height_m, .02, 1e-9);
+  // The line through its side would end at .54 m.
+  EXPECT_NEAR(measure_surface(heap, {.views = 1}).base_radius_m, .404, .002);
 }
 
 TEST(SurfaceProfile, ASingleSphereHasNoFlank) {
