@@ -133,15 +133,13 @@ View measure_view(const std::vector<ClumpSphere>& spheres, const Vector& across,
   View view;
   view.height_m = *std::max_element(outline.height.begin(), outline.height.end());
   for (const bool to_the_left : {true, false}) {
-    const Flank flank = flank_from(outline, smooth, to_the_left);
-    const std::optional<FlankLine> line = fit_flank_line(
-        flank, options.window_from * outline.crest_m, options.window_to * outline.crest_m);
+    const std::optional<FlankLine> line =
+        fit_flank_line(flank_from(outline, smooth, to_the_left),
+                       options.window_from * outline.crest_m, options.window_to * outline.crest_m);
     if (!line) continue;
-    // Almost level lines meet the ground far outside of the heap.
-    const auto outermost = static_cast<double>(flank.height.size());
     ++view.flanks;
     view.angle_deg += std::atan(line->fall / outline.column_m) * 180 / std::numbers::pi;
-    view.foot_m += std::min(line->at_crest / line->fall, outermost) * outline.column_m;
+    view.foot_m += line->at_crest / line->fall * outline.column_m;
   }
   view.angle_deg /= std::max(1, view.flanks);
   view.foot_m /= std::max(1, view.flanks);

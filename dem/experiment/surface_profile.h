@@ -18,9 +18,8 @@ struct SurfaceReading {
   double between_views_deg = 0;  ///< standard deviation
   double first_view_deg = 0;     ///< of the first view alone
   double height_m = 0;           ///< of the highest point
-  /// From the crest to where the fitted lines meet the ground, at most to the heap's edge; mean.
-  double base_radius_m = 0;
-  int flanks = 0;  ///< how many there were to fit, two a view
+  double base_radius_m = 0;      ///< from the crest to where the fitted lines meet the ground; mean
+  int flanks = 0;                ///< how many there were to fit, two a view
 };
 
 /// The angle of a heap of spheres on the ground z = 0, as a picture from the side gives it.

@@ -121,15 +121,6 @@ TEST(SurfaceProfile, AHeapWithAFlatTopHasFlanks) {
   EXPECT_NEAR(reading.angle_deg, 25, 1);
 }
 
-TEST(SurfaceProfile, AHeapEndsAtItsLastGrains) {
-  std::vector<ClumpSphere> heap;
-  for (double x = -.4; x <= .4; x += .002) {
-    heap.push_back({.centre = {x, 0, .05 - .1 * std::abs(x)}, .radius = .004});
-  }
-  // The line through its side would end at .54 m.
-  EXPECT_NEAR(measure_surface(heap, {.views = 1}).base_radius_m, .404, .002);
-}
-
 TEST(SurfaceProfile, ASingleSphereHasNoFlank) {
   const SurfaceReading reading = measure_surface({{.centre = {0, 0, .01}, .radius = .01}});
   EXPECT_EQ(reading.flanks, 0);
