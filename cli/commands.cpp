@@ -196,7 +196,7 @@ Command measure_command(CLI::App& app) {
   measure->add_option("--exclude", arguments.exclude, "Box in pixels to leave out; repeatable")
       ->option_text("X,Y,W,H")
       ->allow_extra_args(false);
-  measure->add_option("--pitch-deg", arguments.pitch_deg, "Camera's downward pitch (0)")
+  measure->add_option("--pitch-deg", arguments.pitch_deg, "Camera's downward pitch (not known)")
       ->option_text("DEGREES");
   measure->add_option("--overlay", arguments.overlay_folder, "Draw what was measured")
       ->option_text("FOLDER");
@@ -236,7 +236,7 @@ Command compare_command(CLI::App& app) {
       ->option_text("auto|paper");
   compare->add_option("--window", arguments.window, "Part of the height (0.2,0.8)")
       ->option_text("FROM,TO");
-  compare->add_option("--pitch-deg", arguments.pitch_deg, "Cameras' downward pitch (0)")
+  compare->add_option("--pitch-deg", arguments.pitch_deg, "Cameras' downward pitch (not known)")
       ->option_text("A[,B]");
   compare->add_option("--exclude-first", arguments.exclude_first, "Box to leave out; repeatable")
       ->option_text("X,Y,W,H")

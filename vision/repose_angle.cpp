@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -71,7 +72,7 @@ double untold_pitch_rad(const Reading& reading) {
 /// Takes the camera's pitch out of the angles of one reading, as far as it was told.
 class Levelled {
  public:
-  Levelled(const Reading& reading, const WorkingPicture& work, double pitch_rad)
+  Levelled(const Reading& reading, const WorkingPicture& work, std::optional<double> pitch_rad)
       : pitch_rad_(pitch_rad), untold_rad_(untold_pitch_rad(reading)) {
     const Profile& profile = reading.profile;
     const GroundFrame ground(reading.body.ground);
@@ -82,19 +83,19 @@ class Levelled {
   }
 
   double angle_rad(double apparent_rad) const {
-    return angle_without_pitch(apparent_rad, pitch_rad_);
+    return angle_without_pitch(apparent_rad, pitch_rad_.value_or(0));
   }
   /// With what the camera's unknown distance or pitch adds to the half-width. An untold pitch
   /// always lowers the angle: that is no chance, so it is not added in quadrature.
   double half_width_rad(double apparent_rad, double own_rad) const {
-    if (pitch_rad_ == 0) return own_rad + untold_pitch_error(apparent_rad, untold_rad_);
-    return std::hypot(own_rad, far_camera_error(apparent_rad, pitch_rad_, crest_rise_));
+    if (!pitch_rad_) return own_rad + untold_pitch_error(apparent_rad, untold_rad_);
+    return std::hypot(own_rad, far_camera_error(apparent_rad, *pitch_rad_, crest_rise_));
   }
 
  private:
-  double pitch_rad_;
-  double untold_rad_;      // that a level camera may have
-  double crest_rise_ = 0;  // above the picture's middle / the base's radius
+  std::optional<double> pitch_rad_;  // as it was told
+  double untold_rad_;                // that a level camera may have
+  double crest_rise_ = 0;            // above the picture's middle / the base's radius
 };
 
 /// The side in the picture's own pixels, its angle corrected for the camera's pitch.
@@ -208,11 +209,11 @@ std::vector<std::string> MeasureOptions::problems() const {
         "apart. Fix: try 0.2,0.8.",
         window_from, window_to, kNarrowestWindow));
   }
-  if (!(std::abs(camera_pitch_rad) <= kLargestPitch_rad)) {
+  if (camera_pitch_rad && !(std::abs(*camera_pitch_rad) <= kLargestPitch_rad)) {
     faults.push_back(fmt::format(
         "camera pitch = {:.1f} degrees must lie within -30 and 30. Fix: retake the picture with a "
         "level camera.",
-        camera_pitch_rad * 180 / std::numbers::pi));
+        *camera_pitch_rad * 180 / std::numbers::pi));
   }
   return faults;
 }

@@ -18,7 +18,8 @@ struct SurfaceReading {
   double between_views_deg = 0;  ///< standard deviation
   double first_view_deg = 0;     ///< of the first view alone
   double height_m = 0;           ///< of the highest point
-  double base_radius_m = 0;      ///< from the crest to where the fitted lines meet the ground; mean
+  double base_radius_m = 0;      ///< from the crest to where the fitted lines meet the ground, at
+                                 ///< most twice as far as the outline reaches; mean
   int flanks = 0;                ///< how many there were to fit, two a view
 };
 

@@ -33,8 +33,8 @@ struct Staging {
   GrainCone cone;
   render::Camera camera = {};
   render::Style style = {};
-  int jpeg_quality = 0;       ///< 0: not compressed
-  double told_pitch_rad = 0;  ///< to the measurement
+  int jpeg_quality = 0;                       ///< 0: not compressed
+  std::optional<double> told_pitch_rad = {};  ///< to the measurement
 };
 
 /// A staging being made up, and the random numbers it is made from.
@@ -235,7 +235,8 @@ KnownPicture taken(const Draft& draft) {
   if (lens == nullptr) return known;
   known.seen = known.heap;
   for (auto* angle_rad : {&known.seen.left_rad, &known.seen.right_rad}) {
-    *angle_rad = vision::angle_without_pitch(angle_rad->value(), staging.told_pitch_rad);
+    const double pitch_rad = staging.told_pitch_rad.value_or(0);
+    *angle_rad = vision::angle_without_pitch(angle_rad->value(), pitch_rad);
   }
   known.heap = angles_seen_by(render::OrthographicCamera{.azimuth_rad = lens->azimuth_rad}, scene);
   return known;

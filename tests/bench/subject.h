@@ -25,9 +25,9 @@ struct FlankAngles {
 
 struct KnownPicture {
   vision::Picture picture;
-  FlankAngles heap;           ///< what a measurement should find
-  FlankAngles seen = {};      ///< of the exact outline in this picture, where that is another one
-  double told_pitch_rad = 0;  ///< the camera's, as the measurement is told
+  FlankAngles heap;       ///< what a measurement should find
+  FlankAngles seen = {};  ///< of the exact outline in this picture, where that is another one
+  std::optional<double> told_pitch_rad = {};  ///< the camera's, where the measurement is told
 };
 
 /// A picture that can be had again.

@@ -161,10 +161,13 @@ TEST_F(Measure, MethodWindowAndPitchReachTheMeasuring) {
     return json::parse(run(words).out).at(0);
   };
   const json usual = measured({});
-  EXPECT_EQ(measured({"--method", "auto", "--window", "0.2,0.8", "--pitch-deg", "0"}), usual);
+  EXPECT_EQ(measured({"--method", "auto", "--window", "0.2,0.8"}), usual);
   EXPECT_EQ(measured({"--method", "paper"})["method"], "paper");
   EXPECT_EQ(measured({"--window", "0.3,0.7"})["window"], json({0.3, 0.7}));
   EXPECT_NE(measured({"--pitch-deg", "-10"})["angle_deg"], usual["angle_deg"]);
+  const json told_level = measured({"--pitch-deg", "0"});
+  EXPECT_EQ(told_level["angle_deg"], usual["angle_deg"]);
+  EXPECT_NE(told_level["uncertainty_deg"], usual["uncertainty_deg"]);  // told is not untold
 }
 
 TEST_F(Measure, ABoxOutsideOnePictureFaultsOnlyThatPicture) {

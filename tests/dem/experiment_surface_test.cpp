@@ -115,6 +115,22 @@ TEST(SurfaceProfile, ALayerHasNoFlank) {
   EXPECT_NEAR(reading.height_m, .02, 1e-4);
 }
 
+TEST(SurfaceProfile, TheBaseOfALayerEndsNearItsGrains) {
+  // Its top falls by a quarter of its height over .2 m: a line that would meet the ground at .8 m.
+  std::vector<ClumpSphere> layer;
+  for (int i = -50; i <= 50; ++i) {
+    for (int j = -50; j <= 50; ++j) {
+      const double from_axis = 4e-3 * std::hypot(i, j);
+      if (from_axis > .2) continue;
+      layer.push_back({.centre = {4e-3 * i, 4e-3 * j, .018 - .025 * from_axis}, .radius = .002});
+    }
+  }
+  const SurfaceReading reading = measure_surface(layer);
+  EXPECT_GT(reading.flanks, 0);
+  EXPECT_LT(reading.angle_deg, 2);
+  EXPECT_NEAR(reading.base_radius_m, .4, .01);
+}
+
 TEST(SurfaceProfile, AHeapWithAFlatTopHasFlanks) {
   const SurfaceReading reading = measure_surface(frustum(25, .03, .064, .002));
   EXPECT_EQ(reading.flanks, 36);

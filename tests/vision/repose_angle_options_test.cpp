@@ -179,11 +179,9 @@ ReposeAngle measured_with_pitch(const Picture& picture, double pitch_rad) {
   return measure_repose_angle(picture, options);
 }
 
-constexpr double kToldLevel_rad = 1e-9;  // told, unlike 0
-
 TEST(MeasureReposeAngle, ThePitchsIntervalAllowsForANearCamera) {
   const auto heap = drawn("clean", 2, kWidth);
-  const ReposeAngle level = measured_with_pitch(heap.picture, kToldLevel_rad);
+  const ReposeAngle level = measured_with_pitch(heap.picture, 0);
   const ReposeAngle pitched = measured_with_pitch(heap.picture, 9 * kDegree);
   const double rise = (heap.picture.height / 2. - level.crest->y) / (*level.base_px / 2);
   const auto widened = [&](double angle, double own) {
@@ -198,7 +196,7 @@ TEST(MeasureReposeAngle, ThePitchsIntervalAllowsForANearCamera) {
 
 TEST(MeasureReposeAngle, AnUntoldPitchsIntervalAllowsForACameraLevelledByEye) {
   const auto heap = drawn("clean", 2, kWidth);  // level with its plate: the base is not seen
-  const ReposeAngle told = measured_with_pitch(heap.picture, kToldLevel_rad);
+  const ReposeAngle told = measured_with_pitch(heap.picture, 0);
   const ReposeAngle untold = measure_repose_angle(heap.picture);
   EXPECT_NEAR(*untold.uncertainty_rad - *told.uncertainty_rad,
               untold_pitch_error(*told.angle_rad, 2 * kDegree), 1e-6);

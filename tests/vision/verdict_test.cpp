@@ -174,7 +174,8 @@ TEST(Judge, ABowedBaseIsNoFaultWhenItsPitchIsGiven) {
 }
 
 TEST(Judge, ABaseThatBowsOtherwiseThanThePitchGivenIsFlagged) {
-  for (const ReposeAngle& result : {judged_with(0, 17), judged_with(0.15, 5)}) {
+  for (const ReposeAngle& result :
+       {judged_with(0, 17), judged_with(0.15, 5), judged_with(.15, 0)}) {
     EXPECT_EQ(result.status, MeasureStatus::flagged);
     EXPECT_THAT(result.warnings, ElementsAre(Field(&Warning::code, "pitch_disagrees")));
   }

@@ -20,7 +20,6 @@ double angle_without_pitch(double apparent_rad, double pitch_rad, double apex_pi
 }
 
 double far_camera_error(double apparent_rad, double pitch_rad, double apex_rise) {
-  if (pitch_rad == 0) return 0;
   const double near_rad = pitch_rad - std::atan(apex_rise / kNearestCamera);
   return std::abs(angle_without_pitch(apparent_rad, pitch_rad) -
                   angle_without_pitch(apparent_rad, pitch_rad, near_rad));

@@ -37,7 +37,7 @@ inline constexpr double kNearestCamera = 6;
 
 /// How far off an angle is, rad, that angle_without_pitch has corrected as a far camera's, when the
 /// camera is kNearestCamera away: the picture does not tell, and then the apex is seen in another
-/// direction than the picture's middle. 0 for a level camera: there nothing is corrected.
+/// direction than the picture's middle.
 ///
 /// `apex_rise` is how far the apex lies above the picture's middle, in base radii of the picture;
 /// at the distance D (in them, too) it is seen atan(apex_rise / D) above the camera's axis.

@@ -132,7 +132,7 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
            "tilt the camera until the whole heap is in the frame.";
   }
   const double pitch = pitch_from_bow(best.body.ground.bow.value_or(0));
-  if (options.camera_pitch_rad == 0 && pitch > kLargestPitch_rad) {
+  if (!options.camera_pitch_rad && pitch > kLargestPitch_rad) {
     return fmt::format(
         "the base bows downwards as if the camera looked down by about {:.0f} degrees, which "
         "changes the angle; or this is no heap. Fix: retake with a level camera at the heap's "
@@ -202,17 +202,17 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
   const Reading& best = choice.best;
   const Ground& ground = best.body.ground;
   const double pitch = pitch_from_bow(ground.bow.value_or(0));
-  if (options.camera_pitch_rad == 0 && pitch > kDoubtfulPitch_rad) {
+  if (!options.camera_pitch_rad && pitch > kDoubtfulPitch_rad) {
     flag(result, "base_bows",
          fmt::format("The base bows as if the camera looked down by about {:.0f} degrees; give "
                      "--pitch-deg if it did.",
                      degrees(pitch)));
   }
-  if (options.camera_pitch_rad != 0 && ground.bow &&
-      std::abs(pitch - std::max(0.0, options.camera_pitch_rad)) > kPitchTolerance_rad) {
+  if (options.camera_pitch_rad && ground.bow &&
+      std::abs(pitch - std::max(0.0, *options.camera_pitch_rad)) > kPitchTolerance_rad) {
     flag(result, "pitch_disagrees",
          fmt::format("The base bows as for a pitch of {:.0f} degrees, not of the {:.0f} given.",
-                     degrees(pitch), degrees(options.camera_pitch_rad)));
+                     degrees(pitch), degrees(*options.camera_pitch_rad)));
   }
   if (std::abs(ground.tilt_rad()) > kTilted_rad) {
     note(result, "tilted_picture",
