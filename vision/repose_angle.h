@@ -28,8 +28,9 @@ struct MeasureOptions {
   /// Parts of the picture that are no evidence: timers, labels, hands [px of the picture].
   std::vector<Box> excluded;
   /// Camera's downward pitch; the angle is corrected for it, as a far camera's. Its interval allows
-  /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. None: not told,
-  /// and taken for level; the interval then allows for the pitch that the base's bow gives away.
+  /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. None: not
+  /// told, and taken for level; the interval then allows for the pitch that the base's bow gives
+  /// away.
   std::optional<double> camera_pitch_rad = {};
   /// Same picture + same seed = same bytes (bootstrap, GrabCut).
   std::uint64_t seed = 1;

@@ -23,7 +23,8 @@ struct FlankLine {
 /// The ends are put where the fitted line, not the bumpy edge, has those heights; an apron, the
 /// thin layer that runs out from the foot, is left out: it begins where the slope over two grains
 /// has sunk under a third of the upper half's, or where less than two grains of height are left and
-/// the foot is still twice as far as that slope would take. A silhouette does not show its grains:
+/// the foot is still twice as far as that slope would take. It is left out where five grains of
+/// flank or more remain above it. A silhouette does not show its grains:
 /// for one counts the mean distance between the edge's upward crossings of the line, at most a
 /// fifth of the crest's height. Least squares, then Tukey's biweight (Huber & Ronchetti 2009,
 /// Robust Statistics, sec. 4.8). It is what silhouettes are measured with.

@@ -97,6 +97,24 @@ TEST(SurfaceProfile, LeavesAnApronOut) {
   EXPECT_NEAR(measure_surface(heap, {.views = 1}).angle_deg, 25, .3);
 }
 
+TEST(SurfaceProfile, AHollowFootOfFewLargeGrainsIsNoApron) {
+  // Five grains high, 35 degrees above half its height and 14 below: too few grains to tell such a
+  // foot from an apron. The upper half alone has 31 degrees.
+  constexpr double kGrainRadius = .008;
+  const double steep = std::tan(35 * kDegree);
+  const double flat = std::tan(14 * kDegree);
+  std::vector<ClumpSphere> heap;
+  for (int k = -20; k <= 20; ++k) {
+    const double x = 1.8 * kGrainRadius * k;
+    const double top =
+        std::max(.08 - std::abs(x) * steep, .04 - (std::abs(x) - .04 / steep) * flat);
+    if (top < 1.3 * kGrainRadius) continue;
+    const double z = std::max(kGrainRadius, top - kGrainRadius);
+    heap.push_back({.centre = {x, 0, z}, .radius = kGrainRadius});
+  }
+  EXPECT_NEAR(measure_surface(heap, {.views = 1}).angle_deg, 22, .5);
+}
+
 TEST(SurfaceProfile, MeasuresBothSidesOfALopsidedHeap) {
   std::vector<ClumpSphere> ridge;
   for (int k = -100; k <= 100; ++k) {

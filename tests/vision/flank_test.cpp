@@ -117,6 +117,16 @@ TEST(FitFlank, AStepBetweenLargeGrainsOfUnknownSizeIsNoApron) {
   }
 }
 
+TEST(FitFlank, AHollowFootOfFewLargeGrainsIsNoApron) {
+  // Above its foot there are four grains of flank.
+  const auto with_foot = [](double u, double) {
+    return std::max(0.0, u < 70 ? 100 - 0.7 * u : 51 - 0.25 * (u - 70));
+  };
+  const FlankFit flank = fit(right_flank(0.7, with_foot), Side::right, {.grain = 20});
+  EXPECT_FALSE(flank.apron_cut);
+  EXPECT_LT(flank.height.back(), 30);  // of the edge, where the line is 20 high
+}
+
 TEST(FitFlank, AnUprightFaceIsNoFlank) {
   // A block with a level top, on a thin layer.
   const Profile block =

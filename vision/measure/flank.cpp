@@ -16,6 +16,8 @@ constexpr double kFewestVisible = 0.8;  // of the window that must be in the pic
 constexpr double kMadToSigma = 1.4826;  // of a normal distribution
 constexpr double kBlockGrains = 2;      // neighbours within 2 grains are one piece of evidence
 constexpr double kFewestGrains = 5;     // high: a bump longer than such a heap's grain is none
+constexpr double kFewestLeft = 5;       // grains of flank above an apron: over fewer the slope is a
+                                        // grain's, below which the next one looks like an apron
 
 /// The points of one side from the crest outwards: u grows outwards, h is the height.
 struct Descent {
@@ -220,7 +222,8 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
   fit.frame_cut = stretch.frame_cut;
   fit.grain = options.grain.value_or(std::min(bump_length(d, w), crest / kFewestGrains));
   const std::size_t cut = options.leave_apron_out ? apron_start(d, w, fit.grain) : w.last;
-  if (cut < w.last && cut > w.first + kFewestPoints) {
+  const std::size_t five_grains = index_at(d, d.u[w.first] + kFewestLeft * fit.grain) - w.first;
+  if (cut < w.last && cut > w.first + std::max(kFewestPoints, five_grains)) {
     w.last = cut;
     fit.apron_cut = true;
   }
