@@ -72,6 +72,7 @@ TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
 
 TEST_F(Calibrate, KilledAgainAndAgainEndsWithTheSameBytes) {
   ASSERT_EQ(run({"study.toml", "--out", "whole", "--jobs", "1"}).exit_code, 0);
+  int kills = 0;
   for (const std::size_t files : {2U, 6U, 12U, 20U, 30U}) {
     const pid_t program =
         start_repose(folder_, {"calibrate", "study.toml", "--out", "killed", "--jobs", "2"});
@@ -81,8 +82,11 @@ TEST_F(Calibrate, KilledAgainAndAgainEndsWithTheSameBytes) {
     }
     ::kill(program, SIGKILL);
     ::waitpid(program, &status, 0);
-    ASSERT_FALSE(std::filesystem::exists(path("killed/result.json"))) << "it was too fast";
+    // On a busy machine it may have come to its end before it was looked at.
+    if (std::filesystem::remove(path("killed/result.json"))) break;
+    ++kills;
   }
+  ASSERT_GT(kills, 0) << "it was too fast";
   const Finished last = run({"study.toml", "--out", "killed", "--jobs", "2"});
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("simulations were there already, in killed/runs"));
@@ -193,17 +197,21 @@ TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {
 
 TEST_F(Calibrate, AStudyGoesOnAfterARankWasKilled) {
   ASSERT_EQ(run({"study.toml", "--out", "one"}).exit_code, 0);
+  // On a busy machine it may come to its end before it is killed: then once more.
   const std::string script =
-      "mpirun --allow-run-as-root --oversubscribe -np 3 '" REPOSE_PROGRAM
+      "for attempt in 1 2 3 4 5; do\n"
+      "  rm -rf ranks\n"
+      "  mpirun --allow-run-as-root --oversubscribe -np 3 '" REPOSE_PROGRAM
       "' calibrate study.toml --out ranks & launcher=$!\n"
-      "until ls ranks/runs/*.json >/dev/null 2>&1; do sleep 0.01; done\n"
-      "for child in $(ps -o pid= --ppid $launcher); do kill -KILL $child; break; done\n"
-      "wait $launcher\n";
+      "  until ls ranks/runs/*.json >/dev/null 2>&1; do sleep 0.01; done\n"
+      "  for child in $(ps -o pid= --ppid $launcher); do kill -KILL $child; break; done\n"
+      "  wait $launcher || exit 1\n"
+      "done\n";
   folder_.write("killing.sh", "command -v mpirun ps >/dev/null || exit 127\n" + script);
   const Finished killed = run_program("sh", folder_, {"killing.sh"});
   if (killed.exit_code == 127) GTEST_SKIP() << "there is no mpirun or no ps";
-  EXPECT_NE(killed.exit_code, 0);
-  ASSERT_FALSE(std::filesystem::exists(path("ranks/result.json"))) << "it was too fast";
+  EXPECT_NE(killed.exit_code, 0) << "it was too fast";
+  ASSERT_FALSE(std::filesystem::exists(path("ranks/result.json")));
   const Finished last = run({"study.toml", "--out", "ranks"});
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("simulations were there already"));

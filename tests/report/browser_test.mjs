@@ -44,6 +44,7 @@ const makeReports = (folder) => {
 // A page that notes what it must not do.
 const open = async (browser, file, width) => {
   const page = await browser.newPage();
+  page.setDefaultTimeout(kPatience_ms);
   const faults = [];
   page.on('console', (message) => { if (message.type() === 'error') faults.push(`console: ${message.text()}`); });
   page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
@@ -55,8 +56,7 @@ const open = async (browser, file, width) => {
   const start = Date.now();
   await page.goto(pathToFileURL(file).href);
   console.log(`${file} at ${width} px: loaded in ${Date.now() - start} ms`);
-  await page.waitForFunction(() => [...document.querySelectorAll('.chart')].every(({dataset}) => dataset.state === 'drawn'),
-    {timeout: kPatience_ms});
+  await page.waitForFunction(() => [...document.querySelectorAll('.chart')].every(({dataset}) => dataset.state === 'drawn'));
   return {page, faults};
 };
 
