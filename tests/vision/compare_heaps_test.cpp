@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -150,6 +151,29 @@ TEST(CompareHeaps, BestShiftFindsWhatTheAlignmentMisses) {
   EXPECT_TRUE(c.is_aligned_by_crest);
   EXPECT_NEAR(*c.best_shift, -0.02, 1e-4);
   EXPECT_LT(*c.best_shift_rmse, 0.1 * *c.profile_rmse);
+}
+
+/// Large grains end a heap upright: here both feet are a third of the height high.
+ReposeAngle blunt_heap() {
+  const TriangleHeap whole;
+  ReposeAngle heap = measured(whole);
+  std::erase_if(heap.upper_edge,
+                [&](const Point& point) { return whole.ground_y - point.y < whole.height / 3; });
+  return heap;
+}
+
+TEST(CompareHeaps, UprightEndsStillHaveAnAxis) {
+  ReposeAngle second = blunt_heap();
+  second.crest->x -= 20;
+  const HeapComparison c = compare_heaps(blunt_heap(), second, scaled(1e-3, 1e-3));
+  EXPECT_FALSE(c.is_aligned_by_crest);
+  EXPECT_NEAR(*c.iou, 1, kExact);
+}
+
+TEST(CompareHeaps, AFootBeyondTheFrameLeavesNoAxis) {
+  ReposeAngle cut = blunt_heap();
+  cut.right.leaves_frame = true;
+  EXPECT_TRUE(compare_heaps(cut, measured({})).is_aligned_by_crest);
 }
 
 TEST(CompareHeaps, AMissingFlankLeavesTheOtherSide) {

@@ -55,8 +55,12 @@ StandingHeap standing_heap(const ReposeAngle& measured) {
   heap.height = *measured.height_px;
   heap.crest = ground.along(*measured.crest);
   const double low = kSlabFrom * heap.height;
-  const bool shows_slab = heap.skyline.front().height <= low && heap.skyline.back().height <= low;
-  if (has_both_flanks(measured) && shows_slab) {
+  // Large grains end a heap upright, higher than the slab begins.
+  const auto shows_slab = [low](const Flank& flank, const OutlinePoint& end) {
+    return !flank.leaves_frame || end.height <= low;
+  };
+  if (has_both_flanks(measured) && shows_slab(measured.left, heap.skyline.front()) &&
+      shows_slab(measured.right, heap.skyline.back())) {
     heap.axis = slab_centre(heap.skyline, low, kSlabTo * heap.height);
   }
   return heap;
