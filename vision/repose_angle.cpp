@@ -157,6 +157,7 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   ReposeAngle result;
   result.method = options.method;
   result.window = {options.window_from, options.window_to};
+  result.camera_pitch_rad = options.camera_pitch_rad;
   result.segmentation = best.segmentation.name;
   if (best.body.mask.empty() || best.profile.size() == 0) return result;
   const Uncertainty u = uncertainty_of(choice);
@@ -190,6 +191,7 @@ ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
   ReposeAngle result;
   result.method = options.method;
   result.window = {options.window_from, options.window_to};
+  result.camera_pitch_rad = options.camera_pitch_rad;
   result.reason = fmt::format(
       "of the {} x {} pixels too few remain to measure in. Fix: use a picture of at least {} "
       "pixels "

@@ -97,8 +97,9 @@ struct ReposeAngle {
   std::optional<Segment> ground;  ///< ground line over the heap's base [px]
   std::array<double, 2> window = {0.2, 0.8};
   Method method = Method::automatic;
-  std::string segmentation;  ///< name of the segmentation that was chosen
-  double confidence = 0;     ///< 0 to 1
+  std::optional<double> camera_pitch_rad;  ///< as it was told
+  std::string segmentation;                ///< name of the segmentation that was chosen
+  double confidence = 0;                   ///< 0 to 1
   std::vector<Warning> warnings;
   std::vector<Point> outline;       ///< silhouette of the heap's body, closed [px]
   std::vector<Point> upper_edge;    ///< ... its upper side, left to right, finer than 1 px [px]

@@ -66,6 +66,7 @@ Json picture_json(const MeasuredPicture& picture) {
             {"ground_tilt_deg", degrees(angle.ground_tilt_rad)},
             {"window", angle.window},
             {"method", name_of(angle.method)},
+            {"pitch_deg", degrees(angle.camera_pitch_rad)},
             {"confidence", angle.confidence},
             {"warnings", warnings_json(angle.warnings)},
             {"segmentation", angle.segmentation},

@@ -165,7 +165,9 @@ TEST_F(Measure, MethodWindowAndPitchReachTheMeasuring) {
   EXPECT_EQ(measured({"--method", "paper"})["method"], "paper");
   EXPECT_EQ(measured({"--window", "0.3,0.7"})["window"], json({0.3, 0.7}));
   EXPECT_NE(measured({"--pitch-deg", "-10"})["angle_deg"], usual["angle_deg"]);
+  EXPECT_TRUE(usual["pitch_deg"].is_null());
   const json told_level = measured({"--pitch-deg", "0"});
+  EXPECT_EQ(told_level["pitch_deg"], 0);
   EXPECT_EQ(told_level["angle_deg"], usual["angle_deg"]);
   EXPECT_NE(told_level["uncertainty_deg"], usual["uncertainty_deg"]);  // told is not untold
 }
