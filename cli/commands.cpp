@@ -114,7 +114,7 @@ Methods:
   paper     as a published calibration did: single points, to compare with
 
 Budgets:
-  quick     17 minutes of one core for the fit; heaps ten times softer, few
+  quick     13 minutes of one core for the fit; heaps ten times softer, few
   standard  150 minutes of one core; heaps as stiff as the study says
   paper     62 simulations at most, as many as a published calibration made
 The minutes are estimates for a study of some hundred grains; checks come on top.

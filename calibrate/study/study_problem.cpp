@@ -176,9 +176,9 @@ Budget budget_named(const std::string& name) {
   if (name == "quick") {
     return {.name = name,
             .description =
-                "17 minutes of one core for the fit; heaps ten times softer than the study "
+                "13 minutes of one core for the fit; heaps ten times softer than the study "
                 "says, few of them, so intervals are wide",
-            .settings = {.budget_s = 17 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
+            .settings = {.budget_s = 13 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
             .heap_softening = .1,
             .verification_repeats = 3,
             .family_sets = 2};
