@@ -137,14 +137,14 @@ class Maker {
 
   /// A study of many grains costs more than a budget is made for.
   void allow_a_fit() {
-    constexpr double kMinute_s = 60, kRoundsAfterTheFirst = 2;
+    constexpr double kMinute_s = 60, kFirstRounds = 1.6;  // as long as the first one, at its least
     const Expense least = least_expense(made_.problem);
     FitSettings& settings = made_.problem.settings;
-    const double enough_s = kRoundsAfterTheFirst * least.seconds;
+    const double enough_s = kFirstRounds * least.seconds;
     if (settings.budget_s >= enough_s) return;
     made_.notes.push_back(fmt::format(
         "runs of this study take long: the budget is raised from {:.0f} to {:.0f} minutes of one "
-        "core, which two rounds take. Fix, to be faster: fewer grains or softer ones.",
+        "core, the least that a fit takes. Fix, to be faster: fewer grains or softer ones.",
         settings.budget_s / kMinute_s, enough_s / kMinute_s));
     settings.budget_s = enough_s;
   }
