@@ -137,10 +137,11 @@ class Maker {
 
   /// A study of many grains costs more than a budget is made for.
   void allow_a_fit() {
-    constexpr double kMinute_s = 60, kFirstRounds = 1.6;  // as long as the first one, at its least
+    constexpr double kMinute_s = 60;
+    constexpr double kLeastFit = 1.6;  // first rounds: one, and for the later ones over half of it
     const Expense least = least_expense(made_.problem);
     FitSettings& settings = made_.problem.settings;
-    const double enough_s = kFirstRounds * least.seconds;
+    const double enough_s = kLeastFit * least.seconds;
     if (settings.budget_s >= enough_s) return;
     made_.notes.push_back(fmt::format(
         "runs of this study take long: the budget is raised from {:.0f} to {:.0f} minutes of one "

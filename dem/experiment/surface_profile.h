@@ -29,8 +29,8 @@ struct SurfaceReading {
 /// sphere's radius wide. The heap is what hangs together with the highest column; grains beyond a
 /// gap are not part of it. A view's angle is the mean of both sides' slopes (flank_line.h), each
 /// fitted in the window as to a rendered silhouette; the crest is that of the smoothed envelope.
-/// Over 54 views of 17 heaps it is as a silhouette of the same view is measured, -.03 degrees off
-/// in the mean, .9 standard deviation, four of five within .25. A layer, which falls only at its
+/// Over 95 views of 12 heaps of hazelnuts it is as a silhouette of the same view is measured: 91
+/// within .25 degrees, the median .01 off, the worst 13. A layer, which falls only at its
 /// outermost grains, has no flank. Proved by SurfaceProfile.* in
 /// tests/dem/experiment_surface_test.cpp.
 ///
