@@ -5,8 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/closest_word.h"
+#include "base/version.h"
 #include "cli/commands.h"
-#include "dem/study/suggestion.h"
 
 namespace repose::cli {
 namespace {
@@ -54,13 +55,13 @@ std::vector<std::string> command_names(const CLI::App& app) {
 std::string unknown_word(const CLI::App& app, const std::string& usage, const std::string& word) {
   const bool is_option = word.starts_with('-');
   const auto known = is_option ? option_names(app) : command_names(app);
-  const std::string guess = dem::closest_word(word.substr(0, word.find('=')), known);
+  const std::string guess = base::closest_word(word.substr(0, word.find('=')), known);
   return fmt::format("{} is no {} of {}. {}Fix: see {} --help.", word,
                      is_option ? "option" : "command", usage,
                      guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), usage);
 }
 
-std::string fault_of(const CLI::App& app, const Command* command, const CLI::ParseError& error) {
+std::string error_of(const CLI::App& app, const Command* command, const CLI::ParseError& error) {
   const CLI::App& active = command ? *command->app : app;
   const std::string usage = command ? "repose " + command->app->get_name() : "repose";
   const auto unknown = active.remaining();
@@ -79,7 +80,7 @@ std::string fault_of(const CLI::App& app, const Command* command, const CLI::Par
 
 Arguments parse_arguments(int count, const char* const* words) {
   CLI::App app(kAbout, "repose");
-  app.set_version_flag("--version", "repose " REPOSE_VERSION);
+  app.set_version_flag("--version", base::kProgram);
   app.footer(kExamples);
   app.get_formatter()->column_width(32);
   const std::vector<Command> commands = add_commands(app);
@@ -102,7 +103,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   } catch (const CLI::CallForVersion& version) {
     arguments.text = std::string(version.what()) + '\n';
   } catch (const CLI::ParseError& error) {
-    arguments.fault = fault_of(app, parsed(), error);
+    arguments.error = error_of(app, parsed(), error);
   }
   return arguments;
 }

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "cli/exit_code.h"
+#include "cli/common/exit_code.h"
 
 namespace repose::cli {
 
@@ -11,7 +11,7 @@ namespace repose::cli {
 struct Arguments {
   std::function<ExitCode()> run;  ///< carries out the command that was asked for
   std::string text;               ///< asked for: help or version
-  std::string fault;              ///< why it is no command line, and how to mend it
+  std::string error;              ///< why it is no command line, and how to mend it
 };
 
 Arguments parse_arguments(int count, const char* const* words);

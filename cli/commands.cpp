@@ -6,14 +6,14 @@
 
 #include "cli/calibrate/calibrate.h"
 #include "cli/compare/compare.h"
-#include "cli/export.h"
+#include "cli/export/export.h"
 #include "cli/measure/measure.h"
 #include "cli/render/render.h"
-#include "cli/report.h"
+#include "cli/report/report.h"
 #include "cli/shape/shape.h"
 #include "cli/simulate/simulate.h"
 #include "cli/statistics/statistics_commands.h"
-#include "cli/verify.h"
+#include "cli/verify/verify.h"
 
 namespace repose::cli {
 namespace {
@@ -67,7 +67,7 @@ lengths are in parts of the square root of a silhouette's area.
 constexpr const char* kShapeNotes = R"(
 Turns a scan (STL, OBJ, PLY) or calliper sizes into a clump: a rigid grain of
 overlapping spheres for a discrete element program. Volume, mass and inertia
-come from the surface, never from the spheres. Small faults of a scan are
+come from the surface, never from the spheres. Small errors of a scan are
 mended and named; others are refused with the way to mend them.
 
 Volume error: what the spheres leave out and what of them sticks out, as a

@@ -1,23 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <string>
 #include <vector>
 
-#include "cli/exit_code.h"
-
-namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
-class App;
-}
+#include "cli/common/command.h"
 
 namespace repose::cli {
-
-/// A subcommand: its options, and what carries it out once they are parsed.
-struct Command {
-  CLI::App* app = nullptr;
-  std::function<ExitCode()> run;
-  std::string missing;  ///< said when something required is not given
-};
 
 std::vector<Command> add_commands(CLI::App& app);
 

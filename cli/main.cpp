@@ -4,16 +4,16 @@
 #include <fmt/format.h>
 
 #include "cli/arguments.h"
-#include "cli/exit_code.h"
-#include "cli/output.h"
+#include "cli/common/exit_code.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 namespace {
 
 ExitCode run(int count, const char* const* words) {
   const Arguments arguments = parse_arguments(count, words);
-  if (!arguments.fault.empty()) {
-    fmt::print(stderr, "repose: {}\n", arguments.fault);
+  if (!arguments.error.empty()) {
+    fmt::print(stderr, "repose: {}\n", arguments.error);
     return ExitCode::bad_input;
   }
   if (arguments.run) return arguments.run();
@@ -29,8 +29,8 @@ int main(int count, char** words) {
   ExitCode code = ExitCode::internal_error;
   try {
     code = repose::cli::run(count, words);
-  } catch (const std::invalid_argument& fault) {
-    fmt::print(stderr, "repose: {}\n", fault.what());
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "repose: {}\n", error.what());
     code = ExitCode::bad_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "repose: internal error: {}. Fix: please report it.\n", error.what());

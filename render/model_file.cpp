@@ -9,8 +9,8 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
-#include "render/extent.h"
-#include "render/surface.h"
+#include "render/scene/extent.h"
+#include "render/scene/surface.h"
 
 namespace repose::render {
 namespace {

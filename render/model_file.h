@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "render/scene.h"
-#include "render/style.h"
+#include "render/scene/scene.h"
+#include "render/scene/style.h"
 
 namespace repose::render {
 

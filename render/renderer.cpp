@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "render/develop.h"
 #include "render/gl/context.h"
-#include "render/hidden.h"
-#include "render/mask.h"
-#include "render/photo.h"
-#include "render/silhouette.h"
-#include "render/stage.h"
-#include "render/view.h"
+#include "render/gl/scene_uploader.h"
+#include "render/photo/photo.h"
+#include "render/photo/tone_mapping.h"
+#include "render/scene/view.h"
+#include "render/silhouette/mask.h"
+#include "render/silhouette/occlusion.h"
+#include "render/silhouette/silhouette.h"
 
 namespace repose::render {
 
@@ -33,7 +33,7 @@ void check(const PhotoStyle& style) {
   require("pattern", style.pattern, 0, 2);
   require("gloss", style.gloss, 0, 1);
   require("key_softness_rad", style.key_softness_rad, 0, 1);
-  require("key_share", style.key_share, 0, 1);
+  require("key_share", style.key_fraction, 0, 1);
   require("aperture_mm", style.aperture_mm, 0, 1000);
   require("blur_px", style.blur_px, 0, 100);
   require("noise", style.noise, 0, 1);
@@ -66,19 +66,19 @@ class Renderer::Studio {
     const Stage stage = hand_.set(scene, view, photo.shown, photo.seed);
     // Most users never take a photo: its shaders are compiled when one is asked for.
     if (!photo_) photo_ = std::make_unique<PhotoPainter>(gl_);
-    return {.picture = developed(photo_->paint(scene, view, stage, photo), photo),
+    return {.picture = tone_mapped(photo_->paint(scene, view, stage, photo), photo),
             .grain_mask = mask_.paint(view, stage, true)};
   }
 
  private:
   std::vector<std::uint8_t> silhouette_mask(const Scene& scene, const View& view,
                                             const SilhouetteStyle& style) {
-    Inner inner = inner_part(scene, view, style.shown);
-    if (inner.visible.empty()) return std::move(inner.mask);
-    const Scene outer{.shapes = scene.shapes, .grains = std::move(inner.visible), .walls = {}};
+    Occlusion occlusion = occluded_part(scene, view, style.shown);
+    if (occlusion.visible.empty()) return std::move(occlusion.mask);
+    const Scene outer{.shapes = scene.shapes, .grains = std::move(occlusion.visible), .walls = {}};
     const Stage stage = hand_.set(outer, view, style.shown, 0);
     std::vector<std::uint8_t> mask = mask_.paint(view, stage, false);
-    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] |= inner.mask[k];
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] |= occlusion.mask[k];
     return mask;
   }
 
@@ -98,7 +98,7 @@ class Renderer::Studio {
 
   gl::Context context_;
   const gl::Functions& gl_;
-  StageHand hand_;
+  SceneUploader hand_;
   MaskPainter mask_;
   std::unique_ptr<PhotoPainter> photo_;
 };

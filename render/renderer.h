@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "render/camera.h"
-#include "render/scene.h"
-#include "render/style.h"
-#include "vision/picture.h"
+#include "render/scene/camera.h"
+#include "render/scene/scene.h"
+#include "render/scene/style.h"
+#include "vision/picture/picture.h"
 
 namespace repose::render {
 

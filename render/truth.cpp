@@ -5,10 +5,10 @@
 #include <limits>
 #include <variant>
 
-#include "render/extent.h"
-#include "render/ground.h"
-#include "render/upper_edge.h"
-#include "render/view.h"
+#include "render/scene/extent.h"
+#include "render/scene/ground.h"
+#include "render/scene/view.h"
+#include "render/silhouette/upper_edge.h"
 
 namespace repose::render {
 

@@ -3,14 +3,14 @@
 #include <optional>
 #include <vector>
 
-#include "render/camera.h"
-#include "render/scene.h"
-#include "render/style.h"
-#include "vision/picture.h"
+#include "render/scene/camera.h"
+#include "render/scene/scene.h"
+#include "render/scene/style.h"
+#include "vision/picture/picture.h"
 
 namespace repose::render {
 
-/// What is known exactly about a picture. Lengths in pixels as in vision/picture.h.
+/// What is known exactly about a picture. Lengths in pixels as in vision/picture/picture.h.
 struct Truth {
   Camera camera;
   PictureSize size;

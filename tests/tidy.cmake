@@ -11,6 +11,6 @@ cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 add_custom_target(tidy
   COMMAND ${RUN_CLANG_TIDY} -p ${PROJECT_BINARY_DIR} -j ${cores} -quiet -hide-progress
     -warnings-as-errors=*
-    "^${PROJECT_SOURCE_DIR}/(io|vision|dem|render|calibrate|cli|tests)/"
+    "^${PROJECT_SOURCE_DIR}/(base|vision|dem|render|calibrate|cli|tests)/"
   COMMENT "Looking through the sources"
   VERBATIM)

@@ -6,7 +6,7 @@
 
 #include "calibrate/export/rolling.h"
 #include "dem/contact/restitution.h"
-#include "dem/study/rolling_name.h"
+#include "dem/contact/rolling_name.h"
 
 namespace repose::calibrate {
 namespace {
@@ -91,10 +91,10 @@ Conversion restitution(ExportTarget target, const std::string& pair, double valu
                        .theirs = law.law,
                        .limits = law.limits};
   if (target == ExportTarget::mercurydpm || target == ExportTarget::edem) {
-    converted.standing = Standing::close;
+    converted.fidelity = Fidelity::close;
   }
   if (target == ExportTarget::liggghts && converted.exported > value) {
-    converted.standing = Standing::approximate;
+    converted.fidelity = Fidelity::approximate;
     converted.limits = "LIGGGHTS takes values above .05 only.";
   }
   return converted;
@@ -149,19 +149,19 @@ std::string rolling_name(ExportTarget target) {
 
 Conversion rolling(ExportTarget target, const std::string& pair, Partner partner,
                    const ExportFacts& facts, double value) {
-  const dem::RollingModel model = facts.study().bench.rolling;
+  const dem::RollingModel model = facts.study().model.rolling;
   const RollingConversion own = convert_rolling(target, model, partner, facts.grain());
   Conversion converted{.coefficient = pair + "rolling_friction",
                        .value = value,
                        .exported = value * own.factor,
                        .target_name = rolling_name(target),
-                       .standing = own.standing,
+                       .fidelity = own.fidelity,
                        .ours = rolling_law(model),
                        .theirs = rolling_law(target, model),
                        .limits = own.limits};
   if (value == 0 || model == dem::RollingModel::none) {
     converted.exported = 0;
-    converted.standing = Standing::exact;
+    converted.fidelity = Fidelity::exact;
     converted.limits = "Without rolling friction there is nothing to convert.";
   }
   return converted;
@@ -171,8 +171,8 @@ void add_pair(const ExportFacts& facts, ExportTarget target, Partner partner,
               std::vector<Conversion>& all) {
   const bool is_wall = partner == Partner::wall;
   const std::string pair = is_wall ? "contact.particle_wall." : "contact.particle_particle.";
-  const dem::Bench& bench = facts.study().bench;
-  const dem::PairCoefficients& values = is_wall ? bench.grain_wall : bench.grain_grain;
+  const dem::Model& model = facts.study().model;
+  const dem::PairCoefficients& values = is_wall ? model.grain_wall : model.grain_grain;
   all.push_back(restitution(target, pair, values.restitution));
   all.push_back(sliding(target, pair, values.sliding_friction));
   all.push_back(rolling(target, pair, partner, facts, values.rolling_friction));
@@ -196,17 +196,17 @@ double exported(const std::vector<Conversion>& conversions, const std::string& c
 
 std::vector<std::string> refusals(const ExportFacts& facts, const ExportRequest& request,
                                   const std::vector<Conversion>& conversions) {
-  std::vector<std::string> faults;
-  if (request.takes_approximate) return faults;
+  std::vector<std::string> errors;
+  if (request.takes_approximate) return errors;
   for (const Conversion& conversion : conversions) {
-    if (conversion.standing != Standing::approximate) continue;
-    faults.push_back(fmt::format(
+    if (conversion.fidelity != Fidelity::approximate) continue;
+    errors.push_back(fmt::format(
         "{} = {:.4g} ({}) has no exact counterpart in {}. {} Fix: --approximate exports {:.4g}; or "
         "calibrate with a rolling_model that {} has.",
-        conversion.coefficient, conversion.value, dem::name_of(facts.study().bench.rolling),
+        conversion.coefficient, conversion.value, dem::name_of(facts.study().model.rolling),
         name_of(request.target), conversion.limits, conversion.exported, name_of(request.target)));
   }
-  return faults;
+  return errors;
 }
 
 }  // namespace repose::calibrate

@@ -34,17 +34,17 @@ DeckFields& DeckFields::add_section(const std::string& section) {
 
 std::string number(double value) { return fmt::format("{}", value); }
 
-std::string harmless(std::string_view name) {
+std::string sanitized(std::string_view name) {
   constexpr std::string_view kKept = " _-.,+%";
-  std::string kept(name);
-  for (char& letter : kept) {
+  std::string saved(name);
+  for (char& letter : saved) {
     const auto byte = static_cast<unsigned char>(letter);
     const bool is_letter = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
     const bool is_digit = byte >= '0' && byte <= '9';
     if (is_letter || is_digit || byte >= 0x80 || kKept.find(letter) != kKept.npos) continue;
     letter = '_';
   }
-  return kept;
+  return saved;
 }
 
 std::string filled(const std::string& template_name, const DeckFields& fields) {

@@ -27,7 +27,7 @@ std::string number(double value);
 
 /// A name that cannot break a deck: letters, digits, blanks and "_-.,+%" stay, bytes of letters
 /// beyond ASCII too; all else becomes "_".
-std::string harmless(std::string_view name);
+std::string sanitized(std::string_view name);
 
 /// A template (of calibrate/export/templates, by its name there) filled in. Blank lines are left
 /// out. Throws std::logic_error for a template that is wrong.

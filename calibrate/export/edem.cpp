@@ -2,7 +2,7 @@
 
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/targets.h"
-#include "calibrate/study/study_bench.h"
+#include "calibrate/study/study_simulator.h"
 
 namespace repose::calibrate {
 namespace {
@@ -22,8 +22,8 @@ void add_interaction(const std::string& pair, const std::string& other,
 }
 
 ExportedFile values_text(const ExportFacts& facts, const Conversions& conversions) {
-  const dem::Material& grain = facts.study().bench.grain_material;
-  const dem::Material& wall = facts.study().bench.wall_material;
+  const dem::Material& grain = facts.study().model.grain_material;
+  const dem::Material& wall = facts.study().model.wall_material;
   DeckFields fields = common_fields(facts);
   set_body(facts.grain(), grain.density_kg_m3, fields);
   fields.set("VOLUME", facts.grain().volume_m3);
@@ -34,7 +34,7 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   fields.set("WALL_YOUNG", wall.young_modulus_pa);
   fields.set("WALL_SHEAR", shear_modulus_pa(wall));
   fields.set("WALL_POISSON", wall.poisson_ratio);
-  add_interaction("contact.particle_wall.", harmless(wall.name), conversions, fields);
+  add_interaction("contact.particle_wall.", sanitized(wall.name), conversions, fields);
   if (facts.study().heap) {
     add_interaction("contact.particle_particle.", "itself", conversions, fields);
     fields.add_section("HEAP").set("STIFFNESS", facts.stiffness(dem::Experiment::heap));
@@ -55,10 +55,10 @@ std::string material_rows(const std::string& part, const dem::Material& material
 }
 
 ExportedFile values_table(const ExportFacts& facts, const Conversions& conversions) {
-  const dem::Bench& bench = facts.study().bench;
+  const dem::Model& model = facts.study().model;
   const double mass = facts.mass_kg();
-  std::string text = "part,value,number,unit\n" + material_rows("grain", bench.grain_material) +
-                     material_rows("wall", bench.wall_material);
+  std::string text = "part,value,number,unit\n" + material_rows("grain", model.grain_material) +
+                     material_rows("wall", model.wall_material);
   for (const Conversion& conversion : conversions) {
     const bool is_wall = conversion.coefficient.starts_with("contact.particle_wall");
     text += fmt::format("{},{},{},\n", is_wall ? "grain with wall" : "grain with grain",

@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "base/error_list.h"
+#include "base/whole_file.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/facts.h"
 #include "calibrate/export/readme.h"
 #include "calibrate/export/targets.h"
-#include "dem/experiment/faults.h"
-#include "io/whole_file.h"
 
 namespace repose::calibrate {
 namespace {
@@ -66,13 +66,13 @@ std::optional<ExportTarget> export_target_named(std::string_view name) {
   return std::nullopt;
 }
 
-std::string name_of(Standing standing) {
-  switch (standing) {
-    case Standing::exact:
+std::string name_of(Fidelity fidelity) {
+  switch (fidelity) {
+    case Fidelity::exact:
       return "exact";
-    case Standing::close:
+    case Fidelity::close:
       return "close";
-    case Standing::approximate:
+    case Fidelity::approximate:
       break;
   }
   return "approximate";
@@ -82,9 +82,9 @@ StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<FittedValue>& fitted, const ExportRequest& request) {
   const ExportFacts facts(study, grain, fitted);
   StudyExport made{.conversions = conversions_of(facts, request.target)};
-  dem::Faults faults;
-  for (const std::string& line : refusals(facts, request, made.conversions)) faults.add(line);
-  faults.throw_if_any();
+  base::ErrorList errors;
+  for (const std::string& line : refusals(facts, request, made.conversions)) errors.add(line);
+  errors.throw_if_any();
   made.files = files_for(request.target, facts, made.conversions);
   made.files.push_back(readme_of(facts, request.target, made.conversions));
   made.warnings = warnings_of(facts);
@@ -98,8 +98,8 @@ void write_export(const std::filesystem::path& folder, const std::vector<Exporte
     throw std::invalid_argument(fmt::format(
         "{}: the folder cannot be made. Fix: another place with --out.", folder.string()));
   }
-  for (const ExportedFile& file : files) io::check_can_write(folder / file.name);
-  for (const ExportedFile& file : files) io::write_whole_file(folder / file.name, file.text);
+  for (const ExportedFile& file : files) base::check_can_write(folder / file.name);
+  for (const ExportedFile& file : files) base::write_whole_file(folder / file.name, file.text);
 }
 
 }  // namespace repose::calibrate

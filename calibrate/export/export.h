@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "dem/shape/clump_shape.h"
+#include "dem/shape/clump/clump_shape.h"
 #include "dem/study/study.h"
 
 /// A calibrated study as input of other discrete element programs, in their own definitions.
@@ -37,18 +37,18 @@ struct FittedValue {
   std::string verdict = {};  ///< "determined", "one-sided", "undetermined"; empty: nothing was said
 };
 
-/// Reads them from the text of a result.json; `name` is what faults call it.
+/// Reads them from the text of a result.json; `name` is what errors call it.
 /// @throws std::invalid_argument  it is none.
 std::vector<FittedValue> parse_fitted_values(const std::string& json, const std::string& name);
 
 /// How well the target's law stands for ours.
-enum class Standing {
+enum class Fidelity {
   exact,        ///< the same equation
   close,        ///< the same force or torque while it slides or rolls; another way there
   approximate,  ///< another law, which gives the same only in the mean or in part of the motions
 };
 
-std::string name_of(Standing standing);
+std::string name_of(Fidelity fidelity);
 
 /// What becomes of one coefficient.
 struct Conversion {
@@ -56,7 +56,7 @@ struct Conversion {
   double value = 0;              ///< ours
   double exported = 0;           ///< the target's
   std::string target_name = {};  ///< what the target calls it
-  Standing standing = Standing::exact;
+  Fidelity fidelity = Fidelity::exact;
   std::string ours = {};    ///< definition
   std::string theirs = {};  ///< definition
   std::string limits = {};  ///< what does not carry over; may be empty

@@ -8,12 +8,13 @@
 
 #include <fmt/format.h>
 
+#include "base/error_list.h"
+#include "base/version.h"
 #include "calibrate/study/coefficients.h"
 #include "dem/engine/time_step.h"
-#include "dem/experiment/bench_setup.h"
 #include "dem/experiment/bonded.h"
-#include "dem/experiment/faults.h"
 #include "dem/experiment/incline.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
 
@@ -25,7 +26,7 @@ using dem::Experiment;
 constexpr std::array kExperiments = {Experiment::drop, Experiment::tilt, Experiment::roll,
                                      Experiment::heap};
 /// Other programs do not average the first and last step of an impact as ours does.
-constexpr double kTimestepShare = .5;
+constexpr double kTimestepFraction = .5;
 /// How far short of sliding the plate begins to turn, degrees.
 constexpr double kTiltLead_deg = 3;
 constexpr double kDegree = std::numbers::pi / 180;
@@ -54,28 +55,28 @@ double speed_m_s(const ExportFacts& facts, Experiment experiment) {
 
 ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted)
     : study_(std::move(study)), fitted_(std::move(fitted)) {
-  study_.bench.grain = std::move(grain);
+  study_.model.grain = std::move(grain);
   for (const NamedCoefficient& named : coefficients_of(study_)) {
     if (named.coefficient.is_sought()) {
-      coefficient_named(named.name, study_.bench) = std::nan("");
+      coefficient_named(named.name, study_.model) = std::nan("");
     }
   }
   for (const FittedValue& value : fitted_) {
-    coefficient_named(value.name, study_.bench) = value.value;
+    coefficient_named(value.name, study_.model) = value.value;
   }
-  dem::Faults faults;
+  base::ErrorList errors;
   for (const NamedCoefficient& named : coefficients_of(study_)) {
     const bool is_needed = named.name.starts_with("contact.particle_wall") || study_.heap;
-    faults.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.bench)),
+    errors.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.model)),
                    fmt::format("{}: has no value in the result. Fix: give the study a value for "
                                "it, or bounds and something measured to find it by.",
                                named.name));
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 double ExportFacts::mass_kg() const {
-  return study_.bench.grain_material.density_kg_m3 * grain().volume_m3;
+  return study_.model.grain_material.density_kg_m3 * grain().volume_m3;
 }
 
 double ExportFacts::ball_density_kg_m3() const {
@@ -91,21 +92,21 @@ std::vector<Experiment> ExportFacts::experiments() const {
 }
 
 double ExportFacts::stiffness(Experiment experiment) const {
-  return dem::bench_for(study_, experiment).stiffness_factor;
+  return dem::model_for(study_, experiment).stiffness_factor;
 }
 
 dem::ContactTable ExportFacts::contacts(Experiment experiment) const {
-  const dem::Bench bench = dem::bench_for(study_, experiment);
-  return dem::bench_setup(bench, grain(), {dem::bench_wall(dem::Plane{})}, 1).contacts;
+  const dem::Model model = dem::model_for(study_, experiment);
+  return dem::model_setup(model, grain(), {dem::study_wall(dem::Plane{})}, 1).contacts;
 }
 
 double ExportFacts::timestep_s(Experiment experiment) const {
-  dem::Bench bench = dem::bench_for(study_, experiment);
-  bench.timestep_fraction = kTimestepShare;
-  bench.timestep_s = {};
+  dem::Model model = dem::model_for(study_, experiment);
+  model.timestep_fraction = kTimestepFraction;
+  model.timestep_s = {};
   const dem::ClumpShape shape = experiment == Experiment::tilt ? tilt_body() : grain();
-  const dem::Wall wall = dem::bench_wall(dem::Plane{});
-  return dem::bench_setup(bench, shape, {wall}, speed_m_s(*this, experiment)).timestep_s;
+  const dem::Wall wall = dem::study_wall(dem::Plane{});
+  return dem::model_setup(model, shape, {wall}, speed_m_s(*this, experiment)).timestep_s;
 }
 
 std::vector<TouchingPose> ExportFacts::drop_poses() const {
@@ -133,7 +134,7 @@ TouchingPose ExportFacts::tilt_pose() const {
 }
 
 double ExportFacts::tilt_begin_deg() const {
-  const double slides_deg = std::atan(study_.bench.grain_wall.sliding_friction) / kDegree;
+  const double slides_deg = std::atan(study_.model.grain_wall.sliding_friction) / kDegree;
   return std::max({0.0, study_.tilt->start_deg, slides_deg - kTiltLead_deg});
 }
 
@@ -142,7 +143,7 @@ dem::Grain ExportFacts::roll_start() const {
 }
 
 double ExportFacts::roll_flat_m() const {
-  const double friction = study_.bench.grain_wall.rolling_friction;
+  const double friction = study_.model.grain_wall.rolling_friction;
   const double slope = study_.roll->incline_deg * kDegree;
   // Without loss at the foot: L = S (sin - mu_r cos) / mu_r, see dem/THEORY.md.
   const double longest =
@@ -152,8 +153,8 @@ double ExportFacts::roll_flat_m() const {
 }
 
 LikeMaterial like_material(const dem::ContactLaw& pair) {
-  const double share = pair.reduced_shear_pa / pair.reduced_young_pa;
-  const double poisson = (1 - 4 * share) / (1 - 2 * share);
+  const double fraction = pair.reduced_shear_pa / pair.reduced_young_pa;
+  const double poisson = (1 - 4 * fraction) / (1 - 2 * fraction);
   return {.young_modulus_pa = 2 * pair.reduced_young_pa * (1 - poisson * poisson),
           .poisson_ratio = poisson};
 }
@@ -169,11 +170,11 @@ double rolling_stiffness(const dem::ContactLaw& pair, double mass_kg, double rad
 DeckFields common_fields(const ExportFacts& facts) {
   const dem::Study& study = facts.study();
   DeckFields fields;
-  fields.set("PROGRAM", "repose " REPOSE_VERSION);
-  fields.set("STUDY", harmless(study.file.filename().string()));
+  fields.set("PROGRAM", base::kProgram);
+  fields.set("STUDY", sanitized(study.file.filename().string()));
   fields.set("HASH", study.hash);
-  fields.set("GRAIN_NAME", harmless(study.bench.grain_material.name));
-  fields.set("WALL_NAME", harmless(study.bench.wall_material.name));
+  fields.set("GRAIN_NAME", sanitized(study.model.grain_material.name));
+  fields.set("WALL_NAME", sanitized(study.model.wall_material.name));
   fields.set("GRAVITY", dem::kStandardGravity_m_s2);
   fields.set("MASS", facts.mass_kg());
   for (const FittedValue& value : facts.fitted()) {

@@ -23,7 +23,7 @@ class ExportFacts {
   ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted);
 
   const dem::Study& study() const { return study_; }
-  const dem::ClumpShape& grain() const { return study_.bench.grain; }
+  const dem::ClumpShape& grain() const { return study_.model.grain; }
   const std::vector<FittedValue>& fitted() const { return fitted_; }
   double mass_kg() const;
   /// Then other programs work out mass and inertia themselves, of a ball of `ball_density_kg_m3`.

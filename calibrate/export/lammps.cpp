@@ -5,15 +5,15 @@
 
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/targets.h"
-#include "dem/experiment/bench_setup.h"
 #include "dem/experiment/incline.h"
+#include "dem/experiment/model_setup.h"
 
 namespace repose::calibrate {
 namespace {
 
 using dem::Experiment;
 
-/// Of the rolling spring, as in `elastic_plastic` (dem/THEORY.md): a share of the critical one.
+/// Of the rolling spring, as in `elastic_plastic` (dem/THEORY.md): a fraction of the critical one.
 constexpr double kRollingDamping = .3;
 
 ExportedFile material_file(const ExportFacts& facts, const Conversions& conversions) {

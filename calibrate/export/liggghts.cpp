@@ -38,7 +38,7 @@ void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
   double hardest = 0;
   for (const Experiment experiment : facts.experiments()) {
     for (const dem::Material* material :
-         {&study.bench.grain_material, &study.bench.wall_material}) {
+         {&study.model.grain_material, &study.model.wall_material}) {
       const double young = material->young_modulus_pa * facts.stiffness(experiment);
       softest = std::min(softest, young);
       hardest = std::max(hardest, young);
@@ -66,10 +66,10 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
   DeckFields fields = common_fields(facts);
   mark_stiffness(facts, fields);
   fields.set("SKIN", .2 * facts.grain().reach_m());
-  fields.set("GRAIN_YOUNG", study.bench.grain_material.young_modulus_pa);
-  fields.set("WALL_YOUNG", study.bench.wall_material.young_modulus_pa);
-  fields.set("GRAIN_POISSON", study.bench.grain_material.poisson_ratio);
-  fields.set("WALL_POISSON", study.bench.wall_material.poisson_ratio);
+  fields.set("GRAIN_YOUNG", study.model.grain_material.young_modulus_pa);
+  fields.set("WALL_YOUNG", study.model.wall_material.young_modulus_pa);
+  fields.set("GRAIN_POISSON", study.model.grain_material.poisson_ratio);
+  fields.set("WALL_POISSON", study.model.wall_material.poisson_ratio);
   for (const auto& [field, name] : {std::pair("RESTITUTION", "restitution"),
                                     {"SLIDING", "sliding_friction"},
                                     {"ROLLING", "rolling_friction"}}) {
@@ -81,8 +81,8 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
     fields.set(fmt::format("WALL_{}", field), wall);
     fields.set(fmt::format("GRAIN_{}", field), grain);
   }
-  fields.set("ROLLING_MODEL", rolling_words(study.bench.rolling));
-  if (study.bench.rolling == dem::RollingModel::elastic_plastic) fields.add_section("VISCOUS");
+  fields.set("ROLLING_MODEL", rolling_words(study.model.rolling));
+  if (study.model.rolling == dem::RollingModel::elastic_plastic) fields.add_section("VISCOUS");
   return {.name = "material.lig", .text = filled("liggghts/material.lig", fields)};
 }
 
@@ -91,7 +91,7 @@ ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphe
   mark_shape(is_sphere, fields);
   fields.set("DIAMETER", 2 * facts.grain().spheres.front().radius);
   fields.set("DENSITY", is_sphere ? facts.ball_density_kg_m3()
-                                  : facts.study().bench.grain_material.density_kg_m3);
+                                  : facts.study().model.grain_material.density_kg_m3);
   return {.name = name, .text = filled("liggghts/place.lig", fields)};
 }
 
@@ -108,7 +108,7 @@ ExportedFile drop_file(const ExportFacts& facts) {
   const double timestep = facts.timestep_s(Experiment::drop);
   const double speed = facts.drop_speed_m_s();
   DeckFields fields = deck_fields(facts, Experiment::drop);
-  set_body(facts.grain(), facts.study().bench.grain_material.density_kg_m3, fields);
+  set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
   fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
   fields.set("GRAINS", protocol.grains);
   fields.set("SPEED", speed);
@@ -133,7 +133,7 @@ ExportedFile tilt_file(const ExportFacts& facts) {
   const double timestep = facts.timestep_s(Experiment::tilt);
   const double begin = facts.tilt_begin_deg();
   DeckFields fields = deck_fields(facts, Experiment::tilt);
-  set_body(body, facts.study().bench.grain_material.density_kg_m3, fields);
+  set_body(body, facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(pose.orientation, fields);
   fields.set("BONDED", protocol.bonded);
   fields.set("RATE", protocol.rate_deg_s);
@@ -151,7 +151,7 @@ ExportedFile roll_file(const ExportFacts& facts) {
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(Experiment::roll);
   DeckFields fields = deck_fields(facts, Experiment::roll);
-  set_body(facts.grain(), facts.study().bench.grain_material.density_kg_m3, fields);
+  set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(start.orientation, fields);
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
   fields.set("INCLINE", protocol.incline_deg);
@@ -180,10 +180,10 @@ ExportedFile heap_file(const ExportFacts& facts) {
       grains * facts.grain().volume_m3 / (kLoose * tube_m3) * protocol.tube_height_m;
   DeckFields fields = deck_fields(facts, Experiment::heap);
   mark_shape(facts.is_sphere(), fields);
-  set_body(facts.grain(), facts.study().bench.grain_material.density_kg_m3, fields);
+  set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
   fields.set("RADIUS", facts.grain().spheres.front().radius);
   fields.set("DENSITY", facts.is_sphere() ? facts.ball_density_kg_m3()
-                                          : facts.study().bench.grain_material.density_kg_m3);
+                                          : facts.study().model.grain_material.density_kg_m3);
   fields.set("GRAINS", grains);
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);

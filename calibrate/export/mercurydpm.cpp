@@ -2,7 +2,7 @@
 
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/targets.h"
-#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 
 namespace repose::calibrate {
@@ -37,7 +37,7 @@ ExportedFile drop_file(const ExportFacts& facts, const Conversions& conversions)
   fields.set("ROOM", height + 10 * facts.grain().reach_m());
   fields.set("TIMESTEP", facts.timestep_s(Experiment::drop));
   fields.set("LONGEST", facts.longest_drop_s());
-  fields.set("DENSITY", facts.study().bench.grain_material.density_kg_m3);
+  fields.set("DENSITY", facts.study().model.grain_material.density_kg_m3);
   set_pair("WALL", walls, facts, conversions, contacts.law(dem::kGrainMaterial, dem::kWallMaterial),
            fields);
   set_pair("GRAIN", grains, facts, conversions,

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "dem/study/rolling_name.h"
+#include "dem/contact/rolling_name.h"
 
 namespace repose::calibrate {
 namespace {
@@ -48,7 +48,7 @@ void add_conversion(const Conversion& conversion, DeckFields& fields) {
   one.set("THEIR_NAME", conversion.target_name);
   one.set("OURS", conversion.ours);
   one.set("THEIRS", conversion.theirs);
-  one.set("STANDING", name_of(conversion.standing));
+  one.set("STANDING", name_of(conversion.fidelity));
   if (!conversion.limits.empty()) one.add_section("BUT").set("LIMITS", conversion.limits);
 }
 
@@ -58,7 +58,7 @@ ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
                        const std::vector<Conversion>& conversions) {
   DeckFields fields = common_fields(facts);
   fields.set("TARGET", program_of(target));
-  fields.set("ROLLING_MODEL", dem::name_of(facts.study().bench.rolling));
+  fields.set("ROLLING_MODEL", dem::name_of(facts.study().model.rolling));
   fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
   fields.set("STIFFNESS_HEAP", facts.has(dem::Experiment::heap)
                                    ? number(facts.stiffness(dem::Experiment::heap))

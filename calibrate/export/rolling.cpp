@@ -77,14 +77,14 @@ RollingConversion from_own_spin(ExportTarget target, Partner partner,
   const double in_reduced_radii = partner == Partner::wall ? 1 : 2;
   RollingConversion converted{.factor = arm.mean * in_reduced_radii / lever(target, partner)};
   if (!is_centred_sphere(grain)) {
-    converted.standing = Standing::approximate;
+    converted.fidelity = Fidelity::approximate;
     converted.limits = fmt::format(
         "Our torque has the grain's own lever, theirs that of the sphere that touches: {:.3g} "
         "times as long in the mean over {} poses, {:.3g} to {:.3g} in single ones. ",
         arm.mean, partner == Partner::wall ? "lying" : "all", arm.low, arm.high);
   }
   if (partner == Partner::grain) {
-    converted.standing = Standing::approximate;
+    converted.fidelity = Fidelity::approximate;
     converted.limits +=
         "Ours acts against each grain's own spin, theirs against the relative spin: the same when "
         "the two spins are equal and opposite. A grain at rest is turned by its neighbour in "
@@ -110,7 +110,7 @@ RollingConversion from_relative_spin(ExportTarget target, Partner partner,
                                      const dem::ClumpShape& grain) {
   RollingConversion converted{.factor = 1 / lever(target, partner)};
   if (target == ExportTarget::yade && partner == Partner::grain && !has_equal_radii(grain)) {
-    converted.standing = Standing::approximate;
+    converted.fidelity = Fidelity::approximate;
     converted.limits =
         "Their lever is the mean of both radii, ours R*: the factor is that of equal radii, and "
         "the grain's spheres differ. ";
@@ -120,13 +120,13 @@ RollingConversion from_relative_spin(ExportTarget target, Partner partner,
 
 void add_spring_limits(ExportTarget target, RollingModel model, RollingConversion& converted) {
   if (has_rolling_spring(target)) {
-    converted.standing = std::max(converted.standing, Standing::close);
+    converted.fidelity = std::max(converted.fidelity, Fidelity::close);
     converted.limits +=
         "Their torque comes from a spring that yields at the limit: the same while the grain rolls "
         "one way. Its stiffness is fixed, that of our elastic-plastic spring on a wall under the "
         "grain's own weight. ";
   } else if (model == RollingModel::elastic_plastic && target == ExportTarget::edem) {
-    converted.standing = Standing::approximate;
+    converted.fidelity = Fidelity::approximate;
     converted.limits +=
         "Their standard rolling friction has no spring: the same while the grain rolls, another "
         "way to rest. ";

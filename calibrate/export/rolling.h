@@ -4,7 +4,7 @@
 
 #include "calibrate/export/export.h"
 #include "dem/contact/material.h"
-#include "dem/shape/clump_shape.h"
+#include "dem/shape/clump/clump_shape.h"
 
 namespace repose::calibrate {
 
@@ -26,7 +26,7 @@ ArmRatio arm_ratio(const dem::ClumpShape& grain, Partner partner);
 /// What the rolling friction of a pair becomes.
 struct RollingConversion {
   double factor = 1;  ///< theirs / ours
-  Standing standing = Standing::exact;
+  Fidelity fidelity = Fidelity::exact;
   std::string limits = {};
 };
 

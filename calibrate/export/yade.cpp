@@ -7,8 +7,8 @@
 #include "calibrate/export/rolling.h"
 #include "calibrate/export/targets.h"
 #include "dem/contact/restitution.h"
-#include "dem/experiment/bench_setup.h"
 #include "dem/experiment/incline.h"
+#include "dem/experiment/model_setup.h"
 
 namespace repose::calibrate {
 namespace {
@@ -20,18 +20,18 @@ constexpr double kDegree = std::numbers::pi / 180;
 /// The real pair, neither softened nor needing a value between grains where there is no heap.
 dem::ContactTable real_contacts(const ExportFacts& facts) {
   const Experiment any = facts.experiments().front();
-  dem::Bench bench = dem::bench_for(facts.study(), any);
-  bench.stiffness_factor = 1;
-  const dem::Wall wall = dem::bench_wall(dem::Plane{});
-  return dem::bench_setup(bench, facts.grain(), {wall}, 1).contacts;
+  dem::Model model = dem::model_for(facts.study(), any);
+  model.stiffness_factor = 1;
+  const dem::Wall wall = dem::study_wall(dem::Plane{});
+  return dem::model_setup(model, facts.grain(), {wall}, 1).contacts;
 }
 
 void set_pair(const std::string& prefix, const std::string& pair, const ExportFacts& facts,
               const Conversions& conversions, const dem::ContactLaw& law, DeckFields& fields) {
-  const dem::Bench& bench = facts.study().bench;
+  const dem::Model& model = facts.study().model;
   const bool is_wall = prefix == "WALL";
   const double restitution =
-      is_wall || !facts.study().heap ? bench.grain_wall.restitution : bench.grain_grain.restitution;
+      is_wall || !facts.study().heap ? model.grain_wall.restitution : model.grain_grain.restitution;
   const double radius = facts.grain().spheres.front().radius;
   fields.set(prefix + "_BETAN", exported(conversions, pair + "restitution"));
   fields.set(prefix + "_BETAS", dem::textbook_damping_factor(restitution) / 2);
@@ -48,14 +48,14 @@ ExportedFile grain_file(const ExportFacts& facts, const Conversions& conversions
   const LikeMaterial pair = like_material(wall);
   DeckFields fields = common_fields(facts);
   add_balls(facts.grain(), fields);
-  set_body(facts.grain(), study.bench.grain_material.density_kg_m3, fields);
+  set_body(facts.grain(), study.model.grain_material.density_kg_m3, fields);
   fields.set("REACH", facts.grain().reach_m());
-  fields.set("DENSITY", study.bench.grain_material.density_kg_m3);
+  fields.set("DENSITY", study.model.grain_material.density_kg_m3);
   // YADE's reduced radius on a wall is half the sphere's, and stiffness goes with its root.
   fields.set("PAIR_YOUNG", std::numbers::sqrt2 * pair.young_modulus_pa);
   fields.set("PAIR_POISSON", pair.poisson_ratio);
-  fields.set("GRAIN_YOUNG", study.bench.grain_material.young_modulus_pa);
-  fields.set("GRAIN_POISSON", study.bench.grain_material.poisson_ratio);
+  fields.set("GRAIN_YOUNG", study.model.grain_material.young_modulus_pa);
+  fields.set("GRAIN_POISSON", study.model.grain_material.poisson_ratio);
   const std::string walls = "contact.particle_wall.";
   // Without a heap grains never touch each other.
   const std::string grains = study.heap ? "contact.particle_particle." : walls;
@@ -96,7 +96,7 @@ ExportedFile tilt_file(const ExportFacts& facts) {
   const double begin = facts.tilt_begin_deg();
   DeckFields fields = deck_fields(facts, Experiment::tilt);
   add_balls(facts.tilt_body(), fields);
-  set_body(facts.tilt_body(), facts.study().bench.grain_material.density_kg_m3, fields);
+  set_body(facts.tilt_body(), facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(pose.orientation, fields);
   fields.set("BONDED", protocol.bonded);
   fields.set("RATE", protocol.rate_deg_s);

@@ -5,17 +5,17 @@
 
 #include <fmt/core.h>
 
-#include "calibrate/fit/lessons.h"
+#include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
 namespace {
 
-constexpr double kReadings = 10;    // taken of what is advised
-constexpr double kWorthwhile = .3;  // share of the variance that it takes away
-constexpr std::size_t kFewest = 8;  // runs to learn a reading from
-constexpr double kIgnorant = .5;    // surrogate variance over measured
-constexpr double kSeen = 2;         // sigma from bound to bound: less, and runs show nothing
+constexpr double kReadings = 10;         // taken of what is advised
+constexpr double kWorthwhile = .3;       // share of the variance that it takes away
+constexpr std::size_t kFewest = 8;       // runs to learn a reading from
+constexpr double kMostlySurrogate = .5;  // surrogate variance over measured
+constexpr double kSeen = 2;              // sigma from bound to bound: less, and runs show nothing
 
 bool is_measured(const Problem& problem, const std::string& experiment) {
   return std::any_of(problem.observables.begin(), problem.observables.end(),
@@ -41,16 +41,16 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
   for (const Experiment& experiment : measured_experiments(problem)) {
     for (const std::string& reading : experiment.measurable) {
       if (is_measured(problem, experiment.name, reading)) continue;
-      const Lesson lesson = lesson_of(problem, experiment, reading, runs);
-      if (lesson.readings.size() < kFewest) continue;
-      const Surrogate surrogate(lesson, {}, false);
+      const TrainingSet training_set = training_set_of(problem, experiment, reading, runs);
+      if (training_set.readings.size() < kFewest) continue;
+      const Surrogate surrogate(training_set, {}, false);
       if (surrogate.constant()) continue;
       Unmeasured unmeasured{experiment.name, reading, {}, 0};
       for (const Point& point : solution.sets.points) {
         const Expectation w = surrogate.at(point, false);
-        const double slope = surrogate.bend().slope(w.mean);
-        const double scatter = surrogate.bend().scatter(w.mean);
-        unmeasured.readings.push_back(surrogate.bend().expected(w.mean));
+        const double slope = surrogate.warp().slope(w.mean);
+        const double scatter = surrogate.warp().scatter(w.mean);
+        unmeasured.readings.push_back(surrogate.warp().expected(w.mean));
         unmeasured.noise2 += slope * slope * w.variance + scatter * scatter / kReadings;
       }
       unmeasured.noise2 /= static_cast<double>(solution.sets.points.size());
@@ -59,7 +59,7 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
   }
 }
 
-double Advisor::share_explained(const Unmeasured& unmeasured, std::size_t parameter) const {
+double Advisor::fraction_explained(const Unmeasured& unmeasured, std::size_t parameter) const {
   // Linear Bayes: measuring r with error variance v takes cov(r, x)^2 / (var r + v) from var x.
   // Goldstein and Wooff (2007), Bayes Linear Statistics.
   const std::vector<Point>& points = solution_.sets.points;
@@ -89,7 +89,8 @@ bool Advisor::more_runs_would_help(std::size_t parameter) const {
   high[parameter] = 1;
   for (std::size_t i = 0; i < problem_.observables.size(); ++i) {
     const double effect = misfit.difference(i, high) - misfit.difference(i, low);
-    if (std::abs(effect) > kSeen && misfit.ignorance(i, solution_.best.point) > kIgnorant) {
+    if (std::abs(effect) > kSeen &&
+        misfit.surrogate_variance_fraction(i, solution_.best.point) > kMostlySurrogate) {
       return true;
     }
   }
@@ -101,9 +102,9 @@ std::string Advisor::advice(std::size_t parameter) const {
   const Unmeasured* best = nullptr;
   double most = kWorthwhile;
   for (const Unmeasured& unmeasured : unmeasured_) {
-    const double share = share_explained(unmeasured, parameter);
-    if (share > most) {
-      most = share;
+    const double fraction = fraction_explained(unmeasured, parameter);
+    if (fraction > most) {
+      most = fraction;
       best = &unmeasured;
     }
   }

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/fit/problem.h"
 #include "calibrate/fit/solution.h"
-#include "calibrate/problem.h"
 
 namespace repose::calibrate {
 
@@ -25,7 +25,7 @@ class Advisor {
     std::vector<double> readings;
     double noise2 = 0;  ///< of a measured mean of ten and of the surrogate, mean over the sets
   };
-  double share_explained(const Unmeasured& unmeasured, std::size_t parameter) const;
+  double fraction_explained(const Unmeasured& unmeasured, std::size_t parameter) const;
 
   /// Some observable depends on it visibly, and its surrogate is the weakest link.
   bool more_runs_would_help(std::size_t parameter) const;

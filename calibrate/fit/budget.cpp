@@ -9,8 +9,8 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kFirstShare = .35;
-constexpr int kMostPerDimension = 12;  // in the first round
+constexpr double kFirstFraction = .35;
+constexpr int kMaxPerDimension = 12;  // in the first round
 
 int least_jobs(const Experiment& experiment) {
   return 2 * static_cast<int>(experiment.parameters.size()) + 2;
@@ -32,48 +32,49 @@ std::vector<double> bought(const std::vector<Experiment>& experiments,
 
 }  // namespace
 
-Expense least_expense(const Problem& problem) {
-  Expense expense;
+Cost minimum_cost(const Problem& problem) {
+  Cost cost;
   for (const Experiment& experiment : measured_experiments(problem)) {
-    expense.jobs += least_jobs(experiment);
-    expense.seconds += least_jobs(experiment) * experiment.run_s;
+    cost.jobs += least_jobs(experiment);
+    cost.seconds += least_jobs(experiment) * experiment.run_s;
   }
-  return expense;
+  return cost;
 }
 
 std::vector<int> first_round_jobs(const Problem& problem) {
   const std::vector<Experiment> experiments = measured_experiments(problem);
-  const Expense least = least_expense(problem);
+  const Cost least = minimum_cost(problem);
   std::vector<double> weights;
   for (const Experiment& experiment : experiments) {
     weights.push_back(static_cast<double>(experiment.parameters.size()));
   }
   const std::vector<double> counts =
-      bought(experiments, weights, kFirstShare * problem.settings.budget_s);
+      bought(experiments, weights, kFirstFraction * problem.settings.budget_s);
   // What is wanted beyond the least, cut down to what both limits leave.
   std::vector<double> extra;
   double extra_jobs = 0;
   double extra_s = 0;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     const int dimensions = static_cast<int>(experiments[i].parameters.size());
-    const double most = std::max(kMostPerDimension * dimensions, least_jobs(experiments[i]));
+    const double most = std::max(kMaxPerDimension * dimensions, least_jobs(experiments[i]));
     extra.push_back(std::max(0., std::min(counts[i], most) - least_jobs(experiments[i])));
     extra_jobs += extra.back();
     extra_s += extra.back() * experiments[i].run_s;
   }
-  double share = 1;
+  double fraction = 1;
   if (extra_jobs > 0)
-    share = std::min(share, (problem.settings.most_jobs - least.jobs) / extra_jobs);
-  if (extra_s > 0) share = std::min(share, (problem.settings.budget_s - least.seconds) / extra_s);
+    fraction = std::min(fraction, (problem.settings.max_jobs - least.jobs) / extra_jobs);
+  if (extra_s > 0)
+    fraction = std::min(fraction, (problem.settings.budget_s - least.seconds) / extra_s);
   std::vector<int> jobs;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    jobs.push_back(least_jobs(experiments[i]) + static_cast<int>(share * extra[i]));
+    jobs.push_back(least_jobs(experiments[i]) + static_cast<int>(fraction * extra[i]));
   }
   return jobs;
 }
 
 std::vector<int> round_jobs(const Problem& problem, const std::vector<double>& need,
-                            const Expense& left, int rounds_left) {
+                            const Cost& left, int rounds_left) {
   const std::vector<Experiment> experiments = measured_experiments(problem);
   std::vector<int> jobs(experiments.size(), 0);
   if (rounds_left < 1) return jobs;
@@ -82,7 +83,7 @@ std::vector<int> round_jobs(const Problem& problem, const std::vector<double>& n
   int count = left.jobs / rounds_left;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     if (need[i] <= 0) continue;
-    const int most = kMostPerDimension * static_cast<int>(experiments[i].parameters.size());
+    const int most = kMaxPerDimension * static_cast<int>(experiments[i].parameters.size());
     const int affordable = static_cast<int>(std::min(seconds / experiments[i].run_s, 1e6));
     // Wanted at all is one run at least.
     const int wanted = static_cast<int>(std::clamp(std::round(counts[i]), 1., 1e6));

@@ -2,17 +2,17 @@
 
 #include <vector>
 
-#include "calibrate/problem.h"
+#include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
 
-struct Expense {
+struct Cost {
   double seconds = 0;
   int jobs = 0;
 };
 
 /// Of the smallest first round.
-Expense least_expense(const Problem& problem);
+Cost minimum_cost(const Problem& problem);
 
 /// Jobs of the first round, for each of measured_experiments().
 ///
@@ -24,6 +24,6 @@ std::vector<int> first_round_jobs(const Problem& problem);
 /// Jobs of a later round, for each of measured_experiments(), `need` saying how much each is wanted
 /// (0: not), in the same proportion.
 std::vector<int> round_jobs(const Problem& problem, const std::vector<double>& need,
-                            const Expense& left, int rounds_left);
+                            const Cost& left, int rounds_left);
 
 }  // namespace repose::calibrate

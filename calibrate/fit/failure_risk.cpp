@@ -35,9 +35,9 @@ Risk FailureRisk::at(const Point& point) const {
       if (attempts_.failed[run]) failed_gradient[seen[c]] += slope;
     }
   }
-  risk.share = failed / all;
+  risk.fraction = failed / all;
   for (std::size_t i = 0; i < point.size(); ++i) {
-    risk.gradient[i] = (failed_gradient[i] - risk.share * all_gradient[i]) / all;
+    risk.gradient[i] = (failed_gradient[i] - risk.fraction * all_gradient[i]) / all;
   }
   return risk;
 }

@@ -20,7 +20,7 @@ std::vector<Job> first_round(const Problem& problem) {
     std::size_t place = 0;
     for (int k = 0; k < counts[e]; ++k) {
       // The job after every fifth place is at that place again.
-      const bool repeat = experiment.chance && k % (kRepeatEvery + 1) == kRepeatEvery;
+      const bool repeat = experiment.is_stochastic && k % (kRepeatEvery + 1) == kRepeatEvery;
       if (k > 0 && !repeat) ++place;
       const Point own = sequence_point(place, experiment.parameters.size());
       Point point(problem.parameters.size(), .5);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calibrate/problem.h"
+#include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
 

@@ -25,7 +25,7 @@ struct GaussianProcess::State {
 };
 
 GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y,
-                                 bool chance, const std::optional<Hyperparameters>& start,
+                                 bool is_stochastic, const std::optional<Hyperparameters>& start,
                                  int starts) {
   auto state = std::make_shared<State>();
   state->x = as_rows(x);
@@ -37,7 +37,7 @@ GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<
   state->scale = scale > 0 ? scale : 1;
   values /= state->scale;
 
-  const SearchResult found = search_hyperparameters(state->x, values, chance, start, starts);
+  const SearchResult found = search_hyperparameters(state->x, values, is_stochastic, start, starts);
   state->hyper = found.hyper;
   // The density of y, not of the scaled y.
   state->log_posterior =

@@ -39,7 +39,7 @@ class GaussianProcess {
  public:
   /// Fits the hyperparameters to `y` at `x` (at least two, not all alike). `chance`: values at one
   /// point differ. `start` is where the search begins besides its own starts.
-  GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y, bool chance,
+  GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y, bool is_stochastic,
                   const std::optional<Hyperparameters>& start, int starts);
 
   Expectation at(const Point& x, bool with_gradients) const;

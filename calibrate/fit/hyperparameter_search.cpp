@@ -41,9 +41,9 @@ std::vector<double> to_logs(const Hyperparameters& hyper) {
 /// Minus the logarithm of the posterior density, and its gradient.
 class MinusLogPosterior : public ceres::FirstOrderFunction {
  public:
-  MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool chance)
+  MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool is_stochastic)
       : x_(x), y_(y), priors_(static_cast<std::size_t>(x.cols()) + 3) {
-    priors_.back() = chance ? LogNormal{std::log(.1), 1.5} : LogNormal{std::log(.001), 1};
+    priors_.back() = is_stochastic ? LogNormal{std::log(.1), 1.5} : LogNormal{std::log(.001), 1};
   }
 
   int NumParameters() const override { return static_cast<int>(priors_.size()); }
@@ -75,23 +75,24 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
   std::vector<LogNormal> priors_;
 };
 
-std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool chance, int count) {
+std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool is_stochastic, int count) {
   constexpr std::array<double, 3> kLengths = {1, .3, 3};
   std::vector<Hyperparameters> starts;
   for (std::size_t i = 0; i < kLengths.size() && i < static_cast<std::size_t>(count); ++i) {
     starts.push_back({std::vector<double>(static_cast<std::size_t>(dimensions), kLengths[i]), 1, 1,
-                      chance ? .2 : .001});
+                      is_stochastic ? .2 : .001});
   }
   return starts;
 }
 
 }  // namespace
 
-SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool chance,
-                                    const std::optional<Hyperparameters>& start, int starts) {
-  std::vector<Hyperparameters> begins = own_starts(x.cols(), chance, starts);
+SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
+                                    bool is_stochastic, const std::optional<Hyperparameters>& start,
+                                    int starts) {
+  std::vector<Hyperparameters> begins = own_starts(x.cols(), is_stochastic, starts);
   if (start) begins.push_back(*start);
-  ceres::GradientProblem problem(new MinusLogPosterior(x, y, chance));
+  ceres::GradientProblem problem(new MinusLogPosterior(x, y, is_stochastic));
   ceres::GradientProblemSolver::Options options;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 40;

@@ -20,7 +20,8 @@ struct SearchResult {
 /// priors, of median 1 and 95 % between .14 and 7 for lengths, signal and trend; the noise has
 /// median .1 (.005 ... 2), without chance .001 (.0001 ... .007). Minimised by L-BFGS from fixed
 /// starts.
-SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool chance,
-                                    const std::optional<Hyperparameters>& start, int starts);
+SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
+                                    bool is_stochastic, const std::optional<Hyperparameters>& start,
+                                    int starts);
 
 }  // namespace repose::calibrate

@@ -5,13 +5,13 @@
 
 #include "calibrate/fit/advice.h"
 #include "calibrate/fit/family.h"
-#include "calibrate/fit/lessons.h"
 #include "calibrate/fit/reach.h"
-#include "calibrate/fit/remarks.h"
 #include "calibrate/fit/responses.h"
 #include "calibrate/fit/rounds.h"
 #include "calibrate/fit/solution.h"
+#include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/warnings.h"
 
 namespace repose::calibrate {
 namespace {
@@ -60,7 +60,7 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
   fitted.sd_assumed = !observable.sd;
   fitted.simulated = surrogate.simulated(best);
   fitted.simulated_uncertainty = surrogate.uncertainty(best);
-  fitted.simulated_sd = surrogate.bend().scatter(surrogate.at(best, false).mean);
+  fitted.simulated_sd = surrogate.warp().scatter(surrogate.at(best, false).mean);
   fitted.difference_sigma = solution.misfit.difference(i, best);
   fitted.reachable = {extreme_of(surrogate, dimensions, false).reading,
                       extreme_of(surrogate, dimensions, true).reading};
@@ -72,10 +72,10 @@ SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs
   const Experiment& experiment = experiment_named(problem, observable.experiment);
   SurrogateQuality quality;
   quality.observable = observable.name;
-  quality.runs =
-      static_cast<int>(lesson_of(problem, experiment, observable.reading, runs).readings.size());
+  quality.runs = static_cast<int>(
+      training_set_of(problem, experiment, observable.reading, runs).readings.size());
   quality.failed_runs = attempts_of(problem, experiment, runs).failures();
-  quality.bend = surrogate.bend().bend;
+  quality.warp = surrogate.warp().warp;
   quality.length_scales = surrogate.length_scales();
   quality.leave_one_out_sigma = surrogate.leave_one_out_sigma();
   quality.leave_one_out_error = surrogate.leave_one_out_error();
@@ -124,7 +124,7 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs) {
   fit.curves = response_curves(problem, solution);
   fit.surfaces = response_surfaces(problem, solution);
   fit.rounds = replay(problem, sorted).complete;
-  fit.warnings = remarks_on(problem, solution, fit);
+  fit.warnings = warnings_for(problem, solution, fit);
   return fit;
 }
 

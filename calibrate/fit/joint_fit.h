@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/problem.h"
+#include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
 
@@ -78,8 +78,8 @@ struct SurrogateQuality {
   std::string observable;
   int runs = 0;
   int failed_runs = 0;
-  double bend = 0;                    ///< y enters as asinh(y / bend); 0: as it is
-  std::vector<double> length_scales;  ///< shares of the bounds' distance; long: little effect
+  double warp = 0;                    ///< y enters as asinh(y / warp); 0: as it is
+  std::vector<double> length_scales;  ///< fractions of the bounds' distance; long: little effect
   double leave_one_out_sigma = 0;     ///< rms of standardised leave-one-out errors; 1 is right
   double leave_one_out_error = 0;     ///< rms of leave-one-out errors, seed noise included, unit
   double inflation = 1;               ///< by which its uncertainty was enlarged
@@ -111,7 +111,7 @@ struct JointFit {
 ///
 /// Each observable gets a surrogate of its runs (see THEORY.md), the fit minimises the sum of
 /// ((simulated - measured) / sigma)^2 within the bounds. All runs count, proposed by propose() or
-/// not; their order does not matter. Throws std::invalid_argument with every fault of the problem,
+/// not; their order does not matter. Throws std::invalid_argument with every error of the problem,
 /// and when fewer than three runs of an experiment have the reading.
 JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs);
 

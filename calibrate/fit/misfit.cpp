@@ -7,7 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <fmt/core.h>
 
-#include "calibrate/fit/lessons.h"
+#include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
@@ -22,9 +22,9 @@ constexpr std::size_t kFewest = 3;  // readings to learn from
 
 /// Cauchy's loss as a residual: its square is c^2 log(1 + z^2 / c^2). Returns its slope, too.
 std::pair<double, double> robust_residual(double z) {
-  const double share = z * z / (kRobust * kRobust);
-  const double value = std::copysign(kRobust * std::sqrt(std::log1p(share)), z);
-  return {value, std::abs(value) > 1e-9 ? z / (value * (1 + share)) : 1};
+  const double fraction = z * z / (kRobust * kRobust);
+  const double value = std::copysign(kRobust * std::sqrt(std::log1p(fraction)), z);
+  return {value, std::abs(value) > 1e-9 ? z / (value * (1 + fraction)) : 1};
 }
 
 double uncertainty_of_mean(const Observable& observable, double scatter_by_chance) {
@@ -66,25 +66,25 @@ double few_readings_factor(const Observable& observable) {
 Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
                const std::optional<Misfit>& before, bool thorough)
     : parameters_(problem.parameters), robust_(problem.settings.robust) {
-  std::string faults;
+  std::string errors;
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     const Observable& observable = problem.observables[i];
-    const Lesson lesson = lesson_of(problem, experiment_named(problem, observable.experiment),
-                                    observable.reading, runs);
-    if (lesson.readings.size() < kFewest) {
-      if (!faults.empty()) faults += '\n';
-      faults += too_few(observable, lesson.readings.size(), runs);
+    const TrainingSet training_set = training_set_of(
+        problem, experiment_named(problem, observable.experiment), observable.reading, runs);
+    if (training_set.readings.size() < kFewest) {
+      if (!errors.empty()) errors += '\n';
+      errors += too_few(observable, training_set.readings.size(), runs);
       continue;
     }
     std::optional<Surrogate> start;
     if (before) start = before->surrogates_[i];
-    surrogates_.emplace_back(lesson, start, thorough);
-    const Bend& bend = surrogates_.back().bend();
-    const double w = bend.of_expected(observable.mean);
-    measured_.push_back(uncertainty_of_mean(observable, bend.scatter(w)));
-    targets_.push_back({w, few_readings_factor(observable) * measured_.back() / bend.slope(w)});
+    surrogates_.emplace_back(training_set, start, thorough);
+    const AsinhWarp& warp = surrogates_.back().warp();
+    const double w = warp.of_expected(observable.mean);
+    measured_.push_back(uncertainty_of_mean(observable, warp.scatter(w)));
+    targets_.push_back({w, few_readings_factor(observable) * measured_.back() / warp.slope(w)});
   }
-  if (!faults.empty()) throw std::invalid_argument(faults);
+  if (!errors.empty()) throw std::invalid_argument(errors);
   for (const Experiment& experiment : measured_experiments(problem)) {
     FailureRisk risk(attempts_of(problem, experiment, runs));
     if (risk.any()) risks_.push_back(std::move(risk));
@@ -101,7 +101,7 @@ double Misfit::difference(std::size_t observable, const Point& point) const {
   return (w.mean - target.value) / std::hypot(target.sd, std::sqrt(w.variance));
 }
 
-double Misfit::ignorance(std::size_t observable, const Point& point) const {
+double Misfit::surrogate_variance_fraction(std::size_t observable, const Point& point) const {
   return surrogates_[observable].at(point, false).variance * weight(observable);
 }
 
@@ -128,15 +128,15 @@ void Misfit::add_observable(std::size_t i, const Point& point, bool with_jacobia
   const double z = (w.mean - target.value) / sigma;
   const auto [value, slope] = robust_ ? robust_residual(z) : std::pair{z, 1.};
   all.values[i] = value;
-  const std::size_t doubt = all.values.size() - surrogates_.size() - parameters_.size() + i;
+  const std::size_t diagnostic = all.values.size() - surrogates_.size() - parameters_.size() + i;
   const double doubted = std::sqrt(w.variance / sigma2);
-  all.values[doubt] = kDistrust * doubted;
+  all.values[diagnostic] = kDistrust * doubted;
   for (std::size_t j = 0; with_jacobian && j < point.size(); ++j) {
     all.jacobian[i][j] =
         slope * (w.mean_gradient[j] / sigma - z * w.variance_gradient[j] / (2 * sigma2));
     if (doubted > 0) {
-      all.jacobian[doubt][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
-                               (2 * doubted * sigma2 * sigma2);
+      all.jacobian[diagnostic][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
+                                    (2 * doubted * sigma2 * sigma2);
     }
   }
 }
@@ -163,7 +163,7 @@ Residuals Misfit::residuals(const Point& point, bool with_jacobian) const {
   for (std::size_t i = 0; i < surrogates_.size(); ++i) add_observable(i, point, with_jacobian, all);
   for (std::size_t i = 0; i < risks_.size(); ++i) {
     const Risk risk = risks_[i].at(point);
-    all.values[surrogates_.size() + i] = kFailure * risk.share;
+    all.values[surrogates_.size() + i] = kFailure * risk.fraction;
     for (std::size_t j = 0; with_jacobian && j < point.size(); ++j) {
       all.jacobian[surrogates_.size() + i][j] = kFailure * risk.gradient[j];
     }

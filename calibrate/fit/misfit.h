@@ -5,8 +5,8 @@
 
 #include "calibrate/fit/failure_risk.h"
 #include "calibrate/fit/points.h"
+#include "calibrate/fit/problem.h"
 #include "calibrate/fit/surrogate.h"
-#include "calibrate/problem.h"
 
 namespace repose::calibrate {
 
@@ -36,7 +36,7 @@ class Misfit {
   /// (simulated - measured) / sigma of one observable.
   double difference(std::size_t observable, const Point& point) const;
   /// Squares of the surrogate's sd over the measured uncertainty.
-  double ignorance(std::size_t observable, const Point& point) const;
+  double surrogate_variance_fraction(std::size_t observable, const Point& point) const;
   /// Standard uncertainty of an observable's measured mean, in its unit. A scatter that was not
   /// measured is taken to be no less than what chance does in the simulation there: a bench has the
   /// same chance, and more.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/fit/chance.h"
+#include "calibrate/fit/random.h"
 #include "calibrate/fit/sequence.h"
 
 namespace repose::calibrate {
@@ -20,7 +20,7 @@ struct Particle {
 };
 
 /// The particles' share of equal weight if the misfit's weight grew by `step`.
-double effective_share(const std::vector<Particle>& particles, double least, double step) {
+double effective_fraction(const std::vector<Particle>& particles, double least, double step) {
   double sum = 0;
   double sum2 = 0;
   for (const Particle& particle : particles) {
@@ -41,18 +41,18 @@ double least_chi2(const std::vector<Particle>& particles) {
 /// The largest step up to `most` that leaves half of the particles of effect.
 double next_step(const std::vector<Particle>& particles, double most) {
   const double least = least_chi2(particles);
-  if (effective_share(particles, least, most) >= .5) return most;
+  if (effective_fraction(particles, least, most) >= .5) return most;
   double low = 0;
   double high = most;
   for (int i = 0; i < 40; ++i) {
     const double middle = (low + high) / 2;
-    (effective_share(particles, least, middle) >= .5 ? low : high) = middle;
+    (effective_fraction(particles, least, middle) >= .5 ? low : high) = middle;
   }
   return low > 0 ? low : high;
 }
 
 /// Systematic resampling: Kitagawa (1996), J. Comput. Graph. Stat. 5, 1, appendix.
-void resample(std::vector<Particle>& particles, double step, Chance& chance) {
+void resample(std::vector<Particle>& particles, double step, Random& random) {
   const double least = least_chi2(particles);
   std::vector<double> weights;
   double sum = 0;
@@ -61,7 +61,7 @@ void resample(std::vector<Particle>& particles, double step, Chance& chance) {
     sum += weights.back();
   }
   const double stride = sum / static_cast<double>(particles.size());
-  double mark = stride * chance.uniform();
+  double mark = stride * random.uniform();
   double passed = 0;
   std::vector<Particle> chosen;
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -76,19 +76,19 @@ void resample(std::vector<Particle>& particles, double step, Chance& chance) {
 
 /// One try for each particle, at the misfit's weight `power`.
 void move(const Misfit& misfit, double power, double reach, std::vector<Particle>& particles,
-          Chance& chance) {
+          Random& random) {
   const std::vector<Particle> others = particles;
   const double stride = reach * 2.38 / std::sqrt(2 * static_cast<double>(misfit.dimensions()));
   for (Particle& particle : particles) {
-    const Point& a = others[chance.below(others.size())].point;
-    const Point& b = others[chance.below(others.size())].point;
+    const Point& a = others[random.below(others.size())].point;
+    const Point& b = others[random.below(others.size())].point;
     Point point = particle.point;
     bool inside = true;
     for (std::size_t j = 0; j < point.size(); ++j) {
-      point[j] += stride * (a[j] - b[j]) + 1e-3 * chance.normal();
+      point[j] += stride * (a[j] - b[j]) + 1e-3 * random.normal();
       inside = inside && point[j] >= 0 && point[j] <= 1;
     }
-    const double luck = chance.uniform();
+    const double luck = random.uniform();
     if (!inside) continue;
     const double chi2 = misfit.chi2(point);
     if (std::log(luck) < -power * (chi2 - particle.chi2) / 2) particle = {point, chi2};
@@ -96,20 +96,20 @@ void move(const Misfit& misfit, double power, double reach, std::vector<Particle
 }
 
 void move_often(const Misfit& misfit, double power, int times, std::vector<Particle>& particles,
-                Chance& chance) {
+                Random& random) {
   for (int i = 0; i < times; ++i) {
-    move(misfit, power, i % 2 == 0 ? 1 : .3, particles, chance);
+    move(misfit, power, i % 2 == 0 ? 1 : .3, particles, random);
   }
 }
 
 /// From weight `power` of the misfit to `until`.
 void temper(const Misfit& misfit, double& power, double until, std::vector<Particle>& particles,
-            Chance& chance) {
+            Random& random) {
   while (power < until) {
     const double step = next_step(particles, until - power);
-    resample(particles, step, chance);
+    resample(particles, step, random);
     power = until - power - step < 1e-12 ? until : power + step;
-    move_often(misfit, power, power < until ? kMoves : kLastMoves, particles, chance);
+    move_often(misfit, power, power < until ? kMoves : kLastMoves, particles, random);
   }
 }
 
@@ -122,7 +122,7 @@ std::vector<Point> points_of(const std::vector<Particle>& particles) {
 }  // namespace
 
 PlausibleSets plausible_sets(const Misfit& misfit, std::uint64_t seed) {
-  Chance chance(seed);
+  Random random(seed);
   std::vector<Particle> particles;
   for (std::size_t i = 0; i < kParticles; ++i) {
     const Point point = sequence_point(i, misfit.dimensions());
@@ -130,9 +130,9 @@ PlausibleSets plausible_sets(const Misfit& misfit, std::uint64_t seed) {
   }
   PlausibleSets sets;
   double power = 0;
-  temper(misfit, power, kWide, particles, chance);
+  temper(misfit, power, kWide, particles, random);
   sets.wide = points_of(particles);
-  temper(misfit, power, 1, particles, chance);
+  temper(misfit, power, 1, particles, random);
   sets.points = points_of(particles);
   return sets;
 }

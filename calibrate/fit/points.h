@@ -4,7 +4,7 @@
 
 namespace repose::calibrate {
 
-/// A place in the unit box: parameters as shares of the way from min to max.
+/// A place in the unit box: parameters as fractions of the way from min to max.
 using Point = std::vector<double>;
 
 }  // namespace repose::calibrate

@@ -47,8 +47,8 @@ class Tracer {
       // Near a minimum the root of the rise is straight.
       const double a = rise(inside);
       const double b = rise(outside);
-      const double share = std::clamp((std::sqrt(kChi2Limit) - a) / (b - a), .05, .95);
-      x = inside.point[held_] + share * (outside.point[held_] - inside.point[held_]);
+      const double fraction = std::clamp((std::sqrt(kChi2Limit) - a) / (b - a), .05, .95);
+      x = inside.point[held_] + fraction * (outside.point[held_] - inside.point[held_]);
       if (i == kRefinements) break;
       const Minimum middle = at(x, inside);
       minima.push_back(middle);

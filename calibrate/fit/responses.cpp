@@ -10,14 +10,14 @@ namespace {
 constexpr std::size_t kCurvePlaces = 41;
 constexpr std::size_t kSurfacePlaces = 25;  // along each side
 
-double share(std::size_t place, std::size_t places) {
+double fraction(std::size_t place, std::size_t places) {
   return static_cast<double>(place) / static_cast<double>(places - 1);
 }
 
 std::vector<double> values_along(const Parameter& parameter, std::size_t places) {
   std::vector<double> values;
   for (std::size_t k = 0; k < places; ++k) {
-    const double value = parameter.min + share(k, places) * (parameter.max - parameter.min);
+    const double value = parameter.min + fraction(k, places) * (parameter.max - parameter.min);
     values.push_back(rounded(parameter, value));
   }
   return values;
@@ -38,10 +38,10 @@ ResponseCurve curve_of(const Problem& problem, const Solution& solution, std::si
                       .scatter = {}};
   Point point = solution.best.point;
   for (std::size_t k = 0; k < kCurvePlaces; ++k) {
-    point[parameter] = share(k, kCurvePlaces);
+    point[parameter] = fraction(k, kCurvePlaces);
     curve.simulated.push_back(surrogate.simulated(point));
     curve.uncertainty.push_back(surrogate.uncertainty(point));
-    curve.scatter.push_back(surrogate.bend().scatter(surrogate.at(point, false).mean));
+    curve.scatter.push_back(surrogate.warp().scatter(surrogate.at(point, false).mean));
   }
   return curve;
 }
@@ -57,10 +57,10 @@ ResponseSurface surface_of(const Problem& problem, const Solution& solution, std
                           .simulated = {}};
   Point point = solution.best.point;
   for (std::size_t row = 0; row < kSurfacePlaces; ++row) {
-    point[y] = share(row, kSurfacePlaces);
+    point[y] = fraction(row, kSurfacePlaces);
     std::vector<double>& heights = surface.simulated.emplace_back();
     for (std::size_t column = 0; column < kSurfacePlaces; ++column) {
-      point[x] = share(column, kSurfacePlaces);
+      point[x] = fraction(column, kSurfacePlaces);
       heights.push_back(surrogate.simulated(point));
     }
   }

@@ -8,11 +8,11 @@
 #include "calibrate/fit/best_places.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/first_round.h"
-#include "calibrate/fit/lessons.h"
 #include "calibrate/fit/minimum.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/plausible.h"
 #include "calibrate/fit/sequence.h"
+#include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
@@ -55,10 +55,10 @@ class Study {
   const std::vector<RoundSummary>& summaries() const { return summaries_; }
 
   std::vector<Job> next_round() const {
-    const int rounds_left = problem_.settings.most_rounds - static_cast<int>(summaries_.size());
+    const int rounds_left = problem_.settings.max_rounds - static_cast<int>(summaries_.size());
     if (rounds_left < 1 || settled()) return {};
-    const Expense left{problem_.settings.budget_s - spent_.seconds,
-                       problem_.settings.most_jobs - spent_.jobs};
+    const Cost left{problem_.settings.budget_s - spent_.seconds,
+                    problem_.settings.max_jobs - spent_.jobs};
     const std::vector<int> counts = round_jobs(problem_, needs(), left, rounds_left);
     std::vector<Job> jobs;
     for (std::size_t e = 0; e < experiments_.size(); ++e) add_jobs(e, counts[e], jobs);
@@ -105,9 +105,10 @@ class Study {
   }
 
   /// The candidates' mean of the surrogate's variance in measured ones.
-  double ignorance(std::size_t observable) const {
+  double surrogate_variance_fraction(std::size_t observable) const {
     double sum = 0;
-    for (const Point& point : sets_.points) sum += misfit_->ignorance(observable, point);
+    for (const Point& point : sets_.points)
+      sum += misfit_->surrogate_variance_fraction(observable, point);
     return sum / static_cast<double>(sets_.points.size());
   }
 
@@ -116,7 +117,8 @@ class Study {
     std::vector<double> needs;
     for (const Experiment& experiment : experiments_) {
       double most = 0;
-      for (const std::size_t i : observables_of(experiment)) most = std::max(most, ignorance(i));
+      for (const std::size_t i : observables_of(experiment))
+        most = std::max(most, surrogate_variance_fraction(i));
       // A surrogate that knows nothing yet must not take everything from the others.
       needs.push_back(most > kKnownWell ? std::min(std::sqrt(most), 5.) : 0);
     }
@@ -167,7 +169,7 @@ class Study {
   std::vector<Experiment> experiments_;
   std::vector<Run> known_;
   std::set<Job, JobLess> planned_;
-  Expense spent_;
+  Cost spent_;
   std::optional<Misfit> misfit_;
   PlausibleSets sets_;
   std::vector<RoundSummary> summaries_;

@@ -4,7 +4,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kBetter = .01;  // in chi2: worth beginning again
-constexpr int kMostTurns = 4;
+constexpr int kMaxTurns = 4;
 
 std::vector<Profile> profiles_of(const Misfit& misfit, const Minimum& best,
                                  const PlausibleSets& sets) {
@@ -34,7 +34,7 @@ Solution solve(const Problem& problem, const std::vector<Run>& runs) {
   best = least_minimum(misfit, {best.point});
   PlausibleSets sets = plausible_sets(misfit, problem.settings.seed);
   std::vector<Profile> profiles = profiles_of(misfit, best, sets);
-  for (int turn = 0; turn < kMostTurns; ++turn) {
+  for (int turn = 0; turn < kMaxTurns; ++turn) {
     const Minimum least = least_of(profiles, best);
     if (least.objective > best.objective - kBetter) break;
     best = minimum_from(misfit, least.point);

@@ -6,8 +6,8 @@
 #include "calibrate/fit/minimum.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/plausible.h"
+#include "calibrate/fit/problem.h"
 #include "calibrate/fit/profile.h"
-#include "calibrate/problem.h"
 
 namespace repose::calibrate {
 

@@ -10,7 +10,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr std::array<double, 4> kBends = {0, 1, .2, .04};  // of the readings' root mean square
-constexpr std::size_t kEnoughToChoose = 100;               // runs that a bend is chosen by
+constexpr std::size_t kEnoughToChoose = 100;               // runs that a warp is chosen by
 
 double root_mean_square(const std::vector<double>& values) {
   const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.);
@@ -19,67 +19,69 @@ double root_mean_square(const std::vector<double>& values) {
 
 }  // namespace
 
-double Bend::bent(double y) const { return bend > 0 ? std::asinh(y / bend) : y; }
+double AsinhWarp::warped(double y) const { return warp > 0 ? std::asinh(y / warp) : y; }
 
-double Bend::expected(double w) const {
-  return bend > 0 ? bend * std::sinh(w) * std::exp(noise_sd * noise_sd / 2) : w;
+double AsinhWarp::expected(double w) const {
+  return warp > 0 ? warp * std::sinh(w) * std::exp(noise_sd * noise_sd / 2) : w;
 }
 
-double Bend::slope(double w) const {
-  return bend > 0 ? bend * std::cosh(w) * std::exp(noise_sd * noise_sd / 2) : 1;
+double AsinhWarp::slope(double w) const {
+  return warp > 0 ? warp * std::cosh(w) * std::exp(noise_sd * noise_sd / 2) : 1;
 }
 
-double Bend::of_expected(double y) const {
-  return bend > 0 ? std::asinh(y / bend * std::exp(-noise_sd * noise_sd / 2)) : y;
+double AsinhWarp::of_expected(double y) const {
+  return warp > 0 ? std::asinh(y / warp * std::exp(-noise_sd * noise_sd / 2)) : y;
 }
 
-double Bend::scatter(double w) const {
-  if (bend <= 0) return noise_sd;
+double AsinhWarp::scatter(double w) const {
+  if (warp <= 0) return noise_sd;
   // E[sinh^2] = (exp(2 s^2) cosh(2w) - 1) / 2 for a normal argument of mean w and sd s.
   const double s2 = noise_sd * noise_sd;
   const double mean = std::sinh(w) * std::exp(s2 / 2);
-  return bend *
+  return warp *
          std::sqrt(std::max(0., (std::exp(2 * s2) * std::cosh(2 * w) - 1) / 2 - mean * mean));
 }
 
-Surrogate::Surrogate(const Lesson& lesson, const std::optional<Surrogate>& start, bool thorough)
-    : lesson_(lesson) {
-  const auto [low, high] = std::minmax_element(lesson_.readings.begin(), lesson_.readings.end());
+Surrogate::Surrogate(const TrainingSet& training_set, const std::optional<Surrogate>& start,
+                     bool thorough)
+    : training_set_(training_set) {
+  const auto [low, high] =
+      std::minmax_element(training_set_.readings.begin(), training_set_.readings.end());
   if (*low == *high) return;
   std::optional<Hyperparameters> from;
   if (start && start->process_) from = start->process_->hyperparameters();
-  bend_.bend = best_bend(from);
-  process_ = learned(bend_.bend, from, thorough ? 2 : 1, 1);
-  bend_.noise_sd = process_->noise_sd();
+  warp_.warp = best_warp(from);
+  process_ = learned(warp_.warp, from, thorough ? 2 : 1, 1);
+  warp_.noise_sd = process_->noise_sd();
 }
 
-GaussianProcess Surrogate::learned(double bend, const std::optional<Hyperparameters>& start,
+GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparameters>& start,
                                    int starts, std::size_t every) const {
   std::vector<Point> places;
   std::vector<double> values;
-  for (std::size_t i = 0; i < lesson_.places.size(); i += every) {
-    places.push_back(lesson_.places[i]);
-    values.push_back(Bend{bend, 0}.bent(lesson_.readings[i]));
+  for (std::size_t i = 0; i < training_set_.places.size(); i += every) {
+    places.push_back(training_set_.places[i]);
+    values.push_back(AsinhWarp{warp, 0}.warped(training_set_.readings[i]));
   }
-  return {places, values, lesson_.chance, start, starts};
+  return {places, values, training_set_.is_stochastic, start, starts};
 }
 
-double Surrogate::best_bend(const std::optional<Hyperparameters>& start) const {
-  const std::size_t every = 1 + (lesson_.places.size() - 1) / kEnoughToChoose;
-  const double size = root_mean_square(lesson_.readings);
+double Surrogate::best_warp(const std::optional<Hyperparameters>& start) const {
+  const std::size_t every = 1 + (training_set_.places.size() - 1) / kEnoughToChoose;
+  const double size = root_mean_square(training_set_.readings);
   double best = 0;
   double most = -std::numeric_limits<double>::infinity();
-  for (const double share : kBends) {
-    const double bend = share * size;
+  for (const double fraction : kBends) {
+    const double warp = fraction * size;
     // The density of y is that of w times dw/dy: Snelson, Rasmussen, Ghahramani (2004), Warped
     // Gaussian processes.
-    double density = learned(bend, start, 1, every).log_posterior();
-    for (std::size_t i = 0; bend > 0 && i < lesson_.readings.size(); i += every) {
-      density -= std::log(std::hypot(lesson_.readings[i], bend));
+    double density = learned(warp, start, 1, every).log_posterior();
+    for (std::size_t i = 0; warp > 0 && i < training_set_.readings.size(); i += every) {
+      density -= std::log(std::hypot(training_set_.readings[i], warp));
     }
     if (density > most) {
       most = density;
-      best = bend;
+      best = warp;
     }
   }
   return best;
@@ -87,7 +89,7 @@ double Surrogate::best_bend(const std::optional<Hyperparameters>& start) const {
 
 Point Surrogate::seen(const Point& point) const {
   Point own;
-  for (const std::size_t i : lesson_.parameters) own.push_back(point[i]);
+  for (const std::size_t i : training_set_.parameters) own.push_back(point[i]);
   return own;
 }
 
@@ -98,30 +100,30 @@ Expectation Surrogate::at(const Point& point, bool with_gradients) const {
     all.variance_gradient.assign(point.size(), 0);
   }
   if (!process_) {
-    all.mean = lesson_.readings.front();
+    all.mean = training_set_.readings.front();
     return all;
   }
   const Expectation own = process_->at(seen(point), with_gradients);
   const double inflation2 = inflation_ * inflation_;
   all.mean = own.mean;
   all.variance = inflation2 * own.variance;
-  for (std::size_t i = 0; with_gradients && i < lesson_.parameters.size(); ++i) {
-    all.mean_gradient[lesson_.parameters[i]] = own.mean_gradient[i];
-    all.variance_gradient[lesson_.parameters[i]] = inflation2 * own.variance_gradient[i];
+  for (std::size_t i = 0; with_gradients && i < training_set_.parameters.size(); ++i) {
+    all.mean_gradient[training_set_.parameters[i]] = own.mean_gradient[i];
+    all.variance_gradient[training_set_.parameters[i]] = inflation2 * own.variance_gradient[i];
   }
   return all;
 }
 
 double Surrogate::simulated(const Point& point) const {
-  const double reading = bend_.expected(at(point, false).mean);
-  return *std::min_element(lesson_.readings.begin(), lesson_.readings.end()) < 0
+  const double reading = warp_.expected(at(point, false).mean);
+  return *std::min_element(training_set_.readings.begin(), training_set_.readings.end()) < 0
              ? reading
              : std::max(0., reading);
 }
 
 double Surrogate::uncertainty(const Point& point) const {
   const Expectation w = at(point, false);
-  return bend_.slope(w.mean) * std::sqrt(w.variance);
+  return warp_.slope(w.mean) * std::sqrt(w.variance);
 }
 
 std::vector<double> Surrogate::covariance(const std::vector<Point>& points) const {
@@ -138,10 +140,10 @@ void Surrogate::inflate_near(const Point& point) {
   const Point here = seen(point);
   const std::vector<double>& length = process_->hyperparameters().length;
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < lesson_.places.size(); ++i) {
+  for (std::size_t i = 0; i < training_set_.places.size(); ++i) {
     double distance2 = 0;
     for (std::size_t c = 0; c < here.size(); ++c) {
-      const double off = (lesson_.places[i][c] - here[c]) / length[c];
+      const double off = (training_set_.places[i][c] - here[c]) / length[c];
       distance2 += off * off;
     }
     order.emplace_back(distance2, i);
@@ -168,8 +170,8 @@ double Surrogate::leave_one_out_error() const {
   const std::vector<LeaveOneOut> errors = process_->leave_one_out();
   std::vector<double> misses;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double w = bend_.bent(lesson_.readings[i]) - errors[i].error;
-    misses.push_back(lesson_.readings[i] - bend_.expected(w));
+    const double w = warp_.warped(training_set_.readings[i]) - errors[i].error;
+    misses.push_back(training_set_.readings[i] - warp_.expected(w));
   }
   return root_mean_square(misses);
 }

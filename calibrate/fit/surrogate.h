@@ -5,20 +5,20 @@
 
 #include "calibrate/fit/gaussian_process.h"
 #include "calibrate/fit/points.h"
-#include "calibrate/problem.h"
+#include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
 
-/// How a reading is bent before it is learned: w = asinh(y / bend); w = y where bend is 0.
+/// How a reading is warped before it is learned: w = asinh(y / warp); w = y where warp is 0.
 ///
 /// Burbidge, Magee, Robb (1988), J. Am. Stat. Assoc. 83, 123: a logarithm that also takes values at
-/// and below 0. With normal noise of `noise_sd` in w, y has the expectation bend sinh(w)
-/// exp(noise_sd^2 / 2). Proved by Bend.* in tests/calibrate.
-struct Bend {
-  double bend = 0;
+/// and below 0. With normal noise of `noise_sd` in w, y has the expectation warp sinh(w)
+/// exp(noise_sd^2 / 2). Proved by AsinhWarp.* in tests/calibrate.
+struct AsinhWarp {
+  double warp = 0;
   double noise_sd = 0;
 
-  double bent(double y) const;
+  double warped(double y) const;
   /// Expected reading where w is expected.
   double expected(double w) const;
   /// Its slope with w.
@@ -30,9 +30,9 @@ struct Bend {
 };
 
 /// What a surrogate is learned from: the runs of one experiment that have the reading.
-struct Lesson {
+struct TrainingSet {
   std::vector<std::size_t> parameters;  ///< the experiment's
-  bool chance = true;
+  bool is_stochastic = true;
   std::vector<Point> places;  ///< in the experiment's own coordinates
   std::vector<double> readings;
 };
@@ -41,11 +41,11 @@ struct Lesson {
 class Surrogate {
  public:
   /// `start` shortens the search: hyperparameters of a similar lesson. `thorough`: more starts.
-  Surrogate(const Lesson& lesson, const std::optional<Surrogate>& start, bool thorough);
+  Surrogate(const TrainingSet& training_set, const std::optional<Surrogate>& start, bool thorough);
 
   /// Every run gave the same number: nothing can be learned of it.
   bool constant() const { return !process_; }
-  const Bend& bend() const { return bend_; }
+  const AsinhWarp& warp() const { return warp_; }
   /// Of w, at a point of all coordinates; variances inflated.
   Expectation at(const Point& point, bool with_gradients) const;
   /// The expected reading, never below 0 where no run was, and its standard uncertainty.
@@ -67,12 +67,12 @@ class Surrogate {
 
  private:
   Point seen(const Point& point) const;
-  GaussianProcess learned(double bend, const std::optional<Hyperparameters>& start, int starts,
+  GaussianProcess learned(double warp, const std::optional<Hyperparameters>& start, int starts,
                           std::size_t every) const;
-  double best_bend(const std::optional<Hyperparameters>& start) const;
+  double best_warp(const std::optional<Hyperparameters>& start) const;
 
-  Lesson lesson_;
-  Bend bend_;
+  TrainingSet training_set_;
+  AsinhWarp warp_;
   std::optional<GaussianProcess> process_;
   double inflation_ = 1;
 };

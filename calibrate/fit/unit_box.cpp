@@ -44,7 +44,7 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
   Point canonical(problem.parameters.size(), .5);
   for (const std::size_t i : experiment.parameters) canonical[i] = point[i];
   return {experiment.name, to_values(problem, canonical),
-          experiment.chance ? seed : problem.settings.seed};
+          experiment.is_stochastic ? seed : problem.settings.seed};
 }
 
 const Experiment& experiment_named(const Problem& problem, const std::string& name) {

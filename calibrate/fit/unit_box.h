@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "calibrate/fit/points.h"
-#include "calibrate/problem.h"
+#include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
 

@@ -41,7 +41,7 @@ Sample sample_of(const Job& at, const Experiment& experiment, const std::string&
   Sample sample;
   for (const Run& run : runs) {
     if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
-    if (experiment.chance && run.job.seed < kFirstSeed) continue;
+    if (experiment.is_stochastic && run.job.seed < kFirstSeed) continue;
     const auto found = run.readings.find(reading);
     if (run.failure.empty() && found != run.readings.end() && std::isfinite(found->second)) {
       sample.readings.push_back(found->second);
@@ -78,7 +78,7 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
   }
   std::vector<Job> jobs;
   for (const Experiment& experiment : measured_experiments(problem)) {
-    for (int k = 0; k < (experiment.chance ? repeats : 1); ++k) {
+    for (int k = 0; k < (experiment.is_stochastic ? repeats : 1); ++k) {
       const std::uint64_t seed = problem.settings.seed + kFirstSeed +
                                  kSeedsPerSet * static_cast<std::uint64_t>(set) +
                                  static_cast<std::uint64_t>(k);
@@ -124,8 +124,9 @@ Verification verify(const Problem& problem, const std::vector<double>& values,
     agreement.measured = observable.mean;
     agreement.measured_uncertainty =
         fitted != nullptr ? fitted->measured_uncertainty : standard_uncertainty(observable);
-    const double of_simulated = add_repeats(
-        sample, experiment.chance, fitted, fit != nullptr ? fit->surrogates[i].runs : 0, agreement);
+    const double of_simulated =
+        add_repeats(sample, experiment.is_stochastic, fitted,
+                    fit != nullptr ? fit->surrogates[i].runs : 0, agreement);
     agreement.difference_sigma =
         (agreement.simulated - agreement.measured) /
         std::hypot(agreement.measured_uncertainty, agreement.simulated_uncertainty);

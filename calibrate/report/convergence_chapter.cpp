@@ -24,10 +24,10 @@ Chart rounds_chart(const StudyFolder& study) {
     for (const JsonView& round : study.result["rounds"].items()) {
       const auto value = round["values"][name].number();
       if (!value) continue;
-      const double share = (*value - bounds[0]) / (bounds[1] - bounds[0]);
+      const double fraction = (*value - bounds[0]) / (bounds[1] - bounds[0]);
       const double half = round["sd"][name].number().value_or(0) / (bounds[1] - bounds[0]);
-      add_point(chart, label_of(name), Look::line, cell(round["round"].number()), share,
-                share - half, share + half);
+      add_point(chart, label_of(name), Look::line, cell(round["round"].number()), fraction,
+                fraction - half, fraction + half);
     }
   }
   return chart;

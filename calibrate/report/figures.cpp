@@ -14,7 +14,7 @@ std::string title_of(const Column& column) {
   return column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit);
 }
 
-/// The share of the way from a to b at which the value lies, if it does.
+/// The fraction of the way from a to b at which the value lies, if it does.
 std::optional<double> crossing(double a, double b, double value) {
   if (!std::isfinite(a) || !std::isfinite(b) || (a < value) == (b < value)) return std::nullopt;
   return (value - a) / (b - a);
@@ -61,12 +61,12 @@ std::vector<std::array<double, 2>> ridge_of(const std::vector<double>& x,
     for (std::size_t column = 0; column < x.size(); ++column) {
       const double here = heights[row][column];
       if (column + 1 < x.size()) {
-        const auto share = crossing(here, heights[row][column + 1], value);
-        if (share) places.push_back({std::lerp(x[column], x[column + 1], *share), y[row]});
+        const auto fraction = crossing(here, heights[row][column + 1], value);
+        if (fraction) places.push_back({std::lerp(x[column], x[column + 1], *fraction), y[row]});
       }
       if (row + 1 < y.size()) {
-        const auto share = crossing(here, heights[row + 1][column], value);
-        if (share) places.push_back({x[column], std::lerp(y[row], y[row + 1], *share)});
+        const auto fraction = crossing(here, heights[row + 1][column], value);
+        if (fraction) places.push_back({x[column], std::lerp(y[row], y[row + 1], *fraction)});
       }
     }
   }

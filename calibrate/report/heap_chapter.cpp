@@ -14,9 +14,9 @@
 #include "calibrate/report/wording.h"
 #include "dem/state/state_file.h"
 #include "render/renderer.h"
-#include "vision/heap_comparison.h"
-#include "vision/heap_comparison_overlay.h"
-#include "vision/overlay.h"
+#include "vision/compare/heap_comparison.h"
+#include "vision/drawing/heap_comparison_overlay.h"
+#include "vision/drawing/overlay.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -68,9 +68,9 @@ std::optional<MeasuredHeap> measured_photograph(const BenchPicture& picture,
                       name, shown(picture.angle_deg, 2)));
     }
     return heap;
-  } catch (const std::invalid_argument& fault) {
+  } catch (const std::invalid_argument& error) {
     remarks.push_back(
-        fmt::format("The photograph {} cannot be shown: {}", name, shortened(fault.what(), 400)));
+        fmt::format("The photograph {} cannot be shown: {}", name, shortened(error.what(), 400)));
     return std::nullopt;
   }
 }
@@ -148,9 +148,9 @@ Chart outline_chart(const vision::HeapComparison& comparison) {
   const std::array<std::string, 2> names = {"photograph", "simulation"};
   for (std::size_t k = 0; k < names.size(); ++k) {
     // More points than a page is wide show nothing more.
-    constexpr std::size_t kMostPoints = 600;
+    constexpr std::size_t kMaxPoints = 600;
     const auto& outline = comparison.outlines[k];
-    const std::size_t stride = outline.size() / kMostPoints + 1;
+    const std::size_t stride = outline.size() / kMaxPoints + 1;
     for (std::size_t i = 0; i < outline.size(); i += stride) {
       add_point(chart, names[k], k == 0 ? Look::fit : Look::limit, outline[i].along,
                 outline[i].height);
@@ -205,9 +205,9 @@ HeapPictures heap_pictures(const StudyFolder& study) {
     }
     shown.look = camera_look(scene);
     if (photograph && compared) compare(*photograph, *compared, shown);
-  } catch (const std::exception& fault) {
+  } catch (const std::exception& error) {
     shown.remarks.push_back(
-        fmt::format("The simulated heap cannot be shown: {}", shortened(fault.what(), 400)));
+        fmt::format("The simulated heap cannot be shown: {}", shortened(error.what(), 400)));
   }
   return shown;
 }

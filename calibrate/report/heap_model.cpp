@@ -12,7 +12,7 @@
 namespace repose::calibrate::report {
 namespace {
 
-constexpr std::size_t kMostGrains = 2500;
+constexpr std::size_t kMaxGrains = 2500;
 
 /// A sphere of triangles, radius 1: an octahedron whose faces are divided so many times.
 dem::Mesh unit_sphere(int divisions) {
@@ -79,7 +79,7 @@ void add_shape(DataTable& data, const dem::ClumpShape& shape, int number, const 
 /// From the highest of every place on the ground down, as many as a page can hold.
 std::vector<render::PlacedGrain> seen_first(const render::Scene& scene, double cell_m) {
   std::vector<render::PlacedGrain> grains = scene.grains;
-  if (grains.size() <= kMostGrains) return grains;
+  if (grains.size() <= kMaxGrains) return grains;
   std::stable_sort(grains.begin(), grains.end(), [](const auto& a, const auto& b) {
     return a.pose.position.z() > b.pose.position.z();
   });
@@ -92,7 +92,7 @@ std::vector<render::PlacedGrain> seen_first(const render::Scene& scene, double c
   }
   std::sort(ranked.begin(), ranked.end());
   std::vector<render::PlacedGrain> seen;
-  for (std::size_t k = 0; k < kMostGrains; ++k) seen.push_back(grains[ranked[k].second]);
+  for (std::size_t k = 0; k < kMaxGrains; ++k) seen.push_back(grains[ranked[k].second]);
   return seen;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "calibrate/report/document.h"
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 namespace repose::calibrate::report {
 

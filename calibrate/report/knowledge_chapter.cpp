@@ -43,7 +43,7 @@ Chart profile_chart(const JsonView& parameter) {
   return chart;
 }
 
-double share_of(double value, const std::vector<double>& bounds) {
+double fraction_of(double value, const std::vector<double>& bounds) {
   return bounds.size() == 2 && bounds[1] > bounds[0] ? (value - bounds[0]) / (bounds[1] - bounds[0])
                                                      : std::nan("");
 }
@@ -63,7 +63,7 @@ Chart family_chart(const StudyFolder& study) {
       const auto value = value_of(parameter);
       if (!value) continue;
       add_point(chart, series, Look::line, label_of(parameter["name"].text()),
-                cell(share_of(*value, parameter["bounds"].numbers())));
+                cell(fraction_of(*value, parameter["bounds"].numbers())));
     }
   };
   add("best fit", [](const JsonView& parameter) { return parameter["value"].number(); });

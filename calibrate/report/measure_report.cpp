@@ -9,13 +9,14 @@
 
 #include <fmt/format.h>
 
+#include "base/version.h"
 #include "calibrate/report/document.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/picture_data.h"
 #include "calibrate/report/report_of.h"
 #include "calibrate/report/wording.h"
-#include "vision/repeats.h"
-#include "vision/status_name.h"
+#include "calibrate/statistics/summary.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -33,11 +34,11 @@ std::string name_of_file(const MeasuredPhotograph& picture) {
 }
 
 std::string status_of(const MeasuredPhotograph& picture) {
-  return picture.fault.empty() ? name_of(picture.angle.status) : "not read";
+  return picture.error.empty() ? name_of(picture.angle.status) : "not read";
 }
 
 std::string remarks_of(const MeasuredPhotograph& picture) {
-  if (!picture.fault.empty()) return shortened(picture.fault, 500);
+  if (!picture.error.empty()) return shortened(picture.error, 500);
   std::string text = picture.angle.reason;
   for (const vision::Warning& warning : picture.angle.warnings) {
     if (!text.empty()) text += ' ';
@@ -46,18 +47,18 @@ std::string remarks_of(const MeasuredPhotograph& picture) {
   return shortened(text, 1000);
 }
 
-std::optional<vision::Repeats> mean_of(const std::vector<MeasuredPhotograph>& pictures) {
+std::optional<calibrate::Summary> mean_of(const std::vector<MeasuredPhotograph>& pictures) {
   std::vector<double> angles;
   for (const MeasuredPhotograph& picture : pictures) {
-    const bool counts = picture.fault.empty() && picture.angle.status == MeasureStatus::ok;
+    const bool counts = picture.error.empty() && picture.angle.status == MeasureStatus::ok;
     if (counts && picture.angle.angle_rad) angles.push_back(*degrees(picture.angle.angle_rad));
   }
   if (angles.empty()) return std::nullopt;
-  return vision::summarise(angles);
+  return calibrate::summarise(angles);
 }
 
 std::string mean_text(const std::vector<MeasuredPhotograph>& pictures,
-                      const std::optional<vision::Repeats>& mean) {
+                      const std::optional<calibrate::Summary>& mean) {
   const auto left_out = static_cast<long>(pictures.size()) - (mean ? mean->n : 0);
   std::string text;
   if (!mean) {
@@ -99,14 +100,14 @@ Table pictures_table(const std::vector<MeasuredPhotograph>& pictures) {
 
 /// Dots stacked where angles are alike.
 Chart angles_chart(const std::vector<MeasuredPhotograph>& pictures,
-                   const std::optional<vision::Repeats>& mean) {
+                   const std::optional<calibrate::Summary>& mean) {
   Chart chart = plane_chart("angles", "The angles", {.name = "angle of repose", .unit = "°"},
                             {.name = "pictures", .unit = {}});
   constexpr double kBin_deg = 0.5;
   std::map<long, int> stacks;
   for (const MeasuredPhotograph& picture : pictures) {
     const auto angle = degrees(picture.angle.angle_rad);
-    if (!angle || !picture.fault.empty()) continue;
+    if (!angle || !picture.error.empty()) continue;
     const int height = ++stacks[std::lround(*angle / kBin_deg)];
     const bool is_ok = picture.angle.status == MeasureStatus::ok;
     add_point(chart, is_ok ? "ok" : "flagged, not in the mean", is_ok ? Look::dots : Look::runs,
@@ -150,13 +151,13 @@ PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAn
 }
 
 Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
-  const std::optional<vision::Repeats> mean = mean_of(pictures);
+  const std::optional<calibrate::Summary> mean = mean_of(pictures);
   Document document{
       .title = fmt::format("{} picture{}", pictures.size(), pictures.size() == 1 ? "" : "s"),
       .kind = "Angles of repose",
       .state = {},
       .chapters = {},
-      .program = "repose " REPOSE_VERSION};
+      .program = base::kProgram};
   Chapter answer{.id = "answer", .title = "The answer", .blocks = {}};
   answer.blocks.push_back(Paragraph{mean_text(pictures, mean)});
   Chart chart = angles_chart(pictures, mean);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "calibrate/report/study_report.h"
-#include "vision/overlay.h"
-#include "vision/picture.h"
-#include "vision/repose_angle.h"
+#include "vision/drawing/overlay.h"
+#include "vision/measure/repose_angle.h"
+#include "vision/picture/picture.h"
 
 namespace repose::calibrate::report {
 
@@ -25,7 +25,7 @@ PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAn
 /// A picture of a batch.
 struct MeasuredPhotograph {
   std::string file;
-  std::string fault;          ///< why it was not read; empty: it was
+  std::string error;          ///< why it was not read; empty: it was
   vision::ReposeAngle angle;  ///< or the refusal
   PageJpeg overlay;           ///< without bytes: not shown
 };

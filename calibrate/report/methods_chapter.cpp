@@ -5,8 +5,8 @@
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 
-/// Formulas: calibrate/fit/THEORY.md, dem/THEORY.md and vision/repose_angle.h, which name their
-/// sources and the tests that prove them.
+/// Formulas: calibrate/fit/THEORY.md, dem/THEORY.md and vision/measure/repose_angle.h, which name
+/// their sources and the tests that prove them.
 namespace repose::calibrate::report {
 namespace {
 

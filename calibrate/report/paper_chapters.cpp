@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/regress/regression.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/statistics/regress/regression.h"
 
 namespace repose::calibrate::report {
 namespace {

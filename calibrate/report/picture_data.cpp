@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "dem/state/base64.h"
+#include "base/base64.h"
 
 namespace repose::calibrate::report {
 
@@ -16,7 +16,7 @@ PageJpeg page_jpeg(const vision::Picture& picture, int longest_side_px) {
 
 ShownPicture shown_jpeg(const PageJpeg& jpeg, const std::string& alt, const std::string& caption) {
   return {
-      .data_uri = "data:image/jpeg;base64," + dem::base64_of(std::as_bytes(std::span(jpeg.bytes))),
+      .data_uri = "data:image/jpeg;base64," + base::base64_of(std::as_bytes(std::span(jpeg.bytes))),
       .width = jpeg.width,
       .height = jpeg.height,
       .alt = alt,
@@ -31,8 +31,8 @@ ShownPicture shown_picture(const vision::Picture& picture, int longest_side_px,
 int longest_side_px(std::size_t pictures) {
   // Some 120 kB a picture of 1000 px; together not much more than 2 MB.
   constexpr double kLargest = 1000, kSmallest = 160, kFullSized = 14;
-  const double share = kFullSized / std::max(kFullSized, static_cast<double>(pictures));
-  return static_cast<int>(std::max(kSmallest, kLargest * std::sqrt(share)));
+  const double fraction = kFullSized / std::max(kFullSized, static_cast<double>(pictures));
+  return static_cast<int>(std::max(kSmallest, kLargest * std::sqrt(fraction)));
 }
 
 }  // namespace repose::calibrate::report

@@ -4,7 +4,7 @@
 
 #include "calibrate/report/document.h"
 #include "calibrate/report/measure_report.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::calibrate::report {
 

@@ -13,8 +13,8 @@ void add(DataTable& data, const std::string& what, const std::string& value) {
   data.add({what, shortened(value, 280)});
 }
 
-std::string percent(const JsonView& share) {
-  const auto value = share.number();
+std::string percent(const JsonView& fraction) {
+  const auto value = fraction.number();
   return value ? shown(100 * *value, 2) + " %" : "–";
 }
 
@@ -78,7 +78,7 @@ Chapter provenance_chapter(const StudyFolder& study) {
     add(data, "shortest time step", by_experiment(from["shortest_timestep_s"], " s"));
   }
   std::size_t failed = 0;
-  for (const KeptRun& run : study.runs) failed += run.failure.empty() ? 0 : 1;
+  for (const SavedRun& run : study.runs) failed += run.failure.empty() ? 0 : 1;
   if (!study.runs.empty()) {
     add(data, "simulations", fmt::format("{}, {} of them failed", study.runs.size(), failed));
   }

@@ -45,7 +45,7 @@ std::array<double, 2> add_runs(Chart& chart, const StudyFolder& study,
                                const MeasuredNumber& measured, const std::string& parameter) {
   std::array<double, 2> span = {std::numeric_limits<double>::infinity(),
                                 -std::numeric_limits<double>::infinity()};
-  for (const KeptRun& run : study.runs) {
+  for (const SavedRun& run : study.runs) {
     if (run.experiment != measured.experiment || !run.failure.empty()) continue;
     const auto x = run.values.find(parameter);
     const auto y = run.readings.find(measured.reading);
@@ -159,7 +159,7 @@ Chart surface_chart(const StudyFolder& study, const MeasuredNumber& measured,
 
 std::vector<Chart> run_charts(const StudyFolder& study, const MeasuredNumber& measured) {
   std::vector<std::string> parameters;
-  for (const KeptRun& run : study.runs) {
+  for (const SavedRun& run : study.runs) {
     if (run.experiment != measured.experiment) continue;
     for (const auto& [name, value] : run.values) parameters.push_back(name);
     break;

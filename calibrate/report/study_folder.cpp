@@ -24,8 +24,8 @@ std::map<std::string, double> numbers_of(const JsonView& object) {
   return numbers;
 }
 
-std::vector<KeptRun> runs_of_result(const JsonView& result) {
-  std::vector<KeptRun> runs;
+std::vector<SavedRun> runs_of_result(const JsonView& result) {
+  std::vector<SavedRun> runs;
   for (const JsonView& run : result["runs"].items()) {
     runs.push_back({.experiment = run["experiment"].text(),
                     .values = numbers_of(run["values"]),
@@ -35,12 +35,12 @@ std::vector<KeptRun> runs_of_result(const JsonView& result) {
   return runs;
 }
 
-KeptRun run_of_file(const JsonView& file) {
+SavedRun run_of_file(const JsonView& file) {
   const JsonView simulated = file["simulated"];
-  KeptRun run{.experiment = simulated["experiment"].text(),
-              .values = {},
-              .readings = numbers_of(file["readings"]),
-              .failure = file["failure"].text()};
+  SavedRun run{.experiment = simulated["experiment"].text(),
+               .values = {},
+               .readings = numbers_of(file["readings"]),
+               .failure = file["failure"].text()};
   for (const std::string pair : {"particle_wall", "particle_particle"}) {
     for (const auto& [name, value] : numbers_of(simulated[pair])) {
       run.values["contact." + pair + '.' + name] = value;
@@ -50,17 +50,17 @@ KeptRun run_of_file(const JsonView& file) {
 }
 
 /// In the order of their names: folders have none.
-std::vector<KeptRun> runs_in(const fs::path& folder) {
+std::vector<SavedRun> runs_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  std::vector<KeptRun> runs;
+  std::vector<SavedRun> runs;
   for (const fs::path& file : files) {
     std::ifstream in(file, std::ios::binary);
-    KeptRun run = run_of_file(JsonView::of_text({std::istreambuf_iterator<char>(in), {}}));
+    SavedRun run = run_of_file(JsonView::of_text({std::istreambuf_iterator<char>(in), {}}));
     if (!run.experiment.empty()) runs.push_back(std::move(run));
   }
   return runs;

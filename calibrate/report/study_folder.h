@@ -12,7 +12,7 @@
 namespace repose::calibrate::report {
 
 /// A simulation that was kept.
-struct KeptRun {
+struct SavedRun {
   std::string experiment;
   std::map<std::string, double> values;  ///< of the coefficients, by full name
   std::map<std::string, double> readings;
@@ -41,7 +41,7 @@ struct StudyFolder {
   JsonView study;                 ///< study.json
   JsonView result;                ///< result.json, when it is this study's; else empty
   bool has_other_result = false;  ///< there is a result.json, of other settings
-  std::vector<KeptRun> runs;      ///< of the result, else all that were kept
+  std::vector<SavedRun> runs;     ///< of the result, else all that were kept
   std::vector<MeasuredNumber> measured;
   std::vector<BenchPicture> pictures;
 

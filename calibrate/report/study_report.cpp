@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/version.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/report_of.h"
@@ -36,7 +37,7 @@ Document document_of(const StudyFolder& study) {
                     .kind = "Calibration of contact coefficients",
                     .state = {},
                     .chapters = {},
-                    .program = "repose " REPOSE_VERSION};
+                    .program = base::kProgram};
   if (document.title.empty()) document.title = shortened(study.folder.filename().string());
   std::vector<Chapter> chapters;
   if (study.is_finished()) {

@@ -36,7 +36,7 @@ std::string command_to_go_on(const StudyFolder& study) {
 
 Table counts_table(const StudyFolder& study) {
   std::map<std::string, std::array<double, 2>> counts;
-  for (const KeptRun& run : study.runs) {
+  for (const SavedRun& run : study.runs) {
     auto& [done, failed] = counts[run.experiment];
     ++done;
     if (!run.failure.empty()) ++failed;
@@ -57,7 +57,7 @@ Table counts_table(const StudyFolder& study) {
 std::vector<MeasuredNumber> shown_numbers(const StudyFolder& study) {
   if (!study.measured.empty()) return study.measured;
   std::vector<MeasuredNumber> numbers;
-  for (const KeptRun& run : study.runs) {
+  for (const SavedRun& run : study.runs) {
     const bool is_known = std::any_of(numbers.begin(), numbers.end(), [&](const auto& number) {
       return number.name == run.experiment;
     });

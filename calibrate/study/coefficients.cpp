@@ -38,10 +38,10 @@ std::vector<NamedCoefficient> coefficients_of(const dem::Study& study) {
   return all;
 }
 
-double& coefficient_named(const std::string& name, dem::Bench& bench) {
+double& coefficient_named(const std::string& name, dem::Model& model) {
   for (const Place& place : kPlaces) {
-    if (name == std::string(kWall) + place.name) return bench.grain_wall.*place.in_bench;
-    if (name == std::string(kParticle) + place.name) return bench.grain_grain.*place.in_bench;
+    if (name == std::string(kWall) + place.name) return model.grain_wall.*place.in_bench;
+    if (name == std::string(kParticle) + place.name) return model.grain_grain.*place.in_bench;
   }
   throw std::invalid_argument(fmt::format("{}: there is no such coefficient", name));
 }

@@ -18,6 +18,6 @@ struct NamedCoefficient {
 std::vector<NamedCoefficient> coefficients_of(const dem::Study& study);
 
 /// Where a bench has it. Throws std::invalid_argument for a name that there is not.
-double& coefficient_named(const std::string& name, dem::Bench& bench);
+double& coefficient_named(const std::string& name, dem::Model& model);
 
 }  // namespace repose::calibrate

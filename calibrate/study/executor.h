@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "calibrate/study/study_bench.h"
+#include "calibrate/study/study_simulator.h"
 
 namespace repose::calibrate {
 
@@ -28,7 +28,7 @@ class Executor {
 
   /// Returns when all are done, or soon after `is_interrupted`. Jobs are begun in their order: long
   /// ones first keeps all workers busy to the end.
-  /// @throws  what simulating a job or hearing of it threw first; the others are broken off.
+  /// @throws  what simulating a job or hearing of it threw first; the others are interrupted.
   virtual void run(const std::vector<Job>& jobs, const JobDone& done,
                    const std::atomic<bool>& is_interrupted) = 0;
 };

@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "dem/experiment/placing.h"
-#include "vision/overlay.h"
-#include "vision/picture.h"
+#include "vision/drawing/overlay.h"
+#include "vision/picture/picture.h"
 
 namespace repose::calibrate {
 
-HeapSitting::HeapSitting(render::Scene scene, int views) : scene_(std::move(scene)), views_(views) {
+HeapViewSession::HeapViewSession(render::Scene scene, int views)
+    : scene_(std::move(scene)), views_(views) {
   // More pixels to a grain than these are not looked at by what measures, and take time to draw.
   constexpr double kGrain_px = 40;
   constexpr render::PictureSize kLargest{.width = 1920, .height = 1080};
@@ -26,8 +27,8 @@ HeapSitting::HeapSitting(render::Scene scene, int views) : scene_(std::move(scen
   size_ = {.width = reduced(kLargest.width), .height = reduced(kLargest.height)};
 }
 
-HeapView HeapSitting::measure(render::Renderer& renderer, int view,
-                              const std::filesystem::path& overlay_file) const {
+HeapView HeapViewSession::measure(render::Renderer& renderer, int view,
+                                  const std::filesystem::path& overlay_file) const {
   render::OrthographicCamera camera = camera_;
   camera.azimuth_rad = std::numbers::pi * view / views_;
   const vision::Picture picture =
@@ -50,13 +51,13 @@ bool is_well_pictured(std::span<const HeapView> views) {
   return !views.empty() && 2 * refused <= static_cast<int>(views.size());
 }
 
-std::optional<vision::Repeats> angle_deg(std::span<const HeapView> views) {
+std::optional<calibrate::Summary> angle_deg(std::span<const HeapView> views) {
   std::vector<double> angles;
   for (const HeapView& view : views) {
     if (view.angle_rad) angles.push_back(*view.angle_rad * 180 / std::numbers::pi);
   }
   if (angles.empty()) return std::nullopt;
-  return vision::summarise(angles);
+  return calibrate::summarise(angles);
 }
 
 }  // namespace repose::calibrate

@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "render/camera.h"
+#include "calibrate/statistics/summary.h"
 #include "render/renderer.h"
-#include "render/scene.h"
-#include "vision/repeats.h"
-#include "vision/repose_angle.h"
+#include "render/scene/camera.h"
+#include "render/scene/scene.h"
+#include "vision/measure/repose_angle.h"
 
 /// The angle of a simulated heap as a camera would give it: silhouettes from all around, each
 /// measured like a photograph.
@@ -17,17 +17,17 @@ namespace repose::calibrate {
 
 /// A heap seen from one side.
 struct HeapView {
-  double azimuth_rad = 0;  ///< as in render/camera.h
+  double azimuth_rad = 0;  ///< as in render/scene/camera.h
   vision::MeasureStatus status = vision::MeasureStatus::refused;
   std::optional<double> angle_rad;
 };
 
 /// A heap, and how all pictures of it are taken: at one scale, with bare ground beside the grains.
-class HeapSitting {
+class HeapViewSession {
  public:
   /// @param views  sides, equally spaced over half a turn; the first is the XZ view
   /// @throws std::invalid_argument  the scene has no grains.
-  HeapSitting(render::Scene scene, int views);
+  HeapViewSession(render::Scene scene, int views);
 
   int views() const { return views_; }
 
@@ -50,6 +50,6 @@ bool is_well_pictured(std::span<const HeapView> views);
 
 /// Mean and scatter of the views that gave a number, flagged ones too: to leave out just the views
 /// from which a heap looks hollow or low would move the mean. In degrees; none without a number.
-std::optional<vision::Repeats> angle_deg(std::span<const HeapView> views);
+std::optional<calibrate::Summary> angle_deg(std::span<const HeapView> views);
 
 }  // namespace repose::calibrate

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "calibrate/study/study_bench.h"
+#include "calibrate/study/study_simulator.h"
 
 /// Jobs and what they gave as text, to be sent to another process. Every number comes back to the
 /// last bit.

@@ -10,7 +10,7 @@ bool has_ranks() { return false; }
 RankSession::RankSession() { throw std::runtime_error("repose was built without MPI"); }
 RankSession::~RankSession() {}  // not of the class: elsewhere it ends MPI
 
-void RankSession::serve(const StudyBench&, const std::atomic<bool>&) const {}
+void RankSession::serve(const StudySimulator&, const std::atomic<bool>&) const {}
 
 void RankExecutor::run(const std::vector<Job>&, const JobDone&, const std::atomic<bool>&) {}
 

@@ -14,7 +14,7 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr int kJob = 1, kDone = 2, kFault = 3, kRelease = 4;
+constexpr int kJob = 1, kDone = 2, kError = 3, kRelease = 4;
 
 // MPI's own waiting keeps a core busy, which the simulations need.
 constexpr std::chrono::milliseconds kBetweenLooks{2};
@@ -47,11 +47,11 @@ std::optional<Message> receive() {
 /// Rank 0 at work on one list of jobs.
 class Farm {
  public:
-  Farm(const std::vector<Job>& jobs, const JobDone& done, const StudyBench& bench, int ranks,
-       const std::atomic<bool>& is_interrupted)
+  Farm(const std::vector<Job>& jobs, const JobDone& done, const StudySimulator& simulator,
+       int ranks, const std::atomic<bool>& is_interrupted)
       : jobs_(jobs),
         done_(done),
-        bench_(bench),
+        simulator_(simulator),
         is_interrupted_(is_interrupted),
         at_work_(static_cast<std::size_t>(ranks)) {}
 
@@ -62,13 +62,13 @@ class Farm {
       const bool has_heard = look_at_others();
       if (!has_begun && !has_finished && !has_heard) std::this_thread::sleep_for(kBetweenLooks);
     }
-    if (!fault_.empty()) throw std::invalid_argument(fault_);
+    if (!error_.empty()) throw std::invalid_argument(error_);
   }
 
  private:
-  bool is_stopping() const { return is_interrupted_ || !fault_.empty(); }
+  bool is_stopping() const { return is_interrupted_ || !error_.empty(); }
 
-  /// Those that are at work are waited for also when it is broken off: a reply nobody takes would
+  /// Those that are at work are waited for also when it is interrupted: a reply nobody takes would
   /// be taken for one of the next list.
   bool is_over() const {
     const bool is_all_begun = next_ == jobs_.size() || is_stopping();
@@ -85,7 +85,7 @@ class Farm {
       const Job& job = jobs_[*at_work_[rank]];
       if (rank == 0) {
         own_ = std::async(std::launch::async,
-                          [this, &job] { return bench_.simulate(job, is_interrupted_); });
+                          [this, &job] { return simulator_.simulate(job, is_interrupted_); });
       } else {
         send(static_cast<int>(rank), kJob, text_of(job));
       }
@@ -101,8 +101,8 @@ class Farm {
       finish(0, own_.get());
     } catch (const dem::Interrupted&) {
       release(0);
-    } catch (const std::invalid_argument& fault) {
-      fault_ = fault.what();
+    } catch (const std::invalid_argument& error) {
+      error_ = error.what();
       release(0);
     }
     return true;
@@ -115,7 +115,7 @@ class Farm {
     if (message->tag == kDone) {
       finish(rank, simulated_job_in(message->text));
     } else {
-      if (!message->text.empty()) fault_ = message->text;
+      if (!message->text.empty()) error_ = message->text;
       release(rank);
     }
     return true;
@@ -134,13 +134,13 @@ class Farm {
 
   const std::vector<Job>& jobs_;
   const JobDone& done_;
-  const StudyBench& bench_;
+  const StudySimulator& simulator_;
   const std::atomic<bool>& is_interrupted_;
   std::vector<std::optional<std::size_t>> at_work_;  ///< the job of each rank
   std::future<SimulatedJob> own_;
   std::size_t next_ = 0;
   int busy_ = 0;
-  std::string fault_;
+  std::string error_;
 };
 
 }  // namespace
@@ -164,7 +164,8 @@ RankSession::~RankSession() {
   MPI_Finalize();
 }
 
-void RankSession::serve(const StudyBench& bench, const std::atomic<bool>& is_interrupted) const {
+void RankSession::serve(const StudySimulator& simulator,
+                        const std::atomic<bool>& is_interrupted) const {
   for (;;) {
     const std::optional<Message> message = receive();
     if (!message) {
@@ -173,18 +174,18 @@ void RankSession::serve(const StudyBench& bench, const std::atomic<bool>& is_int
     }
     if (message->tag == kRelease) return;
     try {
-      send(0, kDone, text_of(bench.simulate(job_in(message->text), is_interrupted)));
+      send(0, kDone, text_of(simulator.simulate(job_in(message->text), is_interrupted)));
     } catch (const dem::Interrupted&) {
-      send(0, kFault, {});
-    } catch (const std::exception& fault) {
-      send(0, kFault, fault.what());
+      send(0, kError, {});
+    } catch (const std::exception& error) {
+      send(0, kError, error.what());
     }
   }
 }
 
 void RankExecutor::run(const std::vector<Job>& jobs, const JobDone& done,
                        const std::atomic<bool>& is_interrupted) {
-  Farm(jobs, done, bench_, session_.ranks(), is_interrupted).run();
+  Farm(jobs, done, simulator_, session_.ranks(), is_interrupted).run();
 }
 
 }  // namespace repose::calibrate

@@ -32,7 +32,7 @@ class RankSession {
   int ranks() const { return ranks_; }
 
   /// For ranks above 0: simulates what rank 0 sends until it lets go.
-  void serve(const StudyBench& bench, const std::atomic<bool>& is_interrupted) const;
+  void serve(const StudySimulator& simulator, const std::atomic<bool>& is_interrupted) const;
 
  private:
   int rank_ = 0;
@@ -42,8 +42,8 @@ class RankSession {
 /// For rank 0.
 class RankExecutor : public Executor {
  public:
-  RankExecutor(const RankSession& session, const StudyBench& bench)
-      : session_(session), bench_(bench) {}
+  RankExecutor(const RankSession& session, const StudySimulator& simulator)
+      : session_(session), simulator_(simulator) {}
 
   int workers() const override { return session_.ranks(); }
   void run(const std::vector<Job>& jobs, const JobDone& done,
@@ -51,7 +51,7 @@ class RankExecutor : public Executor {
 
  private:
   const RankSession& session_;
-  const StudyBench& bench_;
+  const StudySimulator& simulator_;
 };
 
 }  // namespace repose::calibrate

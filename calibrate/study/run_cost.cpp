@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/experiment/bench_setup.h"
+#include "dem/experiment/model_setup.h"
 
 namespace repose::calibrate {
 namespace {
@@ -16,13 +16,13 @@ constexpr double kAloneStep_s = 1.5e-6;
 /// Time step of grains on a plane, s. Coefficients still open do not matter much to it.
 double timestep_s(const dem::Study& study, const dem::ClumpShape& grain, dem::Experiment experiment,
                   double speed_m_s) {
-  dem::Bench bench = dem::bench_for(study, experiment);
-  for (dem::PairCoefficients* pair : {&bench.grain_wall, &bench.grain_grain}) {
+  dem::Model model = dem::model_for(study, experiment);
+  for (dem::PairCoefficients* pair : {&model.grain_wall, &model.grain_grain}) {
     for (double* value : {&pair->restitution, &pair->sliding_friction, &pair->rolling_friction}) {
       if (std::isnan(*value)) *value = .3;
     }
   }
-  return dem::bench_setup(bench, grain, {dem::bench_wall(dem::Plane{})}, speed_m_s).timestep_s;
+  return dem::model_setup(model, grain, {dem::study_wall(dem::Plane{})}, speed_m_s).timestep_s;
 }
 
 double grains_in(const dem::HeapProtocol& heap, const dem::ClumpShape& grain) {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "io/whole_file.h"
+#include "base/whole_file.h"
 
 namespace repose::calibrate {
 namespace {
@@ -34,34 +34,35 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
         fmt::format("{}: the folder cannot be made ({}). Fix: choose a place you may write to.",
                     runs().string(), error.message()));
   }
-  io::check_can_write(runs() / "run.json");
+  base::check_can_write(runs() / "run.json");
 }
 
-std::optional<Run> RunFolder::find(const StudyBench& bench, const Job& job) const {
-  const fs::path file = file_of(runs(), bench.key(job));
+std::optional<Run> RunFolder::find(const StudySimulator& simulator, const Job& job) const {
+  const fs::path file = file_of(runs(), simulator.key(job));
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return std::nullopt;
   const Json json = Json::parse(text_of(file), nullptr, false);
   try {
-    if (json.at("simulated") != Json::parse(bench.description(job))) return std::nullopt;
+    if (json.at("simulated") != Json::parse(simulator.description(job))) return std::nullopt;
     return Run{.job = job, .readings = json.at("readings"), .failure = json.at("failure")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
 }
 
-void RunFolder::keep(const StudyBench& bench, const SimulatedJob& done) const {
+void RunFolder::keep(const StudySimulator& simulator, const SimulatedJob& done) const {
   const Job& job = done.run.job;
-  const Json json{{"simulated", Json::parse(bench.description(job))},
+  const Json json{{"simulated", Json::parse(simulator.description(job))},
                   {"readings", done.run.readings},
                   {"failure", done.run.failure},
                   {"wall_s", done.wall_s}};
-  io::write_whole_file(file_of(runs(), bench.key(job)), json.dump(2) + '\n');
+  base::write_whole_file(file_of(runs(), simulator.key(job)), json.dump(2) + '\n');
 }
 
-bool RunFolder::copy_state(const StudyBench& bench, const Job& job, const std::string& name) const {
+bool RunFolder::copy_state(const StudySimulator& simulator, const Job& job,
+                           const std::string& name) const {
   std::error_code error;
-  return fs::copy_file(runs() / (bench.key(job) + ".vtp"), folder_ / name,
+  return fs::copy_file(runs() / (simulator.key(job) + ".vtp"), folder_ / name,
                        fs::copy_options::overwrite_existing, error);
 }
 

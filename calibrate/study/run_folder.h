@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/study/study_bench.h"
+#include "calibrate/study/study_simulator.h"
 
 namespace repose::calibrate {
 
@@ -22,14 +22,14 @@ class RunFolder {
 
   /// None when it was not kept; a file that is damaged or of something else counts as not kept, and
   /// is overwritten when the job has been run again.
-  std::optional<Run> find(const StudyBench& bench, const Job& job) const;
+  std::optional<Run> find(const StudySimulator& simulator, const Job& job) const;
 
   /// @throws std::invalid_argument  it cannot be written; what was kept before stays.
-  void keep(const StudyBench& bench, const SimulatedJob& done) const;
+  void keep(const StudySimulator& simulator, const SimulatedJob& done) const;
 
   /// Copies the state of a heap that was kept to FOLDER/NAME, over an older one; false when it is
   /// not there.
-  bool copy_state(const StudyBench& bench, const Job& job, const std::string& name) const;
+  bool copy_state(const StudySimulator& simulator, const Job& job, const std::string& name) const;
 
  private:
   std::filesystem::path folder_;

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "calibrate/fit/budget.h"
+#include "calibrate/statistics/summary.h"
 #include "calibrate/study/coefficients.h"
 #include "calibrate/study/run_cost.h"
-#include "calibrate/study/study_bench.h"
-#include "vision/repeats.h"
+#include "calibrate/study/study_simulator.h"
 
 namespace repose::calibrate {
 namespace {
@@ -67,7 +67,7 @@ Observable observable_of(const dem::Measured& measured) {
   observable.sd = measured.sd;
   observable.mean = measured.mean.value_or(0);
   if (measured.values.empty()) return observable;
-  const vision::Repeats repeats = vision::summarise(measured.values);
+  const calibrate::Summary repeats = calibrate::summarise(measured.values);
   observable.mean = repeats.mean;
   observable.sd = repeats.sd;
   observable.n = repeats.n;
@@ -123,7 +123,7 @@ class Maker {
     made_.problem.experiments.push_back({.name = name,
                                          .parameters = with_effect,
                                          .run_s = run_cost_s(study_, grain_.shape, experiment),
-                                         .chance = experiment != dem::Experiment::tilt,
+                                         .is_stochastic = experiment != dem::Experiment::tilt,
                                          .measurable = measurable(experiment)});
     if (is_measured) add(observable_of(measured), experiment, "value");
     for (const dem::MeasuredReading& reading : measured.also) {
@@ -138,10 +138,10 @@ class Maker {
   /// A study of many grains costs more than a budget is made for.
   void allow_a_fit() {
     constexpr double kMinute_s = 60;
-    constexpr double kLeastFit = 1.6;  // first rounds: one, and for the later ones over half of it
-    const Expense least = least_expense(made_.problem);
+    constexpr double kMinFit = 1.6;  // first rounds: one, and for the later ones over half of it
+    const Cost least = minimum_cost(made_.problem);
     FitSettings& settings = made_.problem.settings;
-    const double enough_s = kLeastFit * least.seconds;
+    const double enough_s = kMinFit * least.seconds;
     if (settings.budget_s >= enough_s) return;
     made_.notes.push_back(fmt::format(
         "runs of this study take long: the budget is raised from {:.0f} to {:.0f} minutes of one "
@@ -160,7 +160,7 @@ class Maker {
                                                  : "";
     if (!observable.sd || observable.n < 2) {
       observable.sd.reset();
-      observable.assumed_sd_share = kAssumedSdShare;
+      observable.assumed_sd_fraction = kAssumedSdFraction;
     }
     made_.problem.observables.push_back(std::move(observable));
   }
@@ -179,7 +179,7 @@ Budget budget_named(const std::string& name) {
             .description =
                 "13 minutes of one core for the fit; heaps ten times softer than the study "
                 "says, few of them, so intervals are wide",
-            .settings = {.budget_s = 13 * kMinute_s, .most_jobs = 400, .most_rounds = 4},
+            .settings = {.budget_s = 13 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
             .heap_softening = .1,
             .verification_repeats = 3,
             .family_sets = 2};
@@ -187,7 +187,7 @@ Budget budget_named(const std::string& name) {
   if (name == "standard") {
     return {.name = name,
             .description = "150 minutes of one core for the fit; heaps as stiff as the study says",
-            .settings = {.budget_s = 150 * kMinute_s, .most_jobs = 2000, .most_rounds = 6},
+            .settings = {.budget_s = 150 * kMinute_s, .max_jobs = 2000, .max_rounds = 6},
             .heap_softening = 1,
             .verification_repeats = 5,
             .family_sets = 3};
@@ -197,7 +197,7 @@ Budget budget_named(const std::string& name) {
             .description =
                 "62 simulations at most for the fit, as many as the publication made; heaps "
                 "as stiff as the study says",
-            .settings = {.budget_s = 60 * kMinute_s, .most_jobs = 62, .most_rounds = 3},
+            .settings = {.budget_s = 60 * kMinute_s, .max_jobs = 62, .max_rounds = 3},
             .heap_softening = 1,
             .verification_repeats = 10,
             .family_sets = 0};

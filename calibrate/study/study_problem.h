@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/problem.h"
-#include "dem/shape/clump_file.h"
+#include "calibrate/fit/problem.h"
+#include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {
@@ -22,10 +22,10 @@ struct Budget {
 /// "quick", "standard" or "paper". Throws std::invalid_argument for another name.
 Budget budget_named(const std::string& name);
 
-/// A scatter nobody measured: single readings are taken to scatter by this share of their mean, or
-/// by what chance does in the simulation where that is more (Misfit::measured_uncertainty). It is
-/// said in JointFit::warnings.
-inline constexpr double kAssumedSdShare = .05;
+/// A scatter nobody measured: single readings are taken to scatter by this fraction of their mean,
+/// or by what chance does in the simulation where that is more (Misfit::measured_uncertainty). It
+/// is said in JointFit::warnings.
+inline constexpr double kAssumedSdFraction = .05;
 
 /// What a study leaves to be found, what it measured, and what of that can be used.
 struct StudyProblem {
@@ -39,7 +39,7 @@ struct StudyProblem {
 /// A tilting plate depends on the sliding friction alone: rolling friction from .04 to .3 moved the
 /// angle by .03 degrees, restitution by less than .001.
 /// @throws std::invalid_argument  nothing is to be found, nothing was measured, or the problem is
-/// not sound: every fault.
+/// not sound: every error.
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain, const Budget& budget);
 
 }  // namespace repose::calibrate

@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "io/whole_file.h"
+#include "base/version.h"
+#include "base/whole_file.h"
 
 namespace repose::calibrate {
 namespace {
@@ -56,7 +57,7 @@ std::vector<PictureReading> pictures_in(const Json& json) {
 }
 
 Json record_json(const StudyRecord& record) {
-  return {{"program", "repose " REPOSE_VERSION},
+  return {{"program", base::kProgram},
           {"study",
            {{"file", record.study.file.filename().string()},
             {"hash", record.study.hash},
@@ -81,7 +82,7 @@ namespace {
 
 /// A file that is there already need not be written: a full disk does not stop what goes on.
 void keep(const fs::path& file, const std::string& text) {
-  if (text_of(file) != text) io::write_whole_file(file, text);
+  if (text_of(file) != text) base::write_whole_file(file, text);
 }
 
 }  // namespace
@@ -112,11 +113,11 @@ StudyRecord read_study_record(const fs::path& folder) {
     record.method = json.at("method");
     record.budget = budget_named(json.at("budget").at("name"));
     record.pictures = pictures_in(json.at("pictures"));
-  } catch (const nlohmann::json::exception& fault) {
+  } catch (const nlohmann::json::exception& error) {
     throw std::invalid_argument(
         fmt::format("{}: damaged ({}). Fix: the same repose calibrate again writes it anew; what "
                     "was simulated is kept.",
-                    file.string(), fault.what()));
+                    file.string(), error.what()));
   }
   record.study = as_simulated(dem::read_study_copy(folder / kStudy, record.settings), record.budget,
                               record.pictures);

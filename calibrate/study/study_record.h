@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibrate/study/study_problem.h"
-#include "dem/shape/clump_file.h"
+#include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {

@@ -11,7 +11,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr int kFamilyRepeats = 2;
-constexpr int kMostFits = 3;
+constexpr int kMaxFits = 3;
 
 std::vector<double> values_of(const JointFit& fit) {
   std::vector<double> values;
@@ -36,11 +36,11 @@ void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>
 }
 
 /// Rounds until the fit has settled; false when interrupted.
-bool run_rounds(const Problem& problem, Workshop& workshop, std::vector<Run>& runs) {
+bool run_rounds(const Problem& problem, JobRunner& runner, std::vector<Run>& runs) {
   for (int round = 1;; ++round) {
     const std::vector<Job> jobs = propose(problem, runs);
     if (jobs.empty()) return true;
-    const auto done = workshop.get(fmt::format("round {}", round), jobs);
+    const auto done = runner.get(fmt::format("round {}", round), jobs);
     if (!done) return false;
     runs.insert(runs.end(), done->begin(), done->end());
   }
@@ -48,13 +48,13 @@ bool run_rounds(const Problem& problem, Workshop& workshop, std::vector<Run>& ru
 
 /// Fits, and checks the fit with fresh seeds. A fit that fails was led by curves that are wrong
 /// just there: its checks join the runs, and the next fit knows better. False when interrupted.
-bool fit_and_check(const Problem& problem, const Budget& budget, Workshop& workshop,
+bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runner,
                    StudyOutcome& outcome) {
-  for (int attempt = 0; attempt < kMostFits; ++attempt) {
+  for (int attempt = 0; attempt < kMaxFits; ++attempt) {
     outcome.runs.insert(outcome.runs.end(), outcome.checks.begin(), outcome.checks.end());
     outcome.fit = fit_jointly(problem, outcome.runs);
     const std::vector<double> values = values_of(outcome.fit);
-    const auto checks = workshop.get(
+    const auto checks = runner.get(
         attempt == 0 ? "checking the result" : fmt::format("checking fit {}", attempt + 1),
         verification_jobs(problem, values, budget.verification_repeats, attempt));
     if (!checks) return false;
@@ -66,17 +66,17 @@ bool fit_and_check(const Problem& problem, const Budget& budget, Workshop& works
 }
 
 /// Simulates some of the sets that fit as well. False when interrupted.
-bool check_family(const Problem& problem, const Budget& budget, Workshop& workshop,
+bool check_family(const Problem& problem, const Budget& budget, JobRunner& runner,
                   StudyOutcome& outcome) {
   const std::vector<ParameterSet>& family = outcome.fit.equivalence_family;
   const auto count = std::min(family.size(), static_cast<std::size_t>(budget.family_sets));
   std::vector<Job> jobs;
   for (std::size_t k = 0; k < count; ++k) {
     const auto of_set = verification_jobs(problem, family[k].values, kFamilyRepeats,
-                                          kMostFits + static_cast<int>(k));
+                                          kMaxFits + static_cast<int>(k));
     jobs.insert(jobs.end(), of_set.begin(), of_set.end());
   }
-  const auto checks = workshop.get("checking sets that fit as well", jobs);
+  const auto checks = runner.get("checking sets that fit as well", jobs);
   if (!checks) return false;
   for (std::size_t k = 0; k < count; ++k) {
     outcome.family.push_back(verify(problem, family[k].values, *checks, &outcome.fit));
@@ -87,17 +87,17 @@ bool check_family(const Problem& problem, const Budget& budget, Workshop& worksh
 }  // namespace
 
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
-                                      const StudyBench& bench, const RunFolder& folder,
+                                      const StudySimulator& simulator, const RunFolder& folder,
                                       Executor& executor, const StudyReport& report,
                                       const std::atomic<bool>& is_interrupted) {
-  Workshop workshop(problem, bench, folder, executor, report, is_interrupted);
+  JobRunner runner(problem, simulator, folder, executor, report, is_interrupted);
   StudyOutcome outcome;
-  if (!run_rounds(problem, workshop, outcome.runs)) return std::nullopt;
-  if (!fit_and_check(problem, budget, workshop, outcome)) return std::nullopt;
-  if (!check_family(problem, budget, workshop, outcome)) return std::nullopt;
+  if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
+  if (!fit_and_check(problem, budget, runner, outcome)) return std::nullopt;
+  if (!check_family(problem, budget, runner, outcome)) return std::nullopt;
   note_missing_grains(outcome.notes, outcome.runs);
-  outcome.simulated = workshop.simulated();
-  outcome.reused = workshop.reused();
+  outcome.simulated = runner.simulated();
+  outcome.reused = runner.reused();
   return outcome;
 }
 

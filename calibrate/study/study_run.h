@@ -8,9 +8,9 @@
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/executor.h"
+#include "calibrate/study/job_runner.h"
 #include "calibrate/study/run_folder.h"
 #include "calibrate/study/study_problem.h"
-#include "calibrate/study/workshop.h"
 
 namespace repose::calibrate {
 
@@ -27,11 +27,11 @@ struct StudyOutcome {
 };
 
 /// Runs a study to its end, going on from what the folder holds. The outcome does not depend on how
-/// often it was broken off, nor on the executor. None when it was interrupted.
+/// often it was interrupted, nor on the executor. None when it was interrupted.
 /// @throws std::invalid_argument  a protocol that cannot be run, a folder that cannot be written,
 /// or too few runs with a reading for a fit.
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
-                                      const StudyBench& bench, const RunFolder& folder,
+                                      const StudySimulator& simulator, const RunFolder& folder,
                                       Executor& executor, const StudyReport& report,
                                       const std::atomic<bool>& is_interrupted);
 

@@ -19,9 +19,9 @@
 #include "cli/calibrate/calibrate_progress.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/calibrate/paper_report.h"
-#include "cli/interrupt.h"
-#include "cli/output.h"
-#include "cli/terminal.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/output.h"
+#include "cli/common/terminal.h"
 
 namespace repose::cli {
 namespace {
@@ -57,23 +57,24 @@ void write_results(const CalibratePlan& plan, const std::string& json, const std
 }
 
 /// The heap of the fitted coefficients, to look at and to compare with a photograph.
-void keep_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
-               const calibrate::StudyBench& bench, const std::vector<calibrate::Run>& checks) {
+void save_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
+               const calibrate::StudySimulator& simulator,
+               const std::vector<calibrate::Run>& checks) {
   constexpr const char* kHeap = "heap.vtp";
   for (const calibrate::Run& run : checks) {
     const bool is_heap = run.job.experiment == "heap" && run.failure.empty();
-    if (is_heap && folder.copy_state(bench, run.job, kHeap)) return;
+    if (is_heap && folder.copy_state(simulator, run.job, kHeap)) return;
   }
   // That of other coefficients must not stand for these.
   std::error_code ignored;
   std::filesystem::remove(plan.out_folder / kHeap, ignored);
 }
 
-calibrate::StudyBench bench_of(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
-  calibrate::StudyBench bench(plan.record.study, plan.record.grain, parameter_names(plan),
-                              kHeapViews);
-  bench.keep_states_in(folder.runs());
-  return bench;
+calibrate::StudySimulator bench_of(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
+  calibrate::StudySimulator simulator(plan.record.study, plan.record.grain, parameter_names(plan),
+                                      kHeapViews);
+  simulator.save_states_in(folder.runs());
+  return simulator;
 }
 
 ExitCode interrupted(const calibrate::RunFolder& folder) {
@@ -85,32 +86,32 @@ ExitCode interrupted(const calibrate::RunFolder& folder) {
 }
 
 ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder& folder,
-                          const calibrate::StudyBench& bench, calibrate::Executor& executor,
+                          const calibrate::StudySimulator& simulator, calibrate::Executor& executor,
                           const std::atomic<bool>& is_interrupted) {
   const auto outcome = [&] {
     StudyProgressLine progress;
     const calibrate::StudyReport report = [&](const auto& now) { progress.tell(now); };
-    calibrate::Workshop workshop(plan.problem.problem, bench, folder, executor, report,
-                                 is_interrupted);
-    return calibrate_as_published(plan.problem.problem, workshop);
+    calibrate::JobRunner runner(plan.problem.problem, simulator, folder, executor, report,
+                                is_interrupted);
+    return calibrate_as_published(plan.problem.problem, runner);
   }();
   if (!outcome) return interrupted(folder);
-  keep_heap(plan, folder, bench, outcome->checks);
+  save_heap(plan, folder, simulator, outcome->checks);
   write_results(plan, paper_json(plan, *outcome), paper_table(plan, *outcome, columns_of(stdout)));
   return ExitCode::done;
 }
 
 /// The whole study, from rank 0 where there are ranks.
 ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& folder,
-                        const calibrate::StudyBench& bench, calibrate::Executor& executor,
+                        const calibrate::StudySimulator& simulator, calibrate::Executor& executor,
                         const std::atomic<bool>& is_interrupted) {
   if (plan.record.method == "paper") {
-    return run_as_published(plan, folder, bench, executor, is_interrupted);
+    return run_as_published(plan, folder, simulator, executor, is_interrupted);
   }
   const auto outcome = [&] {
     StudyProgressLine progress;
     return run_study(
-        plan.problem.problem, plan.record.budget, bench, folder, executor,
+        plan.problem.problem, plan.record.budget, simulator, folder, executor,
         [&](const calibrate::StudyProgress& now) { progress.tell(now); }, is_interrupted);
   }();
   if (!outcome) return interrupted(folder);
@@ -120,7 +121,7 @@ ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& f
   }
   print_lines(outcome->notes);
   print_lines(outcome->fit.warnings);
-  keep_heap(plan, folder, bench, outcome->checks);
+  save_heap(plan, folder, simulator, outcome->checks);
   write_results(plan, calibrate_json(plan, *outcome),
                 calibrate_table(plan, *outcome, columns_of(stdout)));
   return ExitCode::done;
@@ -130,19 +131,19 @@ ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& f
 ExitCode run_as_rank(const CalibrateArguments& arguments) {
   const calibrate::RankSession session;
   const CalibratePlan plan = plan_calibrate(arguments);
-  if (session.rank() == 0) print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  if (session.rank() == 0) print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
   const calibrate::RunFolder folder(plan.out_folder);
-  const calibrate::StudyBench bench = bench_of(plan, folder);
+  const calibrate::StudySimulator simulator = bench_of(plan, folder);
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   if (session.rank() > 0) {
-    session.serve(bench, is_interrupted);
+    session.serve(simulator, is_interrupted);
     return ExitCode::done;
   }
   print_lines(plan.notes);
   calibrate::write_study_record(plan.out_folder, plan.record);
-  calibrate::RankExecutor executor(session, bench);
-  return run_study_with(plan, folder, bench, executor, is_interrupted);
+  calibrate::RankExecutor executor(session, simulator);
+  return run_study_with(plan, folder, simulator, executor, is_interrupted);
 }
 
 }  // namespace
@@ -157,14 +158,14 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
     return ExitCode::bad_input;
   }
   const CalibratePlan plan = plan_calibrate(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
   const calibrate::RunFolder folder(plan.out_folder);
   calibrate::write_study_record(plan.out_folder, plan.record);
-  const calibrate::StudyBench bench = bench_of(plan, folder);
-  calibrate::ThreadExecutor executor(bench, plan.jobs);
-  return run_study_with(plan, folder, bench, executor, watch_for_interrupt());
+  const calibrate::StudySimulator simulator = bench_of(plan, folder);
+  calibrate::ThreadExecutor executor(simulator, plan.jobs);
+  return run_study_with(plan, folder, simulator, executor, watch_for_interrupt());
 }
 
 }  // namespace repose::cli

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/exit_code.h"
+#include "cli/common/exit_code.h"
 
 namespace repose::cli {
 

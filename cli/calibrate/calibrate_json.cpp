@@ -7,11 +7,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/study/study_bench.h"
+#include "base/version.h"
+#include "calibrate/study/study_simulator.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/statistics/regress_json.h"
 #include "cli/statistics/runs_surface.h"
-#include "dem/study/rolling_name.h"
+#include "dem/contact/rolling_name.h"
 
 namespace repose::cli {
 namespace {
@@ -200,9 +201,9 @@ Json provenance_json(const CalibratePlan& plan, const std::vector<calibrate::Run
   Json stiffness = Json::object();
   for (const calibrate::Experiment& experiment : plan.problem.problem.experiments) {
     stiffness[experiment.name] =
-        dem::bench_for(study, calibrate::experiment_named(experiment.name)).stiffness_factor;
+        dem::model_for(study, calibrate::experiment_named(experiment.name)).stiffness_factor;
   }
-  return {{"program", "repose " REPOSE_VERSION},
+  return {{"program", base::kProgram},
           {"study",
            {{"file", study.file.filename().string()},
             {"hash", study.hash},
@@ -211,8 +212,8 @@ Json provenance_json(const CalibratePlan& plan, const std::vector<calibrate::Run
            {{"name", plan.record.budget.name}, {"description", plan.record.budget.description}}},
           {"first_seed", study.seed},
           {"contact_model", contact_model_text()},
-          {"rolling_model", dem::name_of(study.bench.rolling)},
-          {"rolling_definition", rolling_definition(study.bench.rolling)},
+          {"rolling_model", dem::name_of(study.model.rolling)},
+          {"rolling_definition", rolling_definition(study.model.rolling)},
           {"clump",
            {{"source", plan.record.grain.source},
             {"spheres", plan.record.grain.shape.spheres.size()},

@@ -6,28 +6,28 @@
 
 #include <fmt/format.h>
 
-#include "cli/degrees.h"
-#include "cli/number.h"
-#include "cli/output.h"
-#include "cli/picture_list.h"
-#include "io/whole_file.h"
-#include "vision/picture.h"
-#include "vision/repose_angle.h"
-#include "vision/status_name.h"
+#include "base/whole_file.h"
+#include "cli/common/degrees.h"
+#include "cli/common/number.h"
+#include "cli/common/output.h"
+#include "cli/common/picture_list.h"
+#include "vision/measure/repose_angle.h"
+#include "vision/measure/status_name.h"
+#include "vision/picture/picture.h"
 
 namespace repose::cli {
 namespace {
 
-constexpr int kMostJobs = 1024;
+constexpr int kMaxJobs = 1024;
 
-/// Does `work`; what it refuses becomes faults.
+/// Does `work`; what it refuses becomes errors.
 template <typename Work>
-bool attempt(std::vector<std::string>& faults, const Work& work) {
+bool attempt(std::vector<std::string>& errors, const Work& work) {
   try {
     work();
     return true;
-  } catch (const std::invalid_argument& fault) {
-    add_lines(fault.what(), faults);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), errors);
     return false;
   }
 }
@@ -56,19 +56,19 @@ void measure_pictures(const std::vector<std::filesystem::path>& pictures, Calibr
   std::vector<std::string> names;
   for (const std::filesystem::path& picture : pictures) names.push_back(picture.string());
   const PictureList list = list_pictures(names);
-  plan.faults.insert(plan.faults.end(), list.faults.begin(), list.faults.end());
+  plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
   bool any = false;
   for (const std::filesystem::path& file : list.files) {
-    attempt(plan.faults, [&] {
+    attempt(plan.errors, [&] {
       const calibrate::PictureReading& reading =
           plan.record.pictures.emplace_back(reading_of(file));
       if (reading.status == "ok") any = true;
       if (reading.status != "ok") plan.notes.push_back(note_on(reading));
     });
   }
-  if (plan.faults.empty() && !any) {
-    plan.faults.push_back(fmt::format(
+  if (plan.errors.empty() && !any) {
+    plan.errors.push_back(fmt::format(
         "{}: none of the {} pictures of the heap could be measured. Fix: look at them with repose "
         "measure --overlay, or give the angles as values.",
         plan.record.study.file.string(), list.files.size()));
@@ -80,10 +80,10 @@ void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
   if (plan.record.study.threads) plan.jobs = *plan.record.study.threads;
   if (arguments.jobs.empty()) return;
   const auto jobs = number_in<int>(arguments.jobs);
-  if (!jobs || *jobs < 1 || *jobs > kMostJobs) {
-    plan.faults.push_back(fmt::format(
+  if (!jobs || *jobs < 1 || *jobs > kMaxJobs) {
+    plan.errors.push_back(fmt::format(
         "--jobs {}: must be a whole number from 1 to {}. Fix: leave it out to use all cores.",
-        arguments.jobs, kMostJobs));
+        arguments.jobs, kMaxJobs));
     return;
   }
   plan.jobs = *jobs;
@@ -94,7 +94,7 @@ void check_places(CalibratePlan& plan) {
     plan.out_folder = plan.record.study.file.stem().string() + "_calibration";
   }
   if (plan.json_file.empty() || plan.json_file == kStandardOutput) return;
-  attempt(plan.faults, [&] { io::check_can_write(plan.json_file); });
+  attempt(plan.errors, [&] { base::check_can_write(plan.json_file); });
 }
 
 }  // namespace
@@ -106,21 +106,21 @@ CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
   plan.json_file = arguments.json_file;
   plan.record.method = arguments.method;
   if (plan.record.method != "joint" && plan.record.method != "paper") {
-    plan.faults.push_back(fmt::format(
+    plan.errors.push_back(fmt::format(
         "--method {}: must be joint or paper. Fix: leave it out for joint.", arguments.method));
   }
-  attempt(plan.faults, [&] { plan.record.budget = calibrate::budget_named(arguments.budget); });
-  const bool is_read = attempt(plan.faults, [&] {
+  attempt(plan.errors, [&] { plan.record.budget = calibrate::budget_named(arguments.budget); });
+  const bool is_read = attempt(plan.errors, [&] {
     plan.record.study = dem::read_study(arguments.study, arguments.settings);
   });
   read_jobs(arguments, plan);
   if (!is_read) return plan;
   check_places(plan);
   measure_pictures(plan.record.study.heap_measured.pictures, plan);
-  if (!plan.faults.empty()) return plan;
+  if (!plan.errors.empty()) return plan;
   plan.record.study =
       calibrate::as_simulated(plan.record.study, plan.record.budget, plan.record.pictures);
-  attempt(plan.faults, [&] {
+  attempt(plan.errors, [&] {
     plan.record.grain = dem::build_grain(plan.record.study.grain);
     plan.problem = calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);
   });

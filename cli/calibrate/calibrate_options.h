@@ -18,7 +18,7 @@ struct CalibratePlan {
   std::filesystem::path out_folder;
   std::string json_file;
 
-  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know
 };
 

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <string>
 
-#include "calibrate/study/workshop.h"
+#include "calibrate/study/job_runner.h"
 
 namespace repose::cli {
 

@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/study/study_bench.h"
+#include "calibrate/study/study_simulator.h"
 #include "cli/calibrate/calibrate_json.h"
+#include "cli/common/terminal.h"
 #include "cli/simulate/simulate_json.h"
-#include "cli/terminal.h"
-#include "dem/study/rolling_name.h"
+#include "dem/contact/rolling_name.h"
 
 namespace repose::cli {
 
@@ -100,7 +100,7 @@ std::string belongs_to_text(const CalibratePlan& plan, std::size_t width) {
   std::string stiffness;
   for (const calibrate::Experiment& experiment : plan.problem.problem.experiments) {
     const double factor =
-        dem::bench_for(plan.record.study, calibrate::experiment_named(experiment.name))
+        dem::model_for(plan.record.study, calibrate::experiment_named(experiment.name))
             .stiffness_factor;
     stiffness += fmt::format("{}{} {:g}", stiffness.empty() ? "" : ", ", experiment.name, factor);
   }
@@ -108,8 +108,8 @@ std::string belongs_to_text(const CalibratePlan& plan, std::size_t width) {
   const std::string text = fmt::format(
       "These coefficients belong to: {}, rolling friction {} ({}); a clump of {} ({}, "
       "volume {:+.2f} % off); stiffness factor {}; budget {}: {}.",
-      contact_model_text(), dem::name_of(plan.record.study.bench.rolling),
-      rolling_definition(plan.record.study.bench.rolling),
+      contact_model_text(), dem::name_of(plan.record.study.model.rolling),
+      rolling_definition(plan.record.study.model.rolling),
       spheres == 1 ? "1 sphere" : fmt::format("{} spheres", spheres), plan.record.grain.source,
       100 * plan.record.grain.errors.volume_error, stiffness, plan.record.budget.name,
       plan.record.budget.description);

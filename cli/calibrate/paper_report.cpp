@@ -7,28 +7,28 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/statistics/summary.h"
 #include "calibrate/study/coefficients.h"
 #include "cli/calibrate/calibrate_json.h"
 #include "cli/calibrate/calibrate_table.h"
+#include "cli/common/terminal.h"
 #include "cli/statistics/regress_json.h"
 #include "cli/statistics/surface_report.h"
-#include "cli/terminal.h"
-#include "vision/repeats.h"
 
 namespace repose::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using calibrate::PaperHeap;
-using calibrate::PaperOutcome;
+using calibrate::PublishedHeap;
+using calibrate::PublishedOutcome;
 
-std::optional<vision::Repeats> angles_of(const std::vector<PaperHeap>& heaps) {
+std::optional<calibrate::Summary> angles_of(const std::vector<PublishedHeap>& heaps) {
   std::vector<double> angles;
-  for (const PaperHeap& heap : heaps) {
+  for (const PublishedHeap& heap : heaps) {
     if (heap.angle_deg) angles.push_back(*heap.angle_deg);
   }
   if (angles.empty()) return std::nullopt;
-  return vision::summarise(angles);
+  return calibrate::summarise(angles);
 }
 
 /// What the study file gives as a coefficient's value: that of an earlier calibration.
@@ -39,10 +39,10 @@ std::optional<double> earlier(const dem::Study& study, const std::string& name) 
   return std::nullopt;
 }
 
-std::string sweeps_text(const PaperOutcome& outcome) {
+std::string sweeps_text(const PublishedOutcome& outcome) {
   std::string text = fmt::format("{}{:>10}{:>10}{:>10}{:>8}\n", padded("sweep of", 34), "measured",
                                  "found", "runs", "R2");
-  for (const calibrate::PaperSweep& sweep : outcome.sweeps) {
+  for (const calibrate::PublishedSweep& sweep : outcome.sweeps) {
     text += fmt::format("{}{:>10.2f}{:>10.4f}{:>10}{:>8.3f}{}\n",
                         padded(short_name(sweep.parameter), 34), sweep.measured, sweep.value,
                         sweep.levels.size(), sweep.parabola.r2,
@@ -51,10 +51,10 @@ std::string sweeps_text(const PaperOutcome& outcome) {
   return text;
 }
 
-std::string heaps_text(const char* title, const std::vector<PaperHeap>& heaps) {
+std::string heaps_text(const char* title, const std::vector<PublishedHeap>& heaps) {
   std::string text = fmt::format("\n{}\n{:>12}{:>10}{:>10}{:>12}{:>12}\n", title, "restitution",
                                  "sliding", "rolling", "angle [deg]", "error [%]");
-  for (const PaperHeap& heap : heaps) {
+  for (const PublishedHeap& heap : heaps) {
     text += fmt::format("{:>12.3f}{:>10.3f}{:>10.4f}", heap.coefficients[0], heap.coefficients[1],
                         heap.coefficients[2]);
     text += heap.angle_deg ? fmt::format("{:>12.2f}{:>12.2f}\n", *heap.angle_deg,
@@ -64,7 +64,7 @@ std::string heaps_text(const char* title, const std::vector<PaperHeap>& heaps) {
   return text;
 }
 
-std::string result_text(const CalibratePlan& plan, const PaperOutcome& outcome) {
+std::string result_text(const CalibratePlan& plan, const PublishedOutcome& outcome) {
   std::string text =
       fmt::format("\n{}{:>10}{:>16}\n", padded("coefficient", 36), "found", "study's value");
   for (std::size_t k = 0; k < outcome.values.size(); ++k) {
@@ -76,7 +76,7 @@ std::string result_text(const CalibratePlan& plan, const PaperOutcome& outcome) 
   return text;
 }
 
-std::string check_text(const PaperOutcome& outcome) {
+std::string check_text(const PublishedOutcome& outcome) {
   const auto angles = angles_of(outcome.verification);
   std::string text =
       fmt::format("\nsurface's least error {:.2f} %; heaps measured {:.2f} deg, simulated ",
@@ -89,9 +89,9 @@ std::string check_text(const PaperOutcome& outcome) {
                     100 * (angles->mean - outcome.measured_angle_deg) / outcome.measured_angle_deg);
 }
 
-Json heaps_json(const std::vector<PaperHeap>& heaps) {
+Json heaps_json(const std::vector<PublishedHeap>& heaps) {
   Json json = Json::array();
-  for (const PaperHeap& heap : heaps) {
+  for (const PublishedHeap& heap : heaps) {
     json.push_back(
         {{"restitution", heap.coefficients[0]},
          {"sliding_friction", heap.coefficients[1]},
@@ -102,9 +102,9 @@ Json heaps_json(const std::vector<PaperHeap>& heaps) {
   return json;
 }
 
-Json sweeps_json(const PaperOutcome& outcome) {
+Json sweeps_json(const PublishedOutcome& outcome) {
   Json json = Json::array();
-  for (const calibrate::PaperSweep& sweep : outcome.sweeps) {
+  for (const calibrate::PublishedSweep& sweep : outcome.sweeps) {
     json.push_back({{"parameter", sweep.parameter},
                     {"observable", sweep.observable},
                     {"measured", sweep.measured},
@@ -119,14 +119,14 @@ Json sweeps_json(const PaperOutcome& outcome) {
 
 }  // namespace
 
-std::string paper_table(const CalibratePlan& plan, const PaperOutcome& outcome, int columns) {
+std::string paper_table(const CalibratePlan& plan, const PublishedOutcome& outcome, int columns) {
   constexpr int kNarrowest = 40, kWidest = 100;
   std::string text = sweeps_text(outcome) + heaps_text("steepest ascent", outcome.ascent) +
                      heaps_text("central composite design", outcome.composite) +
                      result_text(plan, outcome) + check_text(outcome);
   const auto width = static_cast<std::size_t>(std::clamp(columns, kNarrowest, kWidest));
-  for (const calibrate::SurfaceDoubt& doubt : outcome.doubts) {
-    for (const std::string& line : wrapped("! " + doubt.message, width)) text += line + '\n';
+  for (const calibrate::SurfaceDiagnostic& diagnostic : outcome.diagnostics) {
+    for (const std::string& line : wrapped("! " + diagnostic.message, width)) text += line + '\n';
   }
   const std::string advice =
       "These are single points without intervals, found one after the other: --method joint says "
@@ -139,7 +139,7 @@ std::string paper_table(const CalibratePlan& plan, const PaperOutcome& outcome, 
 namespace {
 
 /// The surface of the error, without its runs: those are the composite design.
-Json surface_json(const PaperOutcome& outcome) {
+Json surface_json(const PublishedOutcome& outcome) {
   Json surface = Json::parse(regress_json(report_on(outcome.surface, std::nullopt)));
   surface.erase("runs");
   return surface;
@@ -147,15 +147,15 @@ Json surface_json(const PaperOutcome& outcome) {
 
 }  // namespace
 
-std::string paper_json(const CalibratePlan& plan, const PaperOutcome& outcome) {
+std::string paper_json(const CalibratePlan& plan, const PublishedOutcome& outcome) {
   Json values = Json::object();
   for (std::size_t k = 0; k < outcome.values.size(); ++k) {
     values[plan.problem.problem.parameters[k].name] = outcome.values[k];
   }
   const auto angles = angles_of(outcome.verification);
-  Json doubts = Json::array();
-  for (const calibrate::SurfaceDoubt& doubt : outcome.doubts) {
-    doubts.push_back({{"code", doubt.code}, {"message", doubt.message}});
+  Json diagnostics = Json::array();
+  for (const calibrate::SurfaceDiagnostic& diagnostic : outcome.diagnostics) {
+    diagnostics.push_back({{"code", diagnostic.code}, {"message", diagnostic.message}});
   }
   Json json{{"method", "paper"},
             {"values", values},
@@ -169,7 +169,7 @@ std::string paper_json(const CalibratePlan& plan, const PaperOutcome& outcome) {
               {"mean_deg", angles ? Json(angles->mean) : Json(nullptr)},
               {"sd_deg", angles && angles->sd ? Json(*angles->sd) : Json(nullptr)},
               {"measured_deg", outcome.measured_angle_deg}}},
-            {"warnings", doubts},
+            {"warnings", diagnostics},
             {"provenance", Json::parse(provenance_text(plan))}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

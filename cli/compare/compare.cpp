@@ -7,14 +7,14 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "cli/common/interrupt.h"
+#include "cli/common/output.h"
+#include "cli/common/picture_list.h"
+#include "cli/common/terminal.h"
 #include "cli/compare/compare_json.h"
 #include "cli/compare/compare_options.h"
 #include "cli/compare/compare_table.h"
-#include "cli/interrupt.h"
-#include "cli/output.h"
-#include "cli/picture_list.h"
-#include "cli/terminal.h"
-#include "vision/heap_comparison_overlay.h"
+#include "vision/drawing/heap_comparison_overlay.h"
 
 namespace repose::cli {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 struct MeasuredHeap {
   vision::Picture picture;
   vision::ReposeAngle angle;
-  std::string fault;
+  std::string error;
 };
 
 std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
@@ -31,8 +31,8 @@ std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
     try {
       heaps[i].picture = vision::read_picture(plan.pictures[i]);
       heaps[i].angle = vision::measure_repose_angle(heaps[i].picture, plan.measuring[i]);
-    } catch (const std::invalid_argument& fault) {
-      heaps[i].fault = naming_file(plan.pictures[i].string(), fault.what());
+    } catch (const std::invalid_argument& error) {
+      heaps[i].error = naming_file(plan.pictures[i].string(), error.what());
     }
   });
   return heaps;
@@ -75,8 +75,8 @@ void write_results(const ComparePlan& plan, const vision::HeapComparison& compar
 
 ExitCode run_compare(const CompareArguments& arguments) {
   ComparePlan plan = plan_compare(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const std::array<MeasuredHeap, 2> heaps = measure_both(plan);
@@ -84,12 +84,12 @@ ExitCode run_compare(const CompareArguments& arguments) {
     fmt::print(stderr, "repose: interrupted, no results were written\n");
     return ExitCode::interrupted;
   }
-  std::vector<std::string> faults;
+  std::vector<std::string> errors;
   for (const MeasuredHeap& heap : heaps) {
-    if (!heap.fault.empty()) faults.push_back(heap.fault);
+    if (!heap.error.empty()) errors.push_back(heap.error);
   }
-  print_lines(faults);
-  if (!faults.empty()) return ExitCode::bad_input;
+  print_lines(errors);
+  if (!errors.empty()) return ExitCode::bad_input;
 
   plan.comparing.same_measurement = is_same_measurement(plan, heaps);
   const vision::HeapComparison comparison =

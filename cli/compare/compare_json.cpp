@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/common/degrees.h"
 #include "cli/compare/compare_names.h"
-#include "cli/degrees.h"
-#include "vision/status_name.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {

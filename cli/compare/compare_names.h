@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vision/heap_comparison.h"
+#include "vision/compare/heap_comparison.h"
 
 /// The words and units of a comparison, in JSON and table.
 namespace repose::cli {

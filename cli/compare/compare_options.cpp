@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/number.h"
-#include "cli/output_places.h"
-#include "cli/picture_options.h"
+#include "cli/common/number.h"
+#include "cli/common/output_places.h"
+#include "cli/common/picture_options.h"
 
 namespace repose::cli {
 namespace {
@@ -33,7 +33,7 @@ void read_scale(const char* option, const std::string& text, PictureScale::From 
   for (const std::size_t i : {0, 1}) {
     const auto mm = positive_mm(texts[i]);
     if (!mm) {
-      plan.faults.push_back(fmt::format(
+      plan.errors.push_back(fmt::format(
           "{0} {1}: must be one number of mm, more than 0, or one for each picture with a comma "
           "between them. Fix: {0} 0.25 or {0} 0.25,0.4.",
           option, text));
@@ -45,7 +45,7 @@ void read_scale(const char* option, const std::string& text, PictureScale::From 
 
 void read_scales(const CompareArguments& arguments, ComparePlan& plan) {
   if (!arguments.mm_per_px.empty() && !arguments.base_mm.empty()) {
-    plan.faults.emplace_back(
+    plan.errors.emplace_back(
         "--mm-per-px and --base-mm both give the scale. Fix: give the one you know better.");
   }
   read_scale("--mm-per-px", arguments.mm_per_px, PictureScale::From::pixel, plan);
@@ -56,14 +56,14 @@ void read_grain(const CompareArguments& arguments, ComparePlan& plan) {
   if (arguments.grain_mm.empty()) return;
   const auto mm = positive_mm(arguments.grain_mm);
   if (!mm) {
-    plan.faults.push_back(
+    plan.errors.push_back(
         fmt::format("--grain-mm {}: must be a number of mm, more than 0. Fix: give the grains' "
                     "mean diameter.",
                     arguments.grain_mm));
     return;
   }
   if (arguments.mm_per_px.empty() && arguments.base_mm.empty()) {
-    plan.faults.push_back(
+    plan.errors.push_back(
         fmt::format("--grain-mm {}: lengths in grains need a scale. Fix: add --mm-per-px or "
                     "--base-mm.",
                     arguments.grain_mm));
@@ -75,7 +75,7 @@ void read_margin(const std::string& text, ComparePlan& plan) {
   if (text.empty()) return;
   const auto margin_deg = number_in<double>(text);
   if (!margin_deg) {
-    plan.faults.push_back(
+    plan.errors.push_back(
         fmt::format("--margin-deg {}: must be a number of degrees. Fix: --margin-deg 2.", text));
     return;
   }
@@ -84,18 +84,18 @@ void read_margin(const std::string& text, ComparePlan& plan) {
 
 void read_measuring(const CompareArguments& arguments, ComparePlan& plan) {
   vision::MeasureOptions both;
-  read_method(arguments.method, both, plan.faults);
-  read_window(arguments.window, both, plan.faults);
+  read_method(arguments.method, both, plan.errors);
+  read_window(arguments.window, both, plan.errors);
   plan.measuring = {both, both};
   const std::array<std::string, 2> pitches = for_each_picture(arguments.pitch_deg);
-  read_pitch(pitches[0], plan.measuring[0], plan.faults);
-  if (pitches[1] == pitches[0]) {  // one fault is enough
+  read_pitch(pitches[0], plan.measuring[0], plan.errors);
+  if (pitches[1] == pitches[0]) {  // one error is enough
     plan.measuring[1].camera_pitch_rad = plan.measuring[0].camera_pitch_rad;
   } else {
-    read_pitch(pitches[1], plan.measuring[1], plan.faults);
+    read_pitch(pitches[1], plan.measuring[1], plan.errors);
   }
-  read_boxes("--exclude-first", arguments.exclude_first, plan.measuring[0], plan.faults);
-  read_boxes("--exclude-second", arguments.exclude_second, plan.measuring[1], plan.faults);
+  read_boxes("--exclude-first", arguments.exclude_first, plan.measuring[0], plan.errors);
+  read_boxes("--exclude-second", arguments.exclude_second, plan.measuring[1], plan.errors);
 }
 
 void read_overlay(const std::string& file, ComparePlan& plan) {
@@ -105,7 +105,7 @@ void read_overlay(const std::string& file, ComparePlan& plan) {
   for (const char* known : {".png", ".PNG", ".jpg", ".JPG", ".jpeg", ".JPEG"}) {
     if (ending == known) return;
   }
-  plan.faults.push_back(
+  plan.errors.push_back(
       fmt::format("--overlay {}: its ending must say what it is. Fix: .png or .jpg.", file));
 }
 
@@ -117,12 +117,12 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
   read_scales(arguments, plan);
   read_grain(arguments, plan);
   read_margin(arguments.margin_deg, plan);
-  for (std::string& problem : plan.comparing.problems()) plan.faults.push_back(std::move(problem));
+  for (std::string& problem : plan.comparing.problems()) plan.errors.push_back(std::move(problem));
   read_measuring(arguments, plan);
   read_overlay(arguments.overlay_file, plan);
   plan.json_file = arguments.json_file;
   check_output_places({{"--overlay", plan.overlay_file}, {"--json", plan.json_file}}, plan.pictures,
-                      plan.faults);
+                      plan.errors);
   return plan;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/compare/compare.h"
-#include "vision/heap_comparison.h"
+#include "vision/compare/heap_comparison.h"
 
 namespace repose::cli {
 
@@ -20,10 +20,10 @@ struct ComparePlan {
   std::string overlay_file;
   std::string json_file;
 
-  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> errors;  ///< empty: it can be carried out
 };
 
-/// Reads and checks all that was typed, also whether the output can be written. All faults at once.
+/// Reads and checks all that was typed, also whether the output can be written. All errors at once.
 ComparePlan plan_compare(const CompareArguments& arguments);
 
 }  // namespace repose::cli

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/common/degrees.h"
+#include "cli/common/terminal.h"
 #include "cli/compare/compare_names.h"
-#include "cli/degrees.h"
-#include "cli/terminal.h"
-#include "vision/status_name.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
@@ -67,7 +67,7 @@ class Table {
   std::string text_;
 };
 
-std::string share(const Cell& cell) { return cell ? fmt::format("{:.3f}", *cell) : kNothing; }
+std::string fraction(const Cell& cell) { return cell ? fmt::format("{:.3f}", *cell) : kNothing; }
 
 std::string angle_cell(const Cell& angle_rad, const Cell& uncertainty_rad) {
   if (!angle_rad) return kNothing;
@@ -107,7 +107,7 @@ void add_outlines(Table& table, const ComparePlan& plan, const vision::HeapCompa
   const vision::SideComparison& left = comparison.left;
   const vision::SideComparison& right = comparison.right;
   table.add_row("outlines", "all", "left", "right");
-  table.add_row("overlap (IoU)", share(comparison.iou), share(left.iou), share(right.iou));
+  table.add_row("overlap (IoU)", fraction(comparison.iou), fraction(left.iou), fraction(right.iou));
   table.add_lengths("height, root mean sq.",
                     {comparison.profile_rmse, left.profile_rmse, right.profile_rmse});
   table.add_lengths("height, mean",

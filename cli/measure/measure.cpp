@@ -8,24 +8,24 @@
 #include <fmt/format.h>
 
 #include "calibrate/report/measure_report.h"
-#include "cli/interrupt.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/output.h"
+#include "cli/common/terminal.h"
 #include "cli/measure/measure_batch.h"
 #include "cli/measure/measure_csv.h"
 #include "cli/measure/measure_json.h"
 #include "cli/measure/measure_options.h"
 #include "cli/measure/measure_table.h"
 #include "cli/measure/summary.h"
-#include "cli/output.h"
-#include "cli/terminal.h"
 
 namespace repose::cli {
 namespace {
 
-void print_faults(const std::vector<MeasuredPicture>& pictures) {
+void print_errors(const std::vector<MeasuredPicture>& pictures) {
   for (const MeasuredPicture& picture : pictures) {
     const char* whose = picture.outcome == Outcome::internal_error ? "internal error: " : "";
-    if (!picture.fault.empty()) fmt::print(stderr, "repose: {}{}\n", whose, picture.fault);
-    if (!picture.overlay_fault.empty()) fmt::print(stderr, "repose: {}\n", picture.overlay_fault);
+    if (!picture.error.empty()) fmt::print(stderr, "repose: {}{}\n", whose, picture.error);
+    if (!picture.overlay_error.empty()) fmt::print(stderr, "repose: {}\n", picture.overlay_error);
   }
 }
 
@@ -45,7 +45,7 @@ std::string report_page(const std::vector<MeasuredPicture>& pictures) {
   std::vector<calibrate::report::MeasuredPhotograph> shown;
   for (const MeasuredPicture& picture : pictures) {
     shown.push_back({.file = picture.file,
-                     .fault = picture.outcome == Outcome::measured ? "" : picture.fault,
+                     .error = picture.outcome == Outcome::measured ? "" : picture.error,
                      .angle = picture.angle,
                      .overlay = picture.overlay});
   }
@@ -76,7 +76,7 @@ ExitCode exit_code(const std::vector<MeasuredPicture>& pictures) {
     return ExitCode::internal_error;
   }
   if (any([](const auto& picture) {
-        return picture.outcome == Outcome::bad_input || !picture.overlay_fault.empty();
+        return picture.outcome == Outcome::bad_input || !picture.overlay_error.empty();
       })) {
     return ExitCode::bad_input;
   }
@@ -89,8 +89,8 @@ ExitCode exit_code(const std::vector<MeasuredPicture>& pictures) {
 
 ExitCode run_measure(const MeasureArguments& arguments) {
   const MeasurePlan plan = plan_measure(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
@@ -99,7 +99,7 @@ ExitCode run_measure(const MeasureArguments& arguments) {
     fmt::print(stderr, "repose: interrupted, no results were written\n");
     return ExitCode::interrupted;
   }
-  print_faults(pictures);
+  print_errors(pictures);
   write_results(pictures, arguments);
   return exit_code(pictures);
 }

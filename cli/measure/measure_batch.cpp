@@ -8,10 +8,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "cli/picture_list.h"
-#include "cli/progress.h"
-#include "vision/overlay.h"
-#include "vision/picture.h"
+#include "cli/common/picture_list.h"
+#include "cli/common/progress.h"
+#include "vision/drawing/overlay.h"
+#include "vision/picture/picture.h"
 
 namespace repose::cli {
 namespace {
@@ -26,8 +26,8 @@ void draw(const vision::Picture& picture, const MeasurePlan& plan, std::size_t i
     const vision::OverlayNotes notes = notes_for(plan, index);
     vision::write_picture(plan.overlays[index],
                           vision::draw_overlay(picture, measured.angle, notes));
-  } catch (const std::invalid_argument& fault) {
-    measured.overlay_fault = fault.what();
+  } catch (const std::invalid_argument& error) {
+    measured.overlay_error = error.what();
   }
 }
 
@@ -46,12 +46,12 @@ MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
     measured.angle.upper_edge = {};
     measured.angle.left.edge = {};
     measured.angle.right.edge = {};
-  } catch (const std::invalid_argument& fault) {
+  } catch (const std::invalid_argument& error) {
     measured.outcome = Outcome::bad_input;
-    measured.fault = naming_file(measured.file, fault.what());
+    measured.error = naming_file(measured.file, error.what());
   } catch (const std::exception& error) {
     measured.outcome = Outcome::internal_error;
-    measured.fault = naming_file(measured.file, error.what());
+    measured.error = naming_file(measured.file, error.what());
   }
   return measured;
 }

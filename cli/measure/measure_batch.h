@@ -7,22 +7,22 @@
 
 #include "calibrate/report/measure_report.h"
 #include "cli/measure/measure_options.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
 
 enum class Outcome {
   measured,        ///< or refused: `angle` says
-  bad_input,       ///< not read, or a box outside it: `fault` says
-  internal_error,  ///< our own fault
+  bad_input,       ///< not read, or a box outside it: `error` says
+  internal_error,  ///< our own error
 };
 
 struct MeasuredPicture {
   std::string file;
   Outcome outcome = Outcome::measured;
-  std::string fault;
+  std::string error;
   vision::ReposeAngle angle;            ///< without the outline and edge points, which are large
-  std::string overlay_fault;            ///< why there is no overlay
+  std::string overlay_error;            ///< why there is no overlay
   calibrate::report::PageJpeg overlay;  ///< where the plan keeps them
 };
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/degrees.h"
-#include "vision/status_name.h"
+#include "cli/common/degrees.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
@@ -93,7 +93,7 @@ std::string unread_line(const MeasuredPicture& picture) {
   row.add_text(picture.file);
   row.add_text(name_of(vision::MeasureStatus::refused));
   for (int field = 0; field < kUnknownFields; ++field) row.add_text("");
-  row.add_text(picture.fault);
+  row.add_text(picture.error);
   return row.line();
 }
 

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/degrees.h"
-#include "vision/status_name.h"
+#include "cli/common/degrees.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
@@ -76,7 +76,7 @@ Json picture_json(const MeasuredPicture& picture) {
             {"base_px", number(angle.base_px)},
             {"definitions", definitions_json(angle.definitions)}};
   if (picture.outcome != Outcome::measured) {
-    json["reason"] = picture.fault;
+    json["reason"] = picture.error;
     for (const char* unknown : {"window", "method", "confidence", "segmentation", "strays"}) {
       json[unknown] = nullptr;
     }

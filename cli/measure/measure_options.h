@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/measure/measure.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
 
@@ -17,12 +17,12 @@ struct MeasurePlan {
   vision::MeasureOptions options;
   int threads = 1;
 
-  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know
 };
 
 /// Reads and checks all that was typed, also whether the output can be written, so that no work is
-/// lost. All faults at once.
+/// lost. All errors at once.
 MeasurePlan plan_measure(const MeasureArguments& arguments);
 
 }  // namespace repose::cli

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/degrees.h"
-#include "cli/terminal.h"
-#include "vision/status_name.h"
+#include "cli/common/degrees.h"
+#include "cli/common/terminal.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {

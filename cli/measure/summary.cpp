@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/degrees.h"
+#include "cli/common/degrees.h"
 
 namespace repose::cli {
 namespace {
@@ -34,7 +34,7 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
       angles_rad.push_back(*picture.angle.angle_rad);
     }
   }
-  if (!angles_rad.empty()) summary.angle_rad = vision::summarise(angles_rad);
+  if (!angles_rad.empty()) summary.angle_rad = calibrate::summarise(angles_rad);
   return summary;
 }
 

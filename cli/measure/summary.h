@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/statistics/summary.h"
 #include "cli/measure/measure_batch.h"
-#include "vision/repeats.h"
 
 namespace repose::cli {
 
 /// Pictures taken as repeats of one experiment. Only those with status ok count.
 struct Summary {
-  std::optional<vision::Repeats> angle_rad;  ///< empty when none counts
+  std::optional<calibrate::Summary> angle_rad;  ///< empty when none counts
   int flagged = 0;
   int refused = 0;
   int not_read = 0;

@@ -7,17 +7,17 @@
 
 #include <fmt/format.h>
 
-#include "cli/output.h"
-#include "cli/progress.h"
+#include "cli/common/output.h"
+#include "cli/common/progress.h"
 #include "cli/render/render_json.h"
 #include "cli/render/render_options.h"
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
-#include "render/film.h"
+#include "render/film/film.h"
 #include "render/model_file.h"
 #include "render/renderer.h"
 #include "render/truth.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::cli {
 namespace {
@@ -111,8 +111,8 @@ void render_series(const RenderArguments& arguments, const RenderPlan& plan) {
 
 ExitCode run_render(const RenderArguments& arguments) {
   const RenderPlan plan = plan_render(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
   if (plan.is_series) {
     render_series(arguments, plan);
     return ExitCode::done;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cli/render/render.h"
-#include "render/camera.h"
-#include "render/style.h"
+#include "render/scene/camera.h"
+#include "render/scene/style.h"
 
 namespace repose::cli {
 
@@ -29,7 +29,7 @@ struct RenderPlan {
   render::PictureSize size;
   render::Style style;
   int turntable_frames = 0;
-  std::vector<std::string> faults;  ///< all of them; empty when it can be carried out
+  std::vector<std::string> errors;  ///< all of them; empty when it can be carried out
 };
 
 RenderPlan plan_render(const RenderArguments& arguments);

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/output.h"
+#include "cli/common/output.h"
 #include "cli/shape/shape_options.h"
 #include "cli/shape/shape_report.h"
-#include "dem/shape/clump_file.h"
+#include "dem/shape/clump/clump_file.h"
 
 namespace repose::cli {
 namespace {
@@ -28,7 +28,7 @@ std::string source_of(const ShapeArguments& arguments) {
                      arguments.tip.empty() ? "0" : arguments.tip);
 }
 
-void doubt_unit(const ShapeArguments& arguments, const dem::ClumpShape& shape) {
+void diagnostic_unit(const ShapeArguments& arguments, const dem::ClumpShape& shape) {
   if (arguments.scan.empty() || !arguments.unit.empty()) return;
   const double reach = shape.reach_m();
   if (2 * reach >= kDoubtfulLength_m) return;
@@ -61,8 +61,8 @@ void write_results(const dem::ClumpFile& clump, const ShapeArguments& arguments,
 
 ExitCode run_shape(const ShapeArguments& arguments) {
   const ShapePlan plan = plan_shape(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
 
   dem::Scan scan = grain(arguments, plan);
   dem::FilledClump filled = dem::clump_of(scan.surface, plan.fill);
@@ -70,7 +70,7 @@ ExitCode run_shape(const ShapeArguments& arguments) {
                              .repairs = std::move(scan.repairs),
                              .shape = std::move(filled.shape),
                              .errors = filled.errors};
-  doubt_unit(arguments, clump.shape);
+  diagnostic_unit(arguments, clump.shape);
   write_results(clump, arguments, plan);
   return ExitCode::done;
 }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/exit_code.h"
+#include "cli/common/exit_code.h"
 
 namespace repose::cli {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "cli/shape/shape.h"
-#include "dem/shape/calliper.h"
-#include "dem/shape/fill.h"
-#include "dem/shape/scan.h"
-#include "dem/shape/shape_export.h"
+#include "dem/shape/clump/fill.h"
+#include "dem/shape/clump/shape_export.h"
+#include "dem/shape/scan/calliper.h"
+#include "dem/shape/scan/scan.h"
 
 namespace repose::cli {
 
@@ -19,7 +19,7 @@ struct ShapePlan {
   dem::FillOptions fill;
   std::optional<double> density_kg_m3;
   dem::ShapeFormat mesh_format = dem::ShapeFormat::glb;
-  std::vector<std::string> faults;  ///< all of them; empty when it can be carried out
+  std::vector<std::string> errors;  ///< all of them; empty when it can be carried out
 };
 
 ShapePlan plan_shape(const ShapeArguments& arguments);

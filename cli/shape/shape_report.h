@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "dem/shape/clump_file.h"
+#include "dem/shape/clump/clump_file.h"
 
 namespace repose::cli {
 

@@ -11,7 +11,7 @@ namespace repose::cli {
 struct HeapPictures {
   std::vector<calibrate::HeapView> views;
   std::string overlay_file;  ///< the first view with what was measured; empty: none was asked for
-  std::string fault;         ///< why there are no views
+  std::string error;         ///< why there are no views
 };
 
 }  // namespace repose::cli

@@ -6,8 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/interrupt.h"
-#include "cli/output.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/output.h"
+#include "cli/common/terminal.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/simulate/simulate_options.h"
 #include "cli/simulate/simulate_pictures.h"
@@ -15,7 +16,6 @@
 #include "cli/simulate/simulate_table.h"
 #include "cli/simulate/simulate_values.h"
 #include "cli/simulate/simulate_warnings.h"
-#include "cli/terminal.h"
 
 namespace repose::cli {
 namespace {
@@ -48,8 +48,8 @@ ExitCode fail(const SimulatePlan& plan, const std::vector<Run>& runs) {
     std::string whose = fmt::format("seed {}: ", plan.seeds[k]);
     if (run.outcome == RunOutcome::internal_error) whose += "internal error: ";
     if (run.outcome == RunOutcome::bad_input) whose.clear();
-    const std::string line = whose + run.fault;
-    if (!run.fault.empty() && told.insert(line).second) fmt::print(stderr, "repose: {}\n", line);
+    const std::string line = whose + run.error;
+    if (!run.error.empty() && told.insert(line).second) fmt::print(stderr, "repose: {}\n", line);
   }
   fmt::print(stderr, "repose: no result; {}\n", finished_text(plan, runs));
   if (count(runs, RunOutcome::internal_error) > 0) return ExitCode::internal_error;
@@ -69,8 +69,8 @@ void write_results(const SimulatePlan& plan, const std::vector<Run>& runs) {
 
 ExitCode run_simulate(const SimulateArguments& arguments) {
   const SimulatePlan plan = plan_simulate(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/exit_code.h"
+#include "cli/common/exit_code.h"
 
 namespace repose::cli {
 
@@ -26,8 +26,8 @@ struct SimulateArguments {
 /// Exit codes: 2 for a study or options that cannot be run; 3 (nothing measurable) when a run went
 /// unstable or gave no reading: there is no result, and the mean of the other repeats would not be
 /// one; 130 when interrupted. States of repeats that were finished are whole then, result.json and
-/// --json are not written. With an --out folder the same call then goes on where it was broken off,
-/// to the same bytes (simulate_kept.h).
+/// --json are not written. With an --out folder the same call then goes on where it was
+/// interrupted, to the same bytes (simulate_saved.h).
 ExitCode run_simulate(const SimulateArguments& arguments);
 
 }  // namespace repose::cli

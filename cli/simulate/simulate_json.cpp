@@ -5,12 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/degrees.h"
+#include "base/version.h"
+#include "cli/common/degrees.h"
 #include "cli/simulate/simulate_names.h"
 #include "cli/simulate/simulate_values.h"
 #include "cli/simulate/simulate_warnings.h"
-#include "dem/study/rolling_name.h"
-#include "vision/status_name.h"
+#include "dem/contact/rolling_name.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
@@ -49,29 +50,29 @@ Json clump_json(const SimulatePlan& plan) {
   return {{"source", plan.grain.source},
           {"spheres", shape.spheres.size()},
           {"smallest_radius_mm", smallest->radius * kMillimetres},
-          {"mass_g", shape.volume_m3 * plan.bench.grain_material.density_kg_m3 * 1e3},
+          {"mass_g", shape.volume_m3 * plan.model.grain_material.density_kg_m3 * 1e3},
           {"volume_error", plan.grain.errors.volume_error},
           {"inertia_error", plan.grain.errors.inertia_error}};
 }
 
 /// All that a value belongs to but its seed and time step.
 void add_context(const SimulatePlan& plan, Json& json) {
-  const dem::Bench& bench = plan.bench;
+  const dem::Model& model = plan.model;
   json["contact_model"] = contact_model_text();
-  json["rolling_model"] = dem::name_of(bench.rolling);
-  json["rolling_definition"] = rolling_definition(bench.rolling);
-  json["stiffness_factor"] = bench.stiffness_factor;
-  json["timestep_fraction"] = bench.timestep_s ? Json(nullptr) : Json(bench.timestep_fraction);
+  json["rolling_model"] = dem::name_of(model.rolling);
+  json["rolling_definition"] = rolling_definition(model.rolling);
+  json["stiffness_factor"] = model.stiffness_factor;
+  json["timestep_fraction"] = model.timestep_s ? Json(nullptr) : Json(model.timestep_fraction);
   json["clump"] = clump_json(plan);
-  json["materials"] = {{"particle", material_json(bench.grain_material)},
-                       {"wall", material_json(bench.wall_material)}};
-  json["contact"] = {{"particle_wall", pair_json(bench.grain_wall)}};
+  json["materials"] = {{"particle", material_json(model.grain_material)},
+                       {"wall", material_json(model.wall_material)}};
+  json["contact"] = {{"particle_wall", pair_json(model.grain_wall)}};
   if (plan.experiment == dem::Experiment::heap) {
-    json["contact"]["particle_particle"] = pair_json(bench.grain_grain);
+    json["contact"]["particle_particle"] = pair_json(model.grain_grain);
   }
   json["study"] = {
       {"file", plan.study.file.string()}, {"hash", plan.study.hash}, {"settings", plan.settings}};
-  json["program"] = "repose " REPOSE_VERSION;
+  json["program"] = base::kProgram;
 }
 
 Json optional_number(const std::optional<double>& value) {
@@ -133,7 +134,7 @@ Json measured_json(const dem::Measured& measured) {
             {"sd", measured.sd ? Json(*measured.sd) : Json(nullptr)},
             {"n", measured.count ? Json(*measured.count) : Json(nullptr)}};
   if (measured.values.empty()) return json;
-  const vision::Repeats repeats = vision::summarise(measured.values);
+  const calibrate::Summary repeats = calibrate::summarise(measured.values);
   json["mean"] = repeats.mean;
   if (repeats.sd) json["sd"] = *repeats.sd;
   json["n"] = repeats.n;

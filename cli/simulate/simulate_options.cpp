@@ -10,30 +10,30 @@
 
 #include <fmt/format.h>
 
-#include "cli/number.h"
-#include "cli/output.h"
-#include "cli/simulate/simulate_kept.h"
+#include "base/whole_file.h"
+#include "cli/common/number.h"
+#include "cli/common/output.h"
 #include "cli/simulate/simulate_names.h"
-#include "io/whole_file.h"
+#include "cli/simulate/simulate_saved.h"
 
 namespace repose::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostRepeats = 100'000;
-constexpr int kMostThreads = 1024;
+constexpr int kMaxRepeats = 100'000;
+constexpr int kMaxThreads = 1024;
 constexpr int kUsualViews = 18;
-constexpr int kMostViews = 360;
+constexpr int kMaxViews = 360;
 
-/// The whole text as a number from `least` to `most`; a fault otherwise. None when it is empty.
+/// The whole text as a number from `least` to `most`; an error otherwise. None when it is empty.
 template <typename Number>
 std::optional<Number> number_of(const std::string& option, const std::string& text, Number least,
                                 Number most, const std::string& fix, SimulatePlan& plan) {
   if (text.empty()) return std::nullopt;
   const auto number = number_in<Number>(text);
   if (number && *number >= least && *number <= most) return number;
-  plan.faults.push_back(fmt::format("{} {}: must be a {}number from {} to {}. Fix: {}.", option,
+  plan.errors.push_back(fmt::format("{} {}: must be a {}number from {} to {}. Fix: {}.", option,
                                     text, std::is_integral_v<Number> ? "whole " : "", least, most,
                                     fix));
   return std::nullopt;
@@ -44,30 +44,29 @@ void read_numbers(const SimulateArguments& arguments, SimulatePlan& plan) {
       number_of<std::uint64_t>("--seed", arguments.seed, 0,
                                std::numeric_limits<std::int64_t>::max(), "--seed 1", plan)
           .value_or(plan.study.seed);
-  const int repeats =
-      number_of("--repeats", arguments.repeats, 1, kMostRepeats, "--repeats 5", plan)
-          .value_or(plan.study.replicates);
+  const int repeats = number_of("--repeats", arguments.repeats, 1, kMaxRepeats, "--repeats 5", plan)
+                          .value_or(plan.study.replicates);
   for (int k = 0; k < repeats; ++k) plan.seeds.push_back(seed + static_cast<std::uint64_t>(k));
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  plan.threads = number_of("--threads", arguments.threads, 1, kMostThreads,
+  plan.threads = number_of("--threads", arguments.threads, 1, kMaxThreads,
                            "leave it out to use all cores", plan)
                      .value_or(plan.study.threads.value_or(cores));
   constexpr double kShortest_s = 1e-9, kLongest_s = 1e6;
   plan.trajectory_s = number_of("--trajectory-s", arguments.trajectory_s, kShortest_s, kLongest_s,
                                 "--trajectory-s 0.1", plan);
   if (!arguments.trajectory_s.empty() && arguments.out_folder.empty()) {
-    plan.faults.emplace_back(
+    plan.errors.emplace_back(
         "--trajectory-s: there is no place for its frames. Fix: add --out FOLDER.");
   }
 }
 
 void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
   if (plan.experiment == dem::Experiment::heap) {
-    plan.views = number_of("--views", arguments.views, 0, kMostViews,
+    plan.views = number_of("--views", arguments.views, 0, kMaxViews,
                            "--views 18, or 1 for the XZ view alone", plan)
                      .value_or(kUsualViews);
   } else if (!arguments.views.empty()) {
-    plan.faults.emplace_back("--views: only heaps are measured in pictures. Fix: leave it out.");
+    plan.errors.emplace_back("--views: only heaps are measured in pictures. Fix: leave it out.");
   }
 }
 
@@ -76,13 +75,13 @@ void check_study(SimulatePlan& plan) {
   const std::string file = plan.study.file.string();
   const std::string_view name = names_of(plan.experiment).name;
   if (!dem::has_protocol(plan.study, plan.experiment)) {
-    plan.faults.push_back(fmt::format(
+    plan.errors.push_back(fmt::format(
         "{}: section [experiment.{}] is missing. Fix: add it to the study, or for this run "
         "--set 'experiment.{}={{}}' for the usual way of doing it.",
         file, name, name));
   }
   for (const std::string& key : dem::open_coefficients(plan.study, plan.experiment)) {
-    plan.faults.push_back(fmt::format(
+    plan.errors.push_back(fmt::format(
         "{}: {} has bounds but no value, and one run needs one. Fix: --set {}=0.3, or find it with "
         "repose calibrate.",
         file, key, key));
@@ -98,9 +97,9 @@ void check_study(SimulatePlan& plan) {
 void check_places(SimulatePlan& plan) {
   const auto check = [&plan](const std::string& option, const fs::path& file) {
     try {
-      io::check_can_write(file);
-    } catch (const std::invalid_argument& fault) {
-      plan.faults.push_back(fmt::format("{} {}", option, fault.what()));
+      base::check_can_write(file);
+    } catch (const std::invalid_argument& error) {
+      plan.errors.push_back(fmt::format("{} {}", option, error.what()));
     }
   };
   if (!plan.json_file.empty() && plan.json_file != kStandardOutput) check("--json", plan.json_file);
@@ -108,7 +107,7 @@ void check_places(SimulatePlan& plan) {
   std::error_code error;
   fs::create_directories(plan.out_folder, error);
   if (error) {
-    plan.faults.push_back(fmt::format(
+    plan.errors.push_back(fmt::format(
         "--out {}: the folder cannot be made ({}). Fix: choose a place you may write to.",
         plan.out_folder.string(), error.message()));
     return;
@@ -117,28 +116,28 @@ void check_places(SimulatePlan& plan) {
 }
 
 /// What the folder holds may be gone on with, if it is of the same run.
-void check_kept(SimulatePlan& plan) {
-  const std::string fault = fault_of_kept(plan);
-  if (!fault.empty()) {
-    plan.faults.push_back(fault);
+void check_saved(SimulatePlan& plan) {
+  const std::string error = error_of_saved(plan);
+  if (!error.empty()) {
+    plan.errors.push_back(error);
     return;
   }
-  const std::string kept = kept_text(plan);
-  if (!kept.empty()) plan.notes.push_back(kept);
+  const std::string saved = saved_text(plan);
+  if (!saved.empty()) plan.notes.push_back(saved);
 }
 
 void build_bench(SimulatePlan& plan) {
   try {
     plan.grain = dem::build_grain(plan.study.grain);
-  } catch (const std::invalid_argument& fault) {
-    add_lines(fault.what(), plan.faults);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
     return;
   }
   for (const std::string& repair : plan.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.grain.source, repair));
   }
-  plan.bench = dem::bench_for(plan.study, plan.experiment);
-  plan.bench.grain = plan.grain.shape;
+  plan.model = dem::model_for(plan.study, plan.experiment);
+  plan.model.grain = plan.grain.shape;
 }
 
 }  // namespace
@@ -150,7 +149,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   plan.json_file = arguments.json_file;
   const auto experiment = experiment_named(arguments.experiment);
   if (!experiment) {
-    plan.faults.push_back(
+    plan.errors.push_back(
         fmt::format("simulate {}: there is no such experiment. Fix: drop, tilt, roll or heap.",
                     arguments.experiment));
   }
@@ -159,15 +158,15 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   try {
     plan.study = dem::read_study(arguments.study, arguments.settings);
     is_read = true;
-  } catch (const std::invalid_argument& fault) {
-    add_lines(fault.what(), plan.faults);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
   }
   read_numbers(arguments, plan);
   if (experiment) read_views(arguments, plan);
   if (is_read && experiment) check_study(plan);
   check_places(plan);
-  if (is_read && experiment) check_kept(plan);
-  if (plan.faults.empty()) build_bench(plan);
+  if (is_read && experiment) check_saved(plan);
+  if (plan.errors.empty()) build_bench(plan);
   return plan;
 }
 

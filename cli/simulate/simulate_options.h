@@ -17,7 +17,7 @@ struct SimulatePlan {
   dem::Study study;
   std::vector<std::string> settings;
   dem::ClumpFile grain;
-  dem::Bench bench;  ///< with the grain, for this experiment
+  dem::Model model;  ///< with the grain, for this experiment
   std::vector<std::uint64_t> seeds;
   int threads = 1;
   std::filesystem::path out_folder;  ///< empty: none
@@ -25,12 +25,12 @@ struct SimulatePlan {
   std::optional<double> trajectory_s;
   int views = 0;  ///< pictures of each heap
 
-  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know
 };
 
 /// Reads and checks all that was typed, the study and the place for the results, then builds the
-/// grain, which may take seconds. All faults at once.
+/// grain, which may take seconds. All errors at once.
 SimulatePlan plan_simulate(const SimulateArguments& arguments);
 
 }  // namespace repose::cli

@@ -9,11 +9,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "cli/progress.h"
-#include "cli/simulate/simulate_kept.h"
+#include "cli/common/progress.h"
+#include "cli/simulate/simulate_saved.h"
 #include "dem/state/state_file.h"
 #include "render/renderer.h"
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 namespace repose::cli {
 namespace {
@@ -32,7 +32,7 @@ void take_all(const SimulatePlan& plan, std::vector<Run>& runs,
   tbb::task_arena arena(plan.threads);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Run& run = runs[k];
-    const calibrate::HeapSitting sitting(scene_of(run), plan.views);
+    const calibrate::HeapViewSession session(scene_of(run), plan.views);
     HeapPictures& pictures = run.pictures.emplace();
     pictures.views.resize(views);
     if (!plan.out_folder.empty()) {
@@ -41,7 +41,7 @@ void take_all(const SimulatePlan& plan, std::vector<Run>& runs,
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, views, [&](std::size_t view) {
         if (is_interrupted) return;
-        pictures.views[view] = sitting.measure(renderers.local(), static_cast<int>(view),
+        pictures.views[view] = session.measure(renderers.local(), static_cast<int>(view),
                                                view == 0 ? pictures.overlay_file : std::string());
         progress.advance();
       });
@@ -57,9 +57,9 @@ void take_pictures(const SimulatePlan& plan, std::vector<Run>& runs,
   if (plan.views == 0) return;
   try {
     take_all(plan, runs, is_interrupted);
-  } catch (const std::runtime_error& fault) {
+  } catch (const std::runtime_error& error) {
     for (Run& run : runs) {
-      run.pictures = HeapPictures{.views = {}, .overlay_file = {}, .fault = fault.what()};
+      run.pictures = HeapPictures{.views = {}, .overlay_file = {}, .error = error.what()};
     }
   }
 }

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/terminal.h"
+#include "cli/common/terminal.h"
 
 namespace repose::cli {
 namespace {
@@ -19,24 +19,24 @@ constexpr double kEnoughToTell = .01;  // of the work done, before a time left m
 
 }  // namespace
 
-ShareProgress::ShareProgress(std::size_t repeats)
+FractionProgress::FractionProgress(std::size_t repeats)
     : is_shown_(is_terminal(stderr)), shares_(repeats, 0) {}
 
-ShareProgress::~ShareProgress() {
+FractionProgress::~FractionProgress() {
   if (is_shown_) fmt::print(stderr, "{}", kClearLine);
 }
 
-void ShareProgress::tell(std::size_t repeat, double share) {
+void FractionProgress::tell(std::size_t repeat, double fraction) {
   if (!is_shown_) return;
   const std::lock_guard lock(mutex_);
-  shares_[repeat] = std::clamp(share, 0., 1.);
+  shares_[repeat] = std::clamp(fraction, 0., 1.);
   const auto now = Clock::now();
   if (now < next_show_) return;
   next_show_ = now + kBetweenShows;
   show(now);
 }
 
-void ShareProgress::show(Clock::time_point now) {
+void FractionProgress::show(Clock::time_point now) {
   const double done =
       std::accumulate(shares_.begin(), shares_.end(), 0.) / static_cast<double>(shares_.size());
   std::string line = fmt::format("{}simulated {:.0f} % of {} {}", kClearLine, 100 * done,

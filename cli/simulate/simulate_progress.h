@@ -9,17 +9,17 @@ namespace repose::cli {
 
 /// "simulated 34 % of 3 repeats, 12 s left" on standard error, only when that is a terminal. The
 /// line goes away with the object. May be told from any thread.
-class ShareProgress {
+class FractionProgress {
  public:
-  explicit ShareProgress(std::size_t repeats);
-  ~ShareProgress();
-  ShareProgress(const ShareProgress&) = delete;
-  ShareProgress& operator=(const ShareProgress&) = delete;
-  ShareProgress(ShareProgress&&) = delete;
-  ShareProgress& operator=(ShareProgress&&) = delete;
+  explicit FractionProgress(std::size_t repeats);
+  ~FractionProgress();
+  FractionProgress(const FractionProgress&) = delete;
+  FractionProgress& operator=(const FractionProgress&) = delete;
+  FractionProgress(FractionProgress&&) = delete;
+  FractionProgress& operator=(FractionProgress&&) = delete;
 
   /// How far one repeat is, 0 to 1.
-  void tell(std::size_t repeat, double share);
+  void tell(std::size_t repeat, double fraction);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -9,8 +9,8 @@
 #include <tbb/task_arena.h>
 
 #include "cli/simulate/simulate_json.h"
-#include "cli/simulate/simulate_kept.h"
 #include "cli/simulate/simulate_progress.h"
+#include "cli/simulate/simulate_saved.h"
 #include "dem/engine/unstable_run.h"
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
@@ -36,17 +36,17 @@ class Batch {
  public:
   Batch(const SimulatePlan& plan, const std::atomic<bool>& is_interrupted)
       : plan_(plan),
-        bench_(plan.bench),
+        model_(plan.model),
         is_interrupted_(is_interrupted),
         progress_(plan.seeds.size()) {}
 
   /// Of each repeat's simulation.
-  void set_threads(int threads) { bench_.threads = threads; }
+  void set_threads(int threads) { model_.threads = threads; }
 
   /// What an earlier call has finished.
-  Run kept(std::size_t index) {
+  Run saved(std::size_t index) {
     return guarded([&](Run& run) {
-      if (auto kept = kept_run(plan_, plan_.seeds[index])) run = *std::move(kept);
+      if (auto saved = saved_run(plan_, plan_.seeds[index])) run = *std::move(saved);
       if (run.outcome == RunOutcome::done) progress_.tell(index, 1);
     });
   }
@@ -67,85 +67,85 @@ class Batch {
       work(run);
     } catch (const dem::Interrupted&) {
       run.outcome = RunOutcome::not_run;
-    } catch (const dem::UnstableRun& fault) {
-      fail(run, RunOutcome::no_reading, fault);
-    } catch (const dem::NoReading& fault) {
-      fail(run, RunOutcome::no_reading, fault);
-    } catch (const std::invalid_argument& fault) {
-      fail(run, RunOutcome::bad_input, fault);
+    } catch (const dem::UnstableRun& error) {
+      fail(run, RunOutcome::no_reading, error);
+    } catch (const dem::NoReading& error) {
+      fail(run, RunOutcome::no_reading, error);
+    } catch (const std::invalid_argument& error) {
+      fail(run, RunOutcome::bad_input, error);
     } catch (const std::exception& error) {
       fail(run, RunOutcome::internal_error, error);
     }
     return run;
   }
 
-  void fail(Run& run, RunOutcome outcome, const std::exception& fault) {
+  void fail(Run& run, RunOutcome outcome, const std::exception& error) {
     run.outcome = outcome;
-    run.fault = fault.what();
+    run.error = error.what();
     has_failed_ = true;
   }
 
   void simulate(std::size_t index, Run& run) {
     const std::uint64_t seed = plan_.seeds[index];
     const std::string provenance = provenance_json(plan_, seed);
-    const std::optional<KeptRestart> kept = kept_restart(plan_, seed);
+    const std::optional<SavedRestart> saved = saved_restart(plan_, seed);
     std::optional<dem::TrajectoryWriter> trajectory;
     dem::RunRecord record;
     if (plan_.trajectory_s) {
       trajectory.emplace(place_of(plan_, seed), *plan_.trajectory_s, provenance,
-                         kept ? kept->film : dem::Film{});
+                         saved ? saved->film : dem::Film{});
       record.frame_interval_s = *plan_.trajectory_s;
       record.frame = [&](const dem::Simulation& simulation) { trajectory->add(simulation); };
     }
     const Clock::time_point start = Clock::now();
-    const auto wall_s = [&] { return (kept ? kept->wall_s : 0) + seconds_since(start); };
-    Clock::time_point kept_at = start;
+    const auto wall_s = [&] { return (saved ? saved->wall_s : 0) + seconds_since(start); };
+    Clock::time_point saved_at = start;
     if (!plan_.out_folder.empty()) {
-      record.is_restart_due = [&] { return Clock::now() - kept_at >= kBetweenRestartPoints; };
-      record.keep_restart = [&](const dem::Simulation& simulation,
+      record.is_restart_due = [&] { return Clock::now() - saved_at >= kBetweenRestartPoints; };
+      record.save_restart = [&](const dem::Simulation& simulation,
                                 const dem::HeapProgress& progress) {
-        keep_restart(plan_, seed, simulation, progress,
+        save_restart(plan_, seed, simulation, progress,
                      trajectory ? trajectory->film() : dem::Film{}, wall_s());
-        kept_at = Clock::now();
+        saved_at = Clock::now();
       };
     }
-    const auto report = [&](double share, const dem::Simulation&) {
-      progress_.tell(index, share);
+    const auto report = [&](double fraction, const dem::Simulation&) {
+      progress_.tell(index, fraction);
       return !is_broken_off();
     };
-    run.repeat = experiment(seed, kept, report, record);
+    run.repeat = experiment(seed, saved, report, record);
     run.wall_s = wall_s();
     if (!plan_.out_folder.empty() && run.repeat.state) {
       run.state_file = place_of(plan_, seed).string() + ".vtp";
       write_state(run.state_file, *run.repeat.state, provenance);
-      keep_finished(plan_, run);
+      save_finished(plan_, run);
     }
     if (plan_.views == 0) run.repeat.state.reset();
     run.outcome = RunOutcome::done;
     progress_.tell(index, 1);
   }
 
-  dem::Repeat experiment(std::uint64_t seed, const std::optional<KeptRestart>& kept,
+  dem::Repeat experiment(std::uint64_t seed, const std::optional<SavedRestart>& saved,
                          const dem::ProgressReport& report, const dem::RunRecord& record) const {
     switch (plan_.experiment) {
       case dem::Experiment::drop:
-        return run_drop(bench_, *plan_.study.drop, seed, report, record);
+        return run_drop(model_, *plan_.study.drop, seed, report, record);
       case dem::Experiment::tilt:
-        return run_tilt(bench_, *plan_.study.tilt, seed, report, record);
+        return run_tilt(model_, *plan_.study.tilt, seed, report, record);
       case dem::Experiment::roll:
-        return run_roll(bench_, *plan_.study.roll, seed, report, record);
+        return run_roll(model_, *plan_.study.roll, seed, report, record);
       case dem::Experiment::heap:
         break;
     }
-    if (kept) return resume_heap(bench_, *plan_.study.heap, seed, kept->from, report, record);
-    return run_heap(bench_, *plan_.study.heap, seed, report, record);
+    if (saved) return resume_heap(model_, *plan_.study.heap, seed, saved->from, report, record);
+    return run_heap(model_, *plan_.study.heap, seed, report, record);
   }
 
   const SimulatePlan& plan_;
-  dem::Bench bench_;
+  dem::Model model_;
   const std::atomic<bool>& is_interrupted_;
   std::atomic<bool> has_failed_{false};
-  ShareProgress progress_;
+  FractionProgress progress_;
 };
 
 }  // namespace
@@ -155,11 +155,11 @@ std::vector<Run> run_repeats(const SimulatePlan& plan, const std::atomic<bool>& 
   Batch batch(plan, is_interrupted);
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    runs[k] = batch.kept(k);
+    runs[k] = batch.saved(k);
     if (runs[k].outcome == RunOutcome::not_run) open.push_back(k);
   }
   if (batch.is_broken_off() || open.empty()) return runs;
-  keep_identity(plan);
+  save_identity(plan);
   const int each = threads_each(plan, open.size());
   batch.set_threads(each);
   tbb::task_arena arena(plan.threads / each);

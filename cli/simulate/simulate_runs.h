@@ -24,7 +24,7 @@ struct Run {
   dem::Repeat repeat;      ///< counts when done; has its state only as long as pictures need it
   std::string state_file;  ///< empty: none was asked for
   double wall_s = 0;       ///< of all calls that worked on it
-  std::string fault;       ///< why it is not done
+  std::string error;       ///< why it is not done
   std::optional<HeapPictures> pictures;  ///< none: none were asked for
 };
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "cli/common/terminal.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/simulate/simulate_names.h"
 #include "cli/simulate/simulate_values.h"
-#include "cli/terminal.h"
-#include "dem/study/rolling_name.h"
+#include "dem/contact/rolling_name.h"
 
 namespace repose::cli {
 namespace {
@@ -66,7 +66,7 @@ std::string number_or_dash(const std::optional<double>& value) {
 std::string sources_text(const std::vector<Run>& runs) {
   const auto angles = heap_angles(runs);
   if (!angles) return {};
-  const auto row = [](const char* source, const std::optional<vision::Repeats>& repeats,
+  const auto row = [](const char* source, const std::optional<calibrate::Summary>& repeats,
                       const std::optional<double>& between_views, bool is_value) {
     const auto mean = repeats ? std::optional(repeats->mean) : std::nullopt;
     const auto sd = repeats ? repeats->sd : std::nullopt;
@@ -92,7 +92,7 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs
   std::optional<double> mean = measured.mean, sd = measured.sd;
   std::optional<int> n = measured.count;
   if (!measured.values.empty()) {
-    const vision::Repeats repeats = vision::summarise(measured.values);
+    const calibrate::Summary repeats = calibrate::summarise(measured.values);
     mean = repeats.mean;
     sd = repeats.sd;
     n = repeats.n;
@@ -145,21 +145,21 @@ std::string coefficients_text(const dem::PairCoefficients& pair) {
 
 /// Coefficients mean nothing without these.
 std::string belongs_to_text(const SimulatePlan& plan, std::size_t width) {
-  const dem::Bench& bench = plan.bench;
+  const dem::Model& model = plan.model;
   const std::string step =
-      bench.timestep_s ? fmt::format("{:g} s, as asked for", *bench.timestep_s)
-                       : fmt::format("{:g} of the longest accurate one", bench.timestep_fraction);
+      model.timestep_s ? fmt::format("{:g} s, as asked for", *model.timestep_s)
+                       : fmt::format("{:g} of the longest accurate one", model.timestep_fraction);
   std::vector<std::pair<std::string, std::string>> facts = {
       {"contact model", contact_model_text()},
       {"rolling model",
-       fmt::format("{}: {}", dem::name_of(bench.rolling), rolling_definition(bench.rolling))},
-      {"clump", fmt::format("{} spheres, volume error {:.1f} % ({})", bench.grain.spheres.size(),
+       fmt::format("{}: {}", dem::name_of(model.rolling), rolling_definition(model.rolling))},
+      {"clump", fmt::format("{} spheres, volume error {:.1f} % ({})", model.grain.spheres.size(),
                             100 * plan.grain.errors.volume_error, plan.grain.source)},
-      {"stiffness factor", fmt::format("{:g}", bench.stiffness_factor)},
+      {"stiffness factor", fmt::format("{:g}", model.stiffness_factor)},
       {"time step", step},
-      {"with the wall", coefficients_text(bench.grain_wall)}};
+      {"with the wall", coefficients_text(model.grain_wall)}};
   if (plan.experiment == dem::Experiment::heap) {
-    facts.emplace_back("between grains", coefficients_text(bench.grain_grain));
+    facts.emplace_back("between grains", coefficients_text(model.grain_grain));
   }
   constexpr std::size_t kNames = 20;
   std::string text = "these values belong to\n";

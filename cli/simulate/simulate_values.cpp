@@ -28,7 +28,7 @@ std::vector<double> values_of(const std::vector<Run>& runs) {
   return values;
 }
 
-std::optional<vision::Repeats> summarise(const std::vector<Run>& runs) {
+std::optional<calibrate::Summary> summarise(const std::vector<Run>& runs) {
   const std::vector<double> values = values_of(runs);
   const auto is_number = [](double value) { return std::isfinite(value); };
   const auto is_done = [](const Run& run) { return run.outcome == RunOutcome::done; };
@@ -36,7 +36,7 @@ std::optional<vision::Repeats> summarise(const std::vector<Run>& runs) {
       !std::all_of(values.begin(), values.end(), is_number)) {
     return std::nullopt;
   }
-  vision::Repeats repeats = vision::summarise(values);
+  calibrate::Summary repeats = calibrate::summarise(values);
   if (std::equal(values.begin() + 1, values.end(), values.begin())) {
     repeats.sd.reset();
     repeats.mean_uncertainty.reset();
@@ -60,11 +60,11 @@ std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs) {
     if (seen && seen->sd) scatters.push_back(*seen->sd);
   }
   if (positions.empty()) return std::nullopt;
-  angles.positions = vision::summarise(positions);
+  angles.positions = calibrate::summarise(positions);
   angles.between_views_positions /= static_cast<double>(runs.size());
-  if (pictures.size() == runs.size()) angles.pictures = vision::summarise(pictures);
+  if (pictures.size() == runs.size()) angles.pictures = calibrate::summarise(pictures);
   if (scatters.size() == runs.size()) {
-    angles.between_views_pictures = vision::summarise(scatters).mean;
+    angles.between_views_pictures = calibrate::summarise(scatters).mean;
   }
   return angles;
 }

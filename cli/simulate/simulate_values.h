@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "calibrate/statistics/summary.h"
 #include "cli/simulate/simulate_runs.h"
-#include "vision/repeats.h"
 
 /// Which number of a repeat is its value.
 namespace repose::cli {
@@ -19,13 +19,14 @@ std::vector<double> values_of(const std::vector<Run>& runs);
 /// Mean and scatter of the repeats' values; none when one of them is no number. Values that are all
 /// the same to the last bit, as where nothing is left to chance, have a mean but no scatter: an
 /// interval of no width would claim what was not found out.
-std::optional<vision::Repeats> summarise(const std::vector<Run>& runs);
+std::optional<calibrate::Summary> summarise(const std::vector<Run>& runs);
 
 /// The two sources of a heap's angle beside each other, in degrees.
 struct HeapAngles {
-  vision::Repeats positions;                ///< over repeats
-  std::optional<vision::Repeats> pictures;  ///< over repeats; none when one of them has no number
-  double between_views_positions = 0;       ///< standard deviation, mean of the repeats
+  calibrate::Summary positions;  ///< over repeats
+  std::optional<calibrate::Summary>
+      pictures;                        ///< over repeats; none when one of them has no number
+  double between_views_positions = 0;  ///< standard deviation, mean of the repeats
   std::optional<double> between_views_pictures;  ///< as above; none with a single view
   int views = 0;                                 ///< of all repeats together
   int refused = 0;

@@ -31,7 +31,7 @@ RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
 
 /// The stretch that is fitted matters more than chance does: than the interval of the mean, or for
 /// a single heap, which has none, than its scatter between directions.
-std::optional<RunWarning> window_matters(const vision::Repeats& summary,
+std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
                                          const std::vector<Run>& runs) {
   double usual = 0, inner = 0, between_views = 0;
   for (const Run& run : runs) {
@@ -58,13 +58,13 @@ std::optional<RunWarning> window_matters(const vision::Repeats& summary,
 /// What keeps the pictures from being the value, or should be looked at in them.
 std::optional<RunWarning> pictures_tell(const std::vector<Run>& runs) {
   if (runs.empty() || !runs.front().pictures) return std::nullopt;
-  const std::string& fault = runs.front().pictures->fault;
-  if (!fault.empty()) {
+  const std::string& error = runs.front().pictures->error;
+  if (!error.empty()) {
     return RunWarning{"no_pictures",
                       {},
                       fmt::format("no pictures could be drawn: {}. The value is the angle from the "
                                   "grains' positions.",
-                                  fault)};
+                                  error)};
   }
   if (is_from_pictures(runs)) return std::nullopt;
   std::size_t most = 0, views = 0;

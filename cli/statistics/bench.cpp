@@ -1,16 +1,16 @@
 #include "cli/statistics/bench.h"
 
-#include "cli/output.h"
+#include "cli/common/output.h"
+#include "cli/common/terminal.h"
 #include "cli/statistics/bench_options.h"
 #include "cli/statistics/bench_report.h"
-#include "cli/terminal.h"
 
 namespace repose::cli {
 
 ExitCode run_bench(const BenchArguments& arguments) {
   const BenchPlan plan = plan_bench(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
 
   if (plan.json_file != kStandardOutput) {
     write_output(std::string(kStandardOutput),

@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "calibrate/table/table.h"
-#include "cli/number.h"
-#include "cli/output.h"
-#include "cli/output_places.h"
-#include "dem/study/suggestion.h"
+#include "base/closest_word.h"
+#include "calibrate/statistics/table/table.h"
+#include "cli/common/number.h"
+#include "cli/common/output.h"
+#include "cli/common/output_places.h"
 
 namespace repose::cli {
 namespace {
@@ -34,7 +34,7 @@ std::optional<calibrate::BenchTest> test_named(const std::string& name, BenchPla
   const auto& names = calibrate::kBenchTestNames;
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    plan.faults.push_back(
+    plan.errors.push_back(
         fmt::format("bench {}: there is no such test. Fix: {}.", name, fmt::join(names, ", ")));
     return std::nullopt;
   }
@@ -64,15 +64,15 @@ Settings read_settings(const BenchArguments& arguments, const std::vector<std::s
                              ? std::nullopt
                              : list_in(std::string_view(text).substr(equals + 1));
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      const std::string guess = dem::closest_word(name, names);
-      plan.faults.push_back(fmt::format(
+      const std::string guess = base::closest_word(name, names);
+      plan.errors.push_back(fmt::format(
           "--set {}: {} is not read in this test. {}Fix: {}.", text, name,
           guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), fmt::join(names, ", ")));
     } else if (!settings.emplace(name, numbers.value_or(std::vector{0.0})).second) {
-      plan.faults.push_back(
+      plan.errors.push_back(
           fmt::format("--set {}: {} is set twice. Fix: set it once.", text, name));
     } else if (!numbers) {
-      plan.faults.push_back(
+      plan.errors.push_back(
           fmt::format("--set {}: must be a number, or several with commas between them. Fix: --set "
                       "{}=1.5 or --set {}=1.5,1.7.",
                       text, name, name));
@@ -92,19 +92,19 @@ void add_typed_readings(const Settings& settings, const std::vector<std::string>
     if (found == settings.end()) {
       missing.push_back(name);
     } else if (found->second.size() != 1 && found->second.size() != count) {
-      plan.faults.push_back(
+      plan.errors.push_back(
           fmt::format("--set {}: has {} values, another reading has {}. Fix: give one for each "
                       "repeat, or a single one that holds for all.",
                       name, found->second.size(), count));
     }
   }
   if (!missing.empty()) {
-    plan.faults.push_back(fmt::format(
+    plan.errors.push_back(fmt::format(
         "bench: readings are missing: {0}. Fix: name a CSV file with these columns, or --set "
         "{1}=VALUE,VALUE,...",
         fmt::join(missing, ", "), missing.front()));
   }
-  if (!plan.faults.empty()) return;
+  if (!plan.errors.empty()) return;
   for (std::size_t i = 0; i < count; ++i) {
     calibrate::BenchReading reading{
         .place = fmt::format("reading {}", i + 1), .values = {}, .sample = {}};
@@ -146,10 +146,10 @@ void add_table_readings(const std::string& file, const Settings& settings,
     if (setting == settings.end()) {
       read.push_back(name);
     } else if (table.column(name)) {
-      plan.faults.push_back(fmt::format(
+      plan.errors.push_back(fmt::format(
           "{}: has a column {}, and --set gives it too. Fix: leave one of them out.", file, name));
     } else if (setting->second.size() != 1) {
-      plan.faults.push_back(fmt::format(
+      plan.errors.push_back(fmt::format(
           "--set {}: has {} values. Rule: beside a table, one that holds for all rows. Fix: make "
           "it a column of {}.",
           name, setting->second.size(), file));
@@ -157,8 +157,8 @@ void add_table_readings(const std::string& file, const Settings& settings,
   }
   try {
     calibrate::numbers_of(table, read);
-  } catch (const std::invalid_argument& fault) {
-    add_lines(fault.what(), plan.faults);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
   }
   for (const calibrate::TableRow& row : table.rows) {
     auto values = values_in(table, row, settings, names);
@@ -175,8 +175,8 @@ void evaluate(BenchPlan& plan) {
   if (plan.readings.empty()) return;
   try {
     plan.result = calibrate::evaluate_bench(plan.test, plan.readings);
-  } catch (const std::invalid_argument& fault) {
-    add_lines(fault.what(), plan.faults);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
   }
 }
 
@@ -193,14 +193,14 @@ BenchPlan plan_bench(const BenchArguments& arguments) {
     for (const std::string& file : arguments.files) {
       try {
         add_table_readings(file, settings, names, plan);
-      } catch (const std::invalid_argument& fault) {
-        add_lines(fault.what(), plan.faults);
+      } catch (const std::invalid_argument& error) {
+        add_lines(error.what(), plan.errors);
       }
     }
   }
   evaluate(plan);
   check_output_places({{"--json", plan.json_file}},
-                      {arguments.files.begin(), arguments.files.end()}, plan.faults);
+                      {arguments.files.begin(), arguments.files.end()}, plan.errors);
   return plan;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/bench/bench.h"
+#include "calibrate/statistics/bench/bench.h"
 #include "cli/statistics/bench.h"
 
 namespace repose::cli {
@@ -15,10 +15,10 @@ struct BenchPlan {
   calibrate::BenchResult result;
   std::string json_file;
 
-  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> errors;  ///< empty: it can be carried out
 };
 
-/// Reads all that was typed and the tables that it names, and evaluates them. All faults at once.
+/// Reads all that was typed and the tables that it names, and evaluates them. All errors at once.
 BenchPlan plan_bench(const BenchArguments& arguments);
 
 }  // namespace repose::cli

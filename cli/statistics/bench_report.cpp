@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/terminal.h"
+#include "cli/common/terminal.h"
 
 namespace repose::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "calibrate/bench/bench.h"
+#include "calibrate/statistics/bench/bench.h"
 
 namespace repose::cli {
 

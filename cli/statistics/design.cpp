@@ -1,6 +1,6 @@
 #include "cli/statistics/design.h"
 
-#include "cli/output.h"
+#include "cli/common/output.h"
 #include "cli/statistics/design_csv.h"
 #include "cli/statistics/design_options.h"
 
@@ -8,8 +8,8 @@ namespace repose::cli {
 
 ExitCode run_design(const DesignArguments& arguments) {
   const DesignPlan plan = plan_design(arguments);
-  print_lines(plan.faults);
-  if (!plan.faults.empty()) return ExitCode::bad_input;
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
   write_output(plan.out_file, design_csv(plan.design, plan.csv));
   return ExitCode::done;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "calibrate/design/design.h"
+#include "calibrate/statistics/design/design.h"
 
 namespace repose::cli {
 

@@ -13,11 +13,11 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/design/steepest_ascent.h"
-#include "calibrate/regress/run_table.h"
-#include "cli/number.h"
-#include "cli/output.h"
-#include "cli/output_places.h"
+#include "calibrate/statistics/design/steepest_ascent.h"
+#include "calibrate/statistics/regress/run_table.h"
+#include "cli/common/number.h"
+#include "cli/common/output.h"
+#include "cli/common/output_places.h"
 #include "cli/statistics/factor_options.h"
 
 namespace repose::cli {
@@ -71,7 +71,7 @@ void check_kind(const DesignArguments& arguments, DesignPlan& plan) {
   const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
                                  [&](const Kind& known) { return known.name == arguments.kind; });
   if (kind == kKinds.end()) {
-    plan.faults.push_back(fmt::format(
+    plan.errors.push_back(fmt::format(
         "design {}: there is no such design. Fix: ccd, box-behnken, lhs, sweep or ascent.",
         arguments.kind));
     return;
@@ -80,17 +80,17 @@ void check_kind(const DesignArguments& arguments, DesignPlan& plan) {
     if (std::find(kind->options.begin(), kind->options.end(), option) != kind->options.end()) {
       continue;
     }
-    plan.faults.push_back(
+    plan.errors.push_back(
         fmt::format("{}: means nothing in {}. Fix: leave it out.", option, kind->name));
   }
 }
 
-/// The whole text as a number; `otherwise` when it is empty, a fault when it is no number.
+/// The whole text as a number; `otherwise` when it is empty, an error when it is no number.
 template <typename Number>
 Number number_or(Number otherwise, const char* option, const std::string& text, DesignPlan& plan) {
   if (text.empty()) return otherwise;
   if (const auto number = number_in<Number>(text)) return *number;
-  plan.faults.push_back(fmt::format("{0} {1}: must be a {2}number. Fix: {0} 3.", option, text,
+  plan.errors.push_back(fmt::format("{0} {1}: must be a {2}number. Fix: {0} 3.", option, text,
                                     std::is_integral_v<Number> ? "whole " : ""));
   return otherwise;
 }
@@ -99,7 +99,7 @@ void check_name(const char* option, const std::string& text, const std::string& 
                 DesignPlan& plan) {
   const std::set<std::string_view> taken = {"run", "standard", "point"};
   if (!taken.contains(name) && !name.ends_with("_coded")) return;
-  plan.faults.push_back(
+  plan.errors.push_back(
       fmt::format("{} {}: {} is the name of another column of the table. Fix: choose another name.",
                   option, text, name));
 }
@@ -107,7 +107,7 @@ void check_name(const char* option, const std::string& text, const std::string& 
 std::vector<Factor> read_factors(const DesignArguments& arguments, DesignPlan& plan) {
   std::vector<Factor> factors;
   for (const std::string& text : arguments.factors) {
-    const auto factor = factor_in("--factor", text, plan.faults);
+    const auto factor = factor_in("--factor", text, plan.errors);
     if (!factor) continue;
     check_name("--factor", text, factor->name, plan);
     factors.push_back(*factor);
@@ -127,7 +127,7 @@ calibrate::CompositeOptions composite_options(const DesignArguments& arguments, 
   } else if (const auto alpha = number_in<double>(arguments.alpha)) {
     options.alpha = alpha;
   } else {
-    plan.faults.push_back(
+    plan.errors.push_back(
         fmt::format("--alpha {}: must be rotatable, orthogonal, face or a number. Fix: leave it "
                     "out for rotatable.",
                     arguments.alpha));
@@ -140,7 +140,7 @@ calibrate::Design typed_line(const DesignArguments& arguments, int runs, DesignP
   std::vector<std::string> names;
   std::vector<double> start, step;
   for (const std::string& text : arguments.starts) {
-    if (const auto named = named_number_in("--start", text, plan.faults)) {
+    if (const auto named = named_number_in("--start", text, plan.errors)) {
       check_name("--start", text, named->first, plan);
       names.push_back(named->first);
       start.push_back(named->second);
@@ -148,17 +148,17 @@ calibrate::Design typed_line(const DesignArguments& arguments, int runs, DesignP
   }
   step.resize(names.size(), 0.0);
   for (const std::string& text : arguments.steps) {
-    const auto named = named_number_in("--step", text, plan.faults);
+    const auto named = named_number_in("--step", text, plan.errors);
     if (!named) continue;
     const auto found = std::find(names.begin(), names.end(), named->first);
     if (found == names.end()) {
-      plan.faults.push_back(fmt::format("--step {}: {} has no start. Fix: add --start {}=NUMBER.",
+      plan.errors.push_back(fmt::format("--step {}: {} has no start. Fix: add --start {}=NUMBER.",
                                         text, named->first, named->first));
     } else {
       step[static_cast<std::size_t>(found - names.begin())] = named->second;
     }
   }
-  if (!plan.faults.empty()) return {};
+  if (!plan.errors.empty()) return {};
   return calibrate::line_of_runs(names, start, step, runs);
 }
 
@@ -168,9 +168,9 @@ calibrate::Design fitted_line(const DesignArguments& arguments, const std::vecto
   constexpr double kUsualStride = .5;
   const double stride = number_or(kUsualStride, "--stride", arguments.stride, plan);
   if (arguments.response.empty()) {
-    plan.faults.emplace_back("--fit: the response is not named. Fix: add --response COLUMN.");
+    plan.errors.emplace_back("--fit: the response is not named. Fix: add --response COLUMN.");
   }
-  if (!plan.faults.empty()) return {};
+  if (!plan.errors.empty()) return {};
   const calibrate::RunTable table = calibrate::runs_in(
       calibrate::read_table(arguments.fitted_table), arguments.response, {}, codings);
   const calibrate::Regression plane = calibrate::regress(table, calibrate::SurfaceModel::linear);
@@ -188,7 +188,7 @@ calibrate::Design ascent(const DesignArguments& arguments, const std::vector<Fac
   const int runs = number_or(kUsualSteps, "--runs", arguments.runs, plan);
   const bool is_typed = !arguments.starts.empty() || !arguments.steps.empty();
   if (is_typed == !arguments.fitted_table.empty()) {
-    plan.faults.emplace_back(
+    plan.errors.emplace_back(
         "ascent: the direction must be given in one way. Fix: --start and --step for each factor, "
         "or --fit TABLE.csv --response COLUMN.");
     return {};
@@ -208,7 +208,7 @@ calibrate::Design make_design(const DesignArguments& arguments, DesignPlan& plan
   const int runs =
       number_or(kRunsForEach * static_cast<int>(factors.size()), "--runs", arguments.runs, plan);
   const auto seed = number_or<std::uint64_t>(1, "--seed", arguments.seed, plan);
-  if (!plan.faults.empty()) return {};
+  if (!plan.errors.empty()) return {};
   if (arguments.kind == "ccd") return calibrate::central_composite(factors, composite);
   if (arguments.kind == "box-behnken") return calibrate::box_behnken(factors, centre);
   if (arguments.kind == "lhs") return calibrate::latin_hypercube(factors, runs, seed);
@@ -241,13 +241,13 @@ DesignPlan plan_design(const DesignArguments& arguments) {
   check_kind(arguments, plan);
   const auto order_seed =
       number_or<std::uint64_t>(1, "--random-order", arguments.random_order, plan);
-  check_output_places({{"--out", arguments.out_file}}, {arguments.fitted_table}, plan.faults);
+  check_output_places({{"--out", arguments.out_file}}, {arguments.fitted_table}, plan.errors);
   try {
     plan.design = make_design(arguments, plan);
-  } catch (const std::invalid_argument& fault) {
-    add_lines(fault.what(), plan.faults);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
   }
-  if (!plan.faults.empty()) return plan;
+  if (!plan.errors.empty()) return plan;
   if (!arguments.random_order.empty()) calibrate::randomise_order(plan.design, order_seed);
   note_negative_levels(plan);
   return plan;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/design/design.h"
+#include "calibrate/statistics/design/design.h"
 #include "cli/statistics/design.h"
 #include "cli/statistics/design_csv.h"
 
@@ -16,10 +16,10 @@ struct DesignPlan {
   std::string out_file;  ///< - without --out
 
   std::vector<std::string> notes;
-  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> errors;  ///< empty: it can be carried out
 };
 
-/// Reads and checks all that was typed, and makes the design. All faults at once.
+/// Reads and checks all that was typed, and makes the design. All errors at once.
 DesignPlan plan_design(const DesignArguments& arguments);
 
 }  // namespace repose::cli

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/number.h"
+#include "cli/common/number.h"
 
 namespace repose::cli {
 namespace {
@@ -17,7 +17,7 @@ bool is_plain_name(std::string_view name) {
 }  // namespace
 
 std::optional<calibrate::Factor> factor_in(const std::string& option, const std::string& text,
-                                           std::vector<std::string>& faults) {
+                                           std::vector<std::string>& errors) {
   const std::size_t equals = text.find('=');
   const std::size_t colon = text.find(':', equals == std::string::npos ? 0 : equals);
   if (equals != std::string::npos && colon != std::string::npos) {
@@ -29,7 +29,7 @@ std::optional<calibrate::Factor> factor_in(const std::string& option, const std:
       return calibrate::Factor{name, *low, *high};
     }
   }
-  faults.push_back(fmt::format(
+  errors.push_back(fmt::format(
       "{0} {1}: must be a name without blanks and two levels, the lower one first. Fix: "
       "{0} friction=0.1:0.3.",
       option, text));
@@ -38,14 +38,14 @@ std::optional<calibrate::Factor> factor_in(const std::string& option, const std:
 
 std::optional<std::pair<std::string, double>> named_number_in(const std::string& option,
                                                               const std::string& text,
-                                                              std::vector<std::string>& faults) {
+                                                              std::vector<std::string>& errors) {
   const std::size_t equals = text.find('=');
   if (equals != std::string::npos) {
     const auto number = number_in<double>(std::string_view(text).substr(equals + 1));
     const std::string name = text.substr(0, equals);
     if (number && is_plain_name(name)) return std::pair(name, *number);
   }
-  faults.push_back(fmt::format(
+  errors.push_back(fmt::format(
       "{0} {1}: must be a name without blanks and a number. Fix: {0} friction=0.1.", option, text));
   return std::nullopt;
 }

@@ -5,17 +5,17 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/design/factor.h"
+#include "calibrate/statistics/factor.h"
 
 namespace repose::cli {
 
-/// "NAME=MIN:MAX"; a fault when it is not.
+/// "NAME=MIN:MAX"; an error when it is not.
 std::optional<calibrate::Factor> factor_in(const std::string& option, const std::string& text,
-                                           std::vector<std::string>& faults);
+                                           std::vector<std::string>& errors);
 
-/// "NAME=NUMBER"; a fault when it is not.
+/// "NAME=NUMBER"; an error when it is not.
 std::optional<std::pair<std::string, double>> named_number_in(const std::string& option,
                                                               const std::string& text,
-                                                              std::vector<std::string>& faults);
+                                                              std::vector<std::string>& errors);
 
 }  // namespace repose::cli

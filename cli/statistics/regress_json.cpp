@@ -124,8 +124,8 @@ Json runs_json(const calibrate::Regression& fit) {
 std::string regress_json(const SurfaceReport& report) {
   const calibrate::Regression& fit = report.fit;
   Json warnings = Json::array();
-  for (const calibrate::SurfaceDoubt& doubt : report.doubts) {
-    warnings.push_back({{"code", doubt.code}, {"message", doubt.message}});
+  for (const calibrate::SurfaceDiagnostic& diagnostic : report.diagnostics) {
+    warnings.push_back({{"code", diagnostic.code}, {"message", diagnostic.message}});
   }
   const Json json{{"response", fit.response_name},
                   {"model", name_of(fit.model)},

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/regress/run_table.h"
-#include "cli/number.h"
-#include "cli/output.h"
-#include "cli/output_places.h"
+#include "calibrate/statistics/regress/run_table.h"
+#include "cli/common/number.h"
+#include "cli/common/output.h"
+#include "cli/common/output_places.h"
 #include "cli/statistics/factor_options.h"
 
 namespace repose::cli {
@@ -22,7 +22,7 @@ void read_model(const std::string& text, RegressPlan& plan) {
   } else if (text == "interaction") {
     plan.model = SurfaceModel::interaction;
   } else {
-    plan.faults.push_back(fmt::format(
+    plan.errors.push_back(fmt::format(
         "--model {}: is none that is known here. Fix: linear, interaction or quadratic.", text));
   }
 }
@@ -34,7 +34,7 @@ std::vector<std::string> names_in(const std::string& text, RegressPlan& plan) {
     const std::size_t end = std::min(text.find(',', start), text.size());
     names.push_back(text.substr(start, end - start));
     if (names.back().empty()) {
-      plan.faults.push_back(fmt::format(
+      plan.errors.push_back(fmt::format(
           "--factors {}: must be columns with commas between them. Fix: --factors e,mu.", text));
       return {};
     }
@@ -52,22 +52,22 @@ RegressPlan plan_regress(const RegressArguments& arguments) {
   const std::vector<std::string> factors = names_in(arguments.factors, plan);
   std::vector<calibrate::Factor> codings;
   for (const std::string& text : arguments.codings) {
-    if (const auto coding = factor_in("--coding", text, plan.faults)) codings.push_back(*coding);
+    if (const auto coding = factor_in("--coding", text, plan.errors)) codings.push_back(*coding);
   }
   if (!arguments.target.empty()) {
     plan.target = number_in<double>(arguments.target);
     if (!plan.target) {
-      plan.faults.push_back(
+      plan.errors.push_back(
           fmt::format("--target {}: must be a number. Fix: --target 23.4.", arguments.target));
     }
   }
-  check_output_places({{"--json", plan.json_file}}, {arguments.table}, plan.faults);
+  check_output_places({{"--json", plan.json_file}}, {arguments.table}, plan.errors);
   try {
     const calibrate::RunTable runs = calibrate::runs_in(calibrate::read_table(arguments.table),
                                                         arguments.response, factors, codings);
     plan.report = report_on(calibrate::regress(runs, plan.model), plan.target);
-  } catch (const std::invalid_argument& fault) {
-    add_lines(fault.what(), plan.faults);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
   }
   return plan;
 }

@@ -16,10 +16,10 @@ struct RegressPlan {
   std::string json_file;
   SurfaceReport report;
 
-  std::vector<std::string> faults;  ///< empty: it can be carried out
+  std::vector<std::string> errors;  ///< empty: it can be carried out
 };
 
-/// Reads all that was typed and the table that it names, and fits the surface. All faults at once.
+/// Reads all that was typed and the table that it names, and fits the surface. All errors at once.
 RegressPlan plan_regress(const RegressArguments& arguments);
 
 }  // namespace repose::cli

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/terminal.h"
+#include "cli/common/terminal.h"
 
 namespace repose::cli {
 namespace {
@@ -212,8 +212,9 @@ std::string regress_table(const SurfaceReport& report, int columns) {
   add_anova(report.fit, page);
   add_shape(report, page);
   add_target(report, page);
-  if (!report.doubts.empty()) page.add("");
-  for (const calibrate::SurfaceDoubt& doubt : report.doubts) page.add_wrapped("! ", doubt.message);
+  if (!report.diagnostics.empty()) page.add("");
+  for (const calibrate::SurfaceDiagnostic& diagnostic : report.diagnostics)
+    page.add_wrapped("! ", diagnostic.message);
   return page.text();
 }
 

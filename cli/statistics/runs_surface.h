@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "calibrate/problem.h"
+#include "calibrate/fit/problem.h"
 #include "cli/statistics/surface_report.h"
 
 namespace repose::cli {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/commands.h"
+#include "cli/common/command.h"
 
 namespace repose::cli {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/regress/surface.h"
+#include "calibrate/statistics/regress/surface.h"
 
 namespace repose::cli {
 
@@ -15,7 +15,7 @@ struct SurfaceReport {
   std::optional<calibrate::CanonicalForm> form;
   calibrate::BoxExtremes extremes;
   std::optional<calibrate::TargetSet> target;
-  std::vector<calibrate::SurfaceDoubt> doubts;
+  std::vector<calibrate::SurfaceDiagnostic> diagnostics;
 };
 
 inline SurfaceReport report_on(calibrate::Regression fit, std::optional<double> target) {
@@ -23,7 +23,7 @@ inline SurfaceReport report_on(calibrate::Regression fit, std::optional<double> 
   report.form = canonical_form(fit);
   report.extremes = extremes_in_box(fit);
   if (target) report.target = solve_target(fit, *target);
-  report.doubts = doubts_about(fit, report.form, report.extremes, report.target);
+  report.diagnostics = diagnostics_of(fit, report.form, report.extremes, report.target);
   report.fit = std::move(fit);
   return report;
 }

@@ -5,46 +5,36 @@
 
 #include <fmt/format.h>
 
+#include "base/error_list.h"
 #include "dem/contact/restitution.h"
 
 namespace repose::dem {
 namespace {
 
-/// Collects faults so that the user hears of all at once.
-class Faults {
- public:
-  void check(bool holds, const std::string& what, double value, const char* rule) {
-    if (!holds) {
-      text_ += fmt::format("{}{} is {:g}. Rule: {}.", text_.empty() ? "" : "\n", what, value, rule);
-    }
-  }
-  void throw_if_any() const {
-    if (!text_.empty()) throw std::invalid_argument(text_);
-  }
-
- private:
-  std::string text_;
-};
-
-void check(const Material& material, Faults& faults) {
-  const std::string name = "material " + material.name + ": ";
-  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
-  faults.check(positive(material.density_kg_m3), name + "density_kg_m3", material.density_kg_m3,
-               "above 0");
-  faults.check(positive(material.young_modulus_pa), name + "young_modulus_pa",
-               material.young_modulus_pa, "above 0");
-  faults.check(material.poisson_ratio >= 0 && material.poisson_ratio < .5, name + "poisson_ratio",
-               material.poisson_ratio, "0 to below .5");
+void require(base::ErrorList& errors, bool holds, const std::string& what, double value,
+             const char* rule) {
+  errors.require(holds, fmt::format("{} is {:g}. Rule: {}.", what, value, rule));
 }
 
-void check(const PairCoefficients& pair, const std::string& names, Faults& faults) {
+void check(const Material& material, base::ErrorList& errors) {
+  const std::string name = "material " + material.name + ": ";
+  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+  require(errors, positive(material.density_kg_m3), name + "density_kg_m3", material.density_kg_m3,
+          "above 0");
+  require(errors, positive(material.young_modulus_pa), name + "young_modulus_pa",
+          material.young_modulus_pa, "above 0");
+  require(errors, material.poisson_ratio >= 0 && material.poisson_ratio < .5,
+          name + "poisson_ratio", material.poisson_ratio, "0 to below .5");
+}
+
+void check(const PairCoefficients& pair, const std::string& names, base::ErrorList& errors) {
   const auto friction = [](double value) { return value >= 0 && value <= 100; };
-  faults.check(pair.restitution >= .01 && pair.restitution <= 1, names + "restitution",
-               pair.restitution, ".01 to 1");
-  faults.check(friction(pair.sliding_friction), names + "sliding_friction", pair.sliding_friction,
-               "0 or above");
-  faults.check(friction(pair.rolling_friction), names + "rolling_friction", pair.rolling_friction,
-               "0 or above");
+  require(errors, pair.restitution >= .01 && pair.restitution <= 1, names + "restitution",
+          pair.restitution, ".01 to 1");
+  require(errors, friction(pair.sliding_friction), names + "sliding_friction",
+          pair.sliding_friction, "0 or above");
+  require(errors, friction(pair.rolling_friction), names + "rolling_friction",
+          pair.rolling_friction, "0 or above");
 }
 
 ContactLaw law_of(const Material& a, const Material& b, const PairCoefficients& pair) {
@@ -76,14 +66,14 @@ ContactTable::ContactTable(std::vector<Material> materials, std::vector<PairCoef
         fmt::format("{} materials need {} pairs of coefficients; {} are given", count,
                     count * count, pairs_.size()));
   }
-  Faults faults;
-  for (const Material& material : materials_) check(material, faults);
+  base::ErrorList errors;
+  for (const Material& material : materials_) check(material, errors);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Material& a = materials_[k / count];
     const Material& b = materials_[k % count];
-    check(pairs_[k], a.name + " on " + b.name + ": ", faults);
+    check(pairs_[k], a.name + " on " + b.name + ": ", errors);
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   laws_.reserve(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     laws_.push_back(law_of(materials_[k / count], materials_[k % count], pairs_[k]));

@@ -56,7 +56,7 @@ Eigen::Matrix3d cross_matrix(const Vector& v) {
 void add_stiffness(const Bodies& bodies, std::size_t body, const Vector& point,
                    const Eigen::Matrix3d& stiffness, Matrix6& sum) {
   const Eigen::Matrix3d axes = bodies.orientation_of(body).toRotationMatrix();
-  const Vector roots = bodies.mobility[body].cwiseSqrt();
+  const Vector roots = bodies.inverse_inertia[body].cwiseSqrt();
   Eigen::Matrix<double, 3, 6> motion;  // of the point, by the scaled coordinates
   motion.leftCols<3>() = Eigen::Matrix3d::Identity() / std::sqrt(bodies.mass[body]);
   motion.rightCols<3>() =
@@ -110,7 +110,7 @@ Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTa
     const Eigen::Matrix3d axes = bodies.orientation_of(k).toRotationMatrix();
     const Vector own = axes.transpose() * bodies.angular_momentum[k];
     sum.kinetic_j += .5 * bodies.mass[k] * bodies.velocity[k].squaredNorm() +
-                     .5 * own.cwiseAbs2().dot(bodies.mobility[k]);
+                     .5 * own.cwiseAbs2().dot(bodies.inverse_inertia[k]);
     sum.potential_j -= bodies.mass[k] * gravity.dot(bodies.position[k].xyz);
   }
   for_each_touch(

@@ -9,10 +9,10 @@ void grow(Bodies& bodies) {
   bodies.presence.resize(size, 0);
   bodies.mass.resize(size, 1);
   for (std::size_t k = 0; k < 4; ++k) bodies.orientation[k].resize(size, k == 3 ? 1 : 0);
-  for (auto* field : {&bodies.mobility, &bodies.velocity, &bodies.angular_momentum}) {
+  for (auto* field : {&bodies.inverse_inertia, &bodies.velocity, &bodies.angular_momentum}) {
     field->resize(size);
   }
-  bodies.reach.resize(size, 0);
+  bodies.bounding_radius.resize(size, 0);
   bodies.position.resize(size);
   bodies.load.resize(size);
   bodies.motion.resize(size);
@@ -22,7 +22,7 @@ void set_motion(Bodies& bodies, std::size_t body) {
   bodies.motion[body] = {.velocity = {.xyz = bodies.velocity[body]},
                          .spin = {.xyz = bodies.spin_of(body), .w = bodies.mass[body]},
                          .velocity_kick = {},
-                         .spin_kick = {.w = 1 / bodies.mobility[body].maxCoeff()}};
+                         .spin_kick = {.w = 1 / bodies.inverse_inertia[body].maxCoeff()}};
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ Quaternion Bodies::orientation_of(std::size_t body) const {
 Vector Bodies::spin_of(std::size_t body) const {
   const Eigen::Matrix3d axes = orientation_of(body).toRotationMatrix();
   const Vector own = axes.transpose() * angular_momentum[body];
-  return axes * own.cwiseProduct(mobility[body]);
+  return axes * own.cwiseProduct(inverse_inertia[body]);
 }
 
 void add_body(Bodies& bodies, const Grain& grain, const GrainKind& kind, double density_kg_m3) {
@@ -54,8 +54,8 @@ void add_body(Bodies& bodies, const Grain& grain, const GrainKind& kind, double 
   bodies.material.push_back(kind.material);
   bodies.presence[k] = 1;
   bodies.mass[k] = mass;
-  bodies.reach[k] = kind.shape.reach_m();
-  bodies.mobility.set(k, moments.cwiseInverse());
+  bodies.bounding_radius[k] = kind.shape.reach_m();
+  bodies.inverse_inertia.set(k, moments.cwiseInverse());
   bodies.position[k].xyz = grain.position;
   for (std::size_t i = 0; i < 4; ++i) {
     bodies.orientation[i][k] = grain.orientation.coeffs()[static_cast<int>(i)];

@@ -48,10 +48,10 @@ struct alignas(64) BodyLoad {
 struct Bodies {
   std::vector<int> kind;
   std::vector<int> material;
-  std::vector<double> presence;  ///< 1, or 0 once a grain has left
-  std::vector<double> reach;     ///< farthest that a sphere reaches from the centre of mass
+  std::vector<double> presence;         ///< 1, or 0 once a grain has left
+  std::vector<double> bounding_radius;  ///< farthest that a sphere reaches from the centre of mass
   std::vector<double> mass;
-  VectorArray mobility;                            ///< 1 / principal moments of inertia, 1/(kg m^2)
+  VectorArray inverse_inertia;                     ///< 1 / principal moments of inertia, 1/(kg m^2)
   std::vector<Row> position;                       ///< w: 0
   std::array<std::vector<double>, 4> orientation;  ///< x, y, z, w
   VectorArray velocity;

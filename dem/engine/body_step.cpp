@@ -9,7 +9,7 @@
 namespace repose::dem {
 namespace {
 
-using Vectors = Triple<Lanes>;
+using Vectors = Vec3<Lanes>;
 
 struct Quaternions {
   Lanes x;
@@ -53,7 +53,7 @@ REPOSE_INLINE Quaternions turned_by(const Quaternions& q, const Vectors& turn) {
                          q.y + q.w * half.y + q.z * half.x - q.x * half.z,
                          q.z + q.w * half.z + q.x * half.y - q.y * half.x,
                          q.w - q.x * half.x - q.y * half.y - q.z * half.z};
-  const Lanes scale = 1 / root(r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w);
+  const Lanes scale = 1 / sqrt(r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w);
   return {r.x * scale, r.y * scale, r.z * scale, r.w * scale};
 }
 
@@ -97,24 +97,25 @@ struct SpinKick {
 };
 
 REPOSE_INLINE SpinKick kick_spin(const Vectors& old_momentum, const Axes& axes,
-                                 const Vectors& mobility, const Columns& torque,
+                                 const Vectors& inverse_inertia, const Columns& torque,
                                  double half_timestep) {
   const Vectors pushed = old_momentum + torque.xyz * Lanes(half_timestep);
   const Vectors own = axes.to_body(pushed);
   const Lanes brake = half_timestep * torque.w;
   if (!any(brake > Lanes(0))) return {pushed, own};
-  const Vectors spin = own.times(mobility);
+  const Vectors spin = own.times(inverse_inertia);
   const Lanes size2 = spin.squared_norm();
-  const Lanes size = root(size2);
+  const Lanes size = sqrt(size2);
   // The brake slows the spin by brake (axis . I^-1 axis), axis = spin / |spin|.
-  const auto stops = brake * spin.times(spin).dot(mobility) >= size2 * size;
+  const auto stops = brake * spin.times(spin).dot(inverse_inertia) >= size2 * size;
   const Vectors braked = select(stops, Vectors{}, own - spin * Lanes(brake / size));
   const auto is_braked = brake > Lanes(0);
   return {select(is_braked, axes.to_world(braked), pushed), select(is_braked, braked, own)};
 }
 
-REPOSE_INLINE Vectors spin_by(const Vectors& momentum, const Axes& axes, const Vectors& mobility) {
-  return axes.to_world(axes.to_body(momentum).times(mobility));
+REPOSE_INLINE Vectors spin_by(const Vectors& momentum, const Axes& axes,
+                              const Vectors& inverse_inertia) {
+  return axes.to_world(axes.to_body(momentum).times(inverse_inertia));
 }
 
 REPOSE_INLINE void place_spheres(Bodies& bodies, std::size_t body, const ClumpShape& shape,
@@ -138,7 +139,7 @@ REPOSE_INLINE void place_four(Bodies& bodies, std::size_t k, const std::vector<G
   }
   const std::size_t count = std::min(kLanes, bodies.size() - k);
   if (bodies.is_round) {
-    const Rows placed = rows_of(position, load(&bodies.reach[k]));
+    const Rows placed = rows_of(position, load(&bodies.bounding_radius[k]));
     for (std::size_t lane = 0; lane < count; ++lane) {
       store_row(placed.row[lane], bodies.spheres[k + lane]);
     }
@@ -172,7 +173,7 @@ REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
   const double half = timestep / 2;
   const auto is_present = load(&bodies.presence[k]) > Lanes(0);
   const Lanes mass = load(&bodies.mass[k]);
-  const Vectors mobility = load_vectors(bodies.mobility, k);
+  const Vectors inverse_inertia = load_vectors(bodies.inverse_inertia, k);
   const Vectors old_velocity = load_vectors(bodies.velocity, k);
   const Vectors old_position = load_rows(&bodies.position[k]).xyz;
   const Vectors old_momentum = load_vectors(bodies.angular_momentum, k);
@@ -184,11 +185,12 @@ REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
   const Vectors velocity = select(is_present, old_velocity + velocity_kick, old_velocity);
   const Vectors position =
       select(is_present, old_position + velocity * Lanes(timestep), old_position);
-  const SpinKick kick = kick_spin(old_momentum, axes_of(old_q), mobility, torque, half);
+  const SpinKick kick = kick_spin(old_momentum, axes_of(old_q), inverse_inertia, torque, half);
   // Seen from the body the momentum turns: dl/dt = l x omega (Euler), here by half a step.
   const Vectors middle =
-      kick.own_momentum + kick.own_momentum.cross(kick.own_momentum.times(mobility)) * Lanes(half);
-  const Quaternions moved = turned_by(old_q, middle.times(mobility) * Lanes(timestep));
+      kick.own_momentum +
+      kick.own_momentum.cross(kick.own_momentum.times(inverse_inertia)) * Lanes(half);
+  const Quaternions moved = turned_by(old_q, middle.times(inverse_inertia) * Lanes(timestep));
   const Quaternions q = {select(is_present, moved.x, old_q.x), select(is_present, moved.y, old_q.y),
                          select(is_present, moved.z, old_q.z),
                          select(is_present, moved.w, old_q.w)};
@@ -201,12 +203,13 @@ REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
   store(q.y, &bodies.orientation[1][k]);
   store(q.z, &bodies.orientation[2][k]);
   store(q.w, &bodies.orientation[3][k]);
-  const Lanes inertia = 1 / greatest(mobility.x, greatest(mobility.y, mobility.z));
+  const Lanes inertia =
+      1 / greatest(inverse_inertia.x, greatest(inverse_inertia.y, inverse_inertia.z));
   BodyMotion* motion = &bodies.motion[k];
   store_rows(velocity, Lanes{}, motion, &BodyMotion::velocity);
-  store_rows(spin_by(momentum, axes, mobility), mass, motion, &BodyMotion::spin);
+  store_rows(spin_by(momentum, axes, inverse_inertia), mass, motion, &BodyMotion::spin);
   store_rows(velocity_kick, Lanes{}, motion, &BodyMotion::velocity_kick);
-  store_rows(spin_by(momentum - old_momentum, axes, mobility), inertia, motion,
+  store_rows(spin_by(momentum - old_momentum, axes, inverse_inertia), inertia, motion,
              &BodyMotion::spin_kick);
 
   begin_loads(bodies, k, mass, gravity);
@@ -222,7 +225,7 @@ REPOSE_FOR_EACH_MACHINE void finish_four(Bodies& bodies, std::size_t k, double t
   const Columns torque = load_rows(&bodies.load[k], &BodyLoad::torque);
   const Vectors kicked = velocity + force.xyz * Lanes(half / load(&bodies.mass[k]));
   const SpinKick kick = kick_spin(momentum, axes_of(load_orientation(bodies, k)),
-                                  load_vectors(bodies.mobility, k), torque, half);
+                                  load_vectors(bodies.inverse_inertia, k), torque, half);
   store_vectors(select(is_present, kicked, velocity), bodies.velocity, k);
   store_vectors(select(is_present, kick.momentum, momentum), bodies.angular_momentum, k);
 }

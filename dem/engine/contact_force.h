@@ -34,28 +34,28 @@ REPOSE_INLINE Law<Number> law_of(const ContactLaw& law) {
 /// Two surfaces that overlap, seen from body a. Velocities are those of b's surface against a's.
 template <typename Number>
 struct Touch {
-  Triple<Number> normal;  ///< unit, from a to b
-  Number overlap = {};    ///< m, > 0
+  Vec3<Number> normal;  ///< unit, from a to b
+  Number overlap = {};  ///< m, > 0
   Number reduced_radius = {};
-  Number reduced_mass = {};      ///< of the whole bodies
-  Number damper_limit = {};      ///< see damper_limit(), N s/m
-  Triple<Number> half_velocity;  ///< half a step back: what the springs were stretched by
-  Triple<Number> velocity;       ///< now: what the dampers feel
-  Number twist = {};             ///< mean spin of both about the normal, rad/s
+  Number reduced_mass = {};    ///< of the whole bodies
+  Number damper_limit = {};    ///< see damper_limit(), N s/m
+  Vec3<Number> half_velocity;  ///< half a step back: what the springs were stretched by
+  Vec3<Number> velocity;       ///< now: what the dampers feel
+  Number twist = {};           ///< mean spin of both about the normal, rad/s
 };
 
 /// The springs, from step to step.
 template <typename Number>
 struct Springs {
-  Triple<Number> tangential;
+  Vec3<Number> tangential;
   Number radius = {};
 };
 
 /// The force on a; b gets the opposite.
 template <typename Number>
 struct ContactForce {
-  Number normal = {};    ///< size of the push, N, never negative
-  Triple<Number> total;  ///< N
+  Number normal = {};  ///< size of the push, N, never negative
+  Vec3<Number> total;  ///< N
 };
 
 /// The damper that would take all of the relative velocity in one step, shared by the `touching`
@@ -66,11 +66,11 @@ REPOSE_INLINE Number damper_limit(const Number& reduced_mass, double timestep,
   return reduced_mass / (timestep * touching);
 }
 
-/// All dampers of two bodies together are at most this share of the limit. One contact stays below
-/// it at every accepted time step; a dozen sphere pairs of two clumps that lie side by side would
-/// not. Across the contact spin counts too: 1/m_eff = 3.5/m* for spheres.
-inline constexpr double kNormalDamperShare = .8;
-inline constexpr double kTangentialDamperShare = .25;
+/// All dampers of two bodies together are at most this fraction of the limit. One contact stays
+/// below it at every accepted time step; a dozen sphere pairs of two clumps that lie side by side
+/// would not. Across the contact spin counts too: 1/m_eff = 3.5/m* for spheres.
+inline constexpr double kNormalDamperFraction = .8;
+inline constexpr double kTangentialDamperFraction = .25;
 
 /// Hertz's spring and the damper beside it in the first and in the last step of an impact, in which
 /// the surfaces travel farther than they overlap; may be below 0.
@@ -82,14 +82,14 @@ template <typename Number>
 REPOSE_INLINE Number brief_normal_force(const Touch<Number>& touch, const Law<Number>& law,
                                         const Number& travel, const Number& approach) {
   const Number top = touch.overlap + travel * .5;
-  const Number top_root = root(top);
+  const Number top_root = sqrt(top);
   const Number mean_spring = .4 * top * top * top_root / travel;  // of overlap^(3/2)
-  const Number mean_damper = .8 * top * root(top_root) / travel;  // of overlap^(1/4)
-  const Number young_root = law.reduced_young * root(touch.reduced_radius);
+  const Number mean_damper = .8 * top * sqrt(top_root) / travel;  // of overlap^(1/4)
+  const Number young_root = law.reduced_young * sqrt(touch.reduced_radius);
   const Number damper =
-      law.normal_damping * root(2 * young_root * touch.reduced_mass) * mean_damper;
+      law.normal_damping * sqrt(2 * young_root * touch.reduced_mass) * mean_damper;
   return 4.0 / 3 * young_root * mean_spring +
-         least(damper, kNormalDamperShare * touch.damper_limit) * approach;
+         least(damper, kNormalDamperFraction * touch.damper_limit) * approach;
 }
 
 /// Hertz-Mindlin without slip, Coulomb's limit, damping.
@@ -102,15 +102,15 @@ REPOSE_INLINE Number brief_normal_force(const Touch<Number>& touch, const Law<Nu
 template <typename Number>
 REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, const Law<Number>& law,
                                                  double timestep, Springs<Number>& springs) {
-  const Triple<Number>& n = touch.normal;
-  const Number a = root(touch.reduced_radius * touch.overlap);
+  const Vec3<Number>& n = touch.normal;
+  const Number a = sqrt(touch.reduced_radius * touch.overlap);
   const Number normal_stiffness = 2 * law.reduced_young * a;
   const Number tangential_stiffness = 8 * law.reduced_shear * a;
-  const Number mass_root = root(normal_stiffness * touch.reduced_mass);
+  const Number mass_root = sqrt(normal_stiffness * touch.reduced_mass);
   const Number normal_damper =
-      least(law.normal_damping * mass_root, kNormalDamperShare * touch.damper_limit);
+      least(law.normal_damping * mass_root, kNormalDamperFraction * touch.damper_limit);
   const Number tangential_damper =
-      least(law.tangential_damping * mass_root, kTangentialDamperShare * touch.damper_limit);
+      least(law.tangential_damping * mass_root, kTangentialDamperFraction * touch.damper_limit);
 
   const Number approach = -touch.velocity.dot(n);
   const Number travel = size_of(approach) * timestep;
@@ -123,17 +123,17 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   }
   force.normal = greatest(force.normal, Number{});
 
-  Triple<Number> spring = springs.tangential;
+  Vec3<Number> spring = springs.tangential;
   const Number old_size2 = spring.squared_norm();
   spring -= n * n.dot(spring);
   // Keeps its size while turning; (1 + q) / 2 is sqrt(q) to 1e-16 for the small turn of one step.
   const Number lost = old_size2 / spring.squared_norm();
   Number scale = .5 + .5 * lost;
-  if (any(lost >= Number(1.0000001))) scale = select(lost >= Number(1.0000001), root(lost), scale);
+  if (any(lost >= Number(1.0000001))) scale = select(lost >= Number(1.0000001), sqrt(lost), scale);
   scale = scale * least(a / springs.radius, Number(1));
-  const Triple<Number> carried = (spring + n.cross(spring) * (timestep * touch.twist)) * scale;
-  const Triple<Number> half_slip = touch.half_velocity - n * n.dot(touch.half_velocity);
-  const Triple<Number> stretch = half_slip * (tangential_stiffness * timestep);
+  const Vec3<Number> carried = (spring + n.cross(spring) * (timestep * touch.twist)) * scale;
+  const Vec3<Number> half_slip = touch.half_velocity - n * n.dot(touch.half_velocity);
+  const Vec3<Number> stretch = half_slip * (tangential_stiffness * timestep);
   // A spring of no size has no direction to keep.
   spring = select(spring.squared_norm() > Number(0), carried + stretch, stretch);
 
@@ -141,12 +141,12 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   const Number limit2 = limit * limit;
   const Number size2 = spring.squared_norm();
   const auto slides = size2 > limit2;
-  if (any(slides)) spring = spring * select(slides, limit / root(size2), Number(1));
+  if (any(slides)) spring = spring * select(slides, limit / sqrt(size2), Number(1));
   const Number damper = select(slides, Number(0), tangential_damper);
-  Triple<Number> tangential = spring + (touch.velocity + n * approach) * damper;
+  Vec3<Number> tangential = spring + (touch.velocity + n * approach) * damper;
   const Number total2 = tangential.squared_norm();
   const auto is_over = total2 > 1.000000000001 * limit2;  // not by mere rounding
-  if (any(is_over)) tangential = tangential * select(is_over, limit / root(total2), Number(1));
+  if (any(is_over)) tangential = tangential * select(is_over, limit / sqrt(total2), Number(1));
   springs.tangential = spring;
   springs.radius = a;
   force.total = tangential - n * force.normal;

@@ -15,7 +15,7 @@ struct PairLoad {
   Lanes force;          ///< row: on a, N; b gets the opposite
   Lanes torque_a;       ///< row: N m; w: what constant-torque rolling friction may take
   Lanes torque_b;       ///< likewise
-  double overlap = 0;   ///< deepest, as a share of the smaller sphere's radius; 0: no contact
+  double overlap = 0;   ///< deepest, as a fraction of the smaller sphere's radius; 0: no contact
   double touching = 0;  ///< how many spheres
 };
 
@@ -41,9 +41,9 @@ using FourTouching = std::array<const Touching<Other>*, kLanes>;
 /// Contacts, in lanes.
 struct Contacts {
   Touch<Lanes> touch;
-  Triple<Lanes> arm_a;  ///< from a's centre of mass to the contact
-  Triple<Lanes> arm_b;
-  Triple<Lanes> spin;  ///< of a against b
+  Vec3<Lanes> arm_a;  ///< from a's centre of mass to the contact
+  Vec3<Lanes> arm_b;
+  Vec3<Lanes> spin;  ///< of a against b
   Lanes smaller_radius;
   Lanes reduced_inertia;  ///< see Roll
   Lanes contact_inertia;
@@ -84,7 +84,7 @@ REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const Co
                      [&](std::size_t k) { return load_row(*four[k]->position_b); });
   const Columns apart =
       gather([&](std::size_t k) { return load_row(*four[k]->other) - load_row(*four[k]->sphere); });
-  const Lanes distance = root(apart.xyz.squared_norm());
+  const Lanes distance = sqrt(apart.xyz.squared_norm());
   c.touch.normal = apart.xyz * (1 / distance);
   c.touch.overlap = to_a.w + to_b.w - distance;
   c.touch.reduced_radius = reduced(to_a.w, to_b.w);
@@ -162,9 +162,9 @@ REPOSE_INLINE Law<Lanes> laws_of(const FourTouching<Other>& four) {
 
 /// The torque on a of the models that work on the relative spin.
 template <RollingModel model, typename Other>
-REPOSE_INLINE Triple<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_force,
-                                           const Law<Lanes>& law, double timestep,
-                                           const FourTouching<Other>& four, std::size_t count) {
+REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_force,
+                                         const Law<Lanes>& law, double timestep,
+                                         const FourTouching<Other>& four, std::size_t count) {
   const Roll<Lanes> roll = {.normal = c.touch.normal,
                             .spin = c.spin,
                             .normal_force = normal_force,
@@ -175,14 +175,14 @@ REPOSE_INLINE Triple<Lanes> rolling_torque(const Contacts& c, const Lanes& norma
   if constexpr (model == RollingModel::relative_constant_torque) {
     return relative_constant_torque(roll, law, timestep);
   }
-  Triple<Lanes> spring;
+  Vec3<Lanes> spring;
   for (std::size_t k = 0; k < kLanes; ++k) {
     const Vector& own = four[k]->memory->rolling;
     spring.x.set(k, own.x());
     spring.y.set(k, own.y());
     spring.z.set(k, own.z());
   }
-  const Triple<Lanes> torque = elastic_plastic_torque(roll, law, timestep, spring);
+  const Vec3<Lanes> torque = elastic_plastic_torque(roll, law, timestep, spring);
   for (std::size_t k = 0; k < count; ++k) {
     four[k]->memory->rolling = {spring.x[k], spring.y[k], spring.z[k]};
   }
@@ -199,17 +199,16 @@ REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, 
   Springs<Lanes> springs = {memory.xyz, memory.w};
   const ContactForce<Lanes> force = contact_force(c.touch, law, timestep, springs);
 
-  Triple<Lanes> torque_a = c.arm_a.cross(force.total);
-  Triple<Lanes> torque_b = -c.arm_b.cross(force.total);
+  Vec3<Lanes> torque_a = c.arm_a.cross(force.total);
+  Vec3<Lanes> torque_b = -c.arm_b.cross(force.total);
   Lanes rolling_a;
   Lanes rolling_b;
   if constexpr (model == RollingModel::constant_torque) {
     const Lanes resistance = law.rolling_friction * force.normal;
-    rolling_a = resistance * root(c.arm_a.squared_norm());
-    rolling_b = resistance * root(c.arm_b.squared_norm());
+    rolling_a = resistance * sqrt(c.arm_a.squared_norm());
+    rolling_b = resistance * sqrt(c.arm_b.squared_norm());
   } else if constexpr (model != RollingModel::none) {
-    const Triple<Lanes> rolling =
-        rolling_torque<model>(c, force.normal, law, timestep, four, count);
+    const Vec3<Lanes> rolling = rolling_torque<model>(c, force.normal, law, timestep, four, count);
     torque_a += rolling;
     torque_b -= rolling;
   }

@@ -42,9 +42,9 @@ void for_each_chunk(std::size_t size, int threads, const Body& body) {
   for_each_index((size + kChunk - 1) / kChunk, threads, chunk, 1);
 }
 
-void note_overlap(double share, int body, ContactTally& tally) {
-  if (share <= tally.deepest_overlap) return;
-  tally.deepest_overlap = share;
+void note_overlap(double fraction, int body, ContactTally& tally) {
+  if (fraction <= tally.deepest_overlap) return;
+  tally.deepest_overlap = fraction;
   tally.deepest_body = body;
 }
 

@@ -91,8 +91,8 @@ struct alignas(32) Lanes {
   }
 };
 
-REPOSE_INLINE double root(double value) { return std::sqrt(value); }
-REPOSE_INLINE Lanes root(const Lanes& values) {
+REPOSE_INLINE double sqrt(double value) { return std::sqrt(value); }
+REPOSE_INLINE Lanes sqrt(const Lanes& values) {
   Lanes roots;
   for (std::size_t lane = 0; lane < kLanes; ++lane) roots.set(lane, std::sqrt(values[lane]));
   return roots;
@@ -132,39 +132,39 @@ REPOSE_INLINE void store(const Lanes& lanes, double* to) {
 
 /// A vector of space, in each lane.
 template <typename Number>
-struct Triple {
+struct Vec3 {
   Number x = {};
   Number y = {};
   Number z = {};
 
-  REPOSE_INLINE Number dot(const Triple& v) const { return x * v.x + y * v.y + z * v.z; }
+  REPOSE_INLINE Number dot(const Vec3& v) const { return x * v.x + y * v.y + z * v.z; }
   REPOSE_INLINE Number squared_norm() const { return dot(*this); }
-  REPOSE_INLINE Triple cross(const Triple& v) const {
+  REPOSE_INLINE Vec3 cross(const Vec3& v) const {
     return {y * v.z - z * v.y, z * v.x - x * v.z, x * v.y - y * v.x};
   }
   /// Coordinate by coordinate.
-  REPOSE_INLINE Triple times(const Triple& v) const { return {x * v.x, y * v.y, z * v.z}; }
-  REPOSE_INLINE Triple operator-() const { return {-x, -y, -z}; }
-  REPOSE_INLINE Triple& operator+=(const Triple& v) { return *this = *this + v; }
-  REPOSE_INLINE Triple& operator-=(const Triple& v) { return *this = *this - v; }
+  REPOSE_INLINE Vec3 times(const Vec3& v) const { return {x * v.x, y * v.y, z * v.z}; }
+  REPOSE_INLINE Vec3 operator-() const { return {-x, -y, -z}; }
+  REPOSE_INLINE Vec3& operator+=(const Vec3& v) { return *this = *this + v; }
+  REPOSE_INLINE Vec3& operator-=(const Vec3& v) { return *this = *this - v; }
 
-  friend REPOSE_INLINE Triple operator+(const Triple& u, const Triple& v) {
+  friend REPOSE_INLINE Vec3 operator+(const Vec3& u, const Vec3& v) {
     return {u.x + v.x, u.y + v.y, u.z + v.z};
   }
-  friend REPOSE_INLINE Triple operator-(const Triple& u, const Triple& v) {
+  friend REPOSE_INLINE Vec3 operator-(const Vec3& u, const Vec3& v) {
     return {u.x - v.x, u.y - v.y, u.z - v.z};
   }
-  friend REPOSE_INLINE Triple operator*(const Triple& v, const Number& factor) {
+  friend REPOSE_INLINE Vec3 operator*(const Vec3& v, const Number& factor) {
     return {v.x * factor, v.y * factor, v.z * factor};
   }
 };
 
-inline Triple<double> triple_of(const Vector& v) { return {v.x(), v.y(), v.z()}; }
-inline Vector vector_of(const Triple<double>& v) { return {v.x, v.y, v.z}; }
+inline Vec3<double> triple_of(const Vector& v) { return {v.x(), v.y(), v.z()}; }
+inline Vector vector_of(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
 
 template <typename Mask, typename Number>
-REPOSE_INLINE Triple<Number> select(const Mask& mask, const Triple<Number>& yes,
-                                    const Triple<Number>& no) {
+REPOSE_INLINE Vec3<Number> select(const Mask& mask, const Vec3<Number>& yes,
+                                  const Vec3<Number>& no) {
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
@@ -191,7 +191,7 @@ struct Rows {
   Lanes row[kLanes];
 };
 struct Columns {
-  Triple<Lanes> xyz;
+  Vec3<Lanes> xyz;
   Lanes w;
 };
 
@@ -208,7 +208,7 @@ REPOSE_INLINE Columns columns_of(const Rows& rows) {
   const Rows columns = turned(rows);
   return {{columns.row[0], columns.row[1], columns.row[2]}, columns.row[3]};
 }
-REPOSE_INLINE Rows rows_of(const Triple<Lanes>& xyz, const Lanes& w) {
+REPOSE_INLINE Rows rows_of(const Vec3<Lanes>& xyz, const Lanes& w) {
   return turned({{xyz.x, xyz.y, xyz.z, w}});
 }
 

@@ -8,11 +8,11 @@
 namespace repose::dem {
 namespace {
 
-/// Margin of a grain at rest, as a share of its reach.
+/// Margin of a grain at rest, as a fraction of its reach.
 constexpr double kRestMargin = .002;
 /// A moving grain's margin lasts for about so many steps ...
 constexpr double kHorizonSteps = 30;
-/// ... but is at most this share of its reach.
+/// ... but is at most this fraction of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.
 constexpr std::int64_t kWallSteps = 200;
@@ -84,7 +84,7 @@ double Neighbours::moved_by_turning(const Bodies& bodies, std::size_t body) cons
   for (std::size_t i = 0; i < 4; ++i) {
     turned += bodies.orientation[i][body] * orientation_[i][body];
   }
-  return 2 * bodies.reach[body] * std::sqrt(std::max(0.0, 1 - turned * turned));
+  return 2 * bodies.bounding_radius[body] * std::sqrt(std::max(0.0, 1 - turned * turned));
 }
 
 void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double time_s,
@@ -94,13 +94,14 @@ void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double 
   margin_.resize(bodies.size());
   double farthest = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const double turning = bodies.is_round ? 0 : bodies.reach[k] * bodies.motion[k].spin.xyz.norm();
+    const double turning =
+        bodies.is_round ? 0 : bodies.bounding_radius[k] * bodies.motion[k].spin.xyz.norm();
     const double speed = bodies.velocity[k].norm() + turning;
-    margin_[k] = bodies.reach[k] *
-                 std::min(kGreatestMargin,
-                          kRestMargin + kHorizonSteps * timestep_s * speed / bodies.reach[k]);
+    margin_[k] = bodies.bounding_radius[k] *
+                 std::min(kGreatestMargin, kRestMargin + kHorizonSteps * timestep_s * speed /
+                                                             bodies.bounding_radius[k]);
     if (bodies.is_present(k)) {
-      farthest = std::max(farthest, bodies.position[k].xyz.norm() + bodies.reach[k]);
+      farthest = std::max(farthest, bodies.position[k].xyz.norm() + bodies.bounding_radius[k]);
     }
   }
   const double wall_speed = walls.greatest_speed(time_s, farthest);
@@ -118,18 +119,18 @@ void Neighbours::sort_into_cells(const Bodies& bodies) {
     ++present;
     low = low.cwiseMin(bodies.position[k].xyz);
     high = high.cwiseMax(bodies.position[k].xyz);
-    widest = std::max(widest, bodies.reach[k] + margin_[k]);
+    widest = std::max(widest, bodies.bounding_radius[k] + margin_[k]);
   }
   if (present == 0) low = high = Vector::Zero();
   corner_ = low;
   cell_size_ = std::max(2 * widest, 1e-12);
   // Stray grains far away must not make for more cells than grains.
   const Vector extent = high - low;
-  const double most_cells = 8.0 * static_cast<double>(present) + 64;
+  const double max_cells = 8.0 * static_cast<double>(present) + 64;
   const auto cells_at = [&extent](double size) {
     return ((extent.array() / size).floor() + 1).matrix().eval();
   };
-  while (cells_at(cell_size_).prod() > most_cells) cell_size_ *= 1.3;
+  while (cells_at(cell_size_).prod() > max_cells) cell_size_ *= 1.3;
   cells_ = cells_at(cell_size_).cast<int>();
 
   cell_of_.assign(bodies.size(), -1);
@@ -173,7 +174,8 @@ void Neighbours::find_near(const Bodies& bodies, int body) {
         const int other = cell_bodies_[static_cast<std::size_t>(at)];
         if (other <= body) continue;
         const auto o = static_cast<std::size_t>(other);
-        const double reach = bodies.reach[k] + margin_[k] + bodies.reach[o] + margin_[o];
+        const double reach =
+            bodies.bounding_radius[k] + margin_[k] + bodies.bounding_radius[o] + margin_[o];
         if ((bodies.position[o].xyz - bodies.position[k].xyz).squaredNorm() < reach * reach) {
           near_.push_back(other);
         }
@@ -195,7 +197,7 @@ void Neighbours::list_grains(const Bodies& bodies) {
       const auto pair = static_cast<int>(next_.grains.size());
       for (int sa = bodies.first_sphere[ka]; sa < bodies.first_sphere[ka + 1]; ++sa) {
         const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(sa)];
-        const double far = sphere_a.radius + bodies.reach[kb] + margin;
+        const double far = sphere_a.radius + bodies.bounding_radius[kb] + margin;
         if ((sphere_a.centre - bodies.position[kb].xyz).squaredNorm() > far * far) continue;
         for (int sb = bodies.first_sphere[kb]; sb < bodies.first_sphere[kb + 1]; ++sb) {
           const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(sb)];
@@ -218,7 +220,7 @@ void Neighbours::list_walls(const Bodies& bodies, const WallSet& walls) {
     const double margin = margin_[k] + wall_margin_;
     for (int wall = 0; wall < walls.size(); ++wall) {
       if (!walls.is_present(wall)) continue;
-      walls.facets_near(wall, bodies.position[k].xyz, bodies.reach[k] + margin, near_);
+      walls.facets_near(wall, bodies.position[k].xyz, bodies.bounding_radius[k] + margin, near_);
       if (near_.empty()) continue;
       const auto first = static_cast<int>(next_.facets.size());
       for (int s = bodies.first_sphere[k]; s < bodies.first_sphere[k + 1]; ++s) {

@@ -7,8 +7,8 @@ namespace repose::dem {
 /// What rolling friction needs to know of a touching pair. Body b of a wall has no inertia.
 template <typename Number>
 struct Roll {
-  Triple<Number> normal;  ///< unit, from a to b
-  Triple<Number> spin;    ///< of a against b, rad/s
+  Vec3<Number> normal;  ///< unit, from a to b
+  Vec3<Number> spin;    ///< of a against b, rad/s
   Number normal_force = {};
   Number overlap = {};
   Number reduced_radius = {};
@@ -20,13 +20,13 @@ struct Roll {
 /// (LIGGGHTS-PUBLIC manual, "rolling_friction cdt"). It never takes more spin than there is.
 /// Proved by Rolling.* in tests/dem/rolling_test.cpp.
 template <typename Number>
-REPOSE_INLINE Triple<Number> relative_constant_torque(const Roll<Number>& roll,
-                                                      const Law<Number>& law, double timestep) {
-  const Number size = root(roll.spin.squared_norm());
+REPOSE_INLINE Vec3<Number> relative_constant_torque(const Roll<Number>& roll,
+                                                    const Law<Number>& law, double timestep) {
+  const Number size = sqrt(roll.spin.squared_norm());
   const Number torque = law.rolling_friction * roll.normal_force * roll.reduced_radius;
   const Number most = .5 * roll.reduced_inertia * size / timestep;
-  const Number share = select(size > Number(0), Number(-least(torque, most) / size), Number{});
-  const Triple<Number> full = roll.spin * share;
+  const Number fraction = select(size > Number(0), Number(-least(torque, most) / size), Number{});
+  const Vec3<Number> full = roll.spin * fraction;
   return full - roll.normal * roll.normal.dot(full);
 }
 
@@ -36,22 +36,21 @@ REPOSE_INLINE Triple<Number> relative_constant_torque(const Roll<Number>& roll,
 /// tests/dem/rolling_test.cpp.
 /// @param spring  torque on a, N m, from step to step
 template <typename Number>
-REPOSE_INLINE Triple<Number> elastic_plastic_torque(const Roll<Number>& roll,
-                                                    const Law<Number>& law, double timestep,
-                                                    Triple<Number>& spring) {
+REPOSE_INLINE Vec3<Number> elastic_plastic_torque(const Roll<Number>& roll, const Law<Number>& law,
+                                                  double timestep, Vec3<Number>& spring) {
   constexpr double kDampingRatio = .3;
   const Number arm = law.rolling_friction * roll.reduced_radius;
   const Number limit = arm * roll.normal_force;
-  const Number a = root(roll.reduced_radius * roll.overlap);
+  const Number a = sqrt(roll.reduced_radius * roll.overlap);
   const Number stiffness = 2.25 * (4.0 / 3) * law.reduced_young * a * arm * arm;
-  const Triple<Number>& n = roll.normal;
-  const Triple<Number> spin = roll.spin - n * n.dot(roll.spin);
+  const Vec3<Number>& n = roll.normal;
+  const Vec3<Number> spin = roll.spin - n * n.dot(roll.spin);
   spring = spring - n * n.dot(spring) - spin * (stiffness * timestep);
   const Number size2 = spring.squared_norm();
   const auto yields = size2 >= limit * limit;
-  const Number share = select(size2 > Number(0), Number(limit / root(size2)), Number{});
-  spring = spring * select(yields, share, Number(1));
-  const Number damper = 2 * kDampingRatio * root(stiffness * roll.contact_inertia);
+  const Number fraction = select(size2 > Number(0), Number(limit / sqrt(size2)), Number{});
+  spring = spring * select(yields, fraction, Number(1));
+  const Number damper = 2 * kDampingRatio * sqrt(stiffness * roll.contact_inertia);
   return spring - spin * select(yields, Number{}, damper);
 }
 

@@ -17,22 +17,22 @@
 namespace repose::dem {
 namespace {
 
-/// Spheres overlap by less than this share of their radius in any run worth reporting.
+/// Spheres overlap by less than this fraction of their radius in any run worth reporting.
 constexpr double kDeepestOverlap = .3;
-/// Energy that may appear between two audits, as a share of what is in motion and in springs.
+/// Energy that may appear between two audits, as a fraction of what is in motion and in springs.
 constexpr double kEnergyTolerance = .05;
 
 SimulationSetup checked(SimulationSetup setup) {
-  std::string faults;
-  const auto fault = [&faults](const std::string& text) {
-    faults += (faults.empty() ? "" : "\n") + text;
+  std::string errors;
+  const auto error = [&errors](const std::string& text) {
+    errors += (errors.empty() ? "" : "\n") + text;
   };
   if (!(setup.timestep_s > 0) || !std::isfinite(setup.timestep_s)) {
-    fault(fmt::format("timestep_s is {:g}. Rule: above 0.", setup.timestep_s));
+    error(fmt::format("timestep_s is {:g}. Rule: above 0.", setup.timestep_s));
   }
-  if (setup.threads < 1) fault(fmt::format("threads is {}. Rule: 1 or more.", setup.threads));
+  if (setup.threads < 1) error(fmt::format("threads is {}. Rule: 1 or more.", setup.threads));
   if (setup.audit_steps < 1) {
-    fault(fmt::format("audit_steps is {}. Rule: 1 or more.", setup.audit_steps));
+    error(fmt::format("audit_steps is {}. Rule: 1 or more.", setup.audit_steps));
   }
   const auto is_known = [&setup](int material) {
     return material >= 0 && material < setup.contacts.size();
@@ -40,19 +40,19 @@ SimulationSetup checked(SimulationSetup setup) {
   for (std::size_t k = 0; k < setup.kinds.size(); ++k) {
     const ClumpShape& shape = setup.kinds[k].shape;
     if (!is_known(setup.kinds[k].material))
-      fault(fmt::format("grain kind {}: no such material", k));
-    if (shape.spheres.empty()) fault(fmt::format("grain kind {}: it has no spheres", k));
+      error(fmt::format("grain kind {}: no such material", k));
+    if (shape.spheres.empty()) error(fmt::format("grain kind {}: it has no spheres", k));
     if (!(shape.volume_m3 > 0) || !(shape.gyration_m2.minCoeff() > 0)) {
-      fault(fmt::format("grain kind {}: volume and moments of inertia must be above 0", k));
+      error(fmt::format("grain kind {}: volume and moments of inertia must be above 0", k));
     }
     for (const ClumpSphere& sphere : shape.spheres) {
-      if (!(sphere.radius > 0)) fault(fmt::format("grain kind {}: a radius is not above 0", k));
+      if (!(sphere.radius > 0)) error(fmt::format("grain kind {}: a radius is not above 0", k));
     }
   }
   for (std::size_t k = 0; k < setup.walls.size(); ++k) {
-    if (!is_known(setup.walls[k].material)) fault(fmt::format("wall {}: no such material", k));
+    if (!is_known(setup.walls[k].material)) error(fmt::format("wall {}: no such material", k));
   }
-  if (!faults.empty()) throw std::invalid_argument(faults);
+  if (!errors.empty()) throw std::invalid_argument(errors);
   return setup;
 }
 
@@ -137,7 +137,8 @@ void Simulation::State::audit() {
   const double made = now.sum_j() - energy_mark_j - wall_work_j;
   double falls = 0;  // what a fall by a grain's size sets free
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (bodies.is_present(k)) falls += bodies.mass[k] * setup.gravity.norm() * bodies.reach[k];
+    if (bodies.is_present(k))
+      falls += bodies.mass[k] * setup.gravity.norm() * bodies.bounding_radius[k];
   }
   if (has_energy_mark && made > kEnergyTolerance * (now.kinetic_j + now.elastic_j + falls)) {
     stop(fmt::format("{:.3g} J came from nowhere ({:.3g} J are in motion)", made, now.kinetic_j));

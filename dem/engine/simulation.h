@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dem/contact/contact_table.h"
-#include "dem/shape/clump_shape.h"
+#include "dem/shape/clump/clump_shape.h"
 #include "dem/vector.h"
 #include "dem/wall/wall.h"
 
@@ -113,7 +113,7 @@ class Simulation {
   WallMoment wall(int wall) const;
   Energies energies() const;
   std::vector<ContactState> contacts() const;
-  /// Deepest overlap at the last step, as a share of the smaller sphere's radius.
+  /// Deepest overlap at the last step, as a fraction of the smaller sphere's radius.
   double deepest_overlap() const;
   /// Largest time step that is stable for the contacts there are now, s; none without contacts.
   std::optional<double> stable_timestep_s() const;

@@ -11,12 +11,12 @@
 namespace repose::dem {
 namespace {
 
-/// Accuracy needs this share of the stable step 2 / omega: restitution then comes out within .005
-/// (Restitution.ComesOutAtEveryAcceptedTimestep), and elastic impacts make less than 1e-4 of
+/// Accuracy needs this fraction of the stable step 2 / omega: restitution then comes out within
+/// .005 (Restitution.ComesOutAtEveryAcceptedTimestep), and elastic impacts make less than 1e-4 of
 /// energy. A sphere on a wall is resolved by 48 steps an impact, two equal spheres by 42.
 /// Tangential stiffness counts whatever the friction: it is what makes the step short enough for
 /// both.
-constexpr double kAccurateShare = .07;
+constexpr double kAccurateFraction = .07;
 
 /// Deepest overlap of a Hertz contact of two masses: (15 m* v^2 / (16 E* sqrt(R*)))^(2/5).
 double impact_overlap(double reduced_mass, double reduced_young, double reduced_radius,
@@ -93,7 +93,7 @@ double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s) {
       }
     }
   }
-  return kAccurateShare * 2 / highest;
+  return kAccurateFraction * 2 / highest;
 }
 
 void check_timestep(double timestep_s, const SimulationSetup& setup, double speed_m_s) {

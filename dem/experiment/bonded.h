@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/shape/clump_shape.h"
+#include "dem/shape/clump/clump_shape.h"
 
 namespace repose::dem {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "dem/experiment/bench_setup.h"
-#include "dem/experiment/course.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_run.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
 
@@ -16,16 +16,16 @@ namespace {
 /// Steps between two reports; every step is looked at, since an impact is some 48 steps long.
 constexpr int kStepsBetweenReports = 1024;
 
-void check(const Bench& bench, const DropProtocol& protocol) {
-  Faults faults;
-  find_faults(bench, faults);
-  faults.require(std::isfinite(protocol.height_m) && protocol.height_m > 0,
+void check(const Model& model, const DropProtocol& protocol) {
+  base::ErrorList errors;
+  find_errors(model, errors);
+  errors.require(std::isfinite(protocol.height_m) && protocol.height_m > 0,
                  fmt::format("drop.height_m is {:g}. Rule: above 0. Fix: the height of the drop "
                              "test, such as 0.5.",
                              protocol.height_m));
-  faults.require(protocol.grains >= 1,
+  errors.require(protocol.grains >= 1,
                  fmt::format("drop.grains is {}. Rule: 1 or more. Fix: 10.", protocol.grains));
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 /// How one grain's bounce goes.
@@ -101,29 +101,30 @@ std::map<std::string, double> readings_of(const std::vector<Bounce>& bounces) {
 
 }  // namespace
 
-Repeat run_drop(const Bench& bench, const DropProtocol& protocol, std::uint64_t seed,
+Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {
-  check(bench, protocol);
+  check(model, protocol);
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * protocol.height_m);
-  Course course(Simulation(bench_setup(bench, bench.grain, {bench_wall(Plane{})}, speed)),
-                {report, record});
-  std::vector<Bounce> bounces = drop_grains(course.simulation(), protocol, speed, seed);
+  ExperimentRun run(Simulation(model_setup(model, model.grain, {study_wall(Plane{})}, speed)),
+                    {report, record});
+  std::vector<Bounce> bounces = drop_grains(run.simulation(), protocol, speed, seed);
   // No flight takes longer than the fall did; a grain that has not left the wall within as long
   // again and the time to topple lies still.
   const double longest_s = 2 * speed / kStandardGravity_m_s2 +
-                           4 * std::sqrt(2 * bench.grain.reach_m() / kStandardGravity_m_s2);
+                           4 * std::sqrt(2 * model.grain.reach_m() / kStandardGravity_m_s2);
   bool are_over = false;
-  for (int step = 0; !are_over && course.simulation().time_s() < longest_s; ++step) {
-    course.advance(1);
+  for (int step = 0; !are_over && run.simulation().time_s() < longest_s; ++step) {
+    run.advance(1);
     are_over = true;
     for (int k = 0; k < protocol.grains; ++k) {
       Bounce& bounce = bounces[static_cast<std::size_t>(k)];
-      if (!bounce.is_over) follow(bounce, course.simulation(), k);
+      if (!bounce.is_over) follow(bounce, run.simulation(), k);
       are_over = are_over && bounce.is_over;
     }
-    if (step % kStepsBetweenReports == 0) course.tell(course.simulation().time_s() / longest_s);
+    if (step % kStepsBetweenReports == 0)
+      run.report_progress(run.simulation().time_s() / longest_s);
   }
-  return course.finish(mean_mm(bounces, &Bounce::rise_m), seed, readings_of(bounces));
+  return run.finish(mean_mm(bounces, &Bounce::rise_m), seed, readings_of(bounces));
 }
 
 }  // namespace repose::dem

@@ -11,12 +11,12 @@
 #include "dem/contact/material.h"
 #include "dem/engine/simulation.h"
 #include "dem/experiment/heap_progress.h"
-#include "dem/shape/clump_shape.h"
+#include "dem/shape/clump/clump_shape.h"
 
 namespace repose::dem {
 
 /// What all four experiments share: grain, materials, coefficients, and how to compute.
-struct Bench {
+struct Model {
   ClumpShape grain;
   Material grain_material;
   Material wall_material;
@@ -26,7 +26,7 @@ struct Bench {
   /// Both Young's moduli are multiplied by this: 1 is the real material. Softening shortens runs
   /// and changes results: stated with each.
   double stiffness_factor = 1;
-  /// Time step as a share of the longest that is accurate; see time_step.h.
+  /// Time step as a fraction of the longest that is accurate; see time_step.h.
   double timestep_fraction = 1;
   /// Instead of the engine's choice, s. Refused when it is not safe.
   std::optional<double> timestep_s;
@@ -118,7 +118,7 @@ struct Repeat {
 };
 
 /// Hears now and then how far a run is (0 ... 1); returns false to break it off.
-using ProgressReport = std::function<bool(double share, const Simulation&)>;
+using ProgressReport = std::function<bool(double fraction, const Simulation&)>;
 
 /// What a run hands out on its way, beside its reports; each may be left out.
 struct RunRecord {
@@ -128,8 +128,8 @@ struct RunRecord {
   double frame_interval_s = 0;
   /// Heaps only, the others take seconds: is handed what resume_heap() needs, whenever
   /// `is_restart_due` says so, which is asked every some million grain steps, and when the run is
-  /// broken off.
-  std::function<void(const Simulation&, const HeapProgress&)> keep_restart;
+  /// interrupted.
+  std::function<void(const Simulation&, const HeapProgress&)> save_restart;
   std::function<bool()> is_restart_due;
 };
 
@@ -146,20 +146,20 @@ class NoReading : public std::runtime_error {
 };
 
 // Each runs one repeat. The same seed gives the same bytes at any number of threads. They throw
-// std::invalid_argument for a protocol that cannot be run (every fault at once), UnstableRun for a
+// std::invalid_argument for a protocol that cannot be run (every error at once), UnstableRun for a
 // run that went wrong, NoReading and Interrupted as said there.
-Repeat run_drop(const Bench& bench, const DropProtocol& protocol, std::uint64_t seed,
+Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_tilt(const Bench& bench, const TiltProtocol& protocol, std::uint64_t seed,
+Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t seed,
+Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
+Repeat run_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
 
-/// Goes on with a heap that was broken off, to the same bytes as one that was not. `from` must be
+/// Goes on with a heap that was interrupted, to the same bytes as one that was not. `from` must be
 /// of the same bench, protocol and seed, which is not checked.
-Repeat resume_heap(const Bench& bench, const HeapProtocol& protocol, std::uint64_t seed,
+Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
                    const HeapRestart& from, const ProgressReport& report = {},
                    const RunRecord& record = {});
 

@@ -72,8 +72,8 @@ FlankLine robust_line(const std::vector<double>& flank, const Window& window) {
     const double reach = kCutoff * kMadToSigma * *middle;
     if (reach <= 0) break;  // most points lie on the line
     for (std::size_t k = 0; k < off.size(); ++k) {
-      const double share = std::min(1.0, off[k] / reach);
-      weight[k] = (1 - share * share) * (1 - share * share);
+      const double fraction = std::min(1.0, off[k] / reach);
+      weight[k] = (1 - fraction * fraction) * (1 - fraction * fraction);
     }
     line = weighted_line(flank, window, weight);
   }

@@ -10,20 +10,20 @@
 
 #include <fmt/format.h>
 
-#include "dem/experiment/bench_setup.h"
 #include "dem/experiment/heap_settling.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
 
 namespace repose::dem {
 namespace {
 
-/// Share of the course that filling is taken to be.
-constexpr double kFillShare = .35;
+/// Share of the run that filling is taken to be.
+constexpr double kFillFraction = .35;
 /// Places tried for each layer: more would find few.
 constexpr int kTriesPerLayer = 400;
 /// Filling only makes a random packing: it may take steps twice as long as what is measured.
-constexpr double kFillTimestepShare = 2;
+constexpr double kFillTimestepFraction = 2;
 /// How far the rain is taken to have fallen, in reaches of a grain.
 constexpr double kFall = 4;
 /// How far grains are heaped over the rim before they are levelled, in reaches of a grain.
@@ -39,12 +39,12 @@ double fastest_m_s(double reach_m) { return std::sqrt(2) * rain_speed_m_s(reach_
 Wall plate_of(const HeapProtocol& protocol) {
   const double half = .5 * protocol.plate_m;
   const double half_thickness = .5 * protocol.plate_thickness_m;
-  return bench_wall(Box{.half_size = {half, half, half_thickness}},
+  return study_wall(Box{.half_size = {half, half, half_thickness}},
                     {.position = {0, 0, -half_thickness}});
 }
 
 Wall tube_of(const HeapProtocol& protocol, double height_m) {
-  return bench_wall(Tube{.inner_radius = .5 * protocol.tube_diameter_m,
+  return study_wall(Tube{.inner_radius = .5 * protocol.tube_diameter_m,
                          .thickness = protocol.tube_thickness_m,
                          .height = height_m});
 }
@@ -65,34 +65,34 @@ class Rain {
   Rain(const HeapProtocol& protocol, double reach_m, std::uint64_t seed, std::uint64_t draws)
       : protocol_(protocol), reach_m_(reach_m), random_(seed, draws) {}
 
-  void fill(Course& course);
+  void fill(ExperimentRun& run);
 
  private:
   int left(const Simulation& simulation) const {
     return protocol_.grains ? *protocol_.grains - simulation.grain_count()
                             : std::numeric_limits<int>::max();
   }
-  void rain_up_to(Course& course, double height_m);
-  void add_layer(Course& course, double height_m);
+  void rain_up_to(ExperimentRun& run, double height_m);
+  void add_layer(ExperimentRun& run, double height_m);
 
   const HeapProtocol& protocol_;
   double reach_m_;
   Random random_;
 };
 
-double highest_point_m(const Course& course) {
+double highest_point_m(const ExperimentRun& run) {
   double highest = 0;
-  for (int k = 0; k < course.simulation().grain_count(); ++k) {
-    highest = std::max(highest, highest_m(course.shape(), course.simulation().grain(k)));
+  for (int k = 0; k < run.simulation().grain_count(); ++k) {
+    highest = std::max(highest, highest_m(run.shape(), run.simulation().grain(k)));
   }
   return highest;
 }
 
 /// Adds grains at random places, no nearer to each other or the tube than they can reach.
-void Rain::add_layer(Course& course, double height_m) {
+void Rain::add_layer(ExperimentRun& run, double height_m) {
   const double room = .5 * protocol_.tube_diameter_m - reach_m_;
   std::vector<Vector> taken;
-  for (int k = 0; k < kTriesPerLayer && left(course.simulation()) > 0; ++k) {
+  for (int k = 0; k < kTriesPerLayer && left(run.simulation()) > 0; ++k) {
     const double radius = room * std::sqrt(random_.uniform());
     const double turn = 2 * std::numbers::pi * random_.uniform();
     const Vector place(radius * std::cos(turn), radius * std::sin(turn), height_m);
@@ -101,36 +101,36 @@ void Rain::add_layer(Course& course, double height_m) {
     });
     if (!is_free) continue;
     taken.push_back(place);
-    course.simulation().add({.position = place,
-                             .orientation = random_.orientation(),
-                             .velocity = {0, 0, -rain_speed_m_s(reach_m_)}});
+    run.simulation().add({.position = place,
+                          .orientation = random_.orientation(),
+                          .velocity = {0, 0, -rain_speed_m_s(reach_m_)}});
   }
-  course.progress().random_draws = random_.draws();
+  run.progress().random_draws = random_.draws();
 }
 
 /// A layer at a time goes in just above the last one, which by then has fallen by its own height
 /// or lies on the grains below.
-void Rain::rain_up_to(Course& course, double height_m) {
-  const std::int64_t steps = course.steps_of(2 * reach_m_ / rain_speed_m_s(reach_m_));
-  for (double highest = highest_point_m(course);
-       highest < height_m && left(course.simulation()) > 0; highest = highest_point_m(course)) {
-    add_layer(course, highest + 1.01 * reach_m_);
-    course.advance(steps);
-    course.tell(kFillShare * highest / height_m);
+void Rain::rain_up_to(ExperimentRun& run, double height_m) {
+  const std::int64_t steps = run.steps_of(2 * reach_m_ / rain_speed_m_s(reach_m_));
+  for (double highest = highest_point_m(run); highest < height_m && left(run.simulation()) > 0;
+       highest = highest_point_m(run)) {
+    add_layer(run, highest + 1.01 * reach_m_);
+    run.advance(steps);
+    run.report_progress(kFillFraction * highest / height_m);
   }
 }
 
-void Rain::fill(Course& course) {
-  HeapStage& stage = course.progress().stage;
+void Rain::fill(ExperimentRun& run) {
+  HeapStage& stage = run.progress().stage;
   do {
     if (stage == HeapStage::rain) {
-      rain_up_to(course, protocol_.tube_height_m + kHeaped * reach_m_);
-      begin_settling(course, HeapStage::settle_in_tube);
+      rain_up_to(run, protocol_.tube_height_m + kHeaped * reach_m_);
+      begin_settling(run, HeapStage::settle_in_tube);
     }
-    settle(course, kFillShare);
+    settle(run, kFillFraction);
     stage = HeapStage::rain;
-  } while (left(course.simulation()) > 0 &&
-           above_rim(course.simulation(), protocol_.tube_height_m).empty());
+  } while (left(run.simulation()) > 0 &&
+           above_rim(run.simulation(), protocol_.tube_height_m).empty());
 }
 
 /// The grains up to the rim, and their contacts but those with the tube above it.
@@ -153,17 +153,18 @@ Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
 
 }  // namespace
 
-Course empty_tube(const Bench& bench, const HeapProtocol& protocol, const Watch& watch) {
-  const double reach = bench.grain.reach_m();
+ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
+                         const Observers& observers) {
+  const double reach = model.grain.reach_m();
   const double tall = protocol.tube_height_m + 10 * kHeaped * reach;
-  return {Simulation(bench_setup(bench, bench.grain, {plate_of(protocol), tube_of(protocol, tall)},
-                                 fastest_m_s(reach), kFillTimestepShare)),
-          watch};
+  return {Simulation(model_setup(model, model.grain, {plate_of(protocol), tube_of(protocol, tall)},
+                                 fastest_m_s(reach), kFillTimestepFraction)),
+          observers};
 }
 
-Course fill_tube(Course filling, const Bench& bench, const HeapProtocol& protocol,
-                 std::uint64_t seed) {
-  const double reach = bench.grain.reach_m();
+ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
+                        std::uint64_t seed) {
+  const double reach = model.grain.reach_m();
   Rain(protocol, reach, seed, filling.progress().random_draws).fill(filling);
   const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
   if (protocol.grains && !protocol.may_be_fewer && over > 0) {
@@ -172,13 +173,13 @@ Course fill_tube(Course filling, const Bench& bench, const HeapProtocol& protoco
         "or wider tube, or leave the number out to fill it.",
         *protocol.grains, static_cast<std::size_t>(filling.simulation().grain_count()) - over));
   }
-  SimulationSetup setup = bench_setup(
-      bench, bench.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
+  SimulationSetup setup = model_setup(
+      model, model.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
       fastest_m_s(reach));
   // Grains that fall off the plate are gone once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),
-          filling.watch(),
+          filling.observers(),
           {.work = filling.progress().work}};
 }
 

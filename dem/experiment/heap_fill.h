@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/experiment/course.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_run.h"
 
 namespace repose::dem {
 
@@ -10,14 +10,15 @@ inline constexpr int kHeapPlate = 0;
 inline constexpr int kHeapTube = 1;
 
 /// The tube on its plate, made taller to be heaped over, and empty.
-Course empty_tube(const Bench& bench, const HeapProtocol& protocol, const Watch& watch);
+ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
+                         const Observers& observers);
 
 /// The tube, full of grains at rest, its time set back to 0.
 ///
 /// The grains rain in layers, each a little above what is there: places and poses are random. What
-/// lies above the rim in the end is taken off. `filling` is empty, or was broken off while it was
+/// lies above the rim in the end is taken off. `filling` is empty, or was interrupted while it was
 /// filled. Throws std::invalid_argument when `protocol.grains` are more than fit.
-Course fill_tube(Course filling, const Bench& bench, const HeapProtocol& protocol,
-                 std::uint64_t seed);
+ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
+                        std::uint64_t seed);
 
 }  // namespace repose::dem

@@ -35,7 +35,7 @@ struct HeapProgress {
   double start_m = 0;              ///< how high they lay then
 };
 
-/// A heap experiment broken off on its way.
+/// A heap experiment interrupted on its way.
 struct HeapRestart {
   SimulationSetup setup;
   Checkpoint checkpoint;

@@ -11,22 +11,22 @@ constexpr double kLongestSettling_s = 5;
 
 }  // namespace
 
-void begin_settling(Course& course, HeapStage stage) {
-  HeapProgress& progress = course.progress();
+void begin_settling(ExperimentRun& run, HeapStage stage) {
+  HeapProgress& progress = run.progress();
   progress.stage = stage;
   progress.rest = {};
-  progress.until_s = course.simulation().time_s() + kLongestSettling_s;
+  progress.until_s = run.simulation().time_s() + kLongestSettling_s;
 }
 
-bool settle(Course& course, double share) {
-  HeapProgress& progress = course.progress();
-  RestTest rest(course.simulation().setup(), progress.rest);
-  const std::int64_t steps = course.steps_of(rest.interval_s());
-  while (!rest.is_at_rest(course.simulation())) {
-    if (course.simulation().time_s() > progress.until_s) return false;
+bool settle(ExperimentRun& run, double fraction) {
+  HeapProgress& progress = run.progress();
+  RestTest rest(run.simulation().setup(), progress.rest);
+  const std::int64_t steps = run.steps_of(rest.interval_s());
+  while (!rest.is_at_rest(run.simulation())) {
+    if (run.simulation().time_s() > progress.until_s) return false;
     progress.rest = rest.memory();
-    course.advance(steps);
-    course.tell(share);
+    run.advance(steps);
+    run.report_progress(fraction);
   }
   return true;
 }

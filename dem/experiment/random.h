@@ -1,30 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <random>
-
+#include "base/random.h"
 #include "dem/vector.h"
 
 namespace repose::dem {
 
-/// Random numbers that are the same everywhere: the standard fixes the engine, and the mapping is
-/// ours (that of std::uniform_real_distribution is not fixed).
-class Random {
+/// Random numbers that are the same everywhere, and random rotations.
+class Random : public base::Random {
  public:
-  /// `draws`: of one that this one goes on from.
-  explicit Random(std::uint64_t seed, std::uint64_t draws = 0) : engine_(seed), draws_(draws) {
-    engine_.discard(draws);
-  }
-
-  /// Numbers drawn so far.
-  std::uint64_t draws() const { return draws_; }
-
-  /// 0 <= u < 1, 53 bits.
-  double uniform() {
-    ++draws_;
-    return static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double between(double low, double high) { return low + (high - low) * uniform(); }
+  using base::Random::Random;
 
   /// Uniform over all rotations.
   ///
@@ -32,10 +16,6 @@ class Random {
   /// evenly over the unit sphere in four dimensions. Proved by Random.* in
   /// tests/dem/experiment_random_test.cpp.
   Quaternion orientation();
-
- private:
-  std::mt19937_64 engine_;
-  std::uint64_t draws_ = 0;
 };
 
 }  // namespace repose::dem

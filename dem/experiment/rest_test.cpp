@@ -7,8 +7,8 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kEnergyShare = 1e-6;
-constexpr double kMotionShare = 1e-3;
+constexpr double kEnergyFraction = 1e-6;
+constexpr double kMotionFraction = 1e-3;
 constexpr double kWindowFalls = 2;
 
 /// Kinetic energy by mass.
@@ -37,7 +37,7 @@ bool RestTest::is_at_rest(const Simulation& simulation) {
     centres.push_back(grain.position);
   }
   const auto count = static_cast<double>(centres.size());
-  const bool is_quiet = energy <= count * kEnergyShare * gravity_m_s2_ * reach_m_;
+  const bool is_quiet = energy <= count * kEnergyFraction * gravity_m_s2_ * reach_m_;
   if (!is_quiet || memory_.before.size() != centres.size()) {
     memory_.before = std::move(centres);
     memory_.since_s = simulation.time_s();
@@ -49,7 +49,7 @@ bool RestTest::is_at_rest(const Simulation& simulation) {
     moved += (centres[k] - memory_.before[k]).squaredNorm();
   memory_.before = std::move(centres);
   memory_.since_s = simulation.time_s();
-  return moved <= count * kMotionShare * kMotionShare * reach_m_ * reach_m_;
+  return moved <= count * kMotionFraction * kMotionFraction * reach_m_ * reach_m_;
 }
 
 }  // namespace repose::dem

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "dem/experiment/bench_setup.h"
-#include "dem/experiment/course.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_run.h"
 #include "dem/experiment/incline.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
@@ -14,19 +14,19 @@ namespace {
 
 constexpr double kLongestRun_s = 60;
 
-void check(const Bench& bench, const RollProtocol& protocol) {
-  Faults faults;
-  find_faults(bench, faults);
-  faults.require(protocol.incline_deg > 0 && protocol.incline_deg < 90,
+void check(const Model& model, const RollProtocol& protocol) {
+  base::ErrorList errors;
+  find_errors(model, errors);
+  errors.require(protocol.incline_deg > 0 && protocol.incline_deg < 90,
                  fmt::format("roll.incline_deg is {:g}. Rule: above 0, below 90. Fix: the slope of "
                              "the bench, such as 20.",
                              protocol.incline_deg));
-  faults.require(
+  errors.require(
       std::isfinite(protocol.release_m) && protocol.release_m > 0,
       fmt::format("roll.release_m is {:g}. Rule: above 0. Fix: the distance of the grain "
                   "from the foot of the incline, such as 0.15.",
                   protocol.release_m));
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 /// A flat without end, and on it a box whose upper face meets it at the foot, without a step.
@@ -35,47 +35,47 @@ std::vector<Wall> walls_of(const RollProtocol& protocol, const Incline& slope, d
   const double thickness = 4 * reach_m;
   const double width = 20 * (protocol.release_m + reach_m);
   const Vector centre = -.5 * length * slope.down - .5 * thickness * slope.normal;
-  return {bench_wall(Plane{}), bench_wall(Box{.half_size = .5 * Vector(length, width, thickness)},
+  return {study_wall(Plane{}), study_wall(Box{.half_size = .5 * Vector(length, width, thickness)},
                                           {.position = centre, .orientation = slope.orientation})};
 }
 
-void roll_to_rest(Course& course) {
-  RestTest rest(course.simulation().setup());
-  const std::int64_t steps = course.steps_of(rest.interval_s());
-  while (!rest.is_at_rest(course.simulation())) {
-    if (course.simulation().time_s() > kLongestRun_s) {
+void roll_to_rest(ExperimentRun& run) {
+  RestTest rest(run.simulation().setup());
+  const std::int64_t steps = run.steps_of(rest.interval_s());
+  while (!rest.is_at_rest(run.simulation())) {
+    if (run.simulation().time_s() > kLongestRun_s) {
       throw NoReading(fmt::format(
           "roll: the grain still moves after {:g} s, {:.2f} m from the foot. Fix: a rolling "
           "friction above 0; grains of several spheres may do without.",
-          kLongestRun_s, course.simulation().grain(0).position.x()));
+          kLongestRun_s, run.simulation().grain(0).position.x()));
     }
-    course.advance(steps);
-    course.tell(course.simulation().time_s() / kLongestRun_s);
+    run.advance(steps);
+    run.report_progress(run.simulation().time_s() / kLongestRun_s);
   }
 }
 
 }  // namespace
 
-Repeat run_roll(const Bench& bench, const RollProtocol& protocol, std::uint64_t seed,
+Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {
-  check(bench, protocol);
+  check(model, protocol);
   const Incline slope = incline_of(protocol);
-  const double reach = bench.grain.reach_m();
+  const double reach = model.grain.reach_m();
   // No part of the grain meets a wall faster than by a free fall from where it is let go.
   const double speed =
       std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
-  Course course(
-      Simulation(bench_setup(bench, bench.grain, walls_of(protocol, slope, reach), speed)),
+  ExperimentRun run(
+      Simulation(model_setup(model, model.grain, walls_of(protocol, slope, reach), speed)),
       {report, record});
-  course.simulation().add(released(bench.grain, protocol, seed));
-  roll_to_rest(course);
-  const Vector end = course.simulation().grain(0).position;
+  run.simulation().add(released(model.grain, protocol, seed));
+  roll_to_rest(run);
+  const Vector end = run.simulation().grain(0).position;
   const bool stopped_on_incline = end.x() < 0;
   const double along = stopped_on_incline ? end.dot(slope.down) : end.x();
-  return course.finish(1e3 * along, seed,
-                       {{"lateral_mm", 1e3 * end.y()},
-                        {"stopped_on_incline", stopped_on_incline ? 1 : 0},
-                        {"time_s", course.simulation().time_s()}});
+  return run.finish(1e3 * along, seed,
+                    {{"lateral_mm", 1e3 * end.y()},
+                     {"stopped_on_incline", stopped_on_incline ? 1 : 0},
+                     {"time_s", run.simulation().time_s()}});
 }
 
 }  // namespace repose::dem

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "dem/experiment/faults.h"
+#include "base/error_list.h"
 #include "dem/experiment/flank_line.h"
 
 namespace repose::dem {
@@ -29,10 +29,10 @@ struct Silhouette {
 };
 
 void check(const std::vector<ClumpSphere>& spheres, const SurfaceOptions& options) {
-  Faults faults;
-  faults.require(options.views >= 1,
+  base::ErrorList errors;
+  errors.require(options.views >= 1,
                  fmt::format("views is {}. Rule: 1 or more. Fix: 18.", options.views));
-  faults.require(
+  errors.require(
       options.window_from >= 0 && options.window_from < options.window_to && options.window_to <= 1,
       fmt::format("the window is {:g} to {:g} of the height. Rule: 0 <= from < to <= 1. "
                   "Fix: 0.2 to 0.8.",
@@ -41,8 +41,8 @@ void check(const std::vector<ClumpSphere>& spheres, const SurfaceOptions& option
   for (const ClumpSphere& sphere : spheres) {
     is_above = is_above || sphere.centre.z() + sphere.radius > 0;
   }
-  faults.require(is_above, "there is no heap: no sphere reaches above the ground");
-  faults.throw_if_any();
+  errors.require(is_above, "there is no heap: no sphere reaches above the ground");
+  errors.throw_if_any();
 }
 
 double mean_radius(const std::vector<ClumpSphere>& spheres) {

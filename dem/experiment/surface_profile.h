@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dem/shape/clump_shape.h"
+#include "dem/shape/clump/clump_shape.h"
 
 namespace repose::dem {
 

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "dem/experiment/bench_setup.h"
 #include "dem/experiment/bonded.h"
-#include "dem/experiment/course.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_run.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
 
@@ -23,29 +23,29 @@ constexpr double kSteepest_deg = 89;
 constexpr double kFastest_deg_s = 10;
 /// How far short of sliding or tipping the plate begins.
 constexpr double kLead_deg = 3;
-/// Slip that the onset is read from, as shares of the grain's reach: from well above the springs'
-/// stretch to where the plate has turned by less than a degree or so.
-constexpr double kLeastSlip = .002;
-constexpr double kMostSlip = .1;
+/// Slip that the onset is read from, as fractions of the grain's reach: from well above the
+/// springs' stretch to where the plate has turned by less than a degree or so.
+constexpr double kMinSlip = .002;
+constexpr double kMaxSlip = .1;
 constexpr double kReportedSlip_m = .5e-3;
 /// A body that has turned by this much against the plate tips or rolls.
 constexpr double kTipped_deg = 5;
 constexpr double kLongestSettling_s = 2;
 
-void check(const Bench& bench, const TiltProtocol& protocol) {
-  Faults faults;
-  find_faults(bench, faults);
-  faults.require(protocol.bonded >= 1,
+void check(const Model& model, const TiltProtocol& protocol) {
+  base::ErrorList errors;
+  find_errors(model, errors);
+  errors.require(protocol.bonded >= 1,
                  fmt::format("tilt.bonded is {}. Rule: 1 or more. Fix: 2.", protocol.bonded));
-  faults.require(protocol.rate_deg_s > 0 && protocol.rate_deg_s <= kFastest_deg_s,
+  errors.require(protocol.rate_deg_s > 0 && protocol.rate_deg_s <= kFastest_deg_s,
                  fmt::format("tilt.rate_deg_s is {:g}. Rule: above 0, at most {:g}: faster, the "
                              "plate's own motion throws the grains. Fix: the rate of the bench, "
                              "such as 2.",
                              protocol.rate_deg_s, kFastest_deg_s));
-  faults.require(protocol.start_deg >= 0 && protocol.start_deg < kSteepest_deg,
+  errors.require(protocol.start_deg >= 0 && protocol.start_deg < kSteepest_deg,
                  fmt::format("tilt.start_deg is {:g}. Rule: 0 or more, below {:g}. Fix: 0.",
                              protocol.start_deg, kSteepest_deg));
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 /// Slope at which a lying body tips over the lowest of its spheres farthest down the slope (+x).
@@ -110,18 +110,18 @@ double onset_deg(const Slide& slide) {
 }
 
 /// Lays the body on the plate at its first angle and waits until it rests there.
-void settle(Course& course, double begin_deg) {
-  RestTest rest(course.simulation().setup());
-  const std::int64_t steps = course.steps_of(rest.interval_s());
-  while (!rest.is_at_rest(course.simulation())) {
-    if (course.simulation().time_s() > kLongestSettling_s) {
+void settle(ExperimentRun& run, double begin_deg) {
+  RestTest rest(run.simulation().setup());
+  const std::int64_t steps = run.steps_of(rest.interval_s());
+  while (!rest.is_at_rest(run.simulation())) {
+    if (run.simulation().time_s() > kLongestSettling_s) {
       throw NoReading(
           fmt::format("tilt: the body does not lie still on the plate at {:.2f} degrees "
                       "in {:g} s: it rolls, or it slides from the start. Fix: bond 2 "
                       "grains or more, and begin at 0 degrees.",
                       begin_deg, kLongestSettling_s));
     }
-    course.advance(steps);
+    run.advance(steps);
   }
 }
 
@@ -129,22 +129,22 @@ void settle(Course& course, double begin_deg) {
 /// onset_deg() on a level plate.
 double look_interval_s(const ClumpShape& grain, double rate_deg_s) {
   const double jerk_m_s3 = kStandardGravity_m_s2 * rate_deg_s * kDegree;
-  return .01 * std::cbrt(6 * kMostSlip * grain.reach_m() / jerk_m_s3);
+  return .01 * std::cbrt(6 * kMaxSlip * grain.reach_m() / jerk_m_s3);
 }
 
 /// Turns the plate until the body has slipped far enough.
-Slide slide_off(Course& course, const ClumpShape& grain, double begin_deg, double rate_deg_s) {
-  Simulation& simulation = course.simulation();
+Slide slide_off(ExperimentRun& run, const ClumpShape& grain, double begin_deg, double rate_deg_s) {
+  Simulation& simulation = run.simulation();
   const double begin_s = simulation.time_s();
   const OnPlate before = on_plate(simulation);
   simulation.set_motions(kPlate,
                          {{.spin = rate_deg_s * kDegree * Vector::UnitY(), .start_s = begin_s}});
-  const double least = kLeastSlip * grain.reach_m();
-  const double most = kMostSlip * grain.reach_m();
-  const std::int64_t steps = course.steps_of(look_interval_s(grain, rate_deg_s));
+  const double least = kMinSlip * grain.reach_m();
+  const double most = kMaxSlip * grain.reach_m();
+  const std::int64_t steps = run.steps_of(look_interval_s(grain, rate_deg_s));
   Slide slide;
   for (double slip = 0; slip <= std::max(most, kReportedSlip_m);) {
-    course.advance(steps);
+    run.advance(steps);
     const double angle = begin_deg + rate_deg_s * (simulation.time_s() - begin_s);
     const OnPlate now = on_plate(simulation);
     slip = now.down_slope_m - before.down_slope_m;
@@ -163,32 +163,32 @@ Slide slide_off(Course& course, const ClumpShape& grain, double begin_deg, doubl
       throw NoReading(
           fmt::format("tilt: the body did not slide up to {:g} degrees", kSteepest_deg));
     }
-    course.tell(angle / kSteepest_deg);
+    run.report_progress(angle / kSteepest_deg);
   }
   return slide;
 }
 
 }  // namespace
 
-Repeat run_tilt(const Bench& bench, const TiltProtocol& protocol, std::uint64_t seed,
+Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {
-  check(bench, protocol);
-  const ClumpShape body = bonded_shape(bench.grain, protocol.bonded);
-  const Quaternion lying = lying_pose(bench.grain);
+  check(model, protocol);
+  const ClumpShape body = bonded_shape(model.grain, protocol.bonded);
+  const Quaternion lying = lying_pose(model.grain);
   const double hold_deg =
-      std::min(std::atan(bench.grain_wall.sliding_friction) / kDegree, tipping_deg(body, lying));
+      std::min(std::atan(model.grain_wall.sliding_friction) / kDegree, tipping_deg(body, lying));
   const double begin_deg = std::max(protocol.start_deg, hold_deg - kLead_deg);
   // The body meets the plate no faster than by a fall through a hundredth of its reach.
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * .01 * body.reach_m());
-  const Wall plate = bench_wall(Plane{}, {.orientation = slope(begin_deg)});
-  Course course(Simulation(bench_setup(bench, body, {plate}, speed)), {report, record});
+  const Wall plate = study_wall(Plane{}, {.orientation = slope(begin_deg)});
+  ExperimentRun run(Simulation(model_setup(model, body, {plate}, speed)), {report, record});
   const Vector normal = slope(begin_deg) * Vector::UnitZ();
   const Quaternion orientation = slope(begin_deg) * lying;
-  course.simulation().add(
+  run.simulation().add(
       {.position = normal * reach_towards(body, orientation, -normal), .orientation = orientation});
-  settle(course, begin_deg);
-  const Slide slide = slide_off(course, bench.grain, begin_deg, protocol.rate_deg_s);
-  return course.finish(
+  settle(run, begin_deg);
+  const Slide slide = slide_off(run, model.grain, begin_deg, protocol.rate_deg_s);
+  return run.finish(
       onset_deg(slide), seed,
       {{"half_mm_slip_deg", slide.reported_deg.value_or(0)}, {"begin_deg", begin_deg}});
 }

@@ -61,7 +61,7 @@ int take_index(IntegerStream& integers, std::size_t end);
 /// All values must have been used. @throws std::invalid_argument
 void check_end(bool is_at_end, const std::string& name);
 
-/// Finds arrays by name; every fault names the array. Throws std::invalid_argument.
+/// Finds arrays by name; every error names the array. Throws std::invalid_argument.
 class ArrayReader {
  public:
   explicit ArrayReader(const std::vector<VtkArray>& arrays, std::string prefix = {})

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dem/study/rolling_name.h"
+#include "dem/contact/rolling_name.h"
 
 namespace repose::dem {
 namespace {

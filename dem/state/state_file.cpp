@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "base/whole_file.h"
 #include "dem/state/checkpoint_arrays.h"
 #include "dem/state/setup_arrays.h"
 #include "dem/state/vtk_file.h"
-#include "io/whole_file.h"
 
 namespace repose::dem {
 namespace {
@@ -55,7 +55,7 @@ std::string state_text(const Simulation& simulation, const std::string& provenan
 
 void write_state(const fs::path& file, const Simulation& simulation,
                  const std::string& provenance_json) {
-  io::write_whole_file(file, state_text(simulation, provenance_json));
+  base::write_whole_file(file, state_text(simulation, provenance_json));
 }
 
 SavedState read_state(const fs::path& file) {
@@ -69,9 +69,9 @@ SavedState read_state(const fs::path& file) {
     return {.setup = std::move(setup),
             .checkpoint = std::move(checkpoint),
             .provenance_json = provenance.empty() ? "" : provenance.front()};
-  } catch (const std::invalid_argument& fault) {
+  } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: no state that repose can go on from: {}. Fix: {}",
-                                            file.string(), fault.what(), kFix));
+                                            file.string(), error.what(), kFix));
   }
 }
 

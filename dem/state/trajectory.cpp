@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "base/whole_file.h"
 #include "dem/state/state_file.h"
-#include "io/whole_file.h"
 
 namespace repose::dem {
 namespace {
@@ -56,7 +56,7 @@ void TrajectoryWriter::write_collection() const {
     text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", film_.times_s[k],
                         frame_name(k + 1));
   }
-  io::write_whole_file(folder_ / "trajectory.pvd", text + "</Collection>\n</VTKFile>\n");
+  base::write_whole_file(folder_ / "trajectory.pvd", text + "</Collection>\n</VTKFile>\n");
 }
 
 std::vector<TrajectoryFrame> read_trajectory(const fs::path& file) {

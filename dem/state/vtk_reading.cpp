@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include "dem/state/base64.h"
+#include "base/base64.h"
 #include "dem/state/vtk_file.h"
 
 namespace repose::dem {
@@ -110,7 +110,7 @@ class Parser {
   }
 
   VtkArray::Values values(const pugi::xml_node& element, const std::string& name) const {
-    const auto bytes = bytes_of_base64(element.child_value());
+    const auto bytes = base::bytes_of_base64(element.child_value());
     std::uint64_t promised = 0;
     if (!bytes || bytes->size() < sizeof promised) {
       refuse(file_, fmt::format("array {} is no base64, or cut short", name));

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "dem/state/base64.h"
+#include "base/base64.h"
 #include "dem/state/vtk_file.h"
 
 namespace repose::dem {
@@ -53,7 +53,7 @@ std::string array_element(const VtkArray& array, bool is_field) {
   return fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">{}"
       "</DataArray>\n",
-      type_name(array.values), array.name, array.components, tuples, base64_of(all));
+      type_name(array.values), array.name, array.components, tuples, base::base64_of(all));
 }
 
 std::string elements(const std::vector<VtkArray>& arrays, bool is_field) {

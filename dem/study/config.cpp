@@ -98,13 +98,13 @@ void lay_over(ConfigValue& below, const ConfigValue& above) {
   }
 }
 
-ConfigValue parsed(const SourceText& source, const std::string& fix, StudyFaults& faults) {
+ConfigValue parsed(const SourceText& source, const std::string& fix, StudyErrors& errors) {
   try {
     return converted(toml::parse(std::string_view(source.text())), {}, source);
   } catch (const toml::parse_error& error) {
     ConfigValue nothing;
     nothing.place = source.place(error.source());
-    faults.add(nothing.place, std::string(error.description()),
+    errors.add(nothing.place, std::string(error.description()),
                "the text must be TOML (https://toml.io)", fix);
     return nothing;
   }
@@ -120,14 +120,14 @@ const ConfigValue* ConfigValue::find(const std::string& key) const {
 }
 
 ConfigValue parse_config(const std::string& file, const std::string& text,
-                         const std::vector<std::string>& settings, StudyFaults& faults) {
-  ConfigValue config = parsed({text, {.file = file}}, "correct this line", faults);
+                         const std::vector<std::string>& settings, StudyErrors& errors) {
+  ConfigValue config = parsed({text, {.file = file}}, "correct this line", errors);
   for (std::size_t k = 0; k < settings.size(); ++k) {
     const Place place{.file = "--set", .setting = static_cast<int>(k) + 1};
     const std::string fix =
         "write " + settings[k] +
         " as key.path=value, text in quotes of its own: --set 'particle.scan=\"nut.stl\"'";
-    lay_over(config, parsed({settings[k], place}, fix, faults));
+    lay_over(config, parsed({settings[k], place}, fix, errors));
   }
   return config;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dem/study/study_faults.h"
+#include "dem/study/study_errors.h"
 
 namespace repose::dem {
 
@@ -27,8 +27,8 @@ struct ConfigValue {
 };
 
 /// Parses a file's text and lays the settings ("key.path=value") over it, one after the other: a
-/// value replaces, "[section]" keys are added. What is no TOML becomes a fault.
+/// value replaces, "[section]" keys are added. What is no TOML becomes an error.
 ConfigValue parse_config(const std::string& file, const std::string& text,
-                         const std::vector<std::string>& settings, StudyFaults& faults);
+                         const std::vector<std::string>& settings, StudyErrors& errors);
 
 }  // namespace repose::dem

@@ -12,7 +12,7 @@ std::string text_of(const CalliperSizes& sizes) {
   constexpr double kMillimetres = 1e3;
   return fmt::format("calliper sizes {:g} x {:g} x {:g} mm, tip {:g}",
                      sizes.length_m * kMillimetres, sizes.width_m * kMillimetres,
-                     sizes.thickness_m * kMillimetres, sizes.tip_share);
+                     sizes.thickness_m * kMillimetres, sizes.tip_fraction);
 }
 
 ClumpFile filled(const Mesh& surface, const FillOptions& options) {

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "dem/shape/calliper.h"
-#include "dem/shape/clump_file.h"
-#include "dem/shape/fill.h"
-#include "dem/shape/scan.h"
+#include "dem/shape/clump/clump_file.h"
+#include "dem/shape/clump/fill.h"
+#include "dem/shape/scan/calliper.h"
+#include "dem/shape/scan/scan.h"
 
 namespace repose::dem {
 

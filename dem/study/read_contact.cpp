@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "dem/study/rolling_name.h"
+#include "dem/contact/rolling_name.h"
 
 namespace repose::dem {
 namespace {
@@ -19,7 +19,7 @@ void read_known(Section& bounds, Coefficient& coefficient) {
   coefficient.known_mean = bounds.number("mean", from_to(0, kMost), "mean = 0.3");
   coefficient.known_sd = bounds.number("sd", above(0, kMost), "sd = 0.05");
   if (bounds.has("mean") != bounds.has("sd")) {
-    bounds.faults().add(bounds.place(),
+    bounds.errors().add(bounds.place(),
                         fmt::format("{} has {}", bounds.path(),
                                     bounds.has("mean") ? "a mean and no sd" : "an sd and no mean"),
                         "what is known beforehand is a mean and its standard deviation",
@@ -34,7 +34,7 @@ void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
   const auto max = bounds.number("max", range, example);
   for (const char* key : {"min", "max"}) {
     if (bounds.has(key)) continue;
-    bounds.faults().add(bounds.place(), fmt::format("{}.{} is missing", bounds.path(), key),
+    bounds.errors().add(bounds.place(), fmt::format("{}.{} is missing", bounds.path(), key),
                         "both bounds, or a number", "for example " + example);
   }
   read_known(bounds, coefficient);
@@ -43,7 +43,7 @@ void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
   coefficient.min = *min;
   coefficient.max = *max;
   const auto wrong = [&](const char* rule, const char* fix) {
-    bounds.faults().add(bounds.place(), fmt::format("{} = {}", bounds.path(), whole.shown), rule,
+    bounds.errors().add(bounds.place(), fmt::format("{} = {}", bounds.path(), whole.shown), rule,
                         fix);
   };
   if (*min >= *max) wrong("min below max", "swap them, or give one number");
@@ -78,7 +78,7 @@ Coefficient read_coefficient(Section& pair, const std::string& key, const Range&
 /// A pair that is missing is told once, not key by key.
 CoefficientSet read_pair(Section& contact, const std::string& key) {
   if (contact.exists() && !contact.has(key)) {
-    contact.faults().add(
+    contact.errors().add(
         contact.place(), fmt::format("section [{}] is missing", contact.full(key)),
         "every pair has its coefficients, known or to be found",
         fmt::format("add [{}] with restitution, sliding_friction and rolling_friction, each a "
@@ -113,7 +113,7 @@ void read_rolling_model(Section& contact, Study& study) {
     contact.wrong(*contact.value("rolling_model"), "one of " + names,
                   "for example rolling_model = \"constant_torque\"");
   }
-  study.bench.rolling = model.value_or(study.bench.rolling);
+  study.model.rolling = model.value_or(study.model.rolling);
 }
 
 }  // namespace
@@ -122,8 +122,8 @@ void read_contact(Section contact, Study& study) {
   read_rolling_model(contact, study);
   study.particle_wall = read_pair(contact, "particle_wall");
   study.particle_particle = read_pair(contact, "particle_particle");
-  study.bench.grain_wall = values_of(study.particle_wall);
-  study.bench.grain_grain = values_of(study.particle_particle);
+  study.model.grain_wall = values_of(study.particle_wall);
+  study.model.grain_grain = values_of(study.particle_particle);
   contact.refuse_others();
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMetres_mm = 1e-3;
 constexpr double kLongest_mm = 1e5;
-constexpr int kMostGrains = 10'000'000;
+constexpr int kMaxGrains = 10'000'000;
 
 /// Writes what a key says over the usual value, if it says something.
 void set_number(Section& section, const std::string& key, const Range& range,
@@ -48,7 +48,7 @@ void check_ways(Section& measured) {
   int ways = 0;
   for (const char* way : {"values", "mean", "pictures"}) ways += measured.has(way) ? 1 : 0;
   if (ways == 1) return;
-  measured.faults().add(measured.place(),
+  measured.errors().add(measured.place(),
                         fmt::format("{} has {}", measured.path(),
                                     ways == 0 ? "no values" : "more than one kind of values"),
                         "values, or their mean, or pictures",
@@ -107,7 +107,7 @@ void read_drop(Section drop, const NamedFiles& files, Study& study) {
   if (!drop.exists()) return;
   DropProtocol protocol;
   set_length(drop, "height_mm", "500", protocol.height_m);
-  set_count(drop, "grains", kMostGrains, "10", protocol.grains);
+  set_count(drop, "grains", kMaxGrains, "10", protocol.grains);
   study.drop = protocol;
   study.drop_stiffness = stiffness_factor(drop);
   study.drop_measured = read_measured(drop, false, files);
@@ -118,8 +118,8 @@ void read_drop(Section drop, const NamedFiles& files, Study& study) {
 void read_tilt(Section tilt, const NamedFiles& files, Study& study) {
   if (!tilt.exists()) return;
   TiltProtocol protocol;
-  constexpr int kMostBonded = 100;
-  set_count(tilt, "bonded", kMostBonded, "2", protocol.bonded);
+  constexpr int kMaxBonded = 100;
+  set_count(tilt, "bonded", kMaxBonded, "2", protocol.bonded);
   set_number(tilt, "rate_deg_s", above(0, 10), "2", 1, protocol.rate_deg_s);
   set_number(tilt, "start_deg", from_to_below(0, 90), "0", 1, protocol.start_deg);
   study.tilt = protocol;
@@ -149,7 +149,7 @@ void read_heap(Section heap, const NamedFiles& files, Study& study) {
   set_length(heap, "lift_speed_mm_s", "30", protocol.lift_speed_m_s);
   set_length(heap, "plate_mm", "400", protocol.plate_m);
   set_length(heap, "plate_thickness_mm", "2", protocol.plate_thickness_m);
-  if (const auto grains = heap.integer("grains", 1, kMostGrains, "grains = 455")) {
+  if (const auto grains = heap.integer("grains", 1, kMaxGrains, "grains = 455")) {
     protocol.grains = static_cast<int>(*grains);
   }
   study.heap = protocol;

@@ -57,11 +57,11 @@ void read_sizes(Section& particle, GrainSource& grain) {
   grain.sizes = CalliperSizes{.length_m = (*sizes)[0] * kMetres_mm,
                               .width_m = (*sizes)[1] * kMetres_mm,
                               .thickness_m = (*sizes)[2] * kMetres_mm,
-                              .tip_share = tip.value_or(0)};
+                              .tip_fraction = tip.value_or(0)};
 }
 
 void read_filling(Section& particle, GrainSource& grain) {
-  const auto spheres = particle.integer("spheres", 1, kMostSpheres, "spheres = 11");
+  const auto spheres = particle.integer("spheres", 1, kMaxSpheres, "spheres = 11");
   const auto error = particle.number(
       "volume_error", {.from = 0, .to = 1, .excludes_from = true, .excludes_to = true},
       "volume_error = 0.05");
@@ -90,7 +90,7 @@ void check_one_shape(Section& particle) {
     first = value;
   }
   if (first == nullptr && particle.exists()) {
-    particle.faults().add(particle.place(), "particle has no shape",
+    particle.errors().add(particle.place(), "particle has no shape",
                           "one of scan, size_mm and clump",
                           "add scan = \"nut.stl\" with unit = \"mm\", size_mm = [22.5, 18.2, 17.5] "
                           "or clump = \"nut.json\" to [particle]");
@@ -104,7 +104,7 @@ fs::path file_named(const Section& section, const ConfigValue& value, const std:
   fs::path path = files.folder / name;
   std::error_code ignored;
   if (files.must_exist && !fs::exists(path, ignored)) {
-    section.faults().add(value.place, fmt::format("{} = {}", section.full(value.name), value.shown),
+    section.errors().add(value.place, fmt::format("{} = {}", section.full(value.name), value.shown),
                          fmt::format("a file that exists, and there is no {}", path.string()),
                          "correct the name; it is looked for beside the study file");
   }
@@ -119,15 +119,15 @@ void read_particle(Section particle, const NamedFiles& files, Study& study) {
   }
   check_one_shape(particle);
   read_filling(particle, study.grain);
-  read_material(particle, "particle", study.bench.grain_material);
-  study.bench.grain_material.density_kg_m3 =
+  read_material(particle, "particle", study.model.grain_material);
+  study.model.grain_material.density_kg_m3 =
       particle.needed_number("density_kg_m3", above(0), "density_kg_m3 = 851");
   particle.refuse_others();
 }
 
 void read_wall(Section wall, Study& study) {
-  read_material(wall, "wall", study.bench.wall_material);
-  study.bench.wall_material.density_kg_m3 =
+  read_material(wall, "wall", study.model.wall_material);
+  study.model.wall_material.density_kg_m3 =
       wall.number("density_kg_m3", above(0), "density_kg_m3 = 7850")
           .value_or(kUsualWallDensity_kg_m3);
   wall.refuse_others();

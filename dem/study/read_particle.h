@@ -17,7 +17,7 @@ void read_particle(Section particle, const NamedFiles& files, Study& study);
 /// [wall]: what all walls are made of.
 void read_wall(Section wall, Study& study);
 
-/// A file named in a study; a fault when there must be one and is none. `value` is where it is
+/// A file named in a study; an error when there must be one and is none. `value` is where it is
 /// named.
 std::filesystem::path file_named(const Section& section, const ConfigValue& value,
                                  const std::string& name, const NamedFiles& files);

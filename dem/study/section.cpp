@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "dem/study/suggestion.h"
+#include "base/closest_word.h"
 
 namespace repose::dem {
 namespace {
@@ -19,7 +19,7 @@ std::string for_example(const std::string& example) { return "for example " + ex
 /// A known key that begins like the one typed: "density" for "density_kg_m3", "height_m" for
 /// "height_mm"; else one that is spelt nearly the same.
 std::string guess(const std::string& typed, const std::vector<std::string>& known) {
-  std::string best = closest_word(typed, known);
+  std::string best = base::closest_word(typed, known);
   if (!best.empty()) return best;
   const std::string stem = typed.substr(0, typed.find('_'));
   for (const std::string& key : known) {
@@ -47,13 +47,13 @@ std::string Range::rule() const {
 }
 
 Section::Section(const ConfigValue* table, std::string path, const Place& otherwise,
-                 StudyFaults& faults)
+                 StudyErrors& errors)
     : table_(table),
       path_(std::move(path)),
       place_(table == nullptr ? otherwise : table->place),
-      faults_(&faults) {
+      errors_(&errors) {
   if (table_ == nullptr || table_->kind == Kind::table) return;
-  faults_->add(place_, fmt::format("{} = {}", path_, table_->shown), "a section with keys",
+  errors_->add(place_, fmt::format("{} = {}", path_, table_->shown), "a section with keys",
                fmt::format("write [{}] and its keys below it", path_));
   table_ = nullptr;
 }
@@ -68,18 +68,18 @@ const ConfigValue* Section::value(const std::string& key) {
 }
 
 Section Section::section(const std::string& key) {
-  return {value(key), full(key), place_, *faults_};
+  return {value(key), full(key), place_, *errors_};
 }
 
 void Section::wrong(const ConfigValue& value, const std::string& rule,
                     const std::string& fix) const {
   const std::string name = value.name.empty() ? path_ : full(value.name);
-  faults_->add(value.place, fmt::format("{} = {}", name, value.shown), rule, fix);
+  errors_->add(value.place, fmt::format("{} = {}", name, value.shown), rule, fix);
 }
 
 void Section::missing(const std::string& key, const std::string& rule,
                       const std::string& example) const {
-  faults_->add(place_, full(key) + " is missing", rule,
+  errors_->add(place_, full(key) + " is missing", rule,
                fmt::format("add {} to [{}]", example, path_));
 }
 
@@ -165,7 +165,7 @@ void Section::refuse_others() const {
     const std::string what =
         fmt::format("{} = {}: there is no such key", full(item.name), item.shown);
     const std::string where = path_.empty() ? "a study" : fmt::format("[{}]", path_);
-    faults_->add(
+    errors_->add(
         item.place, best.empty() ? what : fmt::format("{} (did you mean {}?)", what, best),
         fmt::format("keys of {} are {}", where, fmt::join(known_, ", ")),
         best.empty() ? "correct the name or take the line out" : fmt::format("write {}", best));

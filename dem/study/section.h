@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dem/study/config.h"
-#include "dem/study/study_faults.h"
+#include "dem/study/study_errors.h"
 
 namespace repose::dem {
 
@@ -30,17 +30,17 @@ constexpr Range from_to_below(double from, double to) {
   return {.from = from, .to = to, .excludes_to = true};
 }
 
-/// One table of a study, read key by key. StudyFaults are noted, not thrown; a value at fault reads
+/// One table of a study, read key by key. StudyErrors are noted, not thrown; a value at error reads
 /// as if it were not there.
 class Section {
  public:
   /// @param table  null when the study does not have it.
-  Section(const ConfigValue* table, std::string path, const Place& otherwise, StudyFaults& faults);
+  Section(const ConfigValue* table, std::string path, const Place& otherwise, StudyErrors& errors);
 
   bool exists() const { return table_ != nullptr; }
   const Place& place() const { return place_; }
   const std::string& path() const { return path_; }
-  StudyFaults& faults() const { return *faults_; }
+  StudyErrors& errors() const { return *errors_; }
 
   /// @param example  what a right line looks like: "height_mm = 500"
   std::optional<double> number(const std::string& key, const Range& range,
@@ -51,7 +51,7 @@ class Section {
   std::optional<std::vector<double>> numbers(const std::string& key, const Range& range,
                                              const std::string& example);
   std::optional<std::vector<std::string>> texts(const std::string& key, const std::string& example);
-  /// A fault when it is missing.
+  /// An error when it is missing.
   double needed_number(const std::string& key, const Range& range, const std::string& example);
 
   /// A section within this one.
@@ -64,7 +64,7 @@ class Section {
   void wrong(const ConfigValue& value, const std::string& rule, const std::string& fix) const;
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
-  /// To be called when all keys have been asked for: the others are faults.
+  /// To be called when all keys have been asked for: the others are errors.
   void refuse_others() const;
 
  private:
@@ -73,7 +73,7 @@ class Section {
   const ConfigValue* table_;
   std::string path_;
   Place place_;
-  StudyFaults* faults_;
+  StudyErrors* errors_;
   std::vector<std::string> known_;
 };
 

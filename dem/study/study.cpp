@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
+#include "base/fingerprint.h"
 #include "dem/study/read_contact.h"
 #include "dem/study/read_experiments.h"
 #include "dem/study/read_particle.h"
-#include "dem/study/study_hash.h"
 
 namespace repose::dem {
 namespace {
@@ -46,7 +46,7 @@ std::string study_text(const fs::path& file) {
 Section needed_section(Section& study, const std::string& key, const std::string& rule,
                        const std::string& example) {
   if (!study.has(key)) {
-    study.faults().add({.file = study.place().file, .line = 1, .column = 1},
+    study.errors().add({.file = study.place().file, .line = 1, .column = 1},
                        fmt::format("section [{}] is missing", key), rule, "add " + example);
   }
   return study.section(key);
@@ -55,23 +55,23 @@ Section needed_section(Section& study, const std::string& key, const std::string
 void read_simulation(Section simulation, Study& study) {
   const auto fraction =
       simulation.number("timestep_fraction", above(0, 1), "timestep_fraction = 1");
-  study.bench.timestep_fraction = fraction.value_or(study.bench.timestep_fraction);
-  study.bench.timestep_s = simulation.number("timestep_s", above(0, 1), "timestep_s = 1e-5");
+  study.model.timestep_fraction = fraction.value_or(study.model.timestep_fraction);
+  study.model.timestep_s = simulation.number("timestep_s", above(0, 1), "timestep_s = 1e-5");
   if (simulation.has("timestep_fraction") && simulation.has("timestep_s")) {
     simulation.wrong(*simulation.value("timestep_s"), "timestep_fraction or timestep_s, not both",
                      "take one of them out");
   }
-  constexpr std::int64_t kMostReplicates = 100'000, kMostThreads = 1024;
-  if (const auto count = simulation.integer("replicates", 1, kMostReplicates, "replicates = 5")) {
+  constexpr std::int64_t kMaxReplicates = 100'000, kMaxThreads = 1024;
+  if (const auto count = simulation.integer("replicates", 1, kMaxReplicates, "replicates = 5")) {
     study.replicates = static_cast<int>(*count);
   }
   if (const auto seed =
           simulation.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), "seed = 1")) {
     study.seed = static_cast<std::uint64_t>(*seed);
   }
-  if (const auto threads = simulation.integer("threads", 1, kMostThreads, "threads = 2")) {
+  if (const auto threads = simulation.integer("threads", 1, kMaxThreads, "threads = 2")) {
     study.threads = static_cast<int>(*threads);
-    study.bench.threads = *study.threads;
+    study.model.threads = *study.threads;
   }
   simulation.refuse_others();
 }
@@ -98,13 +98,13 @@ void read_sections(Section root, const NamedFiles& files, Study& study) {
 
 Study read_text(const fs::path& file, const std::string& text,
                 const std::vector<std::string>& settings, const NamedFiles& files) {
-  StudyFaults faults;
-  const ConfigValue config = parse_config(file.string(), text, settings, faults);
-  faults.throw_if_any();  // with a file half read, every other key would be missing
+  StudyErrors errors;
+  const ConfigValue config = parse_config(file.string(), text, settings, errors);
+  errors.throw_if_any();  // with a file half read, every other key would be missing
   Study study;
   study.file = file;
-  read_sections({&config, {}, {.file = file.string()}, faults}, files, study);
-  faults.throw_if_any();
+  read_sections({&config, {}, {.file = file.string()}, errors}, files, study);
+  errors.throw_if_any();
   return study;
 }
 
@@ -141,7 +141,7 @@ Study read_study(const fs::path& file, const std::vector<std::string>& settings)
   for (const auto& shape : {study.grain.scan, study.grain.clump}) {
     if (shape) parts.push_back(text_of(*shape));
   }
-  study.hash = fingerprint(parts);
+  study.hash = base::fingerprint(parts);
   return study;
 }
 
@@ -167,18 +167,18 @@ std::vector<std::string> open_coefficients(const Study& study, Experiment experi
   return names;
 }
 
-Bench bench_for(const Study& study, Experiment experiment) {
-  Bench bench = study.bench;
-  bench.stiffness_factor = stiffness_of(study, experiment);
+Model model_for(const Study& study, Experiment experiment) {
+  Model model = study.model;
+  model.stiffness_factor = stiffness_of(study, experiment);
   if (experiment != Experiment::heap) {
     const auto close = [](double& open, double value) {
       if (std::isnan(open)) open = value;
     };
-    close(bench.grain_grain.restitution, bench.grain_wall.restitution);
-    close(bench.grain_grain.sliding_friction, bench.grain_wall.sliding_friction);
-    close(bench.grain_grain.rolling_friction, bench.grain_wall.rolling_friction);
+    close(model.grain_grain.restitution, model.grain_wall.restitution);
+    close(model.grain_grain.sliding_friction, model.grain_wall.sliding_friction);
+    close(model.grain_grain.rolling_friction, model.grain_wall.rolling_friction);
   }
-  return bench;
+  return model;
 }
 
 }  // namespace repose::dem

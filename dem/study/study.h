@@ -58,8 +58,8 @@ struct Study {
   /// (RFC 4122, version 5). The same study, the same fingerprint.
   std::string hash;
   /// Coefficients that are to be found are NaN in it. `bench.grain` is empty: reading takes no
-  /// time, making spheres does; `study.bench.grain = build_grain(study.grain).shape` when needed.
-  Bench bench;
+  /// time, making spheres does; `study.model.grain = build_grain(study.grain).shape` when needed.
+  Model model;
   GrainSource grain;
   CoefficientSet particle_wall;
   CoefficientSet particle_particle;
@@ -78,7 +78,7 @@ struct Study {
 /// Reads a study file (TOML). `settings` are "key.path=value" pairs that replace or add values, the
 /// value as in TOML; files named in them are looked for beside the study file, like all others.
 ///
-/// Throws std::invalid_argument with every fault of the file: line, column, value, rule, fix. Those
+/// Throws std::invalid_argument with every error of the file: line, column, value, rule, fix. Those
 /// of a setting are called "--set:N:column", N counting the settings from 1.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
@@ -98,6 +98,6 @@ std::vector<std::string> open_coefficients(const Study& study, Experiment experi
 
 /// The bench as one experiment needs it: its stiffness factor, and coefficients without effect in
 /// it (see open_coefficients) set to something where the study leaves them open.
-Bench bench_for(const Study& study, Experiment experiment);
+Model model_for(const Study& study, Experiment experiment);
 
 }  // namespace repose::dem

@@ -11,7 +11,7 @@ namespace {
 
 // From 20 degrees on the readings scatter by 1 degree, .03 and 8 %. Nearer to the normal the
 // contact only slips at its rim (Mindlin & Deresiewicz 1953), which the engine's no-slip spring
-// leaves out: there it returns too much, and the tolerance is the size of that known fault.
+// leaves out: there it returns too much, and the tolerance is the size of that known error.
 struct Reading {
   double impact_deg;
   double value;

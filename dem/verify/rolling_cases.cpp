@@ -78,16 +78,16 @@ void incline_then_flat(Trial& trial, RollingModel model) {
 /// 5/7 g (sin(tilt) - mu_r cos(tilt)).
 void holds_on_incline(Trial& trial, RollingModel model) {
   constexpr double kFriction = .1;
-  for (const double share : {.5, .95, 1.2}) {
-    const double tilt = std::atan(share * kFriction);
+  for (const double fraction : {.5, .95, 1.2}) {
+    const double tilt = std::atan(fraction * kFriction);
     Simulation simulation = rolling_ball(trial, model, kFriction, tilt, 0);
     const double expected =
-        share < 1 ? 0 : 5.0 / 7 * kGravity * (std::sin(tilt) - kFriction * std::cos(tilt));
-    trial.expect(fmt::format("acceleration at tan(tilt) = {:.2f} mu_r, m/s2", share), expected,
-                 acceleration(simulation, tilt, .2, .4), share < 1 ? 1e-4 : .01 * expected);
+        fraction < 1 ? 0 : 5.0 / 7 * kGravity * (std::sin(tilt) - kFriction * std::cos(tilt));
+    trial.expect(fmt::format("acceleration at tan(tilt) = {:.2f} mu_r, m/s2", fraction), expected,
+                 acceleration(simulation, tilt, .2, .4), fraction < 1 ? 1e-4 : .01 * expected);
     // The type A torque of the relative model lets it creep, the slower the shorter the step.
-    if (share < 1) {
-      trial.expect(fmt::format("speed at tan(tilt) = {:.2f} mu_r, m/s", share), 0,
+    if (fraction < 1) {
+      trial.expect(fmt::format("speed at tan(tilt) = {:.2f} mu_r, m/s", fraction), 0,
                    speed_of(simulation, tilt), 2e-4);
     }
   }

@@ -7,8 +7,8 @@
 
 namespace repose::dem {
 
-Trial::Trial(const VerifyCase& which, double timestep_share)
-    : name_(which.name), source_(which.source), timestep_share_(timestep_share) {}
+Trial::Trial(const VerifyCase& which, double timestep_fraction)
+    : name_(which.name), source_(which.source), timestep_share_(timestep_fraction) {}
 
 Simulation Trial::simulate(SimulationSetup setup, double speed_m_s) {
   setup.timestep_s = timestep_share_ * accurate_timestep_s(setup, speed_m_s);

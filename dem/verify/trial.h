@@ -18,10 +18,10 @@ struct VerifyCase {
   std::function<void(Trial&)> run;
 };
 
-/// One run of a case: at one share of the accepted time step. Collects what comes out.
+/// One run of a case: at one fraction of the accepted time step. Collects what comes out.
 class Trial {
  public:
-  Trial(const VerifyCase& which, double timestep_share);
+  Trial(const VerifyCase& which, double timestep_fraction);
 
   /// The simulation of a setup, with this trial's share of the longest time step that is accepted
   /// for impacts at up to `speed_m_s`.

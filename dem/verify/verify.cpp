@@ -19,8 +19,8 @@ std::vector<VerifyCase> all_cases() {
 
 std::vector<CaseResult> run(const VerifyCase& which) {
   std::vector<CaseResult> results;
-  for (const double share : {1.0, .5}) {
-    Trial trial(which, share);
+  for (const double fraction : {1.0, .5}) {
+    Trial trial(which, fraction);
     which.run(trial);
     results.insert(results.end(), trial.results().begin(), trial.results().end());
   }

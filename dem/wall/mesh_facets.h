@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "dem/shape/mesh.h"
-#include "dem/shape/triangle_tree.h"
+#include "dem/shape/scan/mesh.h"
+#include "dem/shape/scan/triangle_tree.h"
 #include "dem/wall/closest.h"
 
 namespace repose::dem {

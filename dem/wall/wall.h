@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "dem/shape/mesh.h"
+#include "dem/shape/scan/mesh.h"
 #include "dem/vector.h"
 
 namespace repose::dem {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "tests/bench/obvious_script.h"
-#include "vision/overlay.h"
+#include "vision/drawing/overlay.h"
 
 namespace repose::bench {
 namespace {

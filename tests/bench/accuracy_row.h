@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/bench/subject.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::bench {
 

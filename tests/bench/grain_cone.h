@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 namespace repose::bench {
 

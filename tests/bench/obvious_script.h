@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::bench {
 

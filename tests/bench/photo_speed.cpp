@@ -12,8 +12,8 @@
 
 #include "tests/support/heap_conditions.h"
 #include "tests/support/heap_picture.h"
-#include "vision/picture.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
+#include "vision/picture/picture.h"
 
 namespace {
 

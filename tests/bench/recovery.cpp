@@ -8,11 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "calibrate/fit/chance.h"
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/random.h"
 #include "tests/bench/recovery_tally.h"
 #include "tests/bench/simulated_recovery.h"
-#include "tests/calibrate/fake_bench.h"
+#include "tests/calibrate/fake_simulator.h"
 
 namespace {
 
@@ -21,10 +21,10 @@ using repose::bench::SimulatedRecovery;
 
 /// On a made-up bench and with made-up simulations, whose truth is known exactly: minutes.
 void recover(const SimulatedRecovery& plan) {
-  repose::calibrate::Chance chance(plan.seed);
+  repose::calibrate::Random random(plan.seed);
   repose::bench::RecoveryTally tally(fake::parameters());
   for (int m = 0; m < plan.materials; ++m) {
-    const std::vector<double> truth = repose::bench::made_up_material(fake::parameters(), chance);
+    const std::vector<double> truth = repose::bench::made_up_material(fake::parameters(), random);
     repose::calibrate::Problem problem = fake::problem(truth, plan.seed + static_cast<unsigned>(m));
     problem.settings.budget_s = plan.budget_s;
     tally.add(fit_jointly(problem, fake::study(problem)), truth, plan.verbose);

@@ -25,12 +25,12 @@ bool holds(const FittedParameter& fitted, double truth) {
 }  // namespace
 
 std::vector<double> made_up_material(const std::vector<Parameter>& parameters,
-                                     calibrate::Chance& chance) {
+                                     calibrate::Random& random) {
   std::vector<double> truth;
   for (const Parameter& parameter : parameters) {
     const double least = truth.empty() ? .2 : .1;
-    const double share = least + (.9 - least) * chance.uniform();
-    truth.push_back(parameter.min + share * (parameter.max - parameter.min));
+    const double fraction = least + (.9 - least) * random.uniform();
+    truth.push_back(parameter.min + fraction * (parameter.max - parameter.min));
   }
   return truth;
 }

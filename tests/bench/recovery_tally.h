@@ -3,16 +3,16 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/fit/chance.h"
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/problem.h"
+#include "calibrate/fit/problem.h"
+#include "calibrate/fit/random.h"
 
 namespace repose::bench {
 
 /// Anywhere but the outer tenths of the bounds; grains that do not rebound at all, below .2 of
 /// restitution's, would give readings without scatter.
 std::vector<double> made_up_material(const std::vector<calibrate::Parameter>& parameters,
-                                     calibrate::Chance& chance);
+                                     calibrate::Random& random);
 
 /// How the parameters came back over all materials.
 class RecoveryTally {

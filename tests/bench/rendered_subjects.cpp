@@ -91,8 +91,8 @@ Draft draft(std::string_view condition, std::uint64_t seed, double least_contras
   // The plate is put down along the picture, as people do.
   scene.walls.front().pose.orientation = Eigen::AngleAxisd(azimuth_rad, dem::Vector::UnitZ());
   const double radius_m = base_radius_m(staging.cone);
-  const double share = random.uniform(.5, .75);
-  const double m_per_px = 2 * radius_m / (share * kSize.width);
+  const double fraction = random.uniform(.5, .75);
+  const double m_per_px = 2 * radius_m / (fraction * kSize.width);
   staging.camera = render::OrthographicCamera{
       .azimuth_rad = azimuth_rad,
       .mm_per_px = 1e3 * m_per_px,
@@ -158,7 +158,7 @@ Draft hard_light(std::uint64_t seed) {
   Draft made = draft("hard_light", seed);
   set_lens(made, good_distance(made.random));
   photo(made).key_softness_rad = made.random.uniform(.02, .05);
-  photo(made).key_share = made.random.uniform(.75, .85);
+  photo(made).key_fraction = made.random.uniform(.75, .85);
   photo(made).vignette = made.random.uniform(.3, .5);
   return made;
 }

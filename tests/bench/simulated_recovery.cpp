@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include "calibrate/fit/chance.h"
+#include "calibrate/fit/random.h"
 #include "calibrate/study/study_run.h"
 #include "calibrate/study/thread_executor.h"
 #include "dem/study/grain_source.h"
@@ -17,11 +17,11 @@
 namespace repose::bench {
 namespace {
 
-using calibrate::Chance;
+using calibrate::Random;
 
 constexpr int kReadings = 8;
 constexpr int kViews = 9;
-constexpr double kReading_deg = .5, kReadingShare = .03;
+constexpr double kReading_deg = .5, kReadingFraction = .03;
 constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
 
 std::vector<std::string> names_of(const std::vector<calibrate::Parameter>& parameters) {
@@ -50,7 +50,7 @@ class Material {
         bench_(study, grain, std::move(names), kViews),
         truth_(std::move(truth)),
         number_(number),
-        chance_(number) {}
+        random_(number) {}
 
   calibrate::StudyOutcome calibrated(const calibrate::Budget& budget) {
     study_.drop_measured.values = readings("drop");
@@ -72,18 +72,18 @@ class Material {
     for (int i = 0; i < kReadings; ++i) {
       const calibrate::Run run = simulated(
           {experiment, truth_, kBenchSeeds * (number_ + 1) + static_cast<std::uint64_t>(i)});
-      const double noise = chance_.normal();
+      const double noise = random_.normal();
       if (!run.failure.empty()) continue;
       const double value = run.readings.at("value");
       const bool is_angle = experiment == "tilt" || experiment == "heap";
       values.push_back(std::max(
-          0., is_angle ? value + kReading_deg * noise : value * (1 + kReadingShare * noise)));
+          0., is_angle ? value + kReading_deg * noise : value * (1 + kReadingFraction * noise)));
     }
     return values;
   }
 
   calibrate::Run simulated(const calibrate::Job& job) {
-    if (const auto kept = folder_.find(bench_, job)) return *kept;
+    if (const auto saved = folder_.find(bench_, job)) return *saved;
     const calibrate::SimulatedJob done = bench_.simulate(job, never_);
     folder_.keep(bench_, done);
     return done.run;
@@ -92,10 +92,10 @@ class Material {
   dem::Study study_;
   const dem::ClumpFile& grain_;
   const calibrate::RunFolder& folder_;
-  calibrate::StudyBench bench_;
+  calibrate::StudySimulator bench_;
   std::vector<double> truth_;
   std::uint64_t number_;
-  Chance chance_;
+  Random random_;
   std::atomic<bool> never_ = false;
 };
 
@@ -110,9 +110,9 @@ void recover_simulated(const SimulatedRecovery& plan) {
   const std::vector<calibrate::Parameter> parameters = sought_in(study, grain, budget);
   const calibrate::RunFolder folder(plan.folder);
   RecoveryTally tally(parameters);
-  Chance chance(plan.seed);
+  Random random(plan.seed);
   for (int m = 0; m < plan.materials; ++m) {
-    const std::vector<double> truth = made_up_material(parameters, chance);
+    const std::vector<double> truth = made_up_material(parameters, random);
     Material material(study, grain, folder, names_of(parameters), truth,
                       plan.seed + static_cast<std::uint64_t>(m));
     try {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "tests/support/heap_conditions.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 /// What is measured: pictures of heaps whose angles are known.
 namespace repose::bench {

@@ -1,4 +1,4 @@
-#include "calibrate/bench/bench.h"
+#include "calibrate/statistics/bench/bench.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/bench/formulas.h"
+#include "calibrate/statistics/bench/formulas.h"
 
 namespace repose::calibrate {
 namespace {
@@ -31,11 +31,11 @@ std::vector<BenchReading> readings(const std::vector<std::vector<double>>& rows)
   return readings;
 }
 
-std::string fault_of(BenchTest test, const std::vector<std::vector<double>>& rows) {
+std::string error_of(BenchTest test, const std::vector<std::vector<double>>& rows) {
   try {
     evaluate_bench(test, readings(rows));
-  } catch (const std::invalid_argument& fault) {
-    return fault.what();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
   }
   return "";
 }
@@ -130,30 +130,30 @@ TEST(Bench, SizesGiveDiameterAndSphericity) {
 
 TEST(Bench, ImpossibleReadingsAreRefusedAllAtOnce) {
   EXPECT_THAT(
-      fault_of(BenchTest::restitution, {{500, 510}, {500, 9}, {0, 9}, {500, -1}, {kNan, 1}}),
+      error_of(BenchTest::restitution, {{500, 510}, {500, 9}, {0, 9}, {500, -1}, {kNan, 1}}),
       AllOf(HasSubstr("row 1: rebound_mm = 510 is more than drop_mm = 500"),
             HasSubstr("row 3: drop_mm = 0"), HasSubstr("row 4: rebound_mm = -1"),
             HasSubstr("row 5: drop_mm = nan")));
-  EXPECT_THAT(fault_of(BenchTest::sliding, {{90}, {0}, {120}}),
+  EXPECT_THAT(error_of(BenchTest::sliding, {{90}, {0}, {120}}),
               AllOf(HasSubstr("row 1: angle_deg = 90"), HasSubstr("row 2: angle_deg = 0"),
                     HasSubstr("row 3: angle_deg = 120")));
-  EXPECT_THAT(fault_of(BenchTest::rolling, {{20, -1, 5}, {95, 150, 300}}),
+  EXPECT_THAT(error_of(BenchTest::rolling, {{20, -1, 5}, {95, 150, 300}}),
               AllOf(HasSubstr("released_mm = -1"), HasSubstr("incline_deg = 95")));
-  EXPECT_THAT(fault_of(BenchTest::poisson, {{10, 1, 10, .5}, {10, 1, 10, -1.2}, {10, 11, 10, 1}}),
+  EXPECT_THAT(error_of(BenchTest::poisson, {{10, 1, 10, .5}, {10, 1, 10, -1.2}, {10, 11, 10, 1}}),
               AllOf(HasSubstr("row 1: Poisson's ratio would be 0.5"),
                     HasSubstr("row 2: Poisson's ratio would be -1.2"),
                     HasSubstr("row 3: shortening_mm = 11")));
-  EXPECT_THAT(fault_of(BenchTest::density, {{3, 40, 39}, {3, 0, 3000}}),
+  EXPECT_THAT(error_of(BenchTest::density, {{3, 40, 39}, {3, 0, 3000}}),
               AllOf(HasSubstr("no liquid was displaced"), HasSubstr("no grain is")));
-  EXPECT_THAT(fault_of(BenchTest::young, {{10, 2, 5, 5}}), HasSubstr("compression_mm = 5"));
-  EXPECT_THAT(fault_of(BenchTest::size, {{10, 12, 9}}), HasSubstr("not the longest"));
-  EXPECT_THAT(fault_of(BenchTest::size, {}), HasSubstr("no readings"));
-  EXPECT_THAT(fault_of(BenchTest::size, {{1, 2}}), HasSubstr("2 values are given for 3 columns"));
+  EXPECT_THAT(error_of(BenchTest::young, {{10, 2, 5, 5}}), HasSubstr("compression_mm = 5"));
+  EXPECT_THAT(error_of(BenchTest::size, {{10, 12, 9}}), HasSubstr("not the longest"));
+  EXPECT_THAT(error_of(BenchTest::size, {}), HasSubstr("no readings"));
+  EXPECT_THAT(error_of(BenchTest::size, {{1, 2}}), HasSubstr("2 values are given for 3 columns"));
 }
 
 TEST(Bench, AuxeticAndBouncelessGrainsArePossible) {
-  EXPECT_EQ(fault_of(BenchTest::poisson, {{10, 1, 10, -.3}}), "");
-  EXPECT_EQ(fault_of(BenchTest::restitution, {{500, 0}, {500, 500}}), "");
+  EXPECT_EQ(error_of(BenchTest::poisson, {{10, 1, 10, -.3}}), "");
+  EXPECT_EQ(error_of(BenchTest::restitution, {{500, 0}, {500, 500}}), "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "calibrate/design/design.h"
+#include "calibrate/statistics/design/design.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/design/steepest_ascent.h"
+#include "calibrate/statistics/design/steepest_ascent.h"
 #include "tests/calibrate/hazelnut_runs.h"
 
 namespace repose::calibrate {
@@ -50,11 +50,11 @@ double closest_pair(const Design& design) {
 }
 
 template <typename Make>
-std::string fault_of(const Make& make) {
+std::string error_of(const Make& make) {
   try {
     make();
-  } catch (const std::invalid_argument& fault) {
-    return fault.what();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
   }
   return "";
 }
@@ -237,7 +237,7 @@ TEST(SteepestAscent, GoesInProportionToTheSlopes) {
 }
 
 TEST(SteepestAscent, RefusesWhatHasNoSlope) {
-  EXPECT_THAT(fault_of([] {
+  EXPECT_THAT(error_of([] {
                 steepest_ascent(regress(hazelnut_runs(), SurfaceModel::quadratic), 5, 0, false);
               }),
               AllOf(HasSubstr("linear model"), HasSubstr("stride = 0")));
@@ -260,25 +260,25 @@ TEST(RandomOrder, KeepsAllRunsAndFollowsTheSeed) {
   for (int k = 0; k < 20; ++k) EXPECT_EQ(order[static_cast<std::size_t>(k)], k + 1);
 }
 
-TEST(Designs, AllFaultsAreNamedAtOnce) {
-  const std::string fault = fault_of([] {
+TEST(Designs, AllErrorsAreNamedAtOnce) {
+  const std::string error = error_of([] {
     central_composite({{"a", 1, 1}, {"a", 0, std::numeric_limits<double>::quiet_NaN()}},
                       {.rule = {}, .alpha = -1, .centre_runs = -1});
   });
-  EXPECT_THAT(fault,
+  EXPECT_THAT(error,
               AllOf(HasSubstr("a = 1:1"), HasSubstr("a: is named twice"), HasSubstr("a = 0:nan"),
                     HasSubstr("alpha = -1"), HasSubstr("centre runs = -1")));
 }
 
 TEST(Designs, TooFewAndTooManyFactorsAreRefused) {
-  EXPECT_THAT(fault_of([] { central_composite(factors(1)); }), HasSubstr("takes 2 to 6"));
-  EXPECT_THAT(fault_of([] { central_composite(factors(7)); }), HasSubstr("takes 2 to 6"));
-  EXPECT_THAT(fault_of([] { box_behnken(factors(2)); }), HasSubstr("takes 3 to 7"));
-  EXPECT_THAT(fault_of([] { box_behnken(factors(8)); }), HasSubstr("takes 3 to 7"));
-  EXPECT_THAT(fault_of([] { latin_hypercube(factors(2), 1, 1); }), HasSubstr("runs = 1"));
-  EXPECT_THAT(fault_of([] { sweep({}, 9); }), HasSubstr("0 factors"));
-  EXPECT_THAT(fault_of([] { sweep(factors(1), 1); }), HasSubstr("levels = 1"));
-  EXPECT_THAT(fault_of([] { line_of_runs({"a"}, {0}, {0}, 5); }), HasSubstr("all steps are 0"));
+  EXPECT_THAT(error_of([] { central_composite(factors(1)); }), HasSubstr("takes 2 to 6"));
+  EXPECT_THAT(error_of([] { central_composite(factors(7)); }), HasSubstr("takes 2 to 6"));
+  EXPECT_THAT(error_of([] { box_behnken(factors(2)); }), HasSubstr("takes 3 to 7"));
+  EXPECT_THAT(error_of([] { box_behnken(factors(8)); }), HasSubstr("takes 3 to 7"));
+  EXPECT_THAT(error_of([] { latin_hypercube(factors(2), 1, 1); }), HasSubstr("runs = 1"));
+  EXPECT_THAT(error_of([] { sweep({}, 9); }), HasSubstr("0 factors"));
+  EXPECT_THAT(error_of([] { sweep(factors(1), 1); }), HasSubstr("levels = 1"));
+  EXPECT_THAT(error_of([] { line_of_runs({"a"}, {0}, {0}, 5); }), HasSubstr("all steps are 0"));
 }
 
 }  // namespace

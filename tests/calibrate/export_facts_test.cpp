@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/export/facts.h"
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {
 namespace {
@@ -15,7 +15,7 @@ using ::testing::Not;
 
 dem::Study hazelnuts() {
   dem::Study study;
-  study.bench = dem::test::clump_bench();
+  study.model = dem::test::clump_bench();
   study.drop = dem::DropProtocol{};
   study.tilt = dem::TiltProtocol{};
   study.roll = dem::RollProtocol{};
@@ -24,7 +24,7 @@ dem::Study hazelnuts() {
   return study;
 }
 
-std::string faults_of(const dem::Study& study, const std::vector<FittedValue>& fitted) {
+std::string errors_of(const dem::Study& study, const std::vector<FittedValue>& fitted) {
   return dem::test::message_of<std::invalid_argument>(
       [&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted); });
 }
@@ -34,26 +34,26 @@ constexpr const char* kRestitution = "contact.particle_wall.restitution";
 TEST(ExportFacts, TakeTheFittedValues) {
   const ExportFacts facts(hazelnuts(), dem::test::spheroid_clump(3),
                           {{.name = kRestitution, .value = .42}});
-  EXPECT_EQ(facts.study().bench.grain_wall.restitution, .42);
-  EXPECT_EQ(facts.study().bench.grain_wall.sliding_friction, .39);
+  EXPECT_EQ(facts.study().model.grain_wall.restitution, .42);
+  EXPECT_EQ(facts.study().model.grain_wall.sliding_friction, .39);
 }
 
 TEST(ExportFacts, RefuseACoefficientWithoutAValue) {
-  EXPECT_THAT(faults_of(hazelnuts(), {}), AllOf(HasSubstr(kRestitution), HasSubstr("Fix: ")));
+  EXPECT_THAT(errors_of(hazelnuts(), {}), AllOf(HasSubstr(kRestitution), HasSubstr("Fix: ")));
   dem::Study study = hazelnuts();
   study.particle_particle.sliding_friction.min = .1;
   study.particle_particle.sliding_friction.max = .9;
   const std::vector<FittedValue> fitted = {{.name = kRestitution, .value = .42}};
-  EXPECT_EQ(faults_of(study, fitted), "") << "grains touch each other in heaps only";
+  EXPECT_EQ(errors_of(study, fitted), "") << "grains touch each other in heaps only";
   study.heap = dem::HeapProtocol{};
-  EXPECT_THAT(faults_of(study, fitted),
+  EXPECT_THAT(errors_of(study, fitted),
               AllOf(HasSubstr("particle_particle.sliding_friction"), Not(HasSubstr(kRestitution))));
 }
 
 TEST(ExportFacts, RefuseUnknownNamesAndNumbersThatAreNone) {
-  EXPECT_THAT(faults_of(hazelnuts(), {{.name = "contact.love", .value = 1}}),
+  EXPECT_THAT(errors_of(hazelnuts(), {{.name = "contact.love", .value = 1}}),
               HasSubstr("contact.love"));
-  EXPECT_THAT(faults_of(hazelnuts(), {{.name = kRestitution,
+  EXPECT_THAT(errors_of(hazelnuts(), {{.name = kRestitution,
                                        .value = std::numeric_limits<double>::quiet_NaN()}}),
               HasSubstr(kRestitution));
 }
@@ -77,10 +77,10 @@ TEST(ExportFacts, TwoLikeBodiesHaveThePairsModuli) {
 }
 
 TEST(HarmlessName, KeepsWordsAndTakesOutWhatBreaksDecks) {
-  EXPECT_EQ(harmless("hazel nut 2.0 (dry)"), "hazel nut 2.0 _dry_");
-  EXPECT_EQ(harmless("No\xC3\xBCsse"), "No\xC3\xBCsse");
-  EXPECT_EQ(harmless("a\nrun 1\r\t\"'`$&\\{}#*/"), "a_run 1_____________");
-  EXPECT_EQ(harmless(""), "");
+  EXPECT_EQ(sanitized("hazel nut 2.0 (dry)"), "hazel nut 2.0 _dry_");
+  EXPECT_EQ(sanitized("No\xC3\xBCsse"), "No\xC3\xBCsse");
+  EXPECT_EQ(sanitized("a\nrun 1\r\t\"'`$&\\{}#*/"), "a_run 1_____________");
+  EXPECT_EQ(sanitized(""), "");
 }
 
 }  // namespace

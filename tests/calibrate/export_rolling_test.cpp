@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/export/rolling.h"
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {
 namespace {
@@ -46,7 +46,7 @@ TEST(ConvertRolling, LiggghtsHasTwoOfOurModels) {
       for (const dem::ClumpShape& grain : {kSphere, dem::test::spheroid_clump(3)}) {
         const auto converted = convert_rolling(ExportTarget::liggghts, model, partner, grain);
         EXPECT_EQ(converted.factor, 1);
-        EXPECT_EQ(converted.standing, Standing::exact);
+        EXPECT_EQ(converted.fidelity, Fidelity::exact);
       }
     }
   }
@@ -55,10 +55,10 @@ TEST(ConvertRolling, LiggghtsHasTwoOfOurModels) {
 TEST(ConvertRolling, ConstantTorqueIsLiggghtssOnAWallAndDoubleBetweenSpheres) {
   const auto wall = sphere(ExportTarget::liggghts, RollingModel::constant_torque, Partner::wall);
   EXPECT_NEAR(wall.factor, 1, 1e-12);
-  EXPECT_EQ(wall.standing, Standing::exact);
+  EXPECT_EQ(wall.fidelity, Fidelity::exact);
   const auto grain = sphere(ExportTarget::liggghts, RollingModel::constant_torque, Partner::grain);
   EXPECT_NEAR(grain.factor, 2, 1e-12);
-  EXPECT_EQ(grain.standing, Standing::approximate);
+  EXPECT_EQ(grain.fidelity, Fidelity::approximate);
   EXPECT_THAT(grain.limits, ::testing::HasSubstr("own spin"));
 }
 
@@ -66,7 +66,7 @@ TEST(ConvertRolling, OwnSpinOfAClumpIsApproximate) {
   const dem::ClumpShape clump = dem::test::spheroid_clump(3);
   const auto wall =
       convert_rolling(ExportTarget::liggghts, RollingModel::constant_torque, Partner::wall, clump);
-  EXPECT_EQ(wall.standing, Standing::approximate);
+  EXPECT_EQ(wall.fidelity, Fidelity::approximate);
   EXPECT_NEAR(wall.factor, arm_ratio(clump, Partner::wall).mean, 1e-12);
   EXPECT_THAT(wall.limits, ::testing::HasSubstr("lever"));
 }
@@ -77,16 +77,16 @@ TEST(ConvertRolling, EdemHasConstantTorqueAndTheInverseOfTheOthers) {
     const auto same =
         convert_rolling(ExportTarget::edem, RollingModel::constant_torque, partner, clump);
     EXPECT_EQ(same.factor, 1);
-    EXPECT_EQ(same.standing, Standing::exact);
+    EXPECT_EQ(same.fidelity, Fidelity::exact);
     const auto there =
         convert_rolling(ExportTarget::edem, RollingModel::relative_constant_torque, partner, clump);
     const auto back =
         convert_rolling(ExportTarget::liggghts, RollingModel::constant_torque, partner, clump);
     EXPECT_NEAR(there.factor * back.factor, 1, 1e-12);
-    EXPECT_EQ(there.standing, Standing::approximate);
+    EXPECT_EQ(there.fidelity, Fidelity::approximate);
   }
-  EXPECT_EQ(sphere(ExportTarget::edem, RollingModel::elastic_plastic, Partner::wall).standing,
-            Standing::approximate);
+  EXPECT_EQ(sphere(ExportTarget::edem, RollingModel::elastic_plastic, Partner::wall).fidelity,
+            Fidelity::approximate);
 }
 
 // Their lever of mu_r F: YADE (R1 + R2) / 2, MercuryDPM 2 R*; ours R* = R on a wall, R / 2 between
@@ -104,16 +104,16 @@ TEST(ConvertRolling, LeversOfOtherProgramsAreTakenOut) {
 
 TEST(ConvertRolling, SpringsThatYieldAreCloseAndUnequalRadiiAreNot) {
   const auto wall = sphere(ExportTarget::yade, RollingModel::elastic_plastic, Partner::wall);
-  EXPECT_EQ(wall.standing, Standing::close);
+  EXPECT_EQ(wall.fidelity, Fidelity::close);
   const auto clump = convert_rolling(ExportTarget::yade, RollingModel::elastic_plastic,
                                      Partner::grain, dem::test::spheroid_clump(3));
-  EXPECT_EQ(clump.standing, Standing::approximate);
+  EXPECT_EQ(clump.fidelity, Fidelity::approximate);
 }
 
 TEST(ConvertRolling, WithoutAModelNothingIsConverted) {
   for (const auto& [target, name] : kExportTargets) {
     const auto none = convert_rolling(target, RollingModel::none, Partner::grain, kSphere);
-    EXPECT_EQ(none.standing, Standing::exact) << name;
+    EXPECT_EQ(none.fidelity, Fidelity::exact) << name;
     EXPECT_EQ(none.factor, 1) << name;
   }
 }

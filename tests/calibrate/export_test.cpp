@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/contact/restitution.h"
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -24,8 +24,8 @@ constexpr const char* kWallRolling = "contact.particle_wall.rolling_friction";
 
 dem::Study hazelnuts(dem::RollingModel rolling = dem::RollingModel::relative_constant_torque) {
   dem::Study study;
-  study.bench = dem::test::clump_bench();
-  study.bench.rolling = rolling;
+  study.model = dem::test::clump_bench();
+  study.model.rolling = rolling;
   study.drop = dem::DropProtocol{};
   study.tilt = dem::TiltProtocol{};
   study.roll = dem::RollProtocol{};
@@ -35,7 +35,7 @@ dem::Study hazelnuts(dem::RollingModel rolling = dem::RollingModel::relative_con
 }
 
 StudyExport exported(const dem::Study& study, ExportTarget target, bool approximate = true) {
-  return export_study(study, study.bench.grain, {},
+  return export_study(study, study.model.grain, {},
                       {.target = target, .takes_approximate = approximate});
 }
 
@@ -97,8 +97,8 @@ TEST(ExportStudy, AnotherLawIsRefusedUnlessApproximateIsAskedFor) {
 
 TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
   const dem::Study study = hazelnuts();
-  const double mass = 851 * study.bench.grain.volume_m3;
-  const dem::Vector inertia = mass * study.bench.grain.gyration_m2;
+  const double mass = 851 * study.model.grain.volume_m3;
+  const dem::Vector inertia = mass * study.model.grain.gyration_m2;
   const auto digits = [](double value) {
     std::ostringstream text;
     text.precision(6);
@@ -119,14 +119,14 @@ TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
 // LAMMPS takes the tensor in world axes: its trace does not depend on the pose.
 TEST(ExportStudy, InertiaTurnsWithTheGrainForLammps) {
   const dem::Study study = hazelnuts();
-  const double mass = 851 * study.bench.grain.volume_m3;
+  const double mass = 851 * study.model.grain.volume_m3;
   for (int grain = 1; grain <= 3; ++grain) {
     std::istringstream words(text_of(exported(study, ExportTarget::lammps),
                                      "drop_grain_" + std::to_string(grain) + ".txt"));
     double bodies = 0, number = 0, own_mass = 0, x = 0, y = 0, z = 0, xx = 0, yy = 0, zz = 0;
     words >> bodies >> number >> own_mass >> x >> y >> z >> xx >> yy >> zz;
     EXPECT_NEAR(own_mass, mass, 1e-12);
-    EXPECT_NEAR(xx + yy + zz, mass * study.bench.grain.gyration_m2.sum(), 1e-15);
+    EXPECT_NEAR(xx + yy + zz, mass * study.model.grain.gyration_m2.sum(), 1e-15);
   }
 }
 
@@ -149,7 +149,7 @@ TEST(ExportStudy, DampersGiveTheRestitutionInYadeAndLammps) {
 
 TEST(ExportStudy, RestitutionThatLiggghtsCannotHaveIsRefused) {
   dem::Study study = hazelnuts();
-  study.bench.grain_wall.restitution = .03;
+  study.model.grain_wall.restitution = .03;
   const std::string refused = dem::test::message_of<std::invalid_argument>(
       [&] { exported(study, ExportTarget::liggghts, false); });
   EXPECT_THAT(refused, AllOf(HasSubstr("contact.particle_wall.restitution"), HasSubstr(".05")));
@@ -165,7 +165,7 @@ TEST(ExportStudy, WhatTheDataDidNotDetermineIsSaidInTheDeckAndAsAWarning) {
       {.name = kWallRolling, .value = .1, .low = .09, .high = .11, .verdict = "determined"}};
   const dem::Study study = hazelnuts();
   const StudyExport made =
-      export_study(study, study.bench.grain, fitted, {.target = ExportTarget::liggghts});
+      export_study(study, study.model.grain, fitted, {.target = ExportTarget::liggghts});
   ASSERT_THAT(made.warnings, SizeIs(1));
   EXPECT_THAT(made.warnings[0], AllOf(HasSubstr("particle_particle.restitution"),
                                       HasSubstr("undetermined"), HasSubstr("0.05 to 0.9")));
@@ -175,8 +175,8 @@ TEST(ExportStudy, WhatTheDataDidNotDetermineIsSaidInTheDeckAndAsAWarning) {
 // A name may hold what ends a line, a comment or a string of some program.
 TEST(ExportStudy, NamesCannotBreakADeck) {
   dem::Study study = hazelnuts();
-  study.bench.grain_material.name = "nut\nshell rm -rf & \\\n*/ '''\" $(x) ${y} {{MASS}} ; %s";
-  study.bench.wall_material.name = "steel\r\nquit";
+  study.model.grain_material.name = "nut\nshell rm -rf & \\\n*/ '''\" $(x) ${y} {{MASS}} ; %s";
+  study.model.wall_material.name = "steel\r\nquit";
   for (const auto& [target, name] : kExportTargets) {
     const StudyExport clean = exported(hazelnuts(), target);
     const StudyExport odd = exported(study, target);

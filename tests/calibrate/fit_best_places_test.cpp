@@ -3,21 +3,21 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/best_places.h"
-#include "calibrate/fit/chance.h"
+#include "calibrate/fit/random.h"
 
 namespace repose::calibrate {
 namespace {
 
 /// Learned where x < .5 only.
-Surrogate half_known(bool chance) {
-  Lesson lesson{{0}, chance, {}, {}};
-  Chance luck(1);
+Surrogate half_known(bool is_stochastic) {
+  TrainingSet training_set{{0}, is_stochastic, {}, {}};
+  Random luck(1);
   for (int i = 0; i < 20; ++i) {
     const double x = .5 * i / 19.;
-    lesson.places.push_back({x});
-    lesson.readings.push_back(std::sin(6 * x) + (chance ? .1 * luck.normal() : 0));
+    training_set.places.push_back({x});
+    training_set.readings.push_back(std::sin(6 * x) + (is_stochastic ? .1 * luck.normal() : 0));
   }
-  return {lesson, {}, false};
+  return {training_set, {}, false};
 }
 
 std::vector<Point> candidates() {
@@ -41,8 +41,8 @@ TEST(BestPlaces, WithoutChanceNoneIsRunTwice) {
 }
 
 TEST(BestPlaces, HeavierSurrogatesDecide) {
-  Lesson other{{0}, true, {}, {}};
-  Chance luck(2);
+  TrainingSet other{{0}, true, {}, {}};
+  Random luck(2);
   for (int i = 0; i < 20; ++i) {
     other.places.push_back({.5 + .5 * i / 19.});
     other.readings.push_back(std::sin(6 * other.places.back()[0]) + .1 * luck.normal());

@@ -7,16 +7,16 @@ namespace {
 
 TEST(FailureRisk, IsHighAmongFailuresLowAmongSuccessesAndNoneFarAway) {
   const FailureRisk risk({{0}, {{.1}, {.15}, {.5}, {.55}}, {true, true, false, false}});
-  EXPECT_GT(risk.at({.12}).share, .9);
-  EXPECT_LT(risk.at({.52}).share, .1);
-  EXPECT_LT(risk.at({1.}).share, .01);
+  EXPECT_GT(risk.at({.12}).fraction, .9);
+  EXPECT_LT(risk.at({.52}).fraction, .1);
+  EXPECT_LT(risk.at({1.}).fraction, .01);
   EXPECT_LT(risk.at({.3}).gradient[0], 0);
 }
 
 TEST(FailureRisk, IsNoneWithoutFailures) {
   const FailureRisk risk({{0}, {{.1}, {.5}}, {false, false}});
   EXPECT_FALSE(risk.any());
-  EXPECT_EQ(risk.at({.1}).share, 0);
+  EXPECT_EQ(risk.at({.1}).fraction, 0);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/chance.h"
 #include "calibrate/fit/gaussian_process.h"
+#include "calibrate/fit/random.h"
 #include "calibrate/fit/sequence.h"
 
 namespace repose::calibrate {
@@ -18,10 +18,10 @@ struct Data {
 
 Data noisy(std::size_t count, double noise) {
   Data data;
-  Chance chance(5);
+  Random random(5);
   for (std::size_t i = 0; i < count; ++i) {
     data.places.push_back(sequence_point(i, 3));  // the third has no effect
-    data.values.push_back(curve(data.places.back()) + noise * chance.normal());
+    data.values.push_back(curve(data.places.back()) + noise * random.normal());
   }
   return data;
 }

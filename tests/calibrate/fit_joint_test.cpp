@@ -5,7 +5,7 @@
 
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/propose.h"
-#include "tests/calibrate/fake_bench.h"
+#include "tests/calibrate/fake_simulator.h"
 
 namespace repose::calibrate {
 namespace {
@@ -102,7 +102,7 @@ TEST_F(JointFitOfTheBench, KnowsItsSurrogates) {
     EXPECT_GT(quality.leave_one_out_sigma, 0);
     EXPECT_LT(quality.leave_one_out_sigma, 1.6) << quality.observable;
   }
-  EXPECT_GT(fit_->surrogates[2].bend, 0);  // rolling distances span decades
+  EXPECT_GT(fit_->surrogates[2].warp, 0);  // rolling distances span decades
   EXPECT_NEAR(fit_->observables[2].simulated_sd / fit_->observables[2].simulated, .4, .15);
 }
 
@@ -123,9 +123,9 @@ TEST_F(JointFitOfTheBench, CurvesAndSurfacesPassThroughTheFit) {
     const auto after = std::lower_bound(curve.values.begin(), curve.values.end(), best);
     const auto k =
         static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - curve.values.begin(), 1, 40));
-    const double share = (best - curve.values[k - 1]) / (curve.values[k] - curve.values[k - 1]);
+    const double fraction = (best - curve.values[k - 1]) / (curve.values[k] - curve.values[k - 1]);
     const double there =
-        curve.simulated[k - 1] + share * (curve.simulated[k] - curve.simulated[k - 1]);
+        curve.simulated[k - 1] + fraction * (curve.simulated[k] - curve.simulated[k - 1]);
     EXPECT_NEAR(there, observable.simulated, .03 * std::abs(observable.simulated));
     EXPECT_THAT(curve.uncertainty, testing::Each(testing::Gt(0)));
     EXPECT_THAT(curve.scatter, testing::Each(testing::Ge(0)));
@@ -224,7 +224,7 @@ TEST(JointFit, KnowledgeBeforehandCounts) {
   // The measurement says .4 +- .1, before it was .3 +- .1: the two meet half-way.
   Problem problem = plate(20, 0, 1);
   problem.observables[0].sd.reset();
-  problem.observables[0].assumed_sd_share = .25;
+  problem.observables[0].assumed_sd_fraction = .25;
   problem.parameters[0].prior = Prior{.3, .1};
   const JointFit fit = plate_fit(problem);
   EXPECT_NEAR(fit.parameters[0].value, .35, .003);

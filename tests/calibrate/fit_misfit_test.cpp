@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/first_round.h"
-#include "calibrate/fit/lessons.h"
 #include "calibrate/fit/minimum.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/plausible.h"
-#include "tests/calibrate/fake_bench.h"
+#include "calibrate/fit/training_set.h"
+#include "tests/calibrate/fake_simulator.h"
 
 namespace repose::calibrate {
 namespace {

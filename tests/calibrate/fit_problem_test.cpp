@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/problem.h"
-#include "tests/calibrate/fake_bench.h"
+#include "calibrate/fit/problem.h"
+#include "tests/calibrate/fake_simulator.h"
 
 namespace repose::calibrate {
 namespace {
@@ -20,13 +20,13 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Problem sound() { return fake::problem({.31, .42, .05, .2, .3, .06}, 1); }
 
-TEST(Problem, ASoundOneHasNoFaults) { EXPECT_THAT(faults_of(sound()), IsEmpty()); }
+TEST(Problem, ASoundOneHasNoErrors) { EXPECT_THAT(errors_of(sound()), IsEmpty()); }
 
 TEST(Problem, AnEmptyOneSaysWhatIsMissing) {
-  EXPECT_THAT(faults_of({}), ElementsAre(HasSubstr("no parameter"), HasSubstr("nothing was")));
+  EXPECT_THAT(errors_of({}), ElementsAre(HasSubstr("no parameter"), HasSubstr("nothing was")));
 }
 
-TEST(Problem, EveryFaultIsToldAtOnceWithItsFix) {
+TEST(Problem, EveryErrorIsToldAtOnceWithItsFix) {
   Problem problem = sound();
   problem.parameters[0].min = .7;
   problem.parameters[1].max = kNaN;
@@ -37,28 +37,28 @@ TEST(Problem, EveryFaultIsToldAtOnceWithItsFix) {
   problem.observables[2].n = 1;
   problem.observables[3].sd.reset();
   problem.experiments[3].run_s = -1;
-  problem.settings.most_rounds = 0;
-  const std::vector<std::string> faults = faults_of(problem);
-  EXPECT_EQ(faults.size(), 10);
-  EXPECT_THAT(faults, testing::Each(HasSubstr("Fix: ")));
-  EXPECT_THAT(faults, Contains(AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("min = 0.7"),
+  problem.settings.max_rounds = 0;
+  const std::vector<std::string> errors = errors_of(problem);
+  EXPECT_EQ(errors.size(), 10);
+  EXPECT_THAT(errors, testing::Each(HasSubstr("Fix: ")));
+  EXPECT_THAT(errors, Contains(AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("min = 0.7"),
                                      HasSubstr("max = 0.6"))));
-  EXPECT_THAT(faults, Contains(AllOf(HasSubstr("tilt"), HasSubstr("resolution"))));
-  EXPECT_THAT(faults, Contains(AllOf(HasSubstr("roll"), HasSubstr("one reading has no sd"))));
-  EXPECT_THAT(faults, Contains(AllOf(HasSubstr("heap"), HasSubstr("assumed_sd_share"))));
+  EXPECT_THAT(errors, Contains(AllOf(HasSubstr("tilt"), HasSubstr("resolution"))));
+  EXPECT_THAT(errors, Contains(AllOf(HasSubstr("roll"), HasSubstr("one reading has no sd"))));
+  EXPECT_THAT(errors, Contains(AllOf(HasSubstr("heap"), HasSubstr("assumed_sd_share"))));
   try {
     require_sound(problem);
     FAIL() << "not refused";
-  } catch (const std::invalid_argument& error) {
-    for (const std::string& fault : faults) EXPECT_THAT(error.what(), HasSubstr(fault));
+  } catch (const std::invalid_argument& refusal) {
+    for (const std::string& error : errors) EXPECT_THAT(refusal.what(), HasSubstr(error));
   }
 }
 
 TEST(Problem, AParameterThatNothingMeasuredDependsOnIsNamedWithWhatWouldHelp) {
   Problem problem = sound();
   problem.observables.pop_back();  // the heap
-  EXPECT_THAT(faults_of(problem), testing::SizeIs(3));
-  EXPECT_THAT(faults_of(problem), Contains(AllOf(HasSubstr("particle_particle.restitution"),
+  EXPECT_THAT(errors_of(problem), testing::SizeIs(3));
+  EXPECT_THAT(errors_of(problem), Contains(AllOf(HasSubstr("particle_particle.restitution"),
                                                  HasSubstr("measure heap"))));
 }
 
@@ -68,7 +68,7 @@ TEST(Problem, NamesMustFitTogether) {
   problem.observables[2].experiment = "rol";
   problem.experiments[0].parameters.push_back(0);
   problem.experiments[1].parameters.push_back(17);
-  EXPECT_THAT(faults_of(problem),
+  EXPECT_THAT(errors_of(problem),
               AllOf(Contains(HasSubstr("two observables are called \"drop\"")),
                     Contains(HasSubstr("no experiment is called \"rol\"")),
                     Contains(HasSubstr("twice")), Contains(HasSubstr("parameter 17, of 6"))));
@@ -78,25 +78,25 @@ TEST(Problem, AShareOfAMeanOfNothingIsNoScatter) {
   Problem problem = sound();
   problem.observables[0].mean = 0;
   problem.observables[0].sd.reset();
-  problem.observables[0].assumed_sd_share = .1;
-  EXPECT_THAT(faults_of(problem), ElementsAre(HasSubstr("drop: a share of a mean of 0")));
+  problem.observables[0].assumed_sd_fraction = .1;
+  EXPECT_THAT(errors_of(problem), ElementsAre(HasSubstr("drop: a fraction of a mean of 0")));
 }
 
 TEST(Problem, ABudgetThatBuysNoFitIsRefusedWithTheLeast) {
   Problem problem = sound();
   problem.settings.budget_s = 100;
-  problem.settings.most_jobs = 10;
+  problem.settings.max_jobs = 10;
   // 14 heaps of 25 s, 8 each of .6, .5 and 1 s.
-  EXPECT_THAT(faults_of(problem), ElementsAre(HasSubstr("367 s"), HasSubstr("at least 38")));
+  EXPECT_THAT(errors_of(problem), ElementsAre(HasSubstr("367 s"), HasSubstr("at least 38")));
   problem.settings.budget_s = kNaN;
-  EXPECT_THAT(faults_of(problem), Contains(HasSubstr("budget_s = nan")));
+  EXPECT_THAT(errors_of(problem), Contains(HasSubstr("budget_s = nan")));
 }
 
 TEST(Problem, UncertaintyIsOfTheMean) {
   Observable observable{"a", "drop", "value", "mm", 10, 3, 9, {}};
   EXPECT_DOUBLE_EQ(standard_uncertainty(observable), 1);
   observable.sd.reset();
-  observable.assumed_sd_share = .06;
+  observable.assumed_sd_fraction = .06;
   observable.mean = -10;
   EXPECT_DOUBLE_EQ(standard_uncertainty(observable), .2);
 }

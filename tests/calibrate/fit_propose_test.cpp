@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/propose.h"
-#include "tests/calibrate/fake_bench.h"
+#include "tests/calibrate/fake_simulator.h"
 
 namespace repose::calibrate {
 namespace {
@@ -95,7 +95,7 @@ TEST(Propose, EndsWithinItsBudgetAndNeverRunsAJobTwice) {
 
 TEST(Propose, KeepsToTheMostJobs) {
   Problem problem = quick();
-  problem.settings.most_jobs = 60;
+  problem.settings.max_jobs = 60;
   EXPECT_LE(fake::study(problem).size(), 60);
 }
 
@@ -137,7 +137,7 @@ TEST(Propose, FailedRunsCountAsDone) {
   EXPECT_THAT(propose(problem, runs), IsEmpty());
 }
 
-TEST(Propose, AllFailedIsAFaultThatSaysWhy) {
+TEST(Propose, AllFailedIsAErrorThatSaysWhy) {
   const Problem problem = quick();
   fake::Runs runs = fake::run_all(propose(problem, {}));
   for (auto& run : runs) {
@@ -151,7 +151,7 @@ TEST(Propose, AllFailedIsAFaultThatSaysWhy) {
   }
 }
 
-TEST(Propose, AFaultyProblemIsRefused) { EXPECT_THROW(propose({}, {}), std::invalid_argument); }
+TEST(Propose, AnErroryProblemIsRefused) { EXPECT_THROW(propose({}, {}), std::invalid_argument); }
 
 }  // namespace
 }  // namespace repose::calibrate

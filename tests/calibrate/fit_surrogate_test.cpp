@@ -2,68 +2,68 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/chance.h"
+#include "calibrate/fit/random.h"
 #include "calibrate/fit/sequence.h"
 #include "calibrate/fit/surrogate.h"
 
 namespace repose::calibrate {
 namespace {
 
-TEST(Bend, ExpectationAndScatterAreThoseOfManyReadings) {
-  const Bend bend{3, .5};
-  const double w = bend.of_expected(20);
-  EXPECT_NEAR(bend.expected(w), 20, 1e-9);
-  Chance chance(1);
+TEST(AsinhWarp, ExpectationAndScatterAreThoseOfManyReadings) {
+  const AsinhWarp warp{3, .5};
+  const double w = warp.of_expected(20);
+  EXPECT_NEAR(warp.expected(w), 20, 1e-9);
+  Random random(1);
   constexpr int kCount = 200000;
   double sum = 0;
   double squares = 0;
   for (int i = 0; i < kCount; ++i) {
-    const double y = 3 * std::sinh(w + .5 * chance.normal());
+    const double y = 3 * std::sinh(w + .5 * random.normal());
     sum += y;
     squares += y * y;
   }
   EXPECT_NEAR(sum / kCount, 20, .1);
-  EXPECT_NEAR(bend.scatter(w), std::sqrt(squares / kCount - 400), .15);
+  EXPECT_NEAR(warp.scatter(w), std::sqrt(squares / kCount - 400), .15);
 }
 
-TEST(Bend, SlopeIsThatOfTheExpectation) {
-  const Bend bend{3, .5};
-  EXPECT_NEAR(bend.slope(1.2), (bend.expected(1.2001) - bend.expected(1.1999)) / .0002, 1e-5);
+TEST(AsinhWarp, SlopeIsThatOfTheExpectation) {
+  const AsinhWarp warp{3, .5};
+  EXPECT_NEAR(warp.slope(1.2), (warp.expected(1.2001) - warp.expected(1.1999)) / .0002, 1e-5);
 }
 
-Lesson lesson(std::size_t count, double (*reading)(const Point&, Chance&)) {
-  Lesson lesson{{1}, true, {}, {}};  // the second of three parameters
-  Chance chance(3);
+TrainingSet training_set(std::size_t count, double (*reading)(const Point&, Random&)) {
+  TrainingSet training_set{{1}, true, {}, {}};  // the second of three parameters
+  Random random(3);
   for (std::size_t i = 0; i < count; ++i) {
-    lesson.places.push_back(sequence_point(i, 1));
-    lesson.readings.push_back(reading(lesson.places.back(), chance));
+    training_set.places.push_back(sequence_point(i, 1));
+    training_set.readings.push_back(reading(training_set.places.back(), random));
   }
-  return lesson;
+  return training_set;
 }
 
-double heavy_tailed(const Point& x, Chance& chance) {
-  return 100 * std::exp(3 * x[0]) * std::exp(.4 * chance.normal() - .08);
+double heavy_tailed(const Point& x, Random& random) {
+  return 100 * std::exp(3 * x[0]) * std::exp(.4 * random.normal() - .08);
 }
 
 TEST(Surrogate, BendsWhatSpansManyScalesAndStillGivesTheMean) {
-  const Surrogate surrogate(lesson(150, heavy_tailed), {}, true);
-  EXPECT_GT(surrogate.bend().bend, 0);
+  const Surrogate surrogate(training_set(150, heavy_tailed), {}, true);
+  EXPECT_GT(surrogate.warp().warp, 0);
   const double truth = 100 * std::exp(1.5);
   EXPECT_NEAR(surrogate.simulated({.9, .5, .1}), truth, .12 * truth);
-  EXPECT_NEAR(surrogate.bend().scatter(surrogate.at({0, .5, 0}, false).mean), .416 * truth,
+  EXPECT_NEAR(surrogate.warp().scatter(surrogate.at({0, .5, 0}, false).mean), .416 * truth,
               .1 * truth);
 }
 
 TEST(Surrogate, DoesNotGoBelowZeroWhereNoRunDid) {
   const Surrogate surrogate(
-      lesson(40, [](const Point& x,
-                    Chance&) { return std::max(0., x[0] - .5) * std::max(0., x[0] - .5); }),
+      training_set(40, [](const Point& x,
+                          Random&) { return std::max(0., x[0] - .5) * std::max(0., x[0] - .5); }),
       {}, true);
   for (double x = 0; x <= 1; x += .05) EXPECT_GE(surrogate.simulated({0, x, 0}), 0);
 }
 
 TEST(Surrogate, OnlyItsOwnParametersCount) {
-  const Surrogate surrogate(lesson(50, heavy_tailed), {}, false);
+  const Surrogate surrogate(training_set(50, heavy_tailed), {}, false);
   const Expectation at = surrogate.at({.1, .4, .9}, true);
   EXPECT_EQ(at.mean_gradient[0], 0);
   EXPECT_NE(at.mean_gradient[1], 0);
@@ -73,10 +73,11 @@ TEST(Surrogate, OnlyItsOwnParametersCount) {
 
 TEST(Surrogate, IsLessSureWhereRunsScatterMoreThanElsewhere) {
   // Hardly any noise over nine tenths, much near the end.
-  Surrogate surrogate(
-      lesson(100, [](const Point& x,
-                     Chance& chance) { return x[0] + (x[0] > .9 ? 1. : .05) * chance.normal(); }),
-      {}, true);
+  Surrogate surrogate(training_set(100,
+                                   [](const Point& x, Random& random) {
+                                     return x[0] + (x[0] > .9 ? 1. : .05) * random.normal();
+                                   }),
+                      {}, true);
   surrogate.inflate_near({0, .3, 0});
   const double calm = surrogate.inflation();
   surrogate.inflate_near({0, .97, 0});
@@ -85,7 +86,7 @@ TEST(Surrogate, IsLessSureWhereRunsScatterMoreThanElsewhere) {
 }
 
 TEST(Surrogate, AConstantIsCalledOne) {
-  const Surrogate surrogate(lesson(10, [](const Point&, Chance&) { return 7.; }), {}, true);
+  const Surrogate surrogate(training_set(10, [](const Point&, Random&) { return 7.; }), {}, true);
   EXPECT_TRUE(surrogate.constant());
   EXPECT_EQ(surrogate.simulated({0, .3, 0}), 7);
   EXPECT_EQ(surrogate.uncertainty({0, .3, 0}), 0);

@@ -6,7 +6,7 @@
 
 #include "calibrate/fit/propose.h"
 #include "calibrate/fit/verification.h"
-#include "tests/calibrate/fake_bench.h"
+#include "tests/calibrate/fake_simulator.h"
 
 namespace repose::calibrate {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/regress/regression.h"
+#include "calibrate/statistics/regress/regression.h"
 
 namespace repose::calibrate {
 

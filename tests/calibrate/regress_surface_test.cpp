@@ -5,8 +5,8 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/design/design.h"
-#include "calibrate/regress/surface.h"
+#include "calibrate/statistics/design/design.h"
+#include "calibrate/statistics/regress/surface.h"
 #include "tests/calibrate/hazelnut_runs.h"
 
 namespace repose::calibrate {
@@ -46,9 +46,9 @@ std::vector<std::string> codes_of(const Regression& regression, std::optional<do
   std::optional<TargetSet> set;
   if (target) set = solve_target(regression, *target);
   std::vector<std::string> codes;
-  for (const SurfaceDoubt& doubt :
-       doubts_about(regression, canonical_form(regression), extremes_in_box(regression), set)) {
-    codes.push_back(doubt.code);
+  for (const SurfaceDiagnostic& diagnostic :
+       diagnostics_of(regression, canonical_form(regression), extremes_in_box(regression), set)) {
+    codes.push_back(diagnostic.code);
   }
   return codes;
 }

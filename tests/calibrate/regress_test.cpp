@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/regress/regression.h"
+#include "calibrate/statistics/regress/regression.h"
 #include "tests/calibrate/hazelnut_runs.h"
 
 namespace repose::calibrate {
@@ -32,11 +32,11 @@ RunTable line(const std::vector<double>& levels, const std::vector<double>& resp
   return table;
 }
 
-std::string fault_of(const RunTable& table, SurfaceModel model) {
+std::string error_of(const RunTable& table, SurfaceModel model) {
   try {
     regress(table, model);
-  } catch (const std::invalid_argument& fault) {
-    return fault.what();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
   }
   return "";
 }
@@ -247,39 +247,39 @@ TEST(Regression, ARunThatAloneHoldsATermHasNoPredictedR2) {
   EXPECT_FALSE(regress(table, SurfaceModel::linear).press);
 }
 
-TEST(Regression, AllFaultsAreNamedAtOnce) {
+TEST(Regression, AllErrorsAreNamedAtOnce) {
   RunTable table = line({1, 1, 1}, {5, 5, 5});
   table.factors = {{"x", 0, 2}};
-  const std::string fault = fault_of(table, SurfaceModel::quadratic);
-  EXPECT_THAT(fault, AllOf(HasSubstr("line.csv: x is 1 in every run"),
+  const std::string error = error_of(table, SurfaceModel::quadratic);
+  EXPECT_THAT(error, AllOf(HasSubstr("line.csv: x is 1 in every run"),
                            HasSubstr("line.csv: y is 5 in every run"),
                            HasSubstr("3 runs for the 3 terms")));
 }
 
 TEST(Regression, WhatTheDesignCannotTellApartIsNamed) {
   const RunTable two_levels = line({-1, -1, 1, 1, -1, 1}, {1, 2, 3, 4, 2, 3});
-  EXPECT_THAT(fault_of(two_levels, SurfaceModel::quadratic),
+  EXPECT_THAT(error_of(two_levels, SurfaceModel::quadratic),
               AllOf(HasSubstr("cannot tell"), HasSubstr("Fix: ")));
-  EXPECT_EQ(fault_of(two_levels, SurfaceModel::linear), "");
+  EXPECT_EQ(error_of(two_levels, SurfaceModel::linear), "");
 
   // Steepest ascent: the factors go up together.
   RunTable together = line({0, .1, .2, .3, .4}, {1, 2, 4, 3, 5});
   together.factors = {{"a", 0, .4}, {"b", 0, .04}};
   together.levels.push_back({0, .01, .02, .03, .04});
-  EXPECT_THAT(fault_of(together, SurfaceModel::linear),
+  EXPECT_THAT(error_of(together, SurfaceModel::linear),
               AllOf(HasSubstr("cannot tell"), Not(HasSubstr("constant"))));
 }
 
 TEST(Regression, NumbersThatAreNoneAreRefused) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(fault_of(line({0, 1, 2, 3}, {1, kNan, 2, 3}), SurfaceModel::linear),
+  EXPECT_THAT(error_of(line({0, 1, 2, 3}, {1, kNan, 2, 3}), SurfaceModel::linear),
               HasSubstr("y has values that are not finite"));
-  EXPECT_THAT(fault_of(line({0, 1, kNan, 3}, {1, 1, 2, 3}), SurfaceModel::linear),
+  EXPECT_THAT(error_of(line({0, 1, kNan, 3}, {1, 1, 2, 3}), SurfaceModel::linear),
               HasSubstr("x has values that are not finite"));
-  EXPECT_THAT(fault_of(line({0, 1}, {1}), SurfaceModel::linear), HasSubstr("2 values for 1 runs"));
+  EXPECT_THAT(error_of(line({0, 1}, {1}), SurfaceModel::linear), HasSubstr("2 values for 1 runs"));
   RunTable empty;
   empty.name = "empty";
-  EXPECT_THAT(fault_of(empty, SurfaceModel::quadratic), HasSubstr("0 factors"));
+  EXPECT_THAT(error_of(empty, SurfaceModel::quadratic), HasSubstr("0 factors"));
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(MeasureReport, SaysMeanAndWhatWasLeftOut) {
   pictures[2].file = "refused.jpg";
   pictures[2].angle.reason = "no <heap> in it";
   pictures[3].file = "gone.jpg";
-  pictures[3].fault = "there is no such file";
+  pictures[3].error = "there is no such file";
   const std::string html = measure_report(pictures).html;
   EXPECT_THAT(html, HasSubstr("Mean angle of repose 23.49°"));
   EXPECT_THAT(html, HasSubstr("Left out: 2 flagged, refused or not read."));

@@ -29,10 +29,10 @@ stiffness_factor = 0.5
 )");
     folder_.write("a.jpg", std::string("not looked at here"));
     folder_.write("b.jpg", std::string("nor this"));
-    std::filesystem::create_directory(kept());
+    std::filesystem::create_directory(saved());
   }
 
-  std::filesystem::path kept() const { return folder_.path() / "kept"; }
+  std::filesystem::path saved() const { return folder_.path() / "kept"; }
 
   StudyRecord record() const {
     const std::vector<std::string> settings = {"particle.density_kg_m3 = 700"};
@@ -54,14 +54,14 @@ stiffness_factor = 0.5
 
 TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
   const StudyRecord written = record();
-  write_study_record(kept(), written);
+  write_study_record(saved(), written);
   for (const char* file : {"study.toml", "a.jpg", "b.jpg"}) {
     std::filesystem::remove(folder_.path() / file);
   }
-  const StudyRecord read = read_study_record(kept());
+  const StudyRecord read = read_study_record(saved());
   EXPECT_EQ(read.study.hash, written.study.hash);
   EXPECT_EQ(read.study.file, "study.toml");
-  EXPECT_EQ(read.study.bench.grain_material.density_kg_m3, 700);
+  EXPECT_EQ(read.study.model.grain_material.density_kg_m3, 700);
   EXPECT_EQ(read.study.heap_stiffness, written.study.heap_stiffness);
   EXPECT_THAT(read.study.heap_measured.values, ElementsAre(24.125));
   EXPECT_EQ(read.budget.name, "quick");
@@ -75,15 +75,15 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
 TEST_F(StudyRecordTest, OtherFoldersAreRefused) {
   EXPECT_THAT([this] { read_study_record(folder_.path()); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("is no folder of a study")));
-  EXPECT_THAT([this] { read_study_record(kept() / "none"); },
+  EXPECT_THAT([this] { read_study_record(saved() / "none"); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("is no folder of a study")));
 }
 
 TEST_F(StudyRecordTest, DamagedRecordsAreNamed) {
-  write_study_record(kept(), record());
+  write_study_record(saved(), record());
   for (const std::string text : {"", "{\"study\": 3}", "[[[["}) {
     folder_.write("kept/study.json", text);
-    EXPECT_THAT([this] { read_study_record(kept()); },
+    EXPECT_THAT([this] { read_study_record(saved()); },
                 ThrowsMessage<std::invalid_argument>(
                     AllOf(HasSubstr("study.json: damaged"), HasSubstr("Fix: "))));
   }

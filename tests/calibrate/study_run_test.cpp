@@ -30,7 +30,7 @@ class StudyRun : public ::testing::Test {
 
   static dem::ClumpFile grain_of(const dem::Study& study) { return dem::build_grain(study.grain); }
 
-  static StudyBench bench_of(const dem::Study& study) {
+  static StudySimulator bench_of(const dem::Study& study) {
     return {study,
             grain_of(study),
             {"contact.particle_wall.restitution", "contact.particle_wall.sliding_friction"},
@@ -39,8 +39,8 @@ class StudyRun : public ::testing::Test {
 
   static Problem small_problem(const dem::Study& study) {
     Problem problem = problem_of(study, grain_of(study), budget_named("quick")).problem;
-    problem.settings.most_jobs = 24;
-    problem.settings.most_rounds = 3;
+    problem.settings.max_jobs = 24;
+    problem.settings.max_rounds = 3;
     return problem;
   }
 
@@ -53,7 +53,7 @@ class StudyRun : public ::testing::Test {
   /// The fitted values of a study run in a folder; breaks it off before job number `stop`.
   std::optional<StudyOutcome> run(const std::string& folder, int threads, int stop = -1) const {
     const dem::Study study = read();
-    const StudyBench bench = bench_of(study);
+    const StudySimulator bench = bench_of(study);
     const RunFolder runs(folder_.path() / folder);
     ThreadExecutor executor(bench, threads);
     std::atomic<bool> is_interrupted = false;
@@ -94,7 +94,7 @@ TEST_F(StudyRun, TakesItsProblemFromTheStudy) {
 TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));
-  EXPECT_EQ(made.problem.observables[0].assumed_sd_share, kAssumedSdShare);
+  EXPECT_EQ(made.problem.observables[0].assumed_sd_fraction, kAssumedSdFraction);
 }
 
 TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
@@ -102,8 +102,8 @@ TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
     const dem::Study study = read(settings);
     try {
       problem_of(study, grain_of(study), budget_named("quick"));
-    } catch (const std::invalid_argument& fault) {
-      return fault.what();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
     }
     return {};
   };

@@ -1,4 +1,4 @@
-#include "calibrate/table/table.h"
+#include "calibrate/statistics/table/table.h"
 
 #include <stdexcept>
 
@@ -13,11 +13,11 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string fault_of(const std::string& text, const std::vector<std::string>& columns = {}) {
+std::string error_of(const std::string& text, const std::vector<std::string>& columns = {}) {
   try {
     numbers_of(parse_table("runs.csv", text), columns);
-  } catch (const std::invalid_argument& fault) {
-    return fault.what();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
   }
   return "";
 }
@@ -48,34 +48,34 @@ TEST(Table, SpreadsheetsHabitsAreUnderstood) {
 }
 
 TEST(Table, EveryRaggedLineIsNamed) {
-  EXPECT_THAT(fault_of("a,b\n1,2\n1\n1,2,3\n"),
+  EXPECT_THAT(error_of("a,b\n1,2\n1\n1,2,3\n"),
               AllOf(HasSubstr("runs.csv:3: the row has 1 cells, the header 2"),
                     HasSubstr("runs.csv:4: the row has 3 cells")));
 }
 
 TEST(Table, EveryCellThatIsNoNumberIsNamed) {
-  const std::string fault =
-      fault_of("a,b\n1,nan\nx,2\n,3\n4,inf\n1e999,5\n1 2,6\n", {"a", "b", "c"});
+  const std::string error =
+      error_of("a,b\n1,nan\nx,2\n,3\n4,inf\n1e999,5\n1 2,6\n", {"a", "b", "c"});
   for (const char* part :
        {"runs.csv:2: b is \"nan\"", "runs.csv:3: a is \"x\"", "runs.csv:4: a is \"\"",
         "runs.csv:5: b is \"inf\"", "runs.csv:6: a is \"1e999\"", "runs.csv:7: a is \"1 2\"",
         "has no column c"}) {
-    EXPECT_THAT(fault, HasSubstr(part));
+    EXPECT_THAT(error, HasSubstr(part));
   }
 }
 
 TEST(Table, AMistypedColumnIsGuessed) {
-  EXPECT_THAT(fault_of("angle_deg,mu\n1,2\n", {"angel_deg"}), HasSubstr("Did you mean angle_deg?"));
+  EXPECT_THAT(error_of("angle_deg,mu\n1,2\n", {"angel_deg"}), HasSubstr("Did you mean angle_deg?"));
 }
 
 TEST(Table, WhatIsNoTableIsRefused) {
-  EXPECT_THAT(fault_of(""), HasSubstr("runs.csv: is empty"));
-  EXPECT_THAT(fault_of("\n \n"), HasSubstr("runs.csv: is empty"));
-  EXPECT_THAT(fault_of("a,b\n"), HasSubstr("no rows"));
-  EXPECT_THAT(fault_of("a,,a\n1,2,3\n"),
+  EXPECT_THAT(error_of(""), HasSubstr("runs.csv: is empty"));
+  EXPECT_THAT(error_of("\n \n"), HasSubstr("runs.csv: is empty"));
+  EXPECT_THAT(error_of("a,b\n"), HasSubstr("no rows"));
+  EXPECT_THAT(error_of("a,,a\n1,2,3\n"),
               AllOf(HasSubstr("column 2 has no name"), HasSubstr("two columns are called a")));
-  EXPECT_THAT(fault_of("a,b\n\"1,2\n"), HasSubstr("quotation mark"));
-  EXPECT_THAT(fault_of("a,b\n1\"2,3\n"), HasSubstr("runs.csv:2: a quotation mark"));
+  EXPECT_THAT(error_of("a,b\n\"1,2\n"), HasSubstr("quotation mark"));
+  EXPECT_THAT(error_of("a,b\n1\"2,3\n"), HasSubstr("runs.csv:2: a quotation mark"));
 }
 
 TEST(Table, FilesThatCannotBeReadAreNamed) {
@@ -84,8 +84,8 @@ TEST(Table, FilesThatCannotBeReadAreNamed) {
     try {
       read_table(file);
       ADD_FAILURE() << file;
-    } catch (const std::invalid_argument& fault) {
-      EXPECT_THAT(fault.what(), AllOf(HasSubstr(file.string()), HasSubstr("Fix: ")));
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(file.string()), HasSubstr("Fix: ")));
     }
   }
   EXPECT_EQ(read_table(folder.write("a.csv", std::string("x\n1\n"))).rows.size(), 1U);

@@ -62,7 +62,7 @@ TEST(BenchCommand, OneReadingHasNullsAndIsSaid) {
   EXPECT_THAT(result["notes"].dump(), HasSubstr("repeat the test"));
 }
 
-TEST(BenchCommand, EveryFaultIsNamedWithItsLine) {
+TEST(BenchCommand, EveryErrorIsNamedWithItsLine) {
   const TemporaryFolder folder;
   folder.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n500,abc\n500,600\n-1,2\n"));
   const Finished run = run_repose(folder, {"bench", "restitution", "drops.csv", "missing.csv"});

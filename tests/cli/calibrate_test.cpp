@@ -12,7 +12,7 @@
 
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/run_program.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
@@ -102,14 +102,14 @@ TEST_F(Calibrate, AnotherStudyFindsTheRunsThatItShares) {
   EXPECT_THAT(other.err, AllOf(HasSubstr("simulations were there already"),
                                HasSubstr("runs/result.json: was of another study")));
   EXPECT_NE(text_of(path("runs/result.json")), first);
-  bool is_kept = false;
+  bool is_saved = false;
   for (const auto& entry : std::filesystem::directory_iterator(path("runs"))) {
-    is_kept = is_kept || (entry.is_regular_file() && text_of(entry.path()) == first);
+    is_saved = is_saved || (entry.is_regular_file() && text_of(entry.path()) == first);
   }
-  EXPECT_TRUE(is_kept) << "under another name";
+  EXPECT_TRUE(is_saved) << "under another name";
 }
 
-TEST_F(Calibrate, EveryFaultIsToldAtOnce) {
+TEST_F(Calibrate, EveryErrorIsToldAtOnce) {
   const Finished wrong =
       run({"study.toml", "--budget", "cheap", "--method", "best", "--jobs", "0", "--set",
            "contact.particle_wall.restitution = { min = 0.9, max = 0.2 }"});
@@ -134,9 +134,9 @@ TEST_F(Calibrate, AFolderThatCannotBeMadeIsRefused) {
 
 TEST_F(Calibrate, AFullDiskLosesNothing) {
   // No file may grow beyond 4 KiB: runs are smaller, the clump and the result are larger.
-  folder_.write("full.sh",
-                std::string("trap '' XFSZ; ulimit -f 8\n"
-                            "exec '" REPOSE_PROGRAM "' calibrate study.toml --out runs\n"));
+  folder_.write("full.sh", std::string("trap '' XFSZ; ulimit -f 8\n"
+                                       "exec '") +
+                               program().string() + "' calibrate study.toml --out runs\n");
   const Finished at_once = run_program("sh", folder_, {"full.sh"});
   EXPECT_EQ(at_once.exit_code, 2) << "before anything is simulated";
   EXPECT_THAT(at_once.err, AllOf(HasSubstr("runs/clump.json"), HasSubstr("Fix: ")));
@@ -188,7 +188,7 @@ TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {
     const Finished done = run_program(
         "mpirun", folder_,
         {"--allow-run-as-root", "--oversubscribe", "-np", ranks, "env",
-         "ASAN_OPTIONS=detect_leaks=0", REPOSE_PROGRAM, "calibrate", "study.toml", "--out", out});
+         "ASAN_OPTIONS=detect_leaks=0", program(), "calibrate", "study.toml", "--out", out});
     if (done.exit_code == 127) GTEST_SKIP() << "there is no mpirun";
     ASSERT_EQ(done.exit_code, 0) << done.err;
     EXPECT_EQ(text_of(path(out + "/result.json")), text_of(path("one/result.json"))) << ranks;
@@ -201,7 +201,8 @@ TEST_F(Calibrate, AStudyGoesOnAfterARankWasKilled) {
   const std::string script =
       "for attempt in 1 2 3 4 5; do\n"
       "  rm -rf ranks\n"
-      "  mpirun --allow-run-as-root --oversubscribe -np 3 '" REPOSE_PROGRAM
+      "  mpirun --allow-run-as-root --oversubscribe -np 3 '" +
+      program().string() +
       "' calibrate study.toml --out ranks & launcher=$!\n"
       "  until ls ranks/runs/*.json >/dev/null 2>&1; do sleep 0.01; done\n"
       "  for child in $(ps -o pid= --ppid $launcher); do kill -KILL $child; break; done\n"

@@ -9,7 +9,7 @@
 
 #include "tests/cli/run_program.h"
 #include "tests/support/heap_picture.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
@@ -148,7 +148,7 @@ TEST_F(Compare, OverlayAndJsonAreWritten) {
   EXPECT_THAT(done.out, HasSubstr("different"));
 }
 
-TEST_F(Compare, PlacesThatCannotBeWrittenAreFaultsBeforeTheWork) {
+TEST_F(Compare, PlacesThatCannotBeWrittenAreErrorsBeforeTheWork) {
   const Finished done = run({"steep.png", "flat.png", "--overlay", "no/such/folder/x.png", "--json",
                              "no/such/folder/x.json"});
   EXPECT_EQ(done.exit_code, 2);

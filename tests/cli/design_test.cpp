@@ -84,7 +84,7 @@ TEST(DesignCommand, LevelsBelowZeroAreSaid) {
   EXPECT_THAT(run_repose(folder, inscribed).err, IsEmpty());
 }
 
-TEST(DesignCommand, EveryFaultIsNamedAtOnce) {
+TEST(DesignCommand, EveryErrorIsNamedAtOnce) {
   const TemporaryFolder folder;
   const Finished run =
       run_repose(folder, {"design", "lhs", "--factor", "a=2:1", "--factor", "run=0:1", "--levels",

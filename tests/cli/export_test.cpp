@@ -82,7 +82,7 @@ TEST_F(Export, AnUnfinishedStudyIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "study/export"));
 }
 
-TEST_F(Export, EveryFaultIsTold) {
+TEST_F(Export, EveryErrorIsTold) {
   const Finished wrong = run({"nowhere", "--to", "excel"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, AllOf(HasSubstr("--to excel: must be one of liggghts"),

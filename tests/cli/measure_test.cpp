@@ -10,7 +10,7 @@
 
 #include "tests/cli/run_program.h"
 #include "tests/support/heap_picture.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
@@ -172,7 +172,7 @@ TEST_F(Measure, MethodWindowAndPitchReachTheMeasuring) {
   EXPECT_NE(told_level["uncertainty_deg"], usual["uncertainty_deg"]);  // told is not untold
 }
 
-TEST_F(Measure, ABoxOutsideOnePictureFaultsOnlyThatPicture) {
+TEST_F(Measure, ABoxOutsideOnePictureErrorsOnlyThatPicture) {
   draw_heap_to("large.png");
   draw_plain("small.png", 100);
   const Finished result = run({"large.png", "small.png", "--exclude", "0,0,120,20", "--json", "-"});

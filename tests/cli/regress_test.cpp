@@ -133,7 +133,7 @@ TEST(RegressCommand, CodingsCanBeGiven) {
   EXPECT_NEAR(slope["value"].get<double>(), slope["natural"].get<double>() / 2, 1e-12);
 }
 
-TEST(RegressCommand, EveryFaultOfTheTableIsNamedWithItsLine) {
+TEST(RegressCommand, EveryErrorOfTheTableIsNamedWithItsLine) {
   const TemporaryFolder folder;
   folder.write("runs.csv", std::string("a,b,y\n1,2,3\n1,nan,3\nx,2,\n"));
   const Finished cells = run_repose(folder, {"regress", "runs.csv", "--response", "y", "--model",

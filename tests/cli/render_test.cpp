@@ -8,7 +8,7 @@
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
 #include "tests/cli/run_program.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
@@ -94,7 +94,7 @@ TEST_F(RenderCommand, TheSameBytesAtAnyNumberOfThreadsOfTheDriver) {
   }
 }
 
-TEST_F(RenderCommand, FaultsAreOneLineEachAndLeaveNothing) {
+TEST_F(RenderCommand, ErrorsAreOneLineEachAndLeaveNothing) {
   folder().write("notes.vtp", std::string("no state"));
   const std::vector<std::pair<std::vector<std::string>, const char*>> cases = {
       {{"missing.vtp", "--out", "a.png"}, "missing.vtp"},

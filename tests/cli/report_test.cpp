@@ -6,7 +6,7 @@
 
 #include "tests/cli/run_program.h"
 #include "tests/support/heap_picture.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {

@@ -5,19 +5,20 @@
 
 #include <unistd.h>
 
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 
 namespace repose::testing {
 
 /// Starts the built program in a folder and does not wait for it.
 inline pid_t start_repose(const TemporaryFolder& folder, std::vector<std::string> words) {
-  words.insert(words.begin(), REPOSE_PROGRAM);
+  words.insert(words.begin(), program());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const pid_t child = ::fork();
   if (child == 0) {
-    if (::chdir(folder.path().c_str()) == 0) ::execv(REPOSE_PROGRAM, pointers.data());
+    if (::chdir(folder.path().c_str()) == 0) ::execv(pointers.front(), pointers.data());
     ::_exit(127);
   }
   return child;
@@ -26,7 +27,7 @@ inline pid_t start_repose(const TemporaryFolder& folder, std::vector<std::string
 /// Starts the built program in `folder` and waits for it.
 inline Finished run_repose(const TemporaryFolder& folder,
                            const std::vector<std::string>& arguments) {
-  return run_program(REPOSE_PROGRAM, folder, arguments);
+  return run_program(program(), folder, arguments);
 }
 
 }  // namespace repose::testing

@@ -56,7 +56,7 @@ TEST(ShapeCommand, WritesTheClumpAndAMeshToLookAt) {
   EXPECT_EQ(text_of(folder.path() / "nut.glb").substr(0, 4), "glTF");
 }
 
-TEST(ShapeCommand, AllFaultsAreNamedAtOnce) {
+TEST(ShapeCommand, AllErrorsAreNamedAtOnce) {
   const TemporaryFolder folder;
   const Finished run = run_repose(
       folder, {"shape", "--size-mm", "22,18", "--spheres", "0", "--density-kg-m3", "-3"});

@@ -177,7 +177,7 @@ TEST_F(Simulate, TrajectoriesAreSeriesOfStates) {
               HasSubstr("frame_00002.vtp"));
 }
 
-TEST_F(Simulate, AllFaultsAreToldAtOnce) {
+TEST_F(Simulate, AllErrorsAreToldAtOnce) {
   const Finished finished = run({"spin", "none.toml", "--seed", "-1", "--repeats", "x", "--threads",
                                  "0", "--trajectory-s", "0", "--json", "no/x.json"});
   EXPECT_EQ(finished.exit_code, 2);
@@ -190,7 +190,7 @@ TEST_F(Simulate, AllFaultsAreToldAtOnce) {
   for (std::string line; std::getline(lines, line);) EXPECT_THAT(line, HasSubstr("Fix: "));
 }
 
-TEST_F(Simulate, FaultsOfTheStudyHaveTheirPlace) {
+TEST_F(Simulate, ErrorsOfTheStudyHaveTheirPlace) {
   const Finished finished = run({"drop", "study.toml", "--set", "particle.poisson_ratio=0.5"});
   EXPECT_EQ(finished.exit_code, 2);
   EXPECT_THAT(finished.err, HasSubstr("--set:1:24: particle.poisson_ratio = 0.5. Rule: "));

@@ -101,7 +101,7 @@ TEST(Usage, AMissingValueIsSaid) {
   EXPECT_THAT(run.err, AllOf(HasSubstr("--json"), HasSubstr("Fix: ")));
 }
 
-TEST(Usage, AllFaultsAreSaidAtOnce) {
+TEST(Usage, AllErrorsAreSaidAtOnce) {
   const TemporaryFolder folder;
   const Finished run =
       run_repose(folder, {"measure", "heap.jpg", "--method", "papr", "--window", "0.8,0.2",
@@ -109,10 +109,10 @@ TEST(Usage, AllFaultsAreSaidAtOnce) {
                           "--pitch-deg", "45", "--threads", "0", "--json", "no/all.json"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.out, IsEmpty());
-  for (const char* fault :
+  for (const char* error :
        {"--method papr", "window = 0.8,0.2", "--exclude 1,2,3", "--exclude -1,0,5,5",
         "--exclude 0,0,0,5", "--pitch-deg 45", "--threads 0", "--json no/all.json"}) {
-    EXPECT_THAT(run.err, HasSubstr(fault));
+    EXPECT_THAT(run.err, HasSubstr(error));
   }
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 8);
 }

@@ -175,7 +175,7 @@ TEST(Bodies, MovingWallCarriesWhatLiesOnIt) {
   EXPECT_NEAR(simulation.grain(0).position.z() - height, .05 * (simulation.time_s() - start), 1e-5);
 }
 
-TEST(SimulationSetup, FaultsAreAllNamedAtOnce) {
+TEST(SimulationSetup, ErrorsAreAllNamedAtOnce) {
   SimulationSetup setup = packing_setup();
   setup.timestep_s = 0;
   setup.threads = 0;
@@ -185,8 +185,8 @@ TEST(SimulationSetup, FaultsAreAllNamedAtOnce) {
   try {
     Simulation simulation(setup);
     FAIL() << "was accepted";
-  } catch (const std::invalid_argument& fault) {
-    EXPECT_THAT(fault.what(), AllOf(HasSubstr("timestep_s is 0"), HasSubstr("threads is 0"),
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("timestep_s is 0"), HasSubstr("threads is 0"),
                                     HasSubstr("grain kind 0: no such material"),
                                     HasSubstr("grain kind 1: it has no spheres"),
                                     HasSubstr("wall 1: no such material")));
@@ -225,8 +225,8 @@ TEST(ContactTable, EveryBadValueIsNamed) {
   try {
     const ContactTable table({material}, {pair}, RollingModel::none);
     FAIL() << "was accepted";
-  } catch (const std::invalid_argument& fault) {
-    EXPECT_THAT(fault.what(),
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("chalk: density_kg_m3 is -1"), HasSubstr("young_modulus_pa is 0"),
                       HasSubstr("poisson_ratio is 0.5"), HasSubstr("restitution is 1.2"),
                       HasSubstr("sliding_friction is -1"), HasSubstr("rolling_friction is nan")));

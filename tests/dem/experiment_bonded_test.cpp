@@ -4,7 +4,7 @@
 
 #include "dem/experiment/bonded.h"
 #include "dem/experiment/placing.h"
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
 namespace {
@@ -8,10 +8,10 @@ namespace {
 class SphereDrop : public testing::TestWithParam<double> {};
 
 TEST_P(SphereDrop, ReboundsByTheSquareOfItsRestitution) {
-  Bench bench = test::sphere_bench();
+  Model model = test::sphere_bench();
   const double e = GetParam();
-  bench.grain_wall.restitution = e;
-  const Repeat repeat = run_drop(bench, {.height_m = .5, .grains = 2}, 1);
+  model.grain_wall.restitution = e;
+  const Repeat repeat = run_drop(model, {.height_m = .5, .grains = 2}, 1);
   // .13 mm of it is the overlap that the rebound starts from; a hundredth for the time step.
   EXPECT_NEAR(repeat.value, 500 * e * e, .01 * 500 * e * e + .2);
   EXPECT_NEAR(repeat.readings.at("sd_mm"), 0, 1e-6);
@@ -32,36 +32,36 @@ TEST(Drop, ClumpsReboundLessThanSpheresAndScatter) {
 }
 
 TEST(Drop, TheLongestAccurateStepIsShortEnough) {
-  Bench bench = test::clump_bench();
+  Model model = test::clump_bench();
   const DropProtocol protocol{.height_m = .5, .grains = 5};
-  const double usual = run_drop(bench, protocol, 1).value;
-  bench.timestep_fraction = .1;
+  const double usual = run_drop(model, protocol, 1).value;
+  model.timestep_fraction = .1;
   // Measured with the nut of the sample, means of ten falls, restitution .05 to .9: at most .15 mm.
-  EXPECT_NEAR(usual, run_drop(bench, protocol, 1).value, .2);
+  EXPECT_NEAR(usual, run_drop(model, protocol, 1).value, .2);
 }
 
 TEST(Drop, HalfTheHeightGivesHalfTheRebound) {
-  const Bench bench = test::sphere_bench();
-  const double high = run_drop(bench, {.height_m = .5, .grains = 1}, 1).value;
-  const double low = run_drop(bench, {.height_m = .25, .grains = 1}, 1).value;
+  const Model model = test::sphere_bench();
+  const double high = run_drop(model, {.height_m = .5, .grains = 1}, 1).value;
+  const double low = run_drop(model, {.height_m = .25, .grains = 1}, 1).value;
   EXPECT_NEAR(low / high, .5, .005);
 }
 
 TEST(Drop, SameSeedSameBytesOnAnyNumberOfThreads) {
-  Bench bench = test::clump_bench();
+  Model model = test::clump_bench();
   const DropProtocol protocol{.height_m = .1, .grains = 3};
-  const Repeat one = run_drop(bench, protocol, 5);
-  bench.threads = 2;
-  const Repeat two = run_drop(bench, protocol, 5);
+  const Repeat one = run_drop(model, protocol, 5);
+  model.threads = 2;
+  const Repeat two = run_drop(model, protocol, 5);
   EXPECT_TRUE(test::same_state(*one.state, *two.state));
   EXPECT_EQ(one.value, two.value);
-  EXPECT_NE(one.value, run_drop(bench, protocol, 6).value);
+  EXPECT_NE(one.value, run_drop(model, protocol, 6).value);
 }
 
 TEST(Drop, GrainsDoNotFeelEachOther) {
-  const Bench bench = test::clump_bench();
-  const Repeat three = run_drop(bench, {.height_m = .1, .grains = 3}, 5);
-  const Repeat one = run_drop(bench, {.height_m = .1, .grains = 1}, 5);
+  const Model model = test::clump_bench();
+  const Repeat three = run_drop(model, {.height_m = .1, .grains = 3}, 5);
+  const Repeat one = run_drop(model, {.height_m = .1, .grains = 1}, 5);
   EXPECT_EQ(one.readings.at("sd_mm"), 0);
   // The same first pose; the run of three only lasts longer.
   EXPECT_EQ(one.state->grain_count(), 1);
@@ -71,22 +71,22 @@ TEST(Drop, GrainsDoNotFeelEachOther) {
 
 TEST(Drop, ReportsAndMayBeBrokenOff) {
   int reports = 0;
-  const ProgressReport report = [&](double share, const Simulation&) {
-    EXPECT_GE(share, 0);
-    EXPECT_LE(share, 1);
+  const ProgressReport report = [&](double fraction, const Simulation&) {
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
     return ++reports < 3;
   };
   EXPECT_THROW(run_drop(test::sphere_bench(), {}, 1, report), Interrupted);
   EXPECT_EQ(reports, 3);
 }
 
-TEST(Drop, TellsEveryFaultAtOnce) {
-  Bench bench = test::sphere_bench();
-  bench.threads = 0;
-  bench.stiffness_factor = -1;
-  bench.timestep_fraction = 2;
+TEST(Drop, TellsEveryErrorAtOnce) {
+  Model model = test::sphere_bench();
+  model.threads = 0;
+  model.stiffness_factor = -1;
+  model.timestep_fraction = 2;
   const std::string message = test::message_of<std::invalid_argument>(
-      [&] { run_drop(bench, {.height_m = std::nan(""), .grains = 0}, 1); });
+      [&] { run_drop(model, {.height_m = std::nan(""), .grains = 0}, 1); });
   for (const char* name :
        {"threads", "stiffness_factor", "timestep_fraction", "drop.height_m", "drop.grains"}) {
     EXPECT_NE(message.find(name), std::string::npos) << name << " in:\n" << message;
@@ -94,17 +94,17 @@ TEST(Drop, TellsEveryFaultAtOnce) {
 }
 
 TEST(Drop, RefusesATimestepThatIsTooLong) {
-  Bench bench = test::sphere_bench();
-  bench.timestep_s = 1e-3;
-  EXPECT_THROW(run_drop(bench, {}, 1), std::invalid_argument);
-  bench.timestep_s = 1e-6;
-  EXPECT_EQ(run_drop(bench, {.height_m = .05, .grains = 1}, 1).timestep_s, 1e-6);
+  Model model = test::sphere_bench();
+  model.timestep_s = 1e-3;
+  EXPECT_THROW(run_drop(model, {}, 1), std::invalid_argument);
+  model.timestep_s = 1e-6;
+  EXPECT_EQ(run_drop(model, {.height_m = .05, .grains = 1}, 1).timestep_s, 1e-6);
 }
 
 TEST(Drop, AGrainWithoutSpheresIsRefused) {
-  Bench bench = test::sphere_bench();
-  bench.grain = {};
-  EXPECT_THROW(run_drop(bench, {}, 1), std::invalid_argument);
+  Model model = test::sphere_bench();
+  model.grain = {};
+  EXPECT_THROW(run_drop(model, {}, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,18 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
 namespace {
 
 /// Soft spheres that make a heap, and a small tube of them.
-Bench soft_bench() {
-  Bench bench = test::sphere_bench();
-  bench.stiffness_factor = 1e-3;
-  bench.grain_wall = {.31, .5, .2};
-  bench.grain_grain = {.11, .5, .2};
-  return bench;
+Model soft_bench() {
+  Model model = test::sphere_bench();
+  model.stiffness_factor = 1e-3;
+  model.grain_wall = {.31, .5, .2};
+  model.grain_grain = {.11, .5, .2};
+  return model;
 }
 
 HeapProtocol small_tube() {
@@ -30,9 +30,9 @@ TEST(Heap, FillsTheTubeAndLiftsItOff) {
   const Repeat repeat = run_heap(soft_bench(), small_tube(), 1);
   const auto& readings = repeat.readings;
   // Spheres of 19.3 mm in a tube of 70 mm fill it by .40 to .60.
-  const double share = readings.at("grains") * 3.746e-6 / (std::numbers::pi * .035 * .035 * .1);
-  EXPECT_GT(share, .4);
-  EXPECT_LT(share, .6);
+  const double fraction = readings.at("grains") * 3.746e-6 / (std::numbers::pi * .035 * .035 * .1);
+  EXPECT_GT(fraction, .4);
+  EXPECT_LT(fraction, .6);
   EXPECT_EQ(readings.at("grains"),
             readings.at("grains_on_plate") + readings.at("grains_off_plate"));
   EXPECT_EQ(readings.at("at_rest"), 1);
@@ -47,16 +47,16 @@ TEST(Heap, FillsTheTubeAndLiftsItOff) {
 }
 
 TEST(Heap, SameSeedSameBytesOnAnyNumberOfThreads) {
-  Bench bench = soft_bench();
+  Model model = soft_bench();
   HeapProtocol protocol = small_tube();
   protocol.tube_diameter_m = .08;
   protocol.tube_height_m = .06;
-  const Repeat one = run_heap(bench, protocol, 3);
-  bench.threads = 2;
-  const Repeat two = run_heap(bench, protocol, 3);
+  const Repeat one = run_heap(model, protocol, 3);
+  model.threads = 2;
+  const Repeat two = run_heap(model, protocol, 3);
   EXPECT_TRUE(test::same_state(*one.state, *two.state));
   EXPECT_EQ(one.value, two.value);
-  EXPECT_FALSE(test::same_state(*one.state, *run_heap(bench, protocol, 4).state));
+  EXPECT_FALSE(test::same_state(*one.state, *run_heap(model, protocol, 4).state));
 }
 
 TEST(Heap, TakesAsManyGrainsAsAskedFor) {
@@ -88,12 +88,12 @@ TEST(Heap, TakesThoseThatFitWhereFewerWillDo) {
 }
 
 TEST(Heap, GrainsThatFallOffTheEdgeAreCounted) {
-  Bench bench = soft_bench();
-  bench.grain_wall = {.31, .2, .05};
-  bench.grain_grain = {.11, .1, .05};
+  Model model = soft_bench();
+  model.grain_wall = {.31, .2, .05};
+  model.grain_grain = {.11, .1, .05};
   HeapProtocol protocol = small_tube();
   protocol.plate_m = .08;
-  const Repeat repeat = run_heap(bench, protocol, 1);
+  const Repeat repeat = run_heap(model, protocol, 1);
   EXPECT_GT(repeat.readings.at("grains_off_plate"), 0);
   EXPECT_EQ(repeat.readings.at("grains"),
             repeat.readings.at("grains_on_plate") + repeat.readings.at("grains_off_plate"));
@@ -109,11 +109,11 @@ TEST(Heap, GrainsThatHangInTheTubeAreNoReading) {
 }
 
 TEST(Heap, RougherGrainsHeapSteeper) {
-  Bench bench = soft_bench();
-  const Repeat rough = run_heap(bench, small_tube(), 1);
-  bench.grain_wall = {.31, .2, .02};
-  bench.grain_grain = {.11, .1, .01};
-  const Repeat smooth = run_heap(bench, small_tube(), 1);
+  Model model = soft_bench();
+  const Repeat rough = run_heap(model, small_tube(), 1);
+  model.grain_wall = {.31, .2, .02};
+  model.grain_grain = {.11, .1, .01};
+  const Repeat smooth = run_heap(model, small_tube(), 1);
   EXPECT_GT(rough.readings.at("height_mm"), smooth.readings.at("height_mm"));
   EXPECT_GT(rough.value, smooth.value);
 }
@@ -121,16 +121,16 @@ TEST(Heap, RougherGrainsHeapSteeper) {
 TEST(Heap, MayBeBrokenOff) {
   int reports = 0;
   EXPECT_THROW(run_heap(soft_bench(), small_tube(), 1,
-                        [&](double share, const Simulation&) {
-                          EXPECT_GE(share, 0);
-                          EXPECT_LE(share, 1);
+                        [&](double fraction, const Simulation&) {
+                          EXPECT_GE(fraction, 0);
+                          EXPECT_LE(fraction, 1);
                           return ++reports < 5;
                         }),
                Interrupted);
   EXPECT_EQ(reports, 5);
 }
 
-TEST(Heap, TellsEveryFaultAtOnce) {
+TEST(Heap, TellsEveryErrorAtOnce) {
   HeapProtocol protocol;
   protocol.tube_diameter_m = .015;
   protocol.tube_height_m = .01;

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/state/state_file.h"
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
 namespace {
@@ -13,12 +13,12 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 /// Soft spheres that creep, in a small tube: a heap of a second's work.
-Bench soft_bench() {
-  Bench bench = test::sphere_bench();
-  bench.stiffness_factor = 1e-3;
-  bench.grain_wall = {.31, .5, .2};
-  bench.grain_grain = {.11, .5, .2};
-  return bench;
+Model soft_bench() {
+  Model model = test::sphere_bench();
+  model.stiffness_factor = 1e-3;
+  model.grain_wall = {.31, .5, .2};
+  model.grain_grain = {.11, .5, .2};
+  return model;
 }
 
 HeapProtocol small_tube() {
@@ -38,7 +38,7 @@ std::map<HeapStage, std::vector<HeapRestart>> restart_points(Repeat& whole) {
   int looks = 0;
   RunRecord record;
   record.is_restart_due = [&] { return ++looks % 7 == 0; };
-  record.keep_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
+  record.save_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
     points[progress.stage].push_back({simulation.setup(), simulation.checkpoint(), progress});
   };
   whole = run_heap(soft_bench(), small_tube(), 1, {}, record);
@@ -52,9 +52,9 @@ TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
        {HeapStage::rain, HeapStage::settle_in_tube, HeapStage::lift, HeapStage::settle}) {
     ASSERT_TRUE(points.contains(stage)) << "stage " << static_cast<int>(stage);
     const std::vector<HeapRestart>& of_stage = points.at(stage);
-    Bench bench = soft_bench();
-    bench.threads = stage == HeapStage::lift ? 2 : 1;
-    const Repeat resumed = resume_heap(bench, small_tube(), 1, of_stage.at(of_stage.size() / 2));
+    Model model = soft_bench();
+    model.threads = stage == HeapStage::lift ? 2 : 1;
+    const Repeat resumed = resume_heap(model, small_tube(), 1, of_stage.at(of_stage.size() / 2));
     EXPECT_EQ(bits(resumed), bits(whole)) << "stage " << static_cast<int>(stage);
     EXPECT_EQ(resumed.value, whole.value);
     EXPECT_EQ(resumed.readings, whole.readings);
@@ -69,7 +69,7 @@ TEST(HeapRestart, GoesOnFromWithinALongStretch) {
   RunRecord record;
   std::vector<HeapRestart> within;
   record.is_restart_due = [] { return true; };
-  record.keep_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
+  record.save_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
     if (progress.steps_left > 0) {
       within.push_back({simulation.setup(), simulation.checkpoint(), progress});
     }
@@ -80,14 +80,14 @@ TEST(HeapRestart, GoesOnFromWithinALongStretch) {
 }
 
 TEST(HeapRestart, IsKeptWhenTheRunIsBrokenOff) {
-  int kept = 0;
+  int saved = 0;
   RunRecord record;
-  record.keep_restart = [&](const Simulation&, const HeapProgress&) { ++kept; };
+  record.save_restart = [&](const Simulation&, const HeapProgress&) { ++saved; };
   EXPECT_THROW(
       run_heap(
           soft_bench(), small_tube(), 1, [](double, const Simulation&) { return false; }, record),
       Interrupted);
-  EXPECT_EQ(kept, 1);
+  EXPECT_EQ(saved, 1);
 }
 
 /// Times of the frames of a run, apart for each of its simulations.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
 namespace {
@@ -20,9 +20,9 @@ struct RollCase {
 class SphereRoll : public testing::TestWithParam<RollCase> {};
 
 TEST_P(SphereRoll, GoesAsFarAsInAnotherEngine) {
-  Bench bench = test::sphere_bench();
-  bench.grain_wall.rolling_friction = GetParam().rolling_friction;
-  const Repeat repeat = run_roll(bench, {}, 1);
+  Model model = test::sphere_bench();
+  model.grain_wall.rolling_friction = GetParam().rolling_friction;
+  const Repeat repeat = run_roll(model, {}, 1);
   EXPECT_NEAR(repeat.value, GetParam().liggghts_mm, .01 * GetParam().liggghts_mm);
   EXPECT_LT(repeat.value, by_energy_mm(.15, GetParam().rolling_friction));
   EXPECT_NEAR(repeat.readings.at("lateral_mm"), 0, 1e-3);
@@ -34,42 +34,42 @@ INSTANTIATE_TEST_SUITE_P(Roll, SphereRoll,
                                          RollCase{.17, 135}));
 
 TEST(Roll, WhatTheCornerTakesIsSmallOnAGentleSlope) {
-  Bench bench = test::sphere_bench();
-  bench.grain_wall.rolling_friction = .02;
-  const Repeat repeat = run_roll(bench, {.incline_deg = 5, .release_m = .1}, 1);
+  Model model = test::sphere_bench();
+  model.grain_wall.rolling_friction = .02;
+  const Repeat repeat = run_roll(model, {.incline_deg = 5, .release_m = .1}, 1);
   const double angle = 5 * std::numbers::pi / 180;
   const double energy_mm = 100 * (std::sin(angle) - .02 * std::cos(angle)) / .02;
   EXPECT_NEAR(repeat.value, energy_mm, .02 * energy_mm);
 }
 
 TEST(Roll, AGrainThatStaysOnTheInclineHasANegativeValue) {
-  Bench bench = test::sphere_bench();
-  bench.grain_wall.rolling_friction = .5;  // above tan 20
-  const Repeat repeat = run_roll(bench, {}, 1);
+  Model model = test::sphere_bench();
+  model.grain_wall.rolling_friction = .5;  // above tan 20
+  const Repeat repeat = run_roll(model, {}, 1);
   EXPECT_EQ(repeat.readings.at("stopped_on_incline"), 1);
   EXPECT_NEAR(repeat.value, -150, .5);
 }
 
 TEST(Roll, AGrainThatDoesNotStopIsNoReading) {
-  Bench bench = test::sphere_bench();
-  bench.stiffness_factor = .001;
-  bench.grain_wall.rolling_friction = 0;
-  const std::string message = test::message_of<NoReading>([&] { run_roll(bench, {}, 1); });
+  Model model = test::sphere_bench();
+  model.stiffness_factor = .001;
+  model.grain_wall.rolling_friction = 0;
+  const std::string message = test::message_of<NoReading>([&] { run_roll(model, {}, 1); });
   EXPECT_NE(message.find("still moves"), std::string::npos) << message;
 }
 
 TEST(Roll, ClumpsComeToRestWhereTheirSeedSays) {
-  Bench bench = test::clump_bench();
-  bench.grain_wall.rolling_friction = .17;
-  const Repeat one = run_roll(bench, {}, 1);
-  bench.threads = 2;
-  const Repeat again = run_roll(bench, {}, 1);
+  Model model = test::clump_bench();
+  model.grain_wall.rolling_friction = .17;
+  const Repeat one = run_roll(model, {}, 1);
+  model.threads = 2;
+  const Repeat again = run_roll(model, {}, 1);
   EXPECT_TRUE(test::same_state(*one.state, *again.state));
   EXPECT_EQ(one.value, again.value);
-  EXPECT_NE(one.value, run_roll(bench, {}, 2).value);
+  EXPECT_NE(one.value, run_roll(model, {}, 2).value);
 }
 
-TEST(Roll, TellsEveryFaultAtOnce) {
+TEST(Roll, TellsEveryErrorAtOnce) {
   const std::string message = test::message_of<std::invalid_argument>(
       [&] { run_roll(test::sphere_bench(), {.incline_deg = 90, .release_m = 0}, 1); });
   for (const char* name : {"roll.incline_deg", "roll.release_m"}) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
 namespace {
@@ -10,9 +10,9 @@ double friction_deg(double friction) { return std::atan(friction) * 180 / std::n
 class TiltFriction : public testing::TestWithParam<double> {};
 
 TEST_P(TiltFriction, IsTheAngleOfSliding) {
-  Bench bench = test::clump_bench();
-  bench.grain_wall.sliding_friction = GetParam();
-  const Repeat repeat = run_tilt(bench, {}, 1);
+  Model model = test::clump_bench();
+  model.grain_wall.sliding_friction = GetParam();
+  const Repeat repeat = run_tilt(model, {}, 1);
   EXPECT_NEAR(repeat.value, friction_deg(GetParam()), .02);
   // Slip takes time to show: g sin(rate t) t^2 / 6 = .5 mm after .2 s, .4 degrees.
   EXPECT_NEAR(repeat.readings.at("half_mm_slip_deg"), friction_deg(GetParam()) + .4, .05);
@@ -25,42 +25,42 @@ TEST(Tilt, SpheresAndClumpsAlike) {
 }
 
 TEST(Tilt, IrregularGrainsSlideAtTheSameAngle) {
-  Bench bench = test::sphere_bench();
-  bench.grain.spheres = {{.centre = {-5e-3, 0, 0}, .radius = 7e-3},
+  Model model = test::sphere_bench();
+  model.grain.spheres = {{.centre = {-5e-3, 0, 0}, .radius = 7e-3},
                          {.centre = {6e-3, 2e-3, -1e-3}, .radius = 6e-3},
                          {.centre = {0, -3e-3, 2e-3}, .radius = 8e-3}};
-  bench.grain.gyration_m2 = {2e-5, 3e-5, 4e-5};
-  EXPECT_NEAR(run_tilt(bench, {.bonded = 3}, 1).value, friction_deg(.39), .05);
+  model.grain.gyration_m2 = {2e-5, 3e-5, 4e-5};
+  EXPECT_NEAR(run_tilt(model, {.bonded = 3}, 1).value, friction_deg(.39), .05);
 }
 
 TEST(Tilt, SofteningDoesNotChangeTheAngle) {
-  Bench bench = test::clump_bench();
-  bench.stiffness_factor = .001;
-  EXPECT_NEAR(run_tilt(bench, {}, 1).value, friction_deg(.39), .03);
+  Model model = test::clump_bench();
+  model.stiffness_factor = .001;
+  EXPECT_NEAR(run_tilt(model, {}, 1).value, friction_deg(.39), .03);
 }
 
 TEST(Tilt, DoesNotDependOnWhereItBegins) {
-  Bench bench = test::clump_bench();
-  bench.grain_wall.sliding_friction = .1;
-  const Repeat late = run_tilt(bench, {.start_deg = 4.5}, 1);
-  const Repeat early = run_tilt(bench, {.start_deg = 0}, 1);
+  Model model = test::clump_bench();
+  model.grain_wall.sliding_friction = .1;
+  const Repeat late = run_tilt(model, {.start_deg = 4.5}, 1);
+  const Repeat early = run_tilt(model, {.start_deg = 0}, 1);
   EXPECT_EQ(late.readings.at("begin_deg"), 4.5);
   EXPECT_LT(early.readings.at("begin_deg"), 3);
   EXPECT_NEAR(late.value, early.value, .005);
 }
 
 TEST(Tilt, DoesNotDependOnTheRate) {
-  Bench bench = test::clump_bench();
-  const double slow = run_tilt(bench, {.rate_deg_s = 2}, 1).value;
-  const double fast = run_tilt(bench, {.rate_deg_s = 10}, 1).value;
+  Model model = test::clump_bench();
+  const double slow = run_tilt(model, {.rate_deg_s = 2}, 1).value;
+  const double fast = run_tilt(model, {.rate_deg_s = 10}, 1).value;
   EXPECT_NEAR(slow, fast, .02);
 }
 
 TEST(Tilt, GrainsTipWhenFrictionHoldsThem) {
-  Bench bench = test::clump_bench();
-  bench.grain_wall.sliding_friction = 1.3;
+  Model model = test::clump_bench();
+  model.grain_wall.sliding_friction = 1.3;
   const std::string message =
-      test::message_of<NoReading>([&] { run_tilt(bench, {.rate_deg_s = 10}, 1); });
+      test::message_of<NoReading>([&] { run_tilt(model, {.rate_deg_s = 10}, 1); });
   EXPECT_NE(message.find("tipped"), std::string::npos) << message;
 }
 
@@ -75,15 +75,15 @@ TEST(Tilt, BeginningAboveTheAngleOfFrictionIsNoReading) {
 }
 
 TEST(Tilt, HasNoChanceInIt) {
-  Bench bench = test::clump_bench();
-  const Repeat one = run_tilt(bench, {.rate_deg_s = 10}, 1);
-  bench.threads = 2;
-  const Repeat two = run_tilt(bench, {.rate_deg_s = 10}, 2);
+  Model model = test::clump_bench();
+  const Repeat one = run_tilt(model, {.rate_deg_s = 10}, 1);
+  model.threads = 2;
+  const Repeat two = run_tilt(model, {.rate_deg_s = 10}, 2);
   EXPECT_EQ(one.value, two.value);
   EXPECT_TRUE(test::same_state(*one.state, *two.state));
 }
 
-TEST(Tilt, TellsEveryFaultAtOnce) {
+TEST(Tilt, TellsEveryErrorAtOnce) {
   const std::string message = test::message_of<std::invalid_argument>(
       [&] { run_tilt(test::sphere_bench(), {.bonded = 0, .rate_deg_s = 0, .start_deg = 95}, 1); });
   for (const char* name : {"tilt.bonded", "tilt.rate_deg_s", "tilt.start_deg"}) {

@@ -28,7 +28,7 @@ Touch<double> touch_of(double overlap) {
 }
 
 /// b's surface slides by `slip` in one step.
-ContactForce<double> slide(Touch<double> touch, const Triple<double>& slip, const Law<double>& law,
+ContactForce<double> slide(Touch<double> touch, const Vec3<double>& slip, const Law<double>& law,
                            Springs<double>& springs) {
   touch.half_velocity = slip * (1 / kTimestep);
   return contact_force(touch, law, kTimestep, springs);

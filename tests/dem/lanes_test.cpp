@@ -13,7 +13,7 @@ Lanes lanes_of(double a, double b, double c, double d) { return Lanes::Vector4{a
 
 TEST(Lanes, EachLaneIsOnItsOwn) {
   const Lanes x = lanes_of(1, 4, 9, 16);
-  const Lanes roots = root(x);
+  const Lanes roots = sqrt(x);
   const Lanes chosen = select(x > Lanes(5), x, -x);
   for (std::size_t k = 0; k < kLanes; ++k) {
     EXPECT_EQ(roots[k], static_cast<double>(k + 1));
@@ -54,7 +54,7 @@ struct Case {
 
 Case random_case(std::mt19937& random) {
   const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0 - .5; };
-  const auto vector = [&](double size) -> Triple<double> {
+  const auto vector = [&](double size) -> Vec3<double> {
     return {size * uniform(), size * uniform(), size * uniform()};
   };
   Case one;
@@ -83,7 +83,7 @@ TEST(Lanes, ContactForceIsTheSameAloneAsWithThreeOthers) {
     Touch<Lanes> touches;
     Springs<Lanes> all_springs;
     std::array<Case, kLanes> cases;
-    const auto set = [](Triple<Lanes>& to, std::size_t k, const Triple<double>& from) {
+    const auto set = [](Vec3<Lanes>& to, std::size_t k, const Vec3<double>& from) {
       to.x.set(k, from.x);
       to.y.set(k, from.y);
       to.z.set(k, from.z);

@@ -64,9 +64,9 @@ TEST(Restitution, OutOfRangeIsRefused) {
   }
   try {
     damping_factor(1.5);
-  } catch (const std::invalid_argument& fault) {
-    EXPECT_THAT(fault.what(), testing::HasSubstr("1.5"));
-    EXPECT_THAT(fault.what(), testing::HasSubstr("Fix:"));
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("1.5"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("Fix:"));
   }
 }
 
@@ -81,11 +81,11 @@ TEST(Restitution, ComesOutAtEveryAcceptedTimestep) {
   for (const double e : {.05, .1, .2, .3, .4, .5, .6, .7, .8, .9, 1.0}) {
     SimulationSetup setup = glass_on_wall(e);
     const double longest = accurate_timestep_s(setup, kSpeed);
-    for (const double share : {1.0, .6, .3}) {
-      setup.timestep_s = share * longest;
+    for (const double fraction : {1.0, .6, .3}) {
+      setup.timestep_s = fraction * longest;
       for (const double late : {0.0, .25, .5, .75}) {
         EXPECT_NEAR(impact(setup, late).after.velocity.z() / kSpeed, e, .005)
-            << "share " << share << ", late " << late;
+            << "share " << fraction << ", late " << late;
       }
     }
   }
@@ -122,8 +122,8 @@ TEST(Restitution, BlockThatLandsOnFourSpheresRisesLess) {
 TEST(Restitution, ContactNeverPulls) {
   for (const double e : {.05, .2, .5, .9, 1.0}) {
     SimulationSetup setup = glass_on_wall(e);
-    for (const double share : {1.0, .3}) {
-      setup.timestep_s = share * accurate_timestep_s(setup, kSpeed);
+    for (const double fraction : {1.0, .3}) {
+      setup.timestep_s = fraction * accurate_timestep_s(setup, kSpeed);
       EXPECT_EQ(impact(setup, .3).pull_n, 0) << e;
     }
   }

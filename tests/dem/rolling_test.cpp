@@ -19,7 +19,7 @@ Law<double> law_of(double rolling_friction) {
   return law;
 }
 
-Roll<double> roll_of(const Triple<double>& spin) {
+Roll<double> roll_of(const Vec3<double>& spin) {
   return {.normal = {0, 0, 1},
           .spin = spin,
           .normal_force = 2,
@@ -30,20 +30,20 @@ Roll<double> roll_of(const Triple<double>& spin) {
 }
 
 TEST(Rolling, RelativeTorqueIsCoefficientTimesForceTimesReducedRadius) {
-  const Triple<double> torque = relative_constant_torque(roll_of({0, 8, 0}), law_of(.1), kTimestep);
+  const Vec3<double> torque = relative_constant_torque(roll_of({0, 8, 0}), law_of(.1), kTimestep);
   EXPECT_NEAR(torque.y, -.1 * 2 * .005, 1e-15);
   EXPECT_EQ(torque.x, 0);
 }
 
 TEST(Rolling, RelativeTorqueLeavesSpinAboutTheNormalAlone) {
-  const Triple<double> torque = relative_constant_torque(roll_of({3, 0, 4}), law_of(.1), kTimestep);
+  const Vec3<double> torque = relative_constant_torque(roll_of({3, 0, 4}), law_of(.1), kTimestep);
   EXPECT_NEAR(torque.x, -.1 * 2 * .005 * 3 / 5, 1e-15);
   EXPECT_EQ(torque.z, 0);
 }
 
 TEST(Rolling, RelativeTorqueNeverTakesMoreSpinThanThereIs) {
   const Roll<double> slow = roll_of({1e-9, 0, 0});
-  const Triple<double> torque = relative_constant_torque(slow, law_of(.1), kTimestep);
+  const Vec3<double> torque = relative_constant_torque(slow, law_of(.1), kTimestep);
   EXPECT_LE(std::abs(torque.x) * kTimestep / slow.reduced_inertia, 1e-9);
   EXPECT_EQ(relative_constant_torque(roll_of({}), law_of(.1), kTimestep).squared_norm(), 0);
 }
@@ -51,7 +51,7 @@ TEST(Rolling, RelativeTorqueNeverTakesMoreSpinThanThereIs) {
 TEST(Rolling, ElasticPlasticSpringHasItsStiffness) {
   const Law<double> law = law_of(.1);
   const Roll<double> roll = roll_of({1e-3, 0, 0});
-  Triple<double> spring;
+  Vec3<double> spring;
   elastic_plastic_torque(roll, law, kTimestep, spring);
   const double a = std::sqrt(roll.reduced_radius * roll.overlap);
   const double normal = 4.0 / 3 * law.reduced_young * a;
@@ -61,19 +61,19 @@ TEST(Rolling, ElasticPlasticSpringHasItsStiffness) {
 
 TEST(Rolling, ElasticPlasticTorqueYieldsAtTheLimitAndSpringsBack) {
   const Law<double> law = law_of(.1);
-  Triple<double> spring;
-  Triple<double> torque;
+  Vec3<double> spring;
+  Vec3<double> torque;
   for (int k = 0; k < 100; ++k) {
     torque = elastic_plastic_torque(roll_of({1e5, 0, 0}), law, kTimestep, spring);
   }
   EXPECT_NEAR(torque.x, -.1 * .005 * 2, 1e-15);
-  const Triple<double> held = elastic_plastic_torque(roll_of({}), law, kTimestep, spring);
+  const Vec3<double> held = elastic_plastic_torque(roll_of({}), law, kTimestep, spring);
   EXPECT_NEAR(held.x, -.1 * .005 * 2, 1e-15);  // a type A model would let go here
 }
 
 TEST(Rolling, ElasticPlasticTorqueHasNoPartAboutTheNormal) {
-  Triple<double> spring = {0, 1e-6, 1e-6};
-  const Triple<double> torque =
+  Vec3<double> spring = {0, 1e-6, 1e-6};
+  const Vec3<double> torque =
       elastic_plastic_torque(roll_of({1, 2, 30}), law_of(.1), kTimestep, spring);
   EXPECT_EQ(torque.z, 0);
   EXPECT_EQ(spring.z, 0);

@@ -3,10 +3,10 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/calliper.h"
-#include "dem/shape/mass_properties.h"
-#include "dem/shape/mesh_edges.h"
-#include "dem/shape/self_crossing.h"
+#include "dem/shape/scan/calliper.h"
+#include "dem/shape/scan/mass_properties.h"
+#include "dem/shape/scan/mesh_edges.h"
+#include "dem/shape/scan/self_crossing.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {
@@ -19,12 +19,14 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-CalliperSizes nut_sizes(double tip_share) {
-  return {
-      .length_m = 22.48e-3, .width_m = 18.23e-3, .thickness_m = 17.46e-3, .tip_share = tip_share};
+CalliperSizes nut_sizes(double tip_fraction) {
+  return {.length_m = 22.48e-3,
+          .width_m = 18.23e-3,
+          .thickness_m = 17.46e-3,
+          .tip_fraction = tip_fraction};
 }
 
-/// Half the width near the end at +x, as a share of the full one.
+/// Half the width near the end at +x, as a fraction of the full one.
 double width_near_tip(const Mesh& mesh, const CalliperSizes& sizes) {
   double width = 0;
   for (const Vector& vertex : mesh.vertices) {
@@ -34,9 +36,9 @@ double width_near_tip(const Mesh& mesh, const CalliperSizes& sizes) {
 }
 
 TEST(CalliperSurface, MeetsTheSizesToTheLastDigit) {
-  for (const double tip_share : {0.0, 0.3, 1.0}) {
+  for (const double tip_fraction : {0.0, 0.3, 1.0}) {
     Eigen::AlignedBox3d bounds;
-    for (const Vector& vertex : dem::calliper_surface(nut_sizes(tip_share)).vertices) {
+    for (const Vector& vertex : dem::calliper_surface(nut_sizes(tip_fraction)).vertices) {
       bounds.extend(vertex);
     }
     EXPECT_EQ(bounds.max(), Vector(22.48e-3 / 2, 18.23e-3 / 2, 17.46e-3 / 2));
@@ -45,8 +47,8 @@ TEST(CalliperSurface, MeetsTheSizesToTheLastDigit) {
 }
 
 TEST(CalliperSurface, IsClosedFacesOutwardsAndDoesNotCrossItself) {
-  for (const double tip_share : {0.0, 0.5, 1.0}) {
-    const Mesh mesh = dem::calliper_surface(nut_sizes(tip_share));
+  for (const double tip_fraction : {0.0, 0.5, 1.0}) {
+    const Mesh mesh = dem::calliper_surface(nut_sizes(tip_fraction));
     EXPECT_TRUE(dem::is_watertight(mesh));
     EXPECT_GT(dem::mass_properties(mesh).volume_m3, 0);
     EXPECT_EQ(dem::find_self_crossing(mesh).triangles, 0U);
@@ -63,7 +65,7 @@ TEST(CalliperSurface, GetsMorePointedWithTheTip) {
 
 TEST(CalliperSurface, NamesEverySizeThatIsWrong) {
   const CalliperSizes wrong{
-      .length_m = -1, .width_m = 22, .thickness_m = std::nan(""), .tip_share = 1.5};
+      .length_m = -1, .width_m = 22, .thickness_m = std::nan(""), .tip_fraction = 1.5};
   EXPECT_THAT([&] { dem::calliper_surface(wrong); },
               ThrowsMessage<std::invalid_argument>(
                   AllOf(HasSubstr("the length is -1000 mm"), HasSubstr("the width is 22000 mm"),

@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/clump_file.h"
-#include "dem/shape/scan.h"
-#include "dem/shape/shape_export.h"
-#include "dem/shape/sphere_groups.h"
+#include "dem/shape/clump/clump_file.h"
+#include "dem/shape/clump/shape_export.h"
+#include "dem/shape/clump/sphere_groups.h"
+#include "dem/shape/scan/scan.h"
 #include "tests/dem/shapes.h"
 #include "tests/support/temporary_folder.h"
 

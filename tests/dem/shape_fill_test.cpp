@@ -3,10 +3,10 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/fill.h"
-#include "dem/shape/inscribed_spheres.h"
-#include "dem/shape/mass_properties.h"
-#include "dem/shape/surface_distance.h"
+#include "dem/shape/clump/fill.h"
+#include "dem/shape/clump/inscribed_spheres.h"
+#include "dem/shape/clump/surface_distance.h"
+#include "dem/shape/scan/mass_properties.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {
@@ -131,7 +131,7 @@ TEST(Fill, GetsCloserWithMoreSpheres) {
 }
 
 TEST(Fill, KeepsSpheresAboveTheSmallestRadius) {
-  const FillOptions options{.spheres = 9, .smallest_radius_share = 0.4};
+  const FillOptions options{.spheres = 9, .smallest_radius_fraction = 0.4};
   const FillReport report = dem::fill(box_surface(0.02, 0.02, 0.02), options);
   const double equal_radius = std::cbrt(3 * 8e-6 / (4 * M_PI));
   for (const ClumpSphere& sphere : report.spheres) {
@@ -147,7 +147,7 @@ TEST(Fill, TakesTheFewestSpheresThatReachAVolumeError) {
 }
 
 TEST(Fill, RefusesOptionsThatCannotBeMeant) {
-  const FillOptions wrong{.spheres = 0, .volume_error = 2, .smallest_radius_share = 1};
+  const FillOptions wrong{.spheres = 0, .volume_error = 2, .smallest_radius_fraction = 1};
   EXPECT_THAT(
       [&] { dem::fill(nut_surface(), wrong); },
       ThrowsMessage<std::invalid_argument>(AllOf(

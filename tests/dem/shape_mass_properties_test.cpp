@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/clump_shape.h"
-#include "dem/shape/mass_properties.h"
+#include "dem/shape/clump/clump_shape.h"
+#include "dem/shape/scan/mass_properties.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {

@@ -7,9 +7,9 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/mass_properties.h"
-#include "dem/shape/mesh_edges.h"
-#include "dem/shape/scan.h"
+#include "dem/shape/scan/mass_properties.h"
+#include "dem/shape/scan/mesh_edges.h"
+#include "dem/shape/scan/scan.h"
 #include "tests/dem/shapes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -260,7 +260,7 @@ TEST(CheckedSurface, RefusesSheetsAndNothing) {
                std::invalid_argument);
 }
 
-TEST(CheckedSurface, NamesAllFaultsAtOnce) {
+TEST(CheckedSurface, NamesAllErrorsAtOnce) {
   Mesh open = box_surface(20, 30, 40);
   open.triangles.pop_back();
   const Mesh faulty = together(open, moved(open, Quaternion::Identity(), Vector(5, 6, 7)));

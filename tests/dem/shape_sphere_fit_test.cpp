@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/sphere_fit.h"
-#include "dem/shape/surface_samples.h"
+#include "dem/shape/clump/sphere_fit.h"
+#include "dem/shape/clump/surface_samples.h"
 
 namespace repose::testing {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/columns.h"
-#include "dem/shape/surface_distance.h"
-#include "dem/shape/surface_samples.h"
+#include "dem/shape/clump/columns.h"
+#include "dem/shape/clump/surface_distance.h"
+#include "dem/shape/clump/surface_samples.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {

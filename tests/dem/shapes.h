@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "dem/shape/calliper.h"
-#include "dem/shape/mesh.h"
+#include "dem/shape/scan/calliper.h"
+#include "dem/shape/scan/mesh.h"
 
 /// Surfaces whose properties are known.
 namespace repose::testing {
@@ -15,7 +15,7 @@ namespace repose::testing {
 /// The sample hazelnut by its calliper sizes.
 inline dem::Mesh nut_surface() {
   return dem::calliper_surface(
-      {.length_m = 22.48e-3, .width_m = 18.23e-3, .thickness_m = 17.46e-3, .tip_share = 0.5});
+      {.length_m = 22.48e-3, .width_m = 18.23e-3, .thickness_m = 17.46e-3, .tip_fraction = 0.5});
 }
 
 /// A box about the origin, every face of two triangles.

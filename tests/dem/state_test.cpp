@@ -87,7 +87,7 @@ class StateFile : public ::testing::Test {
     write_state(file(), simulation, provenance);
     return text_of(file());
   }
-  std::string fault(const std::string& text) const {
+  std::string error(const std::string& text) const {
     folder_.write("state.vtp", text);
     try {
       const SavedState state = read_state(file());
@@ -186,22 +186,22 @@ TEST_F(StateFile, NothingIsLeftBesideIt) {
 
 TEST_F(StateFile, CutShortFilesAreRefused) {
   const std::string whole = saved();
-  for (const double share : {0., .001, .2, .5, .9, .999}) {
-    const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
-    EXPECT_THAT(fault(whole.substr(0, size)), AllOf(HasSubstr("state.vtp: "), HasSubstr("Fix: ")))
-        << share;
+  for (const double fraction : {0., .001, .2, .5, .9, .999}) {
+    const auto size = static_cast<std::size_t>(fraction * static_cast<double>(whole.size()));
+    EXPECT_THAT(error(whole.substr(0, size)), AllOf(HasSubstr("state.vtp: "), HasSubstr("Fix: ")))
+        << fraction;
   }
-  EXPECT_EQ(fault(whole), "");
+  EXPECT_EQ(error(whole), "");
 }
 
 TEST_F(StateFile, ForeignFilesAreRefused) {
-  EXPECT_THAT(fault("solid nut\n"), HasSubstr("Fix: "));
-  EXPECT_THAT(fault("<svg/>"), HasSubstr("no VTK PolyData file"));
-  EXPECT_THAT(fault("<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" "
+  EXPECT_THAT(error("solid nut\n"), HasSubstr("Fix: "));
+  EXPECT_THAT(error("<svg/>"), HasSubstr("no VTK PolyData file"));
+  EXPECT_THAT(error("<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" "
                     "header_type=\"UInt64\"/>"),
               HasSubstr("no VTK PolyData file"));
   EXPECT_THAT(
-      fault("<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\" header_type=\"UInt64\"/>"),
+      error("<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\" header_type=\"UInt64\"/>"),
       HasSubstr("has no <PolyData>"));
   EXPECT_THROW(read_state(folder_.path() / "none.vtp"), std::invalid_argument);
   EXPECT_THROW(read_state(folder_.path()), std::invalid_argument);
@@ -215,18 +215,18 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 TEST_F(StateFile, SizesThatDoNotHoldTogetherAreRefused) {
   const std::string whole = saved();
-  EXPECT_THAT(fault(replaced(whole, "NumberOfPoints=\"29\"", "NumberOfPoints=\"999999999999\"")),
+  EXPECT_THAT(error(replaced(whole, "NumberOfPoints=\"29\"", "NumberOfPoints=\"999999999999\"")),
               HasSubstr("is for 29 points"));
-  EXPECT_THAT(fault(replaced(whole, "NumberOfPoints=\"29\"", "NumberOfPoints=\"-1\"")),
+  EXPECT_THAT(error(replaced(whole, "NumberOfPoints=\"29\"", "NumberOfPoints=\"-1\"")),
               HasSubstr("NumberOfPoints is no whole number"));
-  EXPECT_THAT(fault(replaced(whole, "Name=\"velocity\" NumberOfComponents=\"3\"",
+  EXPECT_THAT(error(replaced(whole, "Name=\"velocity\" NumberOfComponents=\"3\"",
                              "Name=\"velocity\" NumberOfComponents=\"0\"")),
               HasSubstr("array velocity has"));
-  EXPECT_THAT(fault(replaced(whole, "Name=\"kind_sphere\"", "Name=\"other\"")),
+  EXPECT_THAT(error(replaced(whole, "Name=\"kind_sphere\"", "Name=\"other\"")),
               HasSubstr("array kind_sphere is missing"));
-  EXPECT_THAT(fault(replaced(whole, "Name=\"kind_sphere\"", "Name=\"wall_pose\"")),
+  EXPECT_THAT(error(replaced(whole, "Name=\"kind_sphere\"", "Name=\"wall_pose\"")),
               HasSubstr("kind_sphere is missing"));
-  EXPECT_THAT(fault(replaced(whole, "type=\"Float64\" Name=\"gravity\"",
+  EXPECT_THAT(error(replaced(whole, "type=\"Float64\" Name=\"gravity\"",
                              "type=\"Float32\" Name=\"gravity\"")),
               HasSubstr("array gravity is of type Float32"));
 }
@@ -240,21 +240,21 @@ std::string with_numbers(const std::string& text, const std::string& array,
 
 TEST_F(StateFile, EditedContentsAreRefused) {
   const std::string whole = saved();
-  EXPECT_THAT(fault(with_numbers(whole, "gravity", "not base64!")), HasSubstr("array gravity"));
-  EXPECT_THAT(fault(with_numbers(whole, "gravity", "====")), HasSubstr("array gravity"));
-  EXPECT_THAT(fault(with_numbers(whole, "gravity", "")), HasSubstr("array gravity"));
+  EXPECT_THAT(error(with_numbers(whole, "gravity", "not base64!")), HasSubstr("array gravity"));
+  EXPECT_THAT(error(with_numbers(whole, "gravity", "====")), HasSubstr("array gravity"));
+  EXPECT_THAT(error(with_numbers(whole, "gravity", "")), HasSubstr("array gravity"));
   // A header that promises 2^63 bytes.
-  EXPECT_THAT(fault(with_numbers(whole, "gravity", "AAAAAAAAAIA=")),
+  EXPECT_THAT(error(with_numbers(whole, "gravity", "AAAAAAAAAIA=")),
               HasSubstr("array gravity says"));
   // Eight bytes: the number -1, where audit steps, or the time step's, must be above 0.
   const std::string minus_one = "CAAAAAAAAAD//////////w==";
-  EXPECT_THAT(fault(with_numbers(whole, "audit_steps", minus_one)), HasSubstr("audit_steps"));
-  EXPECT_THAT(fault(with_numbers(whole, "step", minus_one)), HasSubstr("array step"));
-  EXPECT_THAT(fault(with_numbers(whole, "timestep", minus_one)), HasSubstr("no number")) << "NaN";
-  EXPECT_THAT(fault(with_numbers(whole, "repose_state_format", "CAAAAAAAAAACAAAAAAAAAA==")),
+  EXPECT_THAT(error(with_numbers(whole, "audit_steps", minus_one)), HasSubstr("audit_steps"));
+  EXPECT_THAT(error(with_numbers(whole, "step", minus_one)), HasSubstr("array step"));
+  EXPECT_THAT(error(with_numbers(whole, "timestep", minus_one)), HasSubstr("no number")) << "NaN";
+  EXPECT_THAT(error(with_numbers(whole, "repose_state_format", "CAAAAAAAAAACAAAAAAAAAA==")),
               HasSubstr("format is 2"));
-  EXPECT_THAT(fault(with_numbers(whole, "wall_motion", "AAAAAAAAAAA=")), HasSubstr("array wall_"));
-  EXPECT_THAT(fault(with_numbers(whole, "rolling_model", "AAAAAAAAAAA=")),
+  EXPECT_THAT(error(with_numbers(whole, "wall_motion", "AAAAAAAAAAA=")), HasSubstr("array wall_"));
+  EXPECT_THAT(error(with_numbers(whole, "rolling_model", "AAAAAAAAAAA=")),
               HasSubstr("rolling_model"));
 }
 
@@ -264,7 +264,7 @@ TEST_F(StateFile, NoEditedByteCrashesTheReader) {
   for (std::size_t at = 11; at < whole.size(); at += 199) {
     std::string text = whole;
     text[at] = text[at] == 'A' ? '/' : 'A';
-    if (!fault(text).empty()) ++refused;
+    if (!error(text).empty()) ++refused;
   }
   EXPECT_GT(refused, 0U) << "others are other numbers, and fine ones";
 }

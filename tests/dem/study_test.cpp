@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::dem {
@@ -51,11 +52,11 @@ class StudyFile : public ::testing::Test {
     return read_study(folder_.write("study.toml", text), settings);
   }
   /// What is wrong, without the folder's name; empty when nothing is.
-  std::string faults(const std::string& text, const Settings& settings = {}) const {
+  std::string errors(const std::string& text, const Settings& settings = {}) const {
     try {
       read(text, settings);
-    } catch (const std::invalid_argument& fault) {
-      std::string all = fault.what();
+    } catch (const std::invalid_argument& error) {
+      std::string all = error.what();
       const std::string folder = folder_.path().string() + "/";
       for (std::size_t at = 0; (at = all.find(folder)) != std::string::npos;) {
         all.erase(at, folder.size());
@@ -75,11 +76,11 @@ std::size_t lines(const std::string& text) {
 TEST_F(StudyFile, TheSmallestStudyHasTheUsualValues) {
   const Study study = read(kStudy);
   EXPECT_DOUBLE_EQ(study.grain.sizes->length_m, .02248);
-  EXPECT_DOUBLE_EQ(study.grain.sizes->tip_share, 0);
+  EXPECT_DOUBLE_EQ(study.grain.sizes->tip_fraction, 0);
   EXPECT_EQ(study.grain.fill.spheres, 11);
-  EXPECT_EQ(study.bench.rolling, RollingModel::constant_torque);
-  EXPECT_EQ(study.bench.grain_wall.restitution, .31);
-  EXPECT_EQ(study.bench.grain_grain.sliding_friction, .21);
+  EXPECT_EQ(study.model.rolling, RollingModel::constant_torque);
+  EXPECT_EQ(study.model.grain_wall.restitution, .31);
+  EXPECT_EQ(study.model.grain_grain.sliding_friction, .21);
   EXPECT_DOUBLE_EQ(study.drop->height_m, .5);
   EXPECT_FALSE(study.heap);
   EXPECT_TRUE(study.drop_measured.values.empty() && !study.drop_measured.mean);
@@ -130,10 +131,10 @@ threads = 3
   EXPECT_EQ(study.grain.scan, folder_.path() / "nut.stl") << "beside the study file";
   EXPECT_EQ(study.grain.scan_unit, ScanUnit::metre);
   EXPECT_EQ(study.grain.fill.volume_error, .04);
-  EXPECT_EQ(study.bench.wall_material.name, "steel");
-  EXPECT_EQ(study.bench.rolling, RollingModel::elastic_plastic);
+  EXPECT_EQ(study.model.wall_material.name, "steel");
+  EXPECT_EQ(study.model.rolling, RollingModel::elastic_plastic);
   EXPECT_EQ(study.particle_wall.rolling_friction.max, .2);
-  EXPECT_TRUE(std::isnan(study.bench.grain_wall.rolling_friction)) << "to be found";
+  EXPECT_TRUE(std::isnan(study.model.grain_wall.rolling_friction)) << "to be found";
   EXPECT_DOUBLE_EQ(study.drop->height_m, .25);
   EXPECT_EQ(study.drop->grains, 3);
   EXPECT_EQ(study.drop_stiffness, .5);
@@ -147,13 +148,13 @@ threads = 3
   EXPECT_DOUBLE_EQ(study.heap->plate_thickness_m, .004);
   EXPECT_EQ(study.heap->grains, 50);
   EXPECT_THAT(study.heap_measured.pictures, ElementsAre(folder_.path() / "nut.stl"));
-  EXPECT_EQ(study.bench.timestep_s, 1e-6);
+  EXPECT_EQ(study.model.timestep_s, 1e-6);
   EXPECT_EQ(study.replicates, 4);
   EXPECT_EQ(study.threads, 3);
 }
 
-TEST_F(StudyFile, AllFaultsAreToldAtOnceInOrderWithLineAndColumn) {
-  const std::string all = faults(R"([particle]
+TEST_F(StudyFile, AllErrorsAreToldAtOnceInOrderWithLineAndColumn) {
+  const std::string all = errors(R"([particle]
 size_mm = [22.48, -1, nan]
 density_kg_m3 = 0
 young_modulus_pa = "soft"
@@ -193,8 +194,8 @@ seed = -1
   EXPECT_LT(all.find(":2:19"), all.find(":16:8"));
 }
 
-TEST_F(StudyFile, EveryFaultSaysHowToMendIt) {
-  const std::string all = faults("[particle]\nspheres = 0\n[walls]\nx = 1\n");
+TEST_F(StudyFile, EveryErrorSaysHowToMendIt) {
+  const std::string all = errors("[particle]\nspheres = 0\n[walls]\nx = 1\n");
   std::istringstream stream(all);
   for (std::string line; std::getline(stream, line);) {
     EXPECT_THAT(line, AllOf(HasSubstr("study.toml:"), HasSubstr(". Rule: "), HasSubstr(". Fix: ")));
@@ -203,7 +204,7 @@ TEST_F(StudyFile, EveryFaultSaysHowToMendIt) {
 
 TEST_F(StudyFile, UnknownKeysAreRefusedWithTheLikelyOne) {
   const std::string all =
-      faults(kStudy + "heigth_mm = 3\nqqq = 1\n[simulation]\ntimestep = 1\n[extra]\na = 1\n");
+      errors(kStudy + "heigth_mm = 3\nqqq = 1\n[simulation]\ntimestep = 1\n[extra]\na = 1\n");
   EXPECT_THAT(all, AllOf(HasSubstr("did you mean height_mm?"),
                          HasSubstr("experiment.drop.qqq = 1: there is no such key. Rule: keys of "
                                    "[experiment.drop] are height_mm"),
@@ -212,7 +213,7 @@ TEST_F(StudyFile, UnknownKeysAreRefusedWithTheLikelyOne) {
 }
 
 TEST_F(StudyFile, MissingSectionsSayWhatToAdd) {
-  const std::string all = faults("");
+  const std::string all = errors("");
   EXPECT_THAT(
       all, AllOf(HasSubstr("section [particle] is missing"), HasSubstr("section [wall] is missing"),
                  HasSubstr("section [contact] is missing"),
@@ -221,15 +222,15 @@ TEST_F(StudyFile, MissingSectionsSayWhatToAdd) {
 }
 
 TEST_F(StudyFile, ShapesAreExactlyOne) {
-  EXPECT_THAT(faults(kStudy, {"particle.clump = \"study.toml\""}),
+  EXPECT_THAT(errors(kStudy, {"particle.clump = \"study.toml\""}),
               HasSubstr("one shape only, and there is size_mm already"));
-  EXPECT_THAT(faults("[particle]\ndensity_kg_m3 = 1\nyoung_modulus_pa = 1\npoisson_ratio = 0\n" +
+  EXPECT_THAT(errors("[particle]\ndensity_kg_m3 = 1\nyoung_modulus_pa = 1\npoisson_ratio = 0\n" +
                      kWall + kContact + kDrop),
               HasSubstr("particle has no shape"));
-  EXPECT_THAT(faults(kStudy, {"particle.spheres = 3", "particle.volume_error = 0.1"}),
+  EXPECT_THAT(errors(kStudy, {"particle.spheres = 3", "particle.volume_error = 0.1"}),
               HasSubstr("spheres or volume_error, not both"));
-  EXPECT_THAT(faults(kStudy, {"particle.unit = \"mm\""}), HasSubstr("only a scan has a unit"));
-  EXPECT_THAT(faults(kStudy, {"particle.size_mm = [1, 2]"}),
+  EXPECT_THAT(errors(kStudy, {"particle.unit = \"mm\""}), HasSubstr("only a scan has a unit"));
+  EXPECT_THAT(errors(kStudy, {"particle.size_mm = [1, 2]"}),
               HasSubstr("length, width and thickness"));
 }
 
@@ -237,7 +238,7 @@ TEST_F(StudyFile, FilesThatAreNotThereAreSaid) {
   std::string text = kStudy;
   text.replace(text.find("size_mm"), text.find('\n', text.find("size_mm")) - text.find("size_mm"),
                "scan = \"none.stl\"");
-  EXPECT_THAT(faults(text), AllOf(HasSubstr("study.toml:2:8: particle.scan = \"none.stl\". Rule: "),
+  EXPECT_THAT(errors(text), AllOf(HasSubstr("study.toml:2:8: particle.scan = \"none.stl\". Rule: "),
                                   HasSubstr("particle.unit is missing")));
   EXPECT_THROW(read_study(folder_.path() / "no.toml"), std::invalid_argument);
   EXPECT_THROW(read_study(folder_.path()), std::invalid_argument);
@@ -252,7 +253,7 @@ TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
   EXPECT_EQ(reading.mean, 120);
   EXPECT_EQ(reading.sd, 4);
   EXPECT_EQ(reading.count, 10);
-  EXPECT_THAT(faults(heap + "width_mm = { mean = 1 }\n"), HasSubstr("width_mm"));
+  EXPECT_THAT(errors(heap + "width_mm = { mean = 1 }\n"), HasSubstr("width_mm"));
 }
 
 TEST_F(StudyFile, WhatIsSoughtMayHaveAValueForRunsBefore) {
@@ -264,41 +265,41 @@ TEST_F(StudyFile, WhatIsSoughtMayHaveAValueForRunsBefore) {
   EXPECT_EQ(restitution.value, .3);
   EXPECT_EQ(restitution.known_mean, .35);
   EXPECT_EQ(restitution.known_sd, .1);
-  EXPECT_EQ(study.bench.grain_wall.restitution, .3);
+  EXPECT_EQ(study.model.grain_wall.restitution, .3);
   EXPECT_THAT(open_coefficients(study, Experiment::drop), IsEmpty());
   EXPECT_FALSE(study.particle_wall.sliding_friction.is_sought());
 }
 
 TEST_F(StudyFile, BoundsThatMakeNoSenseAreRefused) {
   const std::string key = "contact.particle_wall.restitution = ";
-  EXPECT_THAT(faults(kStudy, {key + "{ value = 0.8, min = 0.1, max = 0.6 }"}),
+  EXPECT_THAT(errors(kStudy, {key + "{ value = 0.8, min = 0.1, max = 0.6 }"}),
               HasSubstr("value within min and max"));
-  EXPECT_THAT(faults(kStudy, {key + "{ mean = 0.8, sd = 0.1, min = 0.1, max = 0.6 }"}),
+  EXPECT_THAT(errors(kStudy, {key + "{ mean = 0.8, sd = 0.1, min = 0.1, max = 0.6 }"}),
               HasSubstr("mean within min and max"));
-  EXPECT_THAT(faults(kStudy, {key + "{ mean = 0.3, min = 0.1, max = 0.6 }"}),
+  EXPECT_THAT(errors(kStudy, {key + "{ mean = 0.3, min = 0.1, max = 0.6 }"}),
               HasSubstr("has a mean and no sd"));
-  EXPECT_THAT(faults(kStudy, {key + "{ min = 0.1 }"}), HasSubstr("restitution.max is missing"));
-  EXPECT_THAT(faults(kStudy, {key + "{ min = 0, max = 0.6 }"}), HasSubstr("restitution.min = 0"));
-  EXPECT_THAT(faults(kStudy, {key + "{ min = 0.1, max = 0.1 }"}), HasSubstr("min below max"));
+  EXPECT_THAT(errors(kStudy, {key + "{ min = 0.1 }"}), HasSubstr("restitution.max is missing"));
+  EXPECT_THAT(errors(kStudy, {key + "{ min = 0, max = 0.6 }"}), HasSubstr("restitution.min = 0"));
+  EXPECT_THAT(errors(kStudy, {key + "{ min = 0.1, max = 0.1 }"}), HasSubstr("min below max"));
 }
 
 TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
   const std::string key = "experiment.drop.measured = ";
-  EXPECT_THAT(faults(kStudy, {key + "{ values = [9], mean = 9 }"}),
+  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], mean = 9 }"}),
               HasSubstr("more than one kind"));
-  EXPECT_THAT(faults(kStudy, {key + "{ }"}), HasSubstr("has no values"));
-  EXPECT_THAT(faults(kStudy, {key + "{ values = [9], sd = 1 }"}), HasSubstr("belong to a mean"));
-  EXPECT_THAT(faults(kStudy, {key + "{ mean = 9, sd = -1, n = 0 }"}),
+  EXPECT_THAT(errors(kStudy, {key + "{ }"}), HasSubstr("has no values"));
+  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], sd = 1 }"}), HasSubstr("belong to a mean"));
+  EXPECT_THAT(errors(kStudy, {key + "{ mean = 9, sd = -1, n = 0 }"}),
               AllOf(HasSubstr("measured.sd = -1"), HasSubstr("measured.n = 0")));
-  EXPECT_THAT(faults(kStudy, {key + "{ pictures = [\"study.toml\"] }"}), HasSubstr("only heaps"));
-  EXPECT_THAT(faults(kStudy, {key + "9.42"}), HasSubstr("a section with keys"));
+  EXPECT_THAT(errors(kStudy, {key + "{ pictures = [\"study.toml\"] }"}), HasSubstr("only heaps"));
+  EXPECT_THAT(errors(kStudy, {key + "9.42"}), HasSubstr("a section with keys"));
 }
 
 TEST_F(StudyFile, TextThatIsNoTomlIsSaidWithItsPlace) {
-  EXPECT_THAT(faults("[particle]\nsize_mm = [1, 2\nname = 'x'\n"),
+  EXPECT_THAT(errors("[particle]\nsize_mm = [1, 2\nname = 'x'\n"),
               AllOf(HasSubstr("study.toml:3:"), HasSubstr("Rule: the text must be TOML")));
-  EXPECT_THAT(faults(kStudy + kDrop), HasSubstr("study.toml:18:")) << "a section given twice";
-  EXPECT_NE(faults(std::string("\0\xff\xfe", 3)), "");
+  EXPECT_THAT(errors(kStudy + kDrop), HasSubstr("study.toml:18:")) << "a section given twice";
+  EXPECT_NE(errors(std::string("\0\xff\xfe", 3)), "");
 }
 
 TEST_F(StudyFile, SettingsReplaceAndAddValues) {
@@ -311,19 +312,19 @@ TEST_F(StudyFile, SettingsReplaceAndAddValues) {
   EXPECT_EQ(study.particle_wall.restitution.max, .5);
   EXPECT_EQ(study.heap->grains, 30);
   EXPECT_TRUE(study.drop) << "the file's own sections stay";
-  EXPECT_EQ(study.bench.rolling, RollingModel::none);
+  EXPECT_EQ(study.model.rolling, RollingModel::none);
   EXPECT_EQ(study.seed, 7U) << "the last one counts";
 }
 
-TEST_F(StudyFile, FaultsOfSettingsAreCalledBySetting) {
-  EXPECT_THAT(faults(kStudy, {"simulation.seed = 3", "simulation.replicates = 0"}),
+TEST_F(StudyFile, ErrorsOfSettingsAreCalledBySetting) {
+  EXPECT_THAT(errors(kStudy, {"simulation.seed = 3", "simulation.replicates = 0"}),
               HasSubstr("--set:2:25: simulation.replicates = 0. Rule: "));
-  EXPECT_THAT(faults(kStudy, {"contact.rolling_model = none"}),
+  EXPECT_THAT(errors(kStudy, {"contact.rolling_model = none"}),
               AllOf(HasSubstr("--set:1:"), HasSubstr("in quotes"), Not(HasSubstr("missing"))));
-  EXPECT_THAT(faults(kStudy, {"particle"}), HasSubstr("--set:1:"));
-  EXPECT_THAT(faults(kStudy, {"particle.densty_kg_m3 = 1"}),
+  EXPECT_THAT(errors(kStudy, {"particle"}), HasSubstr("--set:1:"));
+  EXPECT_THAT(errors(kStudy, {"particle.densty_kg_m3 = 1"}),
               HasSubstr("did you mean density_kg_m3?"));
-  EXPECT_THAT(faults(kStudy, {"particle.density_kg_m3.x = 1"}), HasSubstr("Rule: "));
+  EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3.x = 1"}), HasSubstr("Rule: "));
 }
 
 TEST_F(StudyFile, FingerprintsTellStudiesApart) {
@@ -342,15 +343,15 @@ TEST_F(StudyFile, OpenCoefficientsAreNamedWhereTheyMatter) {
   EXPECT_THAT(open_coefficients(study, Experiment::heap),
               ElementsAre("contact.particle_wall.restitution",
                           "contact.particle_particle.sliding_friction"));
-  EXPECT_FALSE(std::isnan(bench_for(study, Experiment::roll).grain_grain.sliding_friction));
-  EXPECT_TRUE(std::isnan(bench_for(study, Experiment::heap).grain_grain.sliding_friction));
+  EXPECT_FALSE(std::isnan(model_for(study, Experiment::roll).grain_grain.sliding_friction));
+  EXPECT_TRUE(std::isnan(model_for(study, Experiment::heap).grain_grain.sliding_friction));
 }
 
 TEST(HazelnutStudy, IsThePublishedOne) {
-  const Study study = read_study(REPOSE_SAMPLES "/hazelnut/study.toml");
-  EXPECT_EQ(study.bench.grain_material.density_kg_m3, 851);
-  EXPECT_EQ(study.bench.grain_wall.restitution, .31);
-  EXPECT_EQ(study.bench.grain_grain.restitution, .11);
+  const Study study = read_study(testing::source_folder() / "samples/hazelnut/study.toml");
+  EXPECT_EQ(study.model.grain_material.density_kg_m3, 851);
+  EXPECT_EQ(study.model.grain_wall.restitution, .31);
+  EXPECT_EQ(study.model.grain_grain.restitution, .11);
   EXPECT_EQ(study.drop_measured.mean, 9.42);
   EXPECT_EQ(study.tilt_measured.mean, 22.70);
   EXPECT_EQ(study.roll_measured.mean, 322.81);

@@ -25,8 +25,8 @@ SimulationSetup ball_on_plane(double friction) {
 std::string instability(Simulation& simulation, std::int64_t steps) {
   try {
     simulation.advance(steps);
-  } catch (const UnstableRun& fault) {
-    return fault.what();
+  } catch (const UnstableRun& error) {
+    return error.what();
   }
   return {};
 }
@@ -56,8 +56,8 @@ TEST(AccurateTimestep, LongerStepsAreRefused) {
   try {
     check_timestep(1.01 * longest, setup, .1);
     FAIL() << "was accepted";
-  } catch (const std::invalid_argument& fault) {
-    EXPECT_THAT(fault.what(),
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("timestep_s is"), HasSubstr("Rule: at most"), HasSubstr("Fix:")));
   }
 }

@@ -1,10 +1,10 @@
 #include <cstdint>
 #include <iostream>
 
-#include <repose/calibrate/bench/formulas.h>
 #include <repose/calibrate/fit/joint_fit.h>
+#include <repose/calibrate/statistics/bench/formulas.h>
 #include <repose/dem/engine/simulation.h>
-#include <repose/vision/repose_angle.h>
+#include <repose/vision/measure/repose_angle.h>
 
 namespace {
 
@@ -42,7 +42,7 @@ bool falls() {
 /// A study in which nothing is sought is refused, and a rebound is a restitution.
 bool calibrates() {
   using namespace repose::calibrate;
-  const bool is_refused = !faults_of(Problem{}).empty();
+  const bool is_refused = !errors_of(Problem{}).empty();
   const double restitution = restitution_of(.5, .125);
   std::cout << "restitution: " << restitution << '\n';
   return is_refused && restitution > .4999 && restitution < .5001;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/dem/experiment_bench.h"
+#include "tests/dem/experiment_model.h"
 #include "tests/peers/exported.h"
 
 // Exported decks in the programs that they are for, against our own experiments: the same poses,

@@ -96,10 +96,10 @@ double mean_rise_mm(const TemporaryFolder& folder, int grains) {
 
 dem::Study short_study(dem::RollingModel rolling, double restitution) {
   dem::Study study;
-  study.bench.grain_material = {"ball", 1000, 1e7, .3};
-  study.bench.wall_material = {"wall", 1000, 1e9, .25};
-  study.bench.grain_wall = {restitution, .4, .1};
-  study.bench.rolling = rolling;
+  study.model.grain_material = {"ball", 1000, 1e7, .3};
+  study.model.wall_material = {"wall", 1000, 1e9, .25};
+  study.model.grain_wall = {restitution, .4, .1};
+  study.model.rolling = rolling;
   study.drop = {.height_m = .05, .grains = 3};
   study.tilt = {.bonded = 2, .rate_deg_s = 10};
   study.roll = {.incline_deg = 10, .release_m = .08};
@@ -107,12 +107,12 @@ dem::Study short_study(dem::RollingModel rolling, double restitution) {
 }
 
 Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain) {
-  dem::Bench bench = study.bench;
-  bench.grain = grain;
-  bench.grain_grain = bench.grain_wall;  // of no effect
-  return {.drop_mm = run_drop(bench, *study.drop, study.seed).value,
-          .tilt_deg = run_tilt(bench, *study.tilt, study.seed).readings.at("half_mm_slip_deg"),
-          .roll_mm = run_roll(bench, *study.roll, study.seed).value};
+  dem::Model model = study.model;
+  model.grain = grain;
+  model.grain_grain = model.grain_wall;  // of no effect
+  return {.drop_mm = run_drop(model, *study.drop, study.seed).value,
+          .tilt_deg = run_tilt(model, *study.tilt, study.seed).readings.at("half_mm_slip_deg"),
+          .roll_mm = run_roll(model, *study.roll, study.seed).value};
 }
 
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target) {

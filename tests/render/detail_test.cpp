@@ -40,10 +40,10 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-constexpr double kShare = .98;
+constexpr double kFraction = .98;
 
 /// Share of columns whose error is within half a pixel of rounding and a quarter of a pixel.
-double share_within_a_quarter(const std::vector<double>& errors) {
+double fraction_within_a_quarter(const std::vector<double>& errors) {
   const auto good = std::count_if(errors.begin(), errors.end(),
                                   [](double error) { return std::abs(error) <= .75; });
   return static_cast<double>(good) / static_cast<double>(errors.size());
@@ -59,7 +59,7 @@ TEST(Detail, AHeapsEdgeIsDrawnWithinAQuarterOfAPixel) {
       // Rounding is even-handed: its mean is 0 to .29 / sqrt(columns).
       EXPECT_NEAR(mean(errors), 0, .08) << width;
       // The rest are corners between two grains, where the edge has no one slope.
-      EXPECT_GT(share_within_a_quarter(errors), kShare) << width;
+      EXPECT_GT(fraction_within_a_quarter(errors), kFraction) << width;
     }
   }
 }
@@ -71,7 +71,7 @@ TEST(Detail, AlsoThroughALens) {
   camera.k1 = -.15;
   const auto errors = edge_errors(heap, camera, size, Shown::mesh);
   EXPECT_NEAR(mean(errors), 0, .08);
-  EXPECT_GT(share_within_a_quarter(errors), kShare);
+  EXPECT_GT(fraction_within_a_quarter(errors), kFraction);
 }
 
 TEST(Truth, ASpheresOutlineIsItsUpperHalf) {

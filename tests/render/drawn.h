@@ -38,13 +38,13 @@ inline Blob blob_of(const Rendered& rendered) {
   return blob;
 }
 
-/// What a call throws as a fault of the user, as text; empty when it throws nothing.
+/// What a call throws as an error of the user, as text; empty when it throws nothing.
 template <typename Call>
-std::string fault_of(const Call& call) {
+std::string error_of(const Call& call) {
   try {
     call();
-  } catch (const std::invalid_argument& fault) {
-    return fault.what();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
   }
   return "";
 }

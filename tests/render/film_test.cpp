@@ -1,4 +1,4 @@
-#include "render/film.h"
+#include "render/film/film.h"
 
 #include <gmock/gmock.h>
 #include <opencv2/core/mat.hpp>
@@ -57,21 +57,21 @@ TEST(Film, WithoutAnEndNothingIsLeft) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
-TEST(Film, FaultsAreNamed) {
+TEST(Film, ErrorsAreNamed) {
   const TemporaryFolder folder;
-  EXPECT_THAT(fault_of([&] { Film film(folder.path() / "film.avi", 10); }), HasSubstr(".mp4"));
-  EXPECT_THAT(fault_of([&] {
+  EXPECT_THAT(error_of([&] { Film film(folder.path() / "film.avi", 10); }), HasSubstr(".mp4"));
+  EXPECT_THAT(error_of([&] {
                 Film film(folder.path() / "film.gif", 10);
                 film.close();
               }),
               HasSubstr("no pictures"));
-  EXPECT_THAT(fault_of([&] {
+  EXPECT_THAT(error_of([&] {
                 Film film(folder.path() / "film.gif", 10);
                 film.add(grey_picture(8, 8, 0));
                 film.add(grey_picture(8, 9, 0));
               }),
               HasSubstr("one size"));
-  EXPECT_THAT(fault_of([&] {
+  EXPECT_THAT(error_of([&] {
                 Film film(folder.path() / "no" / "film.mp4", 10);
                 film.add(grey_picture(64, 48, 0));
                 film.close();

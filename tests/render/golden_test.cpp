@@ -7,14 +7,15 @@
 #include "render/renderer.h"
 #include "tests/render/drawn.h"
 #include "tests/support/nut_heap.h"
-#include "vision/picture.h"
+#include "tests/support/places.h"
+#include "vision/picture/picture.h"
 
 namespace repose::render {
 namespace {
 
 /// How far two pictures are apart: share of bytes that differ by more than `step`, and the mean.
 struct Difference {
-  double share = 1;
+  double fraction = 1;
   double mean = 255;
 };
 
@@ -35,13 +36,13 @@ Difference difference(const vision::Picture& a, const vision::Picture& b, int st
 Difference against_golden(const std::string& name, const vision::Picture& drawn, int step) {
   const auto now = std::filesystem::path(::testing::TempDir()) / ("repose_" + name);
   vision::write_picture(now, drawn);
-  const auto golden = std::filesystem::path(REPOSE_GOLDEN_FOLDER) / name;
+  const auto golden = testing::source_folder() / "tests/render/golden" / name;
   if (!std::filesystem::exists(golden)) {
     ADD_FAILURE() << golden << " is missing; drawn was " << now;
     return {};
   }
   const Difference found = difference(vision::read_picture(golden), drawn, step);
-  EXPECT_LT(found.share, 1) << "compare with " << now;
+  EXPECT_LT(found.fraction, 1) << "compare with " << now;
   return found;
 }
 
@@ -57,7 +58,7 @@ constexpr double kEdgePixels = .001;
 TEST(Golden, Silhouette) {
   const Rendered drawn =
       renderer().draw(heap(), OrthographicCamera{.azimuth_rad = .3}, {320, 180}, SilhouetteStyle{});
-  EXPECT_LT(against_golden("silhouette.png", drawn.picture, 0).share, kEdgePixels);
+  EXPECT_LT(against_golden("silhouette.png", drawn.picture, 0).fraction, kEdgePixels);
 }
 
 TEST(Golden, SilhouetteOfSpheresThroughALens) {
@@ -66,7 +67,7 @@ TEST(Golden, SilhouetteOfSpheresThroughALens) {
   camera.roll_rad = .05;
   const Rendered drawn =
       renderer().draw(heap(), camera, {320, 180}, SilhouetteStyle{.shown = Shown::spheres});
-  EXPECT_LT(against_golden("lens.png", drawn.picture, 0).share, kEdgePixels);
+  EXPECT_LT(against_golden("lens.png", drawn.picture, 0).fraction, kEdgePixels);
 }
 
 TEST(Golden, Photo) {
@@ -75,7 +76,7 @@ TEST(Golden, Photo) {
   const Rendered drawn = renderer().draw(heap(), camera, {320, 180}, PhotoStyle{.passes = 8});
   // Shading differs in the last bits: two grey values, and more at a few edges.
   const Difference found = against_golden("photo.png", drawn.picture, 4);
-  EXPECT_LT(found.share, .005);
+  EXPECT_LT(found.fraction, .005);
   EXPECT_LT(found.mean, .2);
 }
 

@@ -59,7 +59,7 @@ TEST(ModelFile, IsInMetresWithYUpwards) {
 }
 
 TEST(ModelFile, AnEmptySceneIsRefused) {
-  EXPECT_NE(fault_of([] { glb_of(Scene{}, Shown::mesh); }), "");
+  EXPECT_NE(error_of([] { glb_of(Scene{}, Shown::mesh); }), "");
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 
 #include "render/renderer.h"
+#include "render/scene/view.h"
 #include "render/truth.h"
-#include "render/view.h"
 #include "tests/render/drawn.h"
 #include "tests/support/nut_heap.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::render {
 namespace {
@@ -123,9 +123,9 @@ TEST(Photo, TheUnchangedMeasurementFindsTheHeap) {
 
 TEST(Photo, StylesThatMakeNoSenseAreRefused) {
   const Scene heap = nut_heap(3, .5, 1);
-  EXPECT_THAT(fault_of([&] { photo(heap, {.passes = 0}); }), HasSubstr("passes"));
-  EXPECT_THAT(fault_of([&] { photo(heap, {.noise = std::nan("")}); }), HasSubstr("noise"));
-  EXPECT_THAT(fault_of([&] { photo(heap, {.grain = {2, 0, 0}}); }), HasSubstr("colour"));
+  EXPECT_THAT(error_of([&] { photo(heap, {.passes = 0}); }), HasSubstr("passes"));
+  EXPECT_THAT(error_of([&] { photo(heap, {.noise = std::nan("")}); }), HasSubstr("noise"));
+  EXPECT_THAT(error_of([&] { photo(heap, {.grain = {2, 0, 0}}); }), HasSubstr("colour"));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "render/view.h"
+#include "render/scene/view.h"
 #include "tests/render/drawn.h"
 #include "tests/support/nut_heap.h"
 
@@ -103,7 +103,7 @@ TEST(Projection, ASphereIsSeenUnderItsAngle) {
 TEST(Projection, ALensThatFoldsThePictureIsRefused) {
   PerspectiveCamera camera = plain_camera();
   camera.k1 = -1.5;
-  EXPECT_THAT(fault_of([&] {
+  EXPECT_THAT(error_of([&] {
                 view_of(far_grain(), camera, {1000, 600});
               }),
               AllOf(HasSubstr("folds"), HasSubstr("Fix: ")));
@@ -124,17 +124,17 @@ TEST(Projection, DistortionGoesOnBeyondThePictureWithoutFolding) {
 TEST(Projection, CamerasInsideTheHeapOrUnderTheGroundAreRefused) {
   const Scene heap = nut_heap(10, .5, 1);
   PerspectiveCamera camera{.position_m = heap.grains[5].pose.position};
-  EXPECT_THAT(fault_of([&] {
+  EXPECT_THAT(error_of([&] {
                 view_of(heap, camera, {100, 100});
               }),
               AllOf(HasSubstr("inside the heap"), HasSubstr("Fix: ")));
   camera.position_m = {.009, .009, .02};  // between grains
-  EXPECT_THAT(fault_of([&] { view_of(heap, camera, {100, 100}); }), HasSubstr("inside the heap"));
+  EXPECT_THAT(error_of([&] { view_of(heap, camera, {100, 100}); }), HasSubstr("inside the heap"));
   camera.position_m = {0, -1, -.5};
-  EXPECT_THAT(fault_of([&] { view_of(heap, camera, {100, 100}); }), HasSubstr("under the ground"));
+  EXPECT_THAT(error_of([&] { view_of(heap, camera, {100, 100}); }), HasSubstr("under the ground"));
   camera.position_m = {0, 0, 1};  // from above is fine
   camera.pitch_rad = 80 * kDegree;
-  EXPECT_EQ(fault_of([&] { view_of(heap, camera, {100, 100}); }), "");
+  EXPECT_EQ(error_of([&] { view_of(heap, camera, {100, 100}); }), "");
 }
 
 TEST(Projection, NumbersThatAreNoneAreRefused) {
@@ -144,11 +144,11 @@ TEST(Projection, NumbersThatAreNoneAreRefused) {
                             &PerspectiveCamera::k1, &PerspectiveCamera::k2}) {
     PerspectiveCamera camera = plain_camera();
     camera.*member = nan;
-    EXPECT_THAT(fault_of([&] { view_of(far_grain(), camera, {100, 100}); }), HasSubstr("camera: "));
+    EXPECT_THAT(error_of([&] { view_of(far_grain(), camera, {100, 100}); }), HasSubstr("camera: "));
   }
   PerspectiveCamera camera = plain_camera();
   camera.position_m.x() = nan;
-  EXPECT_THAT(fault_of([&] { view_of(far_grain(), camera, {100, 100}); }), HasSubstr("position"));
+  EXPECT_THAT(error_of([&] { view_of(far_grain(), camera, {100, 100}); }), HasSubstr("position"));
 }
 
 TEST(Projection, ACameraOnAStandSeesTheWholeHeap) {

@@ -1,8 +1,8 @@
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 #include <gmock/gmock.h>
 
-#include "render/extent.h"
+#include "render/scene/extent.h"
 #include "tests/support/nut_heap.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include "render/truth.h"
 #include "tests/render/drawn.h"
 #include "tests/support/nut_heap.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::render {
 namespace {
@@ -140,17 +140,17 @@ TEST(Silhouette, IsMeasuredByTheSameCodeAsPhotographs) {
 
 TEST(Silhouette, PicturesThatCannotBeDrawnAreRefusedInOneLine) {
   const Scene scene = sphere_scene(.01, {Vector::Zero()});
-  const auto fault = [&scene](PictureSize size) {
-    return fault_of([&] { renderer().draw(scene, OrthographicCamera{}, size, SilhouetteStyle{}); });
+  const auto error = [&scene](PictureSize size) {
+    return error_of([&] { renderer().draw(scene, OrthographicCamera{}, size, SilhouetteStyle{}); });
   };
   for (const PictureSize size : {PictureSize{0, 10}, PictureSize{10, 0}, PictureSize{-1, 10},
                                  PictureSize{16385, 10}, PictureSize{16384, 16384}}) {
-    const std::string text = fault(size);
+    const std::string text = error(size);
     EXPECT_THAT(text, AllOf(HasSubstr("picture of"), HasSubstr("Rule: "), HasSubstr("Fix: ")));
     EXPECT_EQ(text.find('\n'), std::string::npos);
   }
-  EXPECT_EQ(fault({1, 1}), "");
-  EXPECT_EQ(fault({16384, 4}), "");
+  EXPECT_EQ(error({1, 1}), "");
+  EXPECT_EQ(error({16384, 4}), "");
 }
 
 TEST(Silhouette, TheWidestPictureIsNotBlank) {
@@ -161,20 +161,20 @@ TEST(Silhouette, TheWidestPictureIsNotBlank) {
 }
 
 TEST(Silhouette, ScenesWithoutGrainsAndScalesThatAreNoneAreRefused) {
-  EXPECT_THAT(fault_of([] {
+  EXPECT_THAT(error_of([] {
                 renderer().draw(Scene{}, OrthographicCamera{}, {10, 10}, SilhouetteStyle{});
               }),
               HasSubstr("no grains"));
   const Scene scene = sphere_scene(.01, {Vector::Zero()});
   for (const double scale : {0.0, -1.0, std::nan(""), 1e300}) {
-    EXPECT_THAT(fault_of([&] {
+    EXPECT_THAT(error_of([&] {
                   renderer().draw(scene, OrthographicCamera{.mm_per_px = scale}, {10, 10},
                                   SilhouetteStyle{});
                 }),
                 HasSubstr("mm_per_px"))
         << scale;
   }
-  EXPECT_THAT(fault_of([&] {
+  EXPECT_THAT(error_of([&] {
                 renderer().draw(scene, OrthographicCamera{.azimuth_rad = std::nan("")}, {10, 10},
                                 SilhouetteStyle{});
               }),

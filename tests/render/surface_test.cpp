@@ -1,11 +1,11 @@
-#include "render/surface.h"
+#include "render/scene/surface.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
 
-#include "render/view.h"
+#include "render/scene/view.h"
 #include "tests/render/drawn.h"
 #include "tests/support/nut_heap.h"
 

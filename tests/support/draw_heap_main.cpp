@@ -11,7 +11,7 @@
 
 #include "tests/support/heap_conditions.h"
 #include "tests/support/heap_picture.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/mat_of_picture.h"
+#include "vision/picture/mat_of_picture.h"
 
 namespace repose::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include "tests/support/heap_paint.h"
 #include "tests/support/heap_random.h"
 #include "tests/support/heap_scene.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 

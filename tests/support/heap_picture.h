@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/support/heap_scene.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 /// Pictures of heaps whose angles are exact by construction.
 namespace repose::testing {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/support/heap_scene.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 

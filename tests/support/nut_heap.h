@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dem/shape/calliper.h"
-#include "render/scene.h"
+#include "dem/shape/scan/calliper.h"
+#include "render/scene/scene.h"
 #include "tests/support/heap_random.h"
 
 /// Scenes to draw that need no simulation.
@@ -16,8 +16,10 @@ inline constexpr double kNutWidth_m = 18.23e-3;
 /// A hazelnut: a surface, and two spheres for it.
 inline dem::ClumpShape nut() {
   dem::ClumpShape shape;
-  shape.surface = dem::calliper_surface(
-      {.length_m = kNutLength_m, .width_m = kNutWidth_m, .thickness_m = 17.46e-3, .tip_share = .5});
+  shape.surface = dem::calliper_surface({.length_m = kNutLength_m,
+                                         .width_m = kNutWidth_m,
+                                         .thickness_m = 17.46e-3,
+                                         .tip_fraction = .5});
   shape.spheres = {{.centre = {-2.6e-3, 0, 0}, .radius = 8.2e-3},
                    {.centre = {2.2e-3, 0, 0}, .radius = 7.2e-3}};
   shape.volume_m3 = 3.7e-6;

@@ -154,7 +154,7 @@ TEST(UntoldPitchError, CoversEveryCameraFromTheHeapsMiddleUp) {
         const double seen = near_silhouette_rad(angle, pitch, distance, rise);
         const double bow = near_bow(angle, pitch, distance, rise);
         EXPECT_LE(std::abs(angle - seen),
-                  untold_pitch_error(seen, pitch_from_bow(bow)) + 0.02 * kDegree)
+                  assumed_pitch_error(seen, pitch_from_bow(bow)) + 0.02 * kDegree)
             << angle_deg << " seen from " << distance << ", " << pitch_deg;
       }
     }
@@ -166,7 +166,7 @@ TEST(UntoldPitchError, IsAFarCamerasCorrection) {
     const double angle = 25 * kDegree;
     const double seen = near_silhouette_rad(angle, pitch_deg * kDegree, 1000, 0.2);
     const double bow = near_bow(angle, pitch_deg * kDegree, 1000, 0.2);
-    EXPECT_NEAR(untold_pitch_error(seen, pitch_from_bow(bow)), angle - seen, 0.01 * kDegree);
+    EXPECT_NEAR(assumed_pitch_error(seen, pitch_from_bow(bow)), angle - seen, 0.01 * kDegree);
   }
 }
 

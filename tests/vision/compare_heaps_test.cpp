@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/vision/measured_triangles.h"
-#include "vision/heap_comparison.h"
+#include "vision/compare/heap_comparison.h"
 
 namespace repose::vision {
 namespace {
@@ -256,7 +256,7 @@ TEST(CompareHeaps, LeapsOnATiltedGroundDoNotRunBackwards) {
   }
 }
 
-TEST(CompareOptions, AllFaultsAreNamed) {
+TEST(CompareOptions, AllErrorsAreNamed) {
   CompareOptions options;
   options.margin_rad = -1;
   options.scale[1] = PictureScale{.length_m = std::numeric_limits<double>::infinity()};

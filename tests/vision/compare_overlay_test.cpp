@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/vision/measured_triangles.h"
-#include "vision/heap_comparison_overlay.h"
-#include "vision/mat_of_picture.h"
+#include "vision/drawing/heap_comparison_overlay.h"
+#include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
 namespace {

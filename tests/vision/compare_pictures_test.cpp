@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/vision/pictures.h"
-#include "vision/heap_comparison.h"
+#include "vision/compare/heap_comparison.h"
 
 /// Drawn heaps, measured and compared: what a user does.
 namespace repose::vision {

@@ -157,8 +157,8 @@ TEST(FitFlank, AHalfHeapAgainstTheFrameIsAbsentNotUpright) {
 }
 
 /// The triangle's right flank, cut off by the frame at `share` of its height.
-Profile cut_off_at(double share) {
-  const double end = 350 + (1 - share) * 110 / std::tan(kRight_rad);
+Profile cut_off_at(double fraction) {
+  const double end = 350 + (1 - fraction) * 110 / std::tan(kRight_rad);
   Profile profile = profile_of(static_cast<int>(end), kTriangle);
   profile.leaves_frame_right = true;
   return profile;
@@ -172,10 +172,10 @@ TEST(FitFlank, AFlankCutLowIsMeasuredAbove) {
 }
 
 TEST(FitFlank, AFlankCutHighIsTruncated) {
-  for (const double share : {0.35, 0.6}) {  // a quarter and two thirds of the window are missing
-    const Profile profile = cut_off_at(share);
-    EXPECT_EQ(fit(profile, Side::right).status, FlankStatus::truncated) << share;
-    EXPECT_EQ(fit(profile, Side::left).status, FlankStatus::ok) << share;
+  for (const double fraction : {0.35, 0.6}) {  // a quarter and two thirds of the window are missing
+    const Profile profile = cut_off_at(fraction);
+    EXPECT_EQ(fit(profile, Side::right).status, FlankStatus::truncated) << fraction;
+    EXPECT_EQ(fit(profile, Side::left).status, FlankStatus::ok) << fraction;
   }
 }
 

@@ -26,7 +26,7 @@ TEST(SupportLine, LevelPoints) {
   ASSERT_TRUE(ground);
   EXPECT_NEAR(ground->line.slope, 0, 1e-12);
   EXPECT_NEAR(ground->line.y(50), 50, 1e-9);
-  EXPECT_EQ(ground->share, 1);
+  EXPECT_EQ(ground->fraction, 1);
 }
 
 TEST(SupportLine, TiltedPoints) {
@@ -50,7 +50,7 @@ TEST(SupportLine, WhatStandsOnTheGroundDoesNotLiftIt) {
   // The heap's two toes lie within the tolerance, five points each of 300: they may tilt nothing.
   EXPECT_NEAR(ground->line.tilt_rad(), 1.5 * kDegree, 0.02 * kDegree);
   EXPECT_NEAR(ground->line.y(250), 200 + slope * 250, 0.2);
-  EXPECT_NEAR(ground->share, 0.6, 0.03);
+  EXPECT_NEAR(ground->fraction, 0.6, 0.03);
 }
 
 TEST(SupportLine, AFlatTopLongerThanTheGroundIsNotTheGround) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 /// Results of measuring triangles, made up instead of measured: their numbers are exact.
 namespace repose::vision {

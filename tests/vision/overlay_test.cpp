@@ -1,4 +1,4 @@
-#include "vision/overlay.h"
+#include "vision/drawing/overlay.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/drawing/lettering.h"
-#include "vision/mat_of_picture.h"
+#include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
 namespace {

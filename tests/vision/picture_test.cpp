@@ -1,4 +1,4 @@
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 #include <array>
 #include <cstdlib>
@@ -54,14 +54,14 @@ class PictureFile : public ::testing::Test {
     return read_picture(folder_.write(name, bytes));
   }
   /// The error for a file of that content.
-  std::string fault_of(const std::string& name, const Bytes& bytes) const {
-    return fault_of(folder_.write(name, bytes));
+  std::string error_of(const std::string& name, const Bytes& bytes) const {
+    return error_of(folder_.write(name, bytes));
   }
-  static std::string fault_of(const std::filesystem::path& file) {
+  static std::string error_of(const std::filesystem::path& file) {
     try {
       read_picture(file);
-    } catch (const std::invalid_argument& fault) {
-      return fault.what();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
     }
     return "it was read";
   }
@@ -139,7 +139,7 @@ TEST_F(PictureFile, HalfTransparentIsMixed) {
 
 TEST_F(PictureFile, NothingVisibleIsRefused) {
   const cv::Mat samples(6, 6, CV_8UC4, cv::Scalar(50, 50, 50, 0));
-  EXPECT_THAT(fault_of("ghost.png", coded(".png", samples)), HasSubstr("transparent"));
+  EXPECT_THAT(error_of("ghost.png", coded(".png", samples)), HasSubstr("transparent"));
 }
 
 TEST_F(PictureFile, InksBecomeLight) {
@@ -210,7 +210,7 @@ TEST_F(PictureFile, CutShortIsRefusedInEveryFormatWithoutPrinting) {
     for (const double part : {0.1, 0.5, 0.9}) {
       const std::string name = std::string("cut") + ending;
       EXPECT_THAT(
-          fault_of(name, testing::first_part(whole, part)),
+          error_of(name, testing::first_part(whole, part)),
           AllOf(HasSubstr(name + ": "), HasSubstr("cut short or damaged"), HasSubstr("Fix: ")))
           << part;
     }
@@ -225,7 +225,7 @@ TEST_F(PictureFile, DamageIsRefusedWithoutPrinting) {
     // A marker in the middle of the coded pixels, which no encoder writes.
     bytes[bytes.size() / 2] = 0xFF;
     bytes[bytes.size() / 2 + 1] = 0xD5;
-    EXPECT_THAT(fault_of(std::string("hit") + ending, bytes), HasSubstr("damaged")) << ending;
+    EXPECT_THAT(error_of(std::string("hit") + ending, bytes), HasSubstr("damaged")) << ending;
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
@@ -234,32 +234,32 @@ TEST_F(PictureFile, GiantClaimsAreRefusedBeforeMemoryIsAskedFor) {
   for (const Bytes& bytes :
        {testing::png_that_claims(50'000, 50'000), testing::jpeg_that_claims(50'000, 50'000),
         testing::bmp_that_claims(50'000, 50'000)}) {
-    EXPECT_THAT(fault_of("bomb", bytes),
+    EXPECT_THAT(error_of("bomb", bytes),
                 AllOf(HasSubstr("50000 x 50000"), HasSubstr("200 million"), HasSubstr("Fix: ")));
   }
 }
 
 TEST_F(PictureFile, MissingFileIsNamed) {
   const std::string file = (folder_.path() / "nowhere.jpg").string();
-  EXPECT_THAT(fault_of(file),
+  EXPECT_THAT(error_of(file),
               AllOf(StartsWith(file + ": "), HasSubstr("no such file"), HasSubstr("Fix: ")));
 }
 
 TEST_F(PictureFile, FolderIsNoPicture) {
-  EXPECT_THAT(fault_of(folder_.path()), HasSubstr("is a folder"));
+  EXPECT_THAT(error_of(folder_.path()), HasSubstr("is a folder"));
 }
 
 TEST_F(PictureFile, EmptyFileIsSaid) {
-  EXPECT_THAT(fault_of("empty.jpg", Bytes{}), HasSubstr("is empty"));
+  EXPECT_THAT(error_of("empty.jpg", Bytes{}), HasSubstr("is empty"));
 }
 
 TEST_F(PictureFile, TextIsNoPicture) {
-  EXPECT_THAT(fault_of(folder_.write("notes.jpg", std::string("angle: 23 degrees"))),
+  EXPECT_THAT(error_of(folder_.write("notes.jpg", std::string("angle: 23 degrees"))),
               HasSubstr("none of JPEG, PNG, TIFF, BMP, WebP"));
 }
 
 TEST_F(PictureFile, HeicIsNamedAndConvertible) {
-  EXPECT_THAT(fault_of(folder_.write("phone.jpg", std::string("\0\0\0\x18"
+  EXPECT_THAT(error_of(folder_.write("phone.jpg", std::string("\0\0\0\x18"
                                                               "ftypheic....",
                                                               16))),
               AllOf(HasSubstr("HEIC"), HasSubstr("convert")));
@@ -269,7 +269,7 @@ TEST_F(PictureFile, UnreadableFileIsSaid) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const auto file = folder_.write("locked.png", coded(".png", noise(4, 4)));
   std::filesystem::permissions(file, std::filesystem::perms::none);
-  EXPECT_THAT(fault_of(file), HasSubstr("cannot be opened"));
+  EXPECT_THAT(error_of(file), HasSubstr("cannot be opened"));
 }
 
 Picture striped(int width, int height) {
@@ -300,7 +300,7 @@ TEST_F(PictureFile, WritingReplacesTheOldPicture) {
   EXPECT_EQ(read_picture(file).width, 5);
 }
 
-TEST_F(PictureFile, WritingFaultsAreSaidAndLeaveNothingBehind) {
+TEST_F(PictureFile, WritingErrorsAreSaidAndLeaveNothingBehind) {
   const Picture picture = striped(5, 5);
   const auto fails_with = [](const std::string& text) {
     return ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr(text), HasSubstr("Fix: ")));

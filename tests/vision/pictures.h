@@ -6,9 +6,9 @@
 
 #include "tests/support/heap_conditions.h"
 #include "tests/support/heap_picture.h"
-#include "vision/mat_of_picture.h"
 #include "vision/measure/working_picture.h"
-#include "vision/picture.h"
+#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/picture.h"
 
 /// Pictures that the measuring tests share.
 namespace repose::vision {

@@ -151,7 +151,7 @@ TEST(UpperProfile, AFlatCrestHasItsCrestInTheMiddle) {
 
 TEST(UpperProfile, AnEdgeHiddenByAnExcludedBoxIsUnknown) {
   Scene scene(heap_y);
-  scene.work.evidence(cv::Rect(150, 60, 20, 80)) = 0;
+  scene.work.valid_mask(cv::Rect(150, 60, 20, 80)) = 0;
   scene.body.mask(cv::Rect(150, 60, 20, 80)) = 0;
   const Profile profile = scene.profile();
   EXPECT_EQ(height_at(profile, 160), -1);

@@ -84,7 +84,7 @@ TEST(LearnedSegmentation, ExcludedPixelsTeachNothing) {
     Scene scene;
     cv::cvtColor(cv::Mat3f(label.size(), cv::Vec3f(0.6F, 0.6F, 0.6F)), scene.work.lab(label),
                  cv::COLOR_BGR2Lab);
-    if (exclude) scene.work.evidence(label) = 0;
+    if (exclude) scene.work.valid_mask(label) = 0;
     cv::Mat1f inside = learned_segmentation(scene.work, body_of(scene.heap)).inside;
     inside(label) = -1;
     cv::Mat1b heap = scene.heap.clone();

@@ -7,7 +7,7 @@
 
 #include "tests/vision/pictures.h"
 #include "vision/measure/camera_pitch.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 /// What the options of a measurement do, and which are refused.
 namespace repose::vision {
@@ -199,7 +199,7 @@ TEST(MeasureReposeAngle, AnUntoldPitchsIntervalAllowsForACameraLevelledByEye) {
   const ReposeAngle told = measured_with_pitch(heap.picture, 0);
   const ReposeAngle untold = measure_repose_angle(heap.picture);
   EXPECT_NEAR(*untold.uncertainty_rad - *told.uncertainty_rad,
-              untold_pitch_error(*told.angle_rad, 2 * kDegree), 1e-6);
+              assumed_pitch_error(*told.angle_rad, 2 * kDegree), 1e-6);
   EXPECT_NEAR(*untold.angle_rad, *told.angle_rad, 1e-9);
 }
 

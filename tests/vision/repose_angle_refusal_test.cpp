@@ -5,7 +5,7 @@
 
 #include "tests/support/heap_random.h"
 #include "tests/vision/pictures.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 /// Pictures without a heap, or without a whole one: no number instead of a wrong one.
 namespace repose::vision {

@@ -1,4 +1,4 @@
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 #include <cctype>
 #include <cmath>

@@ -61,13 +61,13 @@ TEST(OtsuThreshold, FollowsTheUnitOfTheValues) {
 
 TEST(OtsuThreshold, ExcludedPixelsDoNotMoveIt) {
   const cv::Mat1f values = two_populations(30, 70, 4);
-  cv::Mat1b evidence = everywhere(values);
-  evidence(cv::Rect(20, 10, 60, 50)) = 0;
-  const double threshold = otsu_threshold(values, evidence);
+  cv::Mat1b valid_mask = everywhere(values);
+  valid_mask(cv::Rect(20, 10, 60, 50)) = 0;
+  const double threshold = otsu_threshold(values, valid_mask);
   for (const float painted : {-500.F, 0.F, 900.F}) {
     cv::Mat1f boxed = values.clone();
     boxed(cv::Rect(20, 10, 60, 50)) = painted;
-    EXPECT_EQ(otsu_threshold(boxed, evidence), threshold) << painted;
+    EXPECT_EQ(otsu_threshold(boxed, valid_mask), threshold) << painted;
     EXPECT_NE(otsu_threshold(boxed, everywhere(values)), threshold) << painted;
   }
 }
@@ -150,17 +150,17 @@ TEST(Roughness, IsTheLocalDeviation) {
 }
 
 /// Largest difference where the evidence counts.
-double difference(const cv::Mat1f& one, const cv::Mat1f& other, const cv::Mat1b& evidence) {
-  return cv::norm(one, other, cv::NORM_INF, evidence);
+double difference(const cv::Mat1f& one, const cv::Mat1f& other, const cv::Mat1b& valid_mask) {
+  return cv::norm(one, other, cv::NORM_INF, valid_mask);
 }
 
 TEST(Smoothed, KeepsALevelPictureLevelUpToAnExcludedBox) {
   cv::Mat1f values(60, 80, 7.F);
-  cv::Mat1b evidence = everywhere(values);
-  evidence(cv::Rect(20, 10, 30, 30)) = 0;
+  cv::Mat1b valid_mask = everywhere(values);
+  valid_mask(cv::Rect(20, 10, 30, 30)) = 0;
   values(cv::Rect(20, 10, 30, 30)) = 500;
-  EXPECT_LT(difference(smoothed(values, evidence, 3), cv::Mat1f(60, 80, 7.F), evidence), 1e-3);
-  EXPECT_LT(difference(roughness(values, evidence, 3), cv::Mat1f(60, 80, 0.F), evidence), 1e-1);
+  EXPECT_LT(difference(smoothed(values, valid_mask, 3), cv::Mat1f(60, 80, 7.F), valid_mask), 1e-3);
+  EXPECT_LT(difference(roughness(values, valid_mask, 3), cv::Mat1f(60, 80, 0.F), valid_mask), 1e-1);
   EXPECT_TRUE(cv::checkRange(smoothed(values, cv::Mat1b::zeros(values.size()), 3)));
 }
 
@@ -170,17 +170,17 @@ TEST(BlindSegmentations, ExcludedPixelsDoNotShineInFromABox) {
   picture.setTo(cv::Scalar(60, 90, 120), mask);
   const Box box{180, 60, 100, 120};  // up to the left flank
   std::vector<std::vector<Segmentation>> found;
-  cv::Mat1b evidence;
+  cv::Mat1b valid_mask;
   for (const int paint : {0, 255}) {
     picture(cv::Rect(box.x, box.y, box.width, box.height)) =
         cv::Vec3b::all(static_cast<std::uint8_t>(paint));
     const WorkingPicture work = working_picture(picture_of(picture), {box});
-    evidence = work.evidence;
+    valid_mask = work.valid_mask;
     found.push_back(blind_segmentations(work));
   }
   for (std::size_t i = 0; i < found[0].size(); ++i) {
     // L*a*b* from 0 to 100; the box differs by 100.
-    EXPECT_LT(difference(found[0][i].inside, found[1][i].inside, evidence), 0.01)
+    EXPECT_LT(difference(found[0][i].inside, found[1][i].inside, valid_mask), 0.01)
         << found[0][i].name;
   }
 }

@@ -56,17 +56,17 @@ TEST(Judge, AGoodPictureIsOkWithoutAWord) {
   EXPECT_TRUE(result.angle_rad);
 }
 
-struct Fault {
+struct Error {
   const char* name;
   std::function<void(Case&)> make;
   const char* says;  ///< part of the reason, or the warning's code
 };
 
-std::ostream& operator<<(std::ostream& out, const Fault& fault) { return out << fault.name; }
+std::ostream& operator<<(std::ostream& out, const Error& error) { return out << error.name; }
 
-std::string name_of(const ::testing::TestParamInfo<Fault>& fault) { return fault.param.name; }
+std::string name_of(const ::testing::TestParamInfo<Error>& error) { return error.param.name; }
 
-class Refusal : public ::testing::TestWithParam<Fault> {};
+class Refusal : public ::testing::TestWithParam<Error> {};
 
 TEST_P(Refusal, SaysWhyAndWhatToDoAndGivesNoNumber) {
   Case heap;
@@ -81,35 +81,35 @@ TEST_P(Refusal, SaysWhyAndWhatToDoAndGivesNoNumber) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Faults, Refusal,
+    ErrorList, Refusal,
     ::testing::Values(
-        Fault{"no_body", [](Case& c) { c.choice.best.body.mask.release(); }, "no heap stands out"},
-        Fault{"no_flank",
+        Error{"no_body", [](Case& c) { c.choice.best.body.mask.release(); }, "no heap stands out"},
+        Error{"no_flank",
               [](Case& c) {
                 c.choice.best.left = c.choice.best.right = FlankFit{};
                 c.choice.best.left.reason = "this side falls off vertically";
               },
               "left: this side falls off vertically"},
-        Fault{"faint_edge", [](Case& c) { c.choice.best.score = 0.1; }, "too uncertain"},
-        Fault{"disagreement", [](Case& c) { c.choice.disagreement_rad = 3 * kDegree; },
+        Error{"faint_edge", [](Case& c) { c.choice.best.score = 0.1; }, "too uncertain"},
+        Error{"disagreement", [](Case& c) { c.choice.disagreement_rad = 3 * kDegree; },
               "too uncertain"},
-        Fault{"crest_cut", [](Case& c) { c.choice.best.profile.leaves_frame_top = true; },
+        Error{"crest_cut", [](Case& c) { c.choice.best.profile.leaves_frame_top = true; },
               "crest lies outside"},
-        Fault{"from_above", [](Case& c) { c.choice.best.body.ground.bow = 0.15; },
+        Error{"from_above", [](Case& c) { c.choice.best.body.ground.bow = 0.15; },
               "base bows downwards"},
-        Fault{"one_layer", [](Case& c) { c.choice.best.grain = 100; }, "hardly higher"},
-        Fault{"level", [](Case& c) { c.choice.best.right.angle_rad = 2 * kDegree; },
+        Error{"one_layer", [](Case& c) { c.choice.best.grain = 100; }, "hardly higher"},
+        Error{"level", [](Case& c) { c.choice.best.right.angle_rad = 2 * kDegree; },
               "right side is level"},
-        Fault{"wall", [](Case& c) { c.choice.best.left.angle_rad = 70 * kDegree; },
+        Error{"wall", [](Case& c) { c.choice.best.left.angle_rad = 70 * kDegree; },
               "steeper than loose grains"},
-        Fault{"ball", [](Case& c) { c.choice.best.left.bend_rad = -20 * kDegree; },
+        Error{"ball", [](Case& c) { c.choice.best.left.bend_rad = -20 * kDegree; },
               "left side is round"},
-        Fault{"stepped", [](Case& c) { c.choice.best.left.window_spread_rad = 15 * kDegree; },
+        Error{"stepped", [](Case& c) { c.choice.best.left.window_spread_rad = 15 * kDegree; },
               "left side's angle changes by 15 degrees"},
-        Fault{"ragged", [](Case& c) { c.choice.best.right.least_squares.r2 = 0.7; }, "no line"}),
+        Error{"ragged", [](Case& c) { c.choice.best.right.least_squares.r2 = 0.7; }, "no line"}),
     name_of);
 
-class Flagged : public ::testing::TestWithParam<Fault> {};
+class Flagged : public ::testing::TestWithParam<Error> {};
 
 TEST_P(Flagged, KeepsTheNumberAndAsksForALook) {
   Case heap;
@@ -121,18 +121,18 @@ TEST_P(Flagged, KeepsTheNumberAndAsksForALook) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Faults, Flagged,
+    ErrorList, Flagged,
     ::testing::Values(
-        Fault{"weak_edge", [](Case& c) { c.choice.best.score = 0.25; }, "weak_edge"},
-        Fault{"hollow", [](Case& c) { c.choice.best.left.bend_rad = 12 * kDegree; }, "bent_flank"},
-        Fault{"window", [](Case& c) { c.choice.best.left.window_spread_rad = 4 * kDegree; },
+        Error{"weak_edge", [](Case& c) { c.choice.best.score = 0.25; }, "weak_edge"},
+        Error{"hollow", [](Case& c) { c.choice.best.left.bend_rad = 12 * kDegree; }, "bent_flank"},
+        Error{"window", [](Case& c) { c.choice.best.left.window_spread_rad = 4 * kDegree; },
               "window_sensitive"},
-        Fault{"low", [](Case& c) { c.choice.best.profile.crest_height = 30; }, "low_heap"},
-        Fault{"bow", [](Case& c) { c.choice.best.body.ground.bow = 0.045; }, "base_bows"},
-        Fault{"behind", [](Case& c) { c.choice.best.body.ground.behind = true; }, "edge_behind"}),
+        Error{"low", [](Case& c) { c.choice.best.profile.crest_height = 30; }, "low_heap"},
+        Error{"bow", [](Case& c) { c.choice.best.body.ground.bow = 0.045; }, "base_bows"},
+        Error{"behind", [](Case& c) { c.choice.best.body.ground.behind = true; }, "edge_behind"}),
     name_of);
 
-class Noted : public ::testing::TestWithParam<Fault> {};
+class Noted : public ::testing::TestWithParam<Error> {};
 
 TEST_P(Noted, LeavesTheNumberOk) {
   Case heap;
@@ -144,19 +144,19 @@ TEST_P(Noted, LeavesTheNumberOk) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Faults, Noted,
+    ErrorList, Noted,
     ::testing::Values(
-        Fault{"truncated", [](Case& c) { c.choice.best.left.status = FlankStatus::truncated; },
+        Error{"truncated", [](Case& c) { c.choice.best.left.status = FlankStatus::truncated; },
               "flank_truncated"},
-        Fault{"absent", [](Case& c) { c.choice.best.left.status = FlankStatus::absent; },
+        Error{"absent", [](Case& c) { c.choice.best.left.status = FlankStatus::absent; },
               "one_flank"},
-        Fault{"cut", [](Case& c) { c.choice.best.left.frame_cut = true; }, "flank_cut_by_frame"},
-        Fault{"apron", [](Case& c) { c.choice.best.right.apron_cut = true; }, "apron_left_out"},
-        Fault{"grains", [](Case& c) { c.choice.best.grain = 20; }, "few_grains"},
-        Fault{"tilt", [](Case& c) { c.choice.best.body.ground.slope = 0.07; }, "tilted_picture"},
-        Fault{"mirror", [](Case& c) { c.choice.best.body.ground.mirrored = true; }, "mirror"},
-        Fault{"strays", [](Case& c) { c.result.strays = 3; }, "strays"},
-        Fault{"unequal", [](Case& c) { c.choice.best.left.angle_rad = 20 * kDegree; },
+        Error{"cut", [](Case& c) { c.choice.best.left.frame_cut = true; }, "flank_cut_by_frame"},
+        Error{"apron", [](Case& c) { c.choice.best.right.apron_cut = true; }, "apron_left_out"},
+        Error{"grains", [](Case& c) { c.choice.best.grain = 20; }, "few_grains"},
+        Error{"tilt", [](Case& c) { c.choice.best.body.ground.slope = 0.07; }, "tilted_picture"},
+        Error{"mirror", [](Case& c) { c.choice.best.body.ground.mirrored = true; }, "mirror"},
+        Error{"strays", [](Case& c) { c.result.strays = 3; }, "strays"},
+        Error{"unequal", [](Case& c) { c.choice.best.left.angle_rad = 20 * kDegree; },
               "unequal_flanks"}),
     name_of);
 
@@ -167,7 +167,7 @@ ReposeAngle judged_with(std::optional<double> base_bow, double pitch_deg) {
   return heap.judged();
 }
 
-TEST(Judge, ABowedBaseIsNoFaultWhenItsPitchIsGiven) {
+TEST(Judge, ABowedBaseIsNoErrorWhenItsPitchIsGiven) {
   // By pitch_from_bow: 7 and 24 degrees.
   EXPECT_EQ(judged_with(0.045, 7).status, MeasureStatus::ok);
   EXPECT_EQ(judged_with(0.15, 24).status, MeasureStatus::ok);

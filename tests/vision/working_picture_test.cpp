@@ -29,7 +29,7 @@ TEST(WorkingPicture, SmallPicturesKeepTheirSize) {
   EXPECT_EQ(work.bgr.size(), cv::Size(400, 300));
   EXPECT_EQ(work.lab.size(), cv::Size(400, 300));
   EXPECT_EQ(work.frame, cv::Rect(0, 0, 400, 300));
-  EXPECT_EQ(cv::countNonZero(work.evidence), 400 * 300);
+  EXPECT_EQ(cv::countNonZero(work.valid_mask), 400 * 300);
 }
 
 TEST(WorkingPicture, LargeOnesAreShrunkToTheWorkingSide) {
@@ -62,23 +62,23 @@ TEST(WorkingPicture, LightnessRunsFromBlackToWhite) {
 TEST(WorkingPicture, ExcludedBoxesAreNoEvidence) {
   const WorkingPicture work =
       working_picture(picture_of(grey_picture(400, 300)), {{10, 20, 30, 40}, {390, 290, 10, 10}});
-  EXPECT_EQ(cv::countNonZero(work.evidence), 400 * 300 - 30 * 40 - 10 * 10);
-  EXPECT_EQ(cv::countNonZero(work.evidence(cv::Rect(10, 20, 30, 40))), 0);
+  EXPECT_EQ(cv::countNonZero(work.valid_mask), 400 * 300 - 30 * 40 - 10 * 10);
+  EXPECT_EQ(cv::countNonZero(work.valid_mask(cv::Rect(10, 20, 30, 40))), 0);
 }
 
 TEST(WorkingPicture, ExcludedBoxesOfAShrunkPictureAreRoundedOutwards) {
   const WorkingPicture work =
       working_picture(picture_of(grey_picture(1600, 800)), {{101, 101, 50, 50}});
   // 101 to 151 in half-sized pixels: 50.5 to 75.5.
-  EXPECT_EQ(cv::countNonZero(work.evidence(cv::Rect(50, 50, 26, 26))), 0);
-  EXPECT_EQ(cv::countNonZero(work.evidence), 800 * 400 - 26 * 26);
+  EXPECT_EQ(cv::countNonZero(work.valid_mask(cv::Rect(50, 50, 26, 26))), 0);
+  EXPECT_EQ(cv::countNonZero(work.valid_mask), 800 * 400 - 26 * 26);
 }
 
 TEST(WorkingPicture, APairOfBarsIsNoPartOfThePicture) {
   const WorkingPicture work = work_of(letterboxed(30));
   // A row of each bar's edge goes with it: a scaled picture has it blurred.
   EXPECT_EQ(work.frame, cv::Rect(0, 31, 400, 238));
-  EXPECT_EQ(cv::countNonZero(work.evidence), work.frame.area());
+  EXPECT_EQ(cv::countNonZero(work.valid_mask), work.frame.area());
 }
 
 TEST(WorkingPicture, BarsAtTheSidesAreRemovedLikewise) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vision/heap_comparison.h"
+#include "vision/compare/heap_comparison.h"
 
 namespace repose::vision {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "vision/heap_comparison.h"
+#include "vision/compare/heap_comparison.h"
 
 namespace repose::vision {
 

@@ -30,11 +30,11 @@ Skyline walked(const Skyline& edge) {
       ++i;
       piece = step_between(edge[i - 1], edge[i]);
     }
-    const double share = piece > 0 ? std::min(1.0, (target - behind) / piece) : 0;
+    const double fraction = piece > 0 ? std::min(1.0, (target - behind) / piece) : 0;
     const OutlinePoint& p = edge[i - 1];
     const OutlinePoint& q = edge[i];
     walk.push_back(
-        {p.along + share * (q.along - p.along), p.height + share * (q.height - p.height)});
+        {p.along + fraction * (q.along - p.along), p.height + fraction * (q.height - p.height)});
   }
   return walk;
 }
@@ -44,9 +44,9 @@ double squared_distance(const OutlinePoint& point, const OutlinePoint& p, const 
   const double y = q.height - p.height;
   const double length = x * x + y * y;
   const double along = (point.along - p.along) * x + (point.height - p.height) * y;
-  const double share = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
-  const double dx = point.along - p.along - share * x;
-  const double dy = point.height - p.height - share * y;
+  const double fraction = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
+  const double dx = point.along - p.along - fraction * x;
+  const double dy = point.height - p.height - fraction * y;
   return dx * dx + dy * dy;
 }
 

@@ -48,10 +48,10 @@ void add_stretch(SkylineDifference& total, Ends a, Ends b, double length) {
     add_straight(total, a, b, length);
     return;
   }
-  const double share = first / (first - last);  // where the two lines cross
-  const double meeting = a.from + (a.to - a.from) * share;
-  add_straight(total, {a.from, meeting}, {b.from, meeting}, share * length);
-  add_straight(total, {meeting, a.to}, {meeting, b.to}, (1 - share) * length);
+  const double fraction = first / (first - last);  // where the two lines cross
+  const double meeting = a.from + (a.to - a.from) * fraction;
+  add_straight(total, {a.from, meeting}, {b.from, meeting}, fraction * length);
+  add_straight(total, {meeting, a.to}, {meeting, b.to}, (1 - fraction) * length);
 }
 
 /// Both ends and every point of either skyline between them, ascending.
@@ -73,9 +73,9 @@ Skyline divided_at(const Skyline& skyline, double height) {
   for (const OutlinePoint& point : skyline) {
     if (!divided.empty()) {
       const OutlinePoint& before = divided.back();
-      const double share = (height - before.height) / (point.height - before.height);
-      if (share > 0 && share < 1) {
-        divided.push_back({before.along + share * (point.along - before.along), height});
+      const double fraction = (height - before.height) / (point.height - before.height);
+      if (fraction > 0 && fraction < 1) {
+        divided.push_back({before.along + fraction * (point.along - before.along), height});
       }
     }
     divided.push_back(point);

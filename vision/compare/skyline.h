@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "vision/heap_comparison.h"
+#include "vision/compare/heap_comparison.h"
 
 /// Heaps as their upper edges, in one unit for places and heights.
 namespace repose::vision {

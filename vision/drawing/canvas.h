@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/drawing/overlay_style.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::vision {
 

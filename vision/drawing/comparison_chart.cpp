@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/drawing/comparison_style.h"
-#include "vision/mat_of_picture.h"
+#include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/compare/heap_comparison.h"
 #include "vision/drawing/lettering.h"
-#include "vision/heap_comparison.h"
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::vision {
 

@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/drawing/lettering.h"
-#include "vision/heap_comparison_overlay.h"
 
 namespace repose::vision {
 

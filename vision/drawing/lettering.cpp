@@ -93,8 +93,7 @@ void Lettering::draw(cv::Mat& image, const std::string& text, cv::Point top_left
               stroke_thickness(height), cv::LINE_AA);
 }
 
-std::vector<std::string> Lettering::wrap(const std::string& text, int height,
-                                         int most_width) const {
+std::vector<std::string> Lettering::wrap(const std::string& text, int height, int max_width) const {
   std::vector<std::string> lines;
   std::string line;
   const auto finish_line = [&] {
@@ -105,13 +104,13 @@ std::vector<std::string> Lettering::wrap(const std::string& text, int height,
     std::string longer = line;
     if (!line.empty()) longer += ' ';
     longer += word;
-    if (width(longer, height) <= most_width) {
+    if (width(longer, height) <= max_width) {
       line = std::move(longer);
       continue;
     }
     finish_line();
     for (const char byte : word) {
-      const bool is_full = starts_a_letter(byte) && width(line + 'm', height) > most_width;
+      const bool is_full = starts_a_letter(byte) && width(line + 'm', height) > max_width;
       if (is_full) finish_line();
       line += byte;
     }

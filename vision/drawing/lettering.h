@@ -30,9 +30,9 @@ class Lettering {
   void draw(cv::Mat& image, const std::string& text, cv::Point top_left, int height,
             const cv::Scalar& colour) const;
 
-  /// The text in lines that are not wider than `most_width`, broken at spaces; a word that is
+  /// The text in lines that are not wider than `max_width`, broken at spaces; a word that is
   /// wider alone is broken anywhere.
-  std::vector<std::string> wrap(const std::string& text, int height, int most_width) const;
+  std::vector<std::string> wrap(const std::string& text, int height, int max_width) const;
 
  private:
   cv::Ptr<cv::freetype::FreeType2> font_;

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/drawing/lettering.h"
-#include "vision/overlay.h"
+#include "vision/drawing/overlay.h"
 
 namespace repose::vision {
 

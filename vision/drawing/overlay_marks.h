@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/drawing/lettering.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
 

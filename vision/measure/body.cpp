@@ -27,7 +27,7 @@ cv::Mat1b cut_below(const cv::Mat1b& mask, const PictureLine& ground, cv::Point 
 }
 
 cv::Mat1b solid_mask(const Segmentation& segmentation, const WorkingPicture& work) {
-  cv::Mat1b mask = (segmentation.inside > 0) & work.evidence;
+  cv::Mat1b mask = (segmentation.inside > 0) & work.valid_mask;
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
   return holes_filled(mask);

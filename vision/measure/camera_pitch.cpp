@@ -30,7 +30,7 @@ double pitch_from_bow(double bow) {
   return std::asin(std::clamp(2 * bow / kParabolaOfEllipse, 0.0, 1.0));
 }
 
-double untold_pitch_error(double apparent_rad, double pitch_rad) {
+double assumed_pitch_error(double apparent_rad, double pitch_rad) {
   return angle_without_pitch(apparent_rad, pitch_rad) - apparent_rad;
 }
 

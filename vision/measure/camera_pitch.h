@@ -59,6 +59,6 @@ double pitch_from_bow(double bow);
 /// and the height z it sees the base bow as a far camera of pitch z / (D - 1) does, and the apex,
 /// h high, in the direction d = (z - h) / D below the horizon: with z >= h / 2, |d| is the smaller.
 /// Proved by tests/vision/camera_pitch_test.cpp against a search for the outline.
-double untold_pitch_error(double apparent_rad, double pitch_rad);
+double assumed_pitch_error(double apparent_rad, double pitch_rad);
 
 }  // namespace repose::vision

@@ -177,8 +177,8 @@ bool is_same_line(const PictureLine& a, const PictureLine& b) {
 }
 
 /// Reads the heap anew, by every segmentation that sees it, on the ground that they share.
-void share_ground(std::vector<Reading>& readings, const WorkingPicture& work,
-                  const MeasureOptions& options) {
+void fraction_ground(std::vector<Reading>& readings, const WorkingPicture& work,
+                     const MeasureOptions& options) {
   const Reading& best = best_of(readings);
   const GroundFrame frame(best.body.ground);
   const Base base{frame.picture(best.profile.along.front(), 0).x,
@@ -240,7 +240,7 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
       return choice;
     }
   }
-  if (best_of(readings).score > 0) share_ground(readings, work, options);
+  if (best_of(readings).score > 0) fraction_ground(readings, work, options);
   if (best_of(readings).score > 0 && !is_settled(best_of(readings), readings)) {
     look_again(readings, work, options);
   }

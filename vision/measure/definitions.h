@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "vision/measure/reading.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
 

@@ -7,7 +7,7 @@
 
 #include "vision/measure/line_fit.h"
 #include "vision/measure/profile.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::vision {
 

@@ -9,12 +9,12 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kTailShare = 0.12;     // of the frame's width that must be bare ground
+constexpr double kTailFraction = 0.12;  // of the frame's width that must be bare ground
 constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron of grains is not
 constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
 constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
-constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a share of its width
+constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a fraction of its width
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
 // Standard uncertainty of the tilt where the base is the frame's edge or a box: a camera held by
 // eye.
@@ -27,7 +27,7 @@ constexpr double kPlainEdge = 0.6;      // evidence above which a line lies on a
 constexpr double kBetterEdge = 1.1;     // times the evidence: a search that is worth believing
 constexpr double kFirstStep = 4;        // px by which the search moves the line's ends
 constexpr double kLastStep = 0.5;
-constexpr int kMostMoves = 24;
+constexpr int kMaxMoves = 24;
 
 std::vector<Point> points_of(const std::vector<int>& rows, double offset) {
   std::vector<Point> points;
@@ -107,7 +107,7 @@ std::optional<Ground> ground_from_tails(const Spans& spans, const WorkingPicture
   if (!left && !right) return std::nullopt;
   const std::vector<Point> tops = points_of(spans.top, 0);
   const auto line = support_line(tops, kTailTolerance);
-  if (!line || line->share * static_cast<double>(tops.size()) < kTailShare * frame.width ||
+  if (!line || line->fraction * static_cast<double>(tops.size()) < kTailFraction * frame.width ||
       tails_are_grains(spans, line->line, work)) {
     return std::nullopt;
   }
@@ -143,7 +143,7 @@ std::optional<Ground> ground_from_mirror(const Spans& spans, const WorkingPictur
         {static_cast<double>(col) + 0.5, (spans.top[col] + spans.bottom[col] + 1) / 2.0});
   }
   const auto axis = support_line(middles, kBaseTolerance);
-  if (!axis || axis->share <= 0.5) return std::nullopt;
+  if (!axis || axis->fraction <= 0.5) return std::nullopt;
   Material heap;
   Material image;
   for (std::size_t i = 0; i < spans.top.size(); ++i) {
@@ -165,7 +165,7 @@ std::vector<Point> seen_bottoms(const Spans& spans, const WorkingPicture& work) 
     const int row = spans.bottom[i];
     if (row < 0 || row + kFrameMargin >= work.frame.br().y) continue;
     const int col = static_cast<int>(i);
-    if (work.evidence(row + 1, col) == 0) continue;
+    if (work.valid_mask(row + 1, col) == 0) continue;
     seen.push_back({col + 0.5, row + 1.0});
   }
   return seen;
@@ -181,7 +181,7 @@ std::optional<Ground> ground_from_base(const Spans& spans, const WorkingPicture&
   std::optional<SupportLine> base;
   for (const double looser : {1.0, 2.0, 3.5}) {  // large grains leave large gaps at the ground
     base = support_line(bottoms, looser * kBaseTolerance);
-    if (base && base->share > 0.5 && bow < kStraightBase && bow > -kRaggedBase) {
+    if (base && base->fraction > 0.5 && bow < kStraightBase && bow > -kRaggedBase) {
       if (!hidden) return Ground{base->line, base->deviation_rad, bow, false};
       return Ground{base->line, std::hypot(base->deviation_rad, kRoll_rad), std::nullopt, false};
     }
@@ -198,7 +198,7 @@ std::optional<Ground> ground_from_base(const Spans& spans, const WorkingPicture&
 
 struct Edge {
   PictureLine line;
-  double evidence = 0;
+  double valid_mask = 0;
 };
 
 /// How a search may move the line's ends, in steps. A base that bows, seen from a little above, is
@@ -218,17 +218,17 @@ Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& 
   const double width = std::max(1.0, base.to - base.from);
   Edge best = start;
   double step = kFirstStep;
-  for (int move = 0; move < kMostMoves && step >= kLastStep; ++move) {
+  for (int move = 0; move < kMaxMoves && step >= kLastStep; ++move) {
     const Edge here = best;
     for (const auto& [left, right] : moves) {
       PictureLine line = here.line;
       line.slope += step * (right - left) / width;
       line.y_at_0 = here.line.y(base.from) + step * left - line.slope * base.from;
       if (std::abs(line.tilt_rad()) > kMaxGroundTilt_rad) continue;
-      const double evidence = ground_evidence(line, base, work);
-      if (evidence > best.evidence) best = {line, evidence};
+      const double valid_mask = ground_evidence(line, base, work);
+      if (valid_mask > best.valid_mask) best = {line, valid_mask};
     }
-    if (best.evidence <= here.evidence) step /= 2;
+    if (best.valid_mask <= here.valid_mask) step /= 2;
   }
   return best;
 }
@@ -237,24 +237,24 @@ Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& 
 
 Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
                    const WorkingPicture& work) {
-  std::vector<double> evidence;
-  for (const Ground& ground : candidates) evidence.push_back(ground_evidence(ground, base, work));
-  const auto chosen = static_cast<std::size_t>(std::max_element(evidence.begin(), evidence.end()) -
-                                               evidence.begin());
+  std::vector<double> valid_mask;
+  for (const Ground& ground : candidates) valid_mask.push_back(ground_evidence(ground, base, work));
+  const auto chosen = static_cast<std::size_t>(
+      std::max_element(valid_mask.begin(), valid_mask.end()) - valid_mask.begin());
   Ground best = candidates.at(chosen);
   double squares = 0;
   int rivals = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i == chosen || evidence[i] < kEqualEvidence * evidence[chosen]) continue;
+    if (i == chosen || valid_mask[i] < kEqualEvidence * valid_mask[chosen]) continue;
     const double away = candidates[i].tilt_rad() - best.tilt_rad();
     squares += away * away;
     ++rivals;
   }
   best.deviation_rad = std::hypot(best.deviation_rad, std::sqrt(squares / std::max(1, rivals)));
-  if (evidence[chosen] >= kPlainEdge || best.mirrored) return best;
+  if (valid_mask[chosen] >= kPlainEdge || best.mirrored) return best;
   const Edge edge =
-      edge_near({static_cast<const PictureLine&>(best), evidence[chosen]}, best.bow, base, work);
-  if (edge.evidence < kBetterEdge * evidence[chosen]) return best;
+      edge_near({static_cast<const PictureLine&>(best), valid_mask[chosen]}, best.bow, base, work);
+  if (edge.valid_mask < kBetterEdge * valid_mask[chosen]) return best;
   const double change = edge.line.tilt_rad() - best.tilt_rad();
   best.deviation_rad = std::hypot(best.deviation_rad, change / 2);
   static_cast<PictureLine&>(best) = edge.line;

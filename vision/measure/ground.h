@@ -13,7 +13,7 @@ namespace repose::vision {
 /// The line a heap stands on, and what gave it away.
 struct Ground : PictureLine {
   double deviation_rad = 0;        ///< standard uncertainty of its tilt
-  std::optional<double> bow = {};  ///< how far the base bows downwards, as a share of its width;
+  std::optional<double> bow = {};  ///< how far the base bows downwards, as a fraction of its width;
                                    ///< empty when the base is not seen
   bool mirrored = false;           ///< it is the axis of a reflection
   bool behind = false;             ///< the heap goes on below it: an edge behind the heap

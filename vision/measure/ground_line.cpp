@@ -43,7 +43,7 @@ double support(const PictureLine& line, const std::vector<Point>& points, double
 struct Refit {
   PictureLine line;
   double deviation_rad = 0;
-  double share = 0;
+  double fraction = 0;
 };
 
 Refit refit(const PictureLine& start, const std::vector<Point>& points, double tolerance) {
@@ -102,7 +102,7 @@ std::optional<SupportLine> support_line(const std::vector<Point>& points, double
   const Refit once = refit(*best, points, tolerance);
   const Refit twice = refit(once.line, points, tolerance);
   if (std::abs(twice.line.slope) > steepest) return std::nullopt;
-  return SupportLine{twice.line, twice.share, twice.deviation_rad};
+  return SupportLine{twice.line, twice.fraction, twice.deviation_rad};
 }
 
 double ground_evidence(const PictureLine& ground, const Base& base, const WorkingPicture& work) {
@@ -118,7 +118,7 @@ double ground_evidence(const PictureLine& ground, const Base& base, const Workin
       const int level = static_cast<int>(std::lround(ground.y(col + 0.5)));
       if (level - kBand < work.frame.y || level + kBand > work.frame.br().y) continue;
       for (int row = level - kBand; row < level + kBand; ++row) {
-        if (work.evidence(row, col) != 0) (row < level ? above : below).add(work.lab(row, col));
+        if (work.valid_mask(row, col) != 0) (row < level ? above : below).add(work.lab(row, col));
       }
     }
     if (above.count == 0 || below.count == 0) continue;

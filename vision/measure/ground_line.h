@@ -11,7 +11,7 @@ namespace repose::vision {
 /// A near-level line through as many points as possible, none of them the heap's.
 struct SupportLine {
   PictureLine line;
-  double share = 0;          ///< of the points that lie on the line
+  double fraction = 0;       ///< of the points that lie on the line
   double deviation_rad = 0;  ///< standard uncertainty of its tilt
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMadToSigma = 1.4826;   // of a normal distribution
 constexpr double kTukeyTuning = 4.685;   // 95 % efficiency on normal residuals
 constexpr double kSmallestScale = 1e-6;  // keeps a perfect line solvable
-constexpr int kMostRounds = 8;           // of line and scale in turn
+constexpr int kMaxRounds = 8;            // of line and scale in turn
 constexpr double kSettled = 0.02;        // relative change of the scale that moves no line
 
 /// Vertical distances of all points from one line; the loss is applied to each by IRLS weights
@@ -101,7 +101,7 @@ LineFit robust_line(std::span<const double> x, std::span<const double> y) {
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 50;
   LineFit fit = start;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     if (!summary.IsSolutionUsable()) return start;

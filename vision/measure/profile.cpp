@@ -104,7 +104,7 @@ Profile upper_profile(const Body& body, const Segmentation& segmentation,
     if (col <= work.frame.x + 1) profile.leaves_frame_left = true;
     if (col >= work.frame.br().x - 2) profile.leaves_frame_right = true;
     const bool at_top = row <= work.frame.y;
-    if (!at_top && work.evidence(row - 1, col) == 0) continue;  // the edge is hidden by a box
+    if (!at_top && work.valid_mask(row - 1, col) == 0) continue;  // the edge is hidden by a box
     const Point edge{col + 0.5, edge_y(segmentation.inside, row, col)};
     columns.push_back({ground.along(edge), ground.height(edge), at_top});
   }

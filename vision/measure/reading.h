@@ -3,8 +3,8 @@
 #include "vision/measure/body.h"
 #include "vision/measure/flank.h"
 #include "vision/measure/profile.h"
+#include "vision/measure/repose_angle.h"
 #include "vision/measure/segmentation.h"
-#include "vision/repose_angle.h"
 
 namespace repose::vision {
 

@@ -13,9 +13,9 @@ constexpr int kFeatures = 6;  // L*, a*, b*, roughness, u, u^2
 using Feature = cv::Vec<double, kFeatures>;
 using Covariance = cv::Matx<double, kFeatures, kFeatures>;
 
-constexpr float kBandNear = 2;      // px from the edge: mixed pixels teach nothing
-constexpr double kBandShare = 0.3;  // of the body's height: how far from the edge it learns
-constexpr int kGrabCutSide = 240;   // px; the cost grows with the square
+constexpr float kBandNear = 2;         // px from the edge: mixed pixels teach nothing
+constexpr double kBandFraction = 0.3;  // of the body's height: how far from the edge it learns
+constexpr int kGrabCutSide = 240;      // px; the cost grows with the square
 constexpr int kGrabCutRounds = 3;
 
 struct FeatureImages {
@@ -25,8 +25,8 @@ struct FeatureImages {
   explicit FeatureImages(const WorkingPicture& work) : width(work.lab.cols) {
     std::array<cv::Mat1f, 3> lab;
     cv::split(work.lab, lab.data());
-    for (std::size_t i = 0; i < 3; ++i) plane[i] = smoothed(lab[i], work.evidence, 0.8);
-    plane[3] = smoothed(roughness(lab[0], work.evidence, 1.5), work.evidence, 0.8);
+    for (std::size_t i = 0; i < 3; ++i) plane[i] = smoothed(lab[i], work.valid_mask, 0.8);
+    plane[3] = smoothed(roughness(lab[0], work.valid_mask, 1.5), work.valid_mask, 0.8);
   }
   Feature at(int row, int col) const {
     const double u = 2 * col / width - 1;
@@ -70,12 +70,12 @@ Segmentation learned_segmentation(const WorkingPicture& work, const Body& body) 
   cv::Mat1f away;
   cv::distanceTransform(~body.mask, away, cv::DIST_L2, 3);
   const auto reach =
-      static_cast<float>(std::max(8.0, kBandShare * cv::boundingRect(body.mask).height));
+      static_cast<float>(std::max(8.0, kBandFraction * cv::boundingRect(body.mask).height));
   Class inside;
   Class outside;
   for (int row = 0; row < below.rows; row += 2) {
     for (int col = 0; col < below.cols; col += 2) {
-      if (below(row, col) != 0 || work.evidence(row, col) == 0) continue;
+      if (below(row, col) != 0 || work.valid_mask(row, col) == 0) continue;
       const bool in = body.mask(row, col) != 0;
       const float distance = in ? into(row, col) : away(row, col);
       if (distance <= kBandNear || distance > reach) continue;

@@ -40,14 +40,14 @@ Pieces::Pieces(const cv::Mat1b& mask) {
 }
 
 std::vector<int> largest_pieces(const Pieces& pieces, int smallest) {
-  constexpr std::size_t kMostPieces = 3;
+  constexpr std::size_t kMaxPieces = 3;
   std::vector<int> order;
   for (int i = 1; i < pieces.count; ++i) {
     if (pieces.area(i) >= smallest) order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
-  if (order.size() > kMostPieces) order.resize(kMostPieces);
+  if (order.size() > kMaxPieces) order.resize(kMaxPieces);
   return order;
 }
 

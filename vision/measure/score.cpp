@@ -90,9 +90,9 @@ void score(Reading& reading, const WorkingPicture& work) {
   reading.edge_contrast = contrast[contrast.size() / 4];  // most of the edge, not its best part
   reading.edge_sharpness = sharpness;
   const double base = reading.profile.along.back() - reading.profile.along.front();
-  const double share = std::min(1.0, base / (kUsualBase * work.frame.width));
+  const double fraction = std::min(1.0, base / (kUsualBase * work.frame.width));
   reading.score = saturated(reading.edge_contrast, 1) * saturated(sharpness, 0.3) * fit * fit *
-                  share * share * (reading.profile.leaves_frame_top ? kCrestUnseen : 1);
+                  fraction * fraction * (reading.profile.leaves_frame_top ? kCrestUnseen : 1);
 }
 
 }  // namespace repose::vision

@@ -10,16 +10,16 @@ namespace repose::vision {
 namespace {
 
 /// Share of the frame's height, from the top, that is taken for backdrop until proven otherwise.
-constexpr double kBackdropShare = 0.25;
+constexpr double kBackdropFraction = 0.25;
 
 constexpr int kSampleStep = 2;
-constexpr double kLeastWeight = 1e-3;  // of the evidence within a blur's reach, to average over it
+constexpr double kMinWeight = 1e-3;  // of the evidence within a blur's reach, to average over it
 
 cv::Mat1b backdrop_strip(const WorkingPicture& work) {
-  cv::Mat1b strip = cv::Mat1b::zeros(work.evidence.size());
+  cv::Mat1b strip = cv::Mat1b::zeros(work.valid_mask.size());
   cv::Rect top = work.frame;
-  top.height = std::max(1, static_cast<int>(top.height * kBackdropShare));
-  work.evidence(top).copyTo(strip(top));
+  top.height = std::max(1, static_cast<int>(top.height * kBackdropFraction));
+  work.valid_mask(top).copyTo(strip(top));
   return strip;
 }
 
@@ -34,8 +34,8 @@ std::vector<float> sampled(const cv::Mat1f& values, const cv::Mat1b& where) {
   return samples;
 }
 
-float quantile(std::vector<float>& samples, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
+float quantile(std::vector<float>& samples, double fraction) {
+  const auto at = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(samples.size() - 1));
   std::nth_element(samples.begin(), samples.begin() + at, samples.end());
   return samples[static_cast<std::size_t>(at)];
 }
@@ -50,20 +50,20 @@ Segmentation by_threshold(std::string name, const cv::Mat1f& values, double thre
 
 /// Average of `sum / weight` under one blur; 0 where there is no weight.
 template <class Blur>
-cv::Mat1f weighted_average(const cv::Mat1f& values, const cv::Mat1b& evidence, Blur blur) {
-  if (cv::countNonZero(evidence) == static_cast<int>(evidence.total())) return blur(values);
+cv::Mat1f weighted_average(const cv::Mat1f& values, const cv::Mat1b& valid_mask, Blur blur) {
+  if (cv::countNonZero(valid_mask) == static_cast<int>(valid_mask.total())) return blur(values);
   cv::Mat1f inside;
-  evidence.convertTo(inside, CV_32F, 1 / 255.0);
+  valid_mask.convertTo(inside, CV_32F, 1 / 255.0);
   const cv::Mat1f weight = blur(inside);
-  cv::Mat1f average = blur(values.mul(inside)) / cv::max(weight, kLeastWeight);
-  values.copyTo(average, weight <= kLeastWeight);
+  cv::Mat1f average = blur(values.mul(inside)) / cv::max(weight, kMinWeight);
+  values.copyTo(average, weight <= kMinWeight);
   return average;
 }
 
 /// The same as `smoothed` for a wide blur, which needs no fine pixels.
-cv::Mat1f coarsely_smoothed(const cv::Mat1f& values, const cv::Mat1b& evidence, double sigma_px) {
+cv::Mat1f coarsely_smoothed(const cv::Mat1f& values, const cv::Mat1b& valid_mask, double sigma_px) {
   constexpr double kReduction = 8;
-  return weighted_average(values, evidence, [&](const cv::Mat1f& sharp) {
+  return weighted_average(values, valid_mask, [&](const cv::Mat1f& sharp) {
     cv::Mat1f small;
     cv::resize(sharp, small, {}, 1 / kReduction, 1 / kReduction, cv::INTER_AREA);
     cv::GaussianBlur(small, small, {}, sigma_px / kReduction);
@@ -170,11 +170,11 @@ cv::Mat1f backdrop_distance(const WorkingPicture& work) {
   for (int round = 1; round < kModelRounds; ++round) {
     const double reach =
         work.frame.y +
-        work.frame.height * std::min(1.0, kBackdropShare + 0.6 * round / (kModelRounds - 1));
+        work.frame.height * std::min(1.0, kBackdropFraction + 0.6 * round / (kModelRounds - 1));
     std::vector<cv::Point> agreeing;
     for (int row = work.frame.y; row < reach; row += kModelStep) {
       for (int col = work.frame.x; col < work.frame.br().x; col += kModelStep) {
-        if (work.evidence(row, col) == 0) continue;
+        if (work.valid_mask(row, col) == 0) continue;
         const cv::Vec3d away = model.distance(work, row, col);
         if (away.dot(away) < kModelInlier) agreeing.emplace_back(col, row);
       }
@@ -191,23 +191,23 @@ cv::Mat1f backdrop_distance(const WorkingPicture& work) {
 
 }  // namespace
 
-cv::Mat1f smoothed(const cv::Mat1f& values, const cv::Mat1b& evidence, double sigma_px) {
-  return weighted_average(values, evidence, [&](const cv::Mat1f& sharp) {
+cv::Mat1f smoothed(const cv::Mat1f& values, const cv::Mat1b& valid_mask, double sigma_px) {
+  return weighted_average(values, valid_mask, [&](const cv::Mat1f& sharp) {
     cv::Mat1f smooth;
     cv::GaussianBlur(sharp, smooth, {}, sigma_px);
     return smooth;
   });
 }
 
-cv::Mat1f roughness(const cv::Mat1f& lightness, const cv::Mat1b& evidence, double sigma_px) {
-  const cv::Mat1f deviation = lightness - smoothed(lightness, evidence, sigma_px);
+cv::Mat1f roughness(const cv::Mat1f& lightness, const cv::Mat1b& valid_mask, double sigma_px) {
+  const cv::Mat1f deviation = lightness - smoothed(lightness, valid_mask, sigma_px);
   cv::Mat1f rough;
-  cv::sqrt(smoothed(deviation.mul(deviation), evidence, sigma_px), rough);
+  cv::sqrt(smoothed(deviation.mul(deviation), valid_mask, sigma_px), rough);
   return rough;
 }
 
-double otsu_threshold(const cv::Mat1f& values, const cv::Mat1b& evidence) {
-  std::vector<float> samples = sampled(values, evidence);
+double otsu_threshold(const cv::Mat1f& values, const cv::Mat1b& valid_mask) {
+  std::vector<float> samples = sampled(values, valid_mask);
   if (samples.empty()) return 0;
   const float low = quantile(samples, 0.001);
   const float high = quantile(samples, 0.999);
@@ -227,7 +227,7 @@ Segmentation grey_otsu(const WorkingPicture& work) {
   cv::cvtColor(work.bgr, grey, cv::COLOR_BGR2GRAY);
   cv::Mat1f values;
   grey.convertTo(values, CV_32F);
-  return by_threshold("otsu grey", values, otsu_threshold(values, work.evidence),
+  return by_threshold("otsu grey", values, otsu_threshold(values, work.valid_mask),
                       backdrop_strip(work));
 }
 
@@ -238,16 +238,16 @@ std::vector<Segmentation> blind_segmentations(const WorkingPicture& work) {
   std::vector<Segmentation> found;
   const auto add_otsu = [&](std::string name, const cv::Mat1f& values) {
     found.push_back(
-        by_threshold(std::move(name), values, otsu_threshold(values, work.evidence), backdrop));
+        by_threshold(std::move(name), values, otsu_threshold(values, work.valid_mask), backdrop));
   };
   const auto soft = [&](const cv::Mat1f& values, double sigma_px) {
-    return smoothed(values, work.evidence, sigma_px);
+    return smoothed(values, work.valid_mask, sigma_px);
   };
   add_otsu("otsu lightness", soft(lab[0], 0.8));
   add_otsu("otsu red-green", soft(lab[1], 1.5));
   add_otsu("otsu yellow-blue", soft(lab[2], 1.5));
   add_otsu("backdrop model", soft(backdrop_distance(work), 0.8));
-  const cv::Mat1f local_mean = coarsely_smoothed(lab[0], work.evidence, work.frame.width / 8.0);
+  const cv::Mat1f local_mean = coarsely_smoothed(lab[0], work.valid_mask, work.frame.width / 8.0);
   add_otsu("adaptive lightness", soft(lab[0] - local_mean, 0.8));
   return found;
 }
@@ -255,8 +255,8 @@ std::vector<Segmentation> blind_segmentations(const WorkingPicture& work) {
 Segmentation rough_segmentation(const WorkingPicture& work) {
   cv::Mat1f lightness;
   cv::extractChannel(work.lab, lightness, 0);
-  const cv::Mat1f rough = roughness(lightness, work.evidence, 3);
-  return by_threshold("roughness", rough, otsu_threshold(rough, work.evidence),
+  const cv::Mat1f rough = roughness(lightness, work.valid_mask, 3);
+  return by_threshold("roughness", rough, otsu_threshold(rough, work.valid_mask),
                       backdrop_strip(work));
 }
 

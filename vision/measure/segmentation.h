@@ -28,13 +28,13 @@ Segmentation rough_segmentation(const WorkingPicture& work);
 Segmentation grey_otsu(const WorkingPicture& work);
 
 /// Otsu's threshold of `values` where `evidence` is set, in the units of `values`.
-double otsu_threshold(const cv::Mat1f& values, const cv::Mat1b& evidence);
+double otsu_threshold(const cv::Mat1f& values, const cv::Mat1b& valid_mask);
 
 /// Gaussian average over the evidence alone: what is excluded does not shine in. Where there is
 /// none within reach the values stay as they are.
-cv::Mat1f smoothed(const cv::Mat1f& values, const cv::Mat1b& evidence, double sigma_px);
+cv::Mat1f smoothed(const cv::Mat1f& values, const cv::Mat1b& valid_mask, double sigma_px);
 
 /// Local standard deviation of lightness: grains are rough, backdrops smooth.
-cv::Mat1f roughness(const cv::Mat1f& lightness, const cv::Mat1b& evidence, double sigma_px);
+cv::Mat1f roughness(const cv::Mat1f& lightness, const cv::Mat1b& valid_mask, double sigma_px);
 
 }  // namespace repose::vision

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNormal95 = 1.96;
 constexpr double kFloor_rad = 0.06 * std::numbers::pi / 180;
-constexpr double kWindowShare = 0.5;
+constexpr double kWindowFraction = 0.5;
 
 double student_95(double degrees_of_freedom) {
   const boost::math::students_t student(std::max(1.0, degrees_of_freedom));
@@ -36,7 +36,7 @@ double grains_95(const FlankFit& left, const FlankFit& right) {
 double window_95(const FlankFit& flank) {
   const double spread = flank.window_spread_rad;
   const double chance = 2 * flank.fit_error_rad;
-  return kWindowShare * std::sqrt(std::max(0.0, spread * spread - chance * chance));
+  return kWindowFraction * std::sqrt(std::max(0.0, spread * spread - chance * chance));
 }
 
 /// What a window that lies too high may change: by how much the flank bends over half of it.

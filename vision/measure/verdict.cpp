@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 // Refusals.
-constexpr double kLeastConfidence = 0.35;
+constexpr double kMinConfidence = 0.35;
 constexpr double kFlattest_rad = 4 * kDegree;
 constexpr double kSteepest_rad = 65 * kDegree;
 constexpr double kFewestGrains = 2.5;
@@ -120,7 +120,7 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
         best.left.reason.empty() ? "none" : best.left.reason,
         best.right.reason.empty() ? "none" : best.right.reason);
   }
-  if (confidence < kLeastConfidence) {
+  if (confidence < kMinConfidence) {
     return fmt::format(
         "the heap's edge is too uncertain (confidence {:.2f} of 1). Fix: use a plain backdrop of "
         "another colour than the grains, even light and a sharp picture; exclude foreign things "

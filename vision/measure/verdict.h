@@ -1,7 +1,7 @@
 #pragma once
 
 #include "vision/measure/choice.h"
-#include "vision/repose_angle.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
 

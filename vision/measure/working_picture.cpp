@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/mat_of_picture.h"
+#include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
 namespace {
@@ -85,10 +85,10 @@ WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& e
   cv::Mat1b grey;
   cv::cvtColor(work.bgr, grey, cv::COLOR_BGR2GRAY);
   work.frame = without_letterbox(grey);
-  work.evidence = cv::Mat1b::zeros(work.bgr.size());
-  work.evidence(work.frame) = 255;
+  work.valid_mask = cv::Mat1b::zeros(work.bgr.size());
+  work.valid_mask(work.frame) = 255;
   for (const Box& box : excluded) {
-    work.evidence(shrunk(box, work.shrink) & cv::Rect({}, work.bgr.size())) = 0;
+    work.valid_mask(shrunk(box, work.shrink) & cv::Rect({}, work.bgr.size())) = 0;
   }
   return work;
 }

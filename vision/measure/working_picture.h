@@ -4,7 +4,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "vision/picture.h"
+#include "vision/picture/picture.h"
 
 namespace repose::vision {
 
@@ -14,10 +14,10 @@ namespace repose::vision {
 /// cost time and tell nothing more.
 struct WorkingPicture {
   cv::Mat3b bgr;
-  cv::Mat3f lab;       ///< CIE L*a*b*, L 0 to 100
-  cv::Mat1b evidence;  ///< 255 where the picture counts: not excluded, no letterbox
-  cv::Rect frame;      ///< the picture without its letterbox
-  double shrink = 1;   ///< pixels of the picture in a working pixel
+  cv::Mat3f lab;         ///< CIE L*a*b*, L 0 to 100
+  cv::Mat1b valid_mask;  ///< 255 where the picture counts: not excluded, no letterbox
+  cv::Rect frame;        ///< the picture without its letterbox
+  double shrink = 1;     ///< pixels of the picture in a working pixel
 };
 
 inline constexpr int kWorkingSide = 800;

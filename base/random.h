@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace repose::base {
+
+/// Random numbers that are the same everywhere: the standard fixes the engine, and the mapping is
+/// ours (that of std::uniform_real_distribution is not fixed).
+class Random {
+ public:
+  /// `draws`: of one that this one goes on from.
+  explicit Random(std::uint64_t seed, std::uint64_t draws = 0) : engine_(seed), draws_(draws) {
+    engine_.discard(draws);
+  }
+
+  /// Numbers drawn so far.
+  std::uint64_t draws() const { return draws_; }
+
+  /// 0 <= u < 1, 53 bits.
+  double uniform() {
+    ++draws_;
+    return static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  double between(double low, double high) { return low + (high - low) * uniform(); }
+
+ private:
+  std::mt19937_64 engine_;
+  std::uint64_t draws_ = 0;
+};
+
+}  // namespace repose::base

@@ -1,0 +1,7 @@
+#include "base/version.h"
+
+namespace repose::base {
+
+const char* const kProgram = "repose " REPOSE_VERSION;
+
+}  // namespace repose::base

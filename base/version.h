@@ -1,0 +1,8 @@
+#pragma once
+
+namespace repose::base {
+
+/// This program's name and version, as results name it: "repose 0.1.0".
+extern const char* const kProgram;
+
+}  // namespace repose::base

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+/// Files that are there whole or not at all: written beside their place and then renamed, so that
+/// a full disk or a kill leaves the earlier file as it was.
+namespace repose::base {
+
+/// @throws std::invalid_argument  "FILE: what. Fix: ..." when the place cannot be written.
+void write_whole_file(const std::filesystem::path& file, std::span<const std::byte> content);
+void write_whole_file(const std::filesystem::path& file, std::string_view text);
+
+/// Finds out before long work whether write_whole_file would succeed; changes nothing.
+/// @throws std::invalid_argument  as write_whole_file.
+void check_can_write(const std::filesystem::path& file);
+
+}  // namespace repose::base

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace repose::calibrate {
+
+/// What is known of a parameter beforehand: a normal distribution.
+struct Prior {
+  double mean = 0;
+  double sd = 0;
+};
+
+/// A coefficient that is sought between two bounds.
+struct Parameter {
+  std::string name;  ///< "contact.particle_wall.restitution"
+  double min = 0;
+  double max = 0;
+  std::optional<Prior> prior;
+};
+
+/// What can be simulated. One without an observable is never run, but may be advised.
+struct Experiment {
+  std::string name;                     ///< "drop", "tilt", "roll", "heap"
+  std::vector<std::size_t> parameters;  ///< places in Problem::parameters of those with an effect
+  /// One run takes about so long, s. Rounds are planned from it: the same throughout a study.
+  double run_s = 1;
+  bool is_stochastic = true;  ///< false: the seed changes nothing, one run says it all
+  /// Readings that a bench could give too. Those not measured are what the advice chooses from.
+  std::vector<std::string> measurable = {"value"};
+};
+
+/// One number measured on the bench: the mean of n readings.
+struct Observable {
+  std::string name;               ///< unique; to be shown
+  std::string experiment;         ///< an Experiment's name
+  std::string reading = "value";  ///< or another reading of that experiment: "base_radius_mm"
+  std::string unit;               ///< "mm", "deg"
+  double mean = 0;
+  std::optional<double> sd;  ///< of single readings, measured; needs n of at least 2
+  int n = 1;                 ///< readings
+  /// In place of `sd` where none is known: the sd of single readings as a fraction of |mean|.
+  /// Assumed by the caller, and said in the result.
+  std::optional<double> assumed_sd_fraction;
+};
+
+/// How much may be spent, and how the fit is made.
+struct FitSettings {
+  double budget_s = 3600;  ///< sum of Experiment::run_s over all proposed jobs
+  int max_jobs = 2000;
+  int max_rounds = 6;      ///< the first included
+  std::uint64_t seed = 1;  ///< of the jobs, which count on from it, and of the fit's own chance
+  bool robust = false;     ///< Cauchy's loss: an observable that fits nothing else counts less
+};
+
+/// Parameters to be found, what was measured, and what can be simulated.
+struct Problem {
+  std::vector<Parameter> parameters;
+  std::vector<Observable> observables;
+  std::vector<Experiment> experiments;
+  FitSettings settings;
+};
+
+/// One simulation to be run.
+struct Job {
+  std::string experiment;
+  /// One for each of Problem::parameters, in their units. Those without effect on the experiment
+  /// stand at the middle of their bounds, so that equal jobs are equal. Rounded to decimals, a
+  /// millionth of the bounds' distance or so: written with 15 digits and read again, the same.
+  std::vector<double> values;
+  std::uint64_t seed = 1;
+
+  bool operator==(const Job&) const = default;
+};
+
+/// A job that is done.
+struct Run {
+  Job job;
+  /// By name; the experiment's own number is called "value". Empty when it failed.
+  std::map<std::string, double> readings;
+  std::string failure;  ///< why there is no reading ("the grains stay in the tube"); else empty
+};
+
+/// Every error of a problem, a line each: where, the value, the rule, "Fix: ...". Empty: none.
+std::vector<std::string> errors_of(const Problem& problem);
+
+/// Throws std::invalid_argument with every error of the problem, a line each.
+void require_sound(const Problem& problem);
+
+/// Standard uncertainty of an observable's mean, in its unit: sd / sqrt(n).
+double standard_uncertainty(const Observable& observable);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,77 @@
+#include "calibrate/fit/training_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+#include <fmt/core.h>
+
+#include "calibrate/fit/unit_box.h"
+
+namespace repose::calibrate {
+namespace {
+
+auto order_of(const Run& run) {
+  return std::tie(run.job.experiment, run.job.values, run.job.seed, run.failure, run.readings);
+}
+
+void require_of(const Problem& problem, const Run& run) {
+  const Job& job = run.job;
+  const bool known = std::any_of(problem.experiments.begin(), problem.experiments.end(),
+                                 [&](const Experiment& e) { return e.name == job.experiment; });
+  if (!known) {
+    throw std::invalid_argument(fmt::format(
+        "a run of \"{}\": no experiment is called so. Fix: leave the run out", job.experiment));
+  }
+  const bool numbers = std::all_of(job.values.begin(), job.values.end(),
+                                   [](double value) { return std::isfinite(value); });
+  if (job.values.size() != problem.parameters.size() || !numbers) {
+    throw std::invalid_argument(fmt::format(
+        "a run of {} with seed {}: has {} values, {}, for {} parameters. Fix: leave the run out",
+        job.experiment, job.seed, job.values.size(), numbers ? "all numbers" : "some not numbers",
+        problem.parameters.size()));
+  }
+}
+
+}  // namespace
+
+std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) {
+  std::vector<Run> sorted = runs;
+  for (const Run& run : sorted) require_of(problem, run);
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Run& a, const Run& b) { return order_of(a) < order_of(b); });
+  const auto same = [](const Run& a, const Run& b) { return a.job == b.job; };
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+  return sorted;
+}
+
+TrainingSet training_set_of(const Problem& problem, const Experiment& experiment,
+                            const std::string& reading, const std::vector<Run>& runs) {
+  TrainingSet training_set{experiment.parameters, experiment.is_stochastic, {}, {}};
+  for (const Run& run : runs) {
+    if (run.job.experiment != experiment.name || !run.failure.empty()) continue;
+    const auto found = run.readings.find(reading);
+    if (found == run.readings.end() || !std::isfinite(found->second)) continue;
+    training_set.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
+    training_set.readings.push_back(found->second);
+  }
+  return training_set;
+}
+
+int Attempts::failures() const {
+  return static_cast<int>(std::count(failed.begin(), failed.end(), true));
+}
+
+Attempts attempts_of(const Problem& problem, const Experiment& experiment,
+                     const std::vector<Run>& runs) {
+  Attempts attempts{experiment.parameters, {}, {}};
+  for (const Run& run : runs) {
+    if (run.job.experiment != experiment.name) continue;
+    attempts.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
+    attempts.failed.push_back(!run.failure.empty());
+  }
+  return attempts;
+}
+
+}  // namespace repose::calibrate

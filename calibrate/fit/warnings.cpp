@@ -1,0 +1,122 @@
+#include "calibrate/fit/warnings.h"
+
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "calibrate/fit/reach.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kBeyond = 2;             // sigma, of a target out of reach
+constexpr double kDoubtful = 1.5;         // inflation
+constexpr double kHardlyNarrower = .9;    // than the prior's interval
+constexpr double kSurrogateFraction = 1;  // of the measured variance
+
+std::string limits_text(const Problem& problem, const Extreme& extreme) {
+  std::string text;
+  for (const Limit& limit : extreme.limits) {
+    const Parameter& parameter = problem.parameters[limit.coordinate];
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", parameter.name,
+                        limit.at_max ? parameter.max : parameter.min);
+  }
+  return text.empty() ? "no bound of a parameter" : text;
+}
+
+void warn_of_reach(const Problem& problem, const Solution& solution, std::size_t i,
+                   const FittedObservable& fitted, std::vector<std::string>& warnings) {
+  const Surrogate& surrogate = solution.misfit.surrogates()[i];
+  if (surrogate.constant()) {
+    warnings.push_back(
+        fmt::format("{}: every simulation gave {} {}: it determines nothing. Fix: wider bounds, or "
+                    "leave it out",
+                    fitted.name, fitted.simulated, fitted.unit));
+    return;
+  }
+  const bool above = fitted.measured > fitted.reachable.high;
+  if (!above && fitted.measured >= fitted.reachable.low) return;
+  const Extreme extreme = extreme_of(surrogate, problem.parameters.size(), above);
+  const double sigma = std::hypot(extreme.uncertainty, fitted.measured_uncertainty);
+  if (std::abs(fitted.measured - extreme.reading) < kBeyond * sigma) return;
+  warnings.push_back(fmt::format(
+      "{}: the measured {:.4g} {} is out of reach: within the bounds the simulation gives {:.4g} "
+      "... {:.4g}; what limits it: {}. Fix: move that bound, or check the protocol",
+      fitted.name, fitted.measured, fitted.unit, fitted.reachable.low, fitted.reachable.high,
+      limits_text(problem, extreme)));
+}
+
+void warn_of_scatter(const Observable& observable, const FittedObservable& fitted,
+                     std::vector<std::string>& warnings) {
+  if (!fitted.sd_assumed) return;
+  const double assumed = 100 * *observable.assumed_sd_fraction;
+  const bool is_by_chance = fitted.measured_sd > 1.001 * standard_uncertainty(observable) *
+                                                     std::sqrt(static_cast<double>(observable.n));
+  warnings.push_back(
+      is_by_chance
+          ? fmt::format(
+                "{}: its scatter was not measured; assumed: {:.3g} {}, as much as chance does "
+                "in the simulation. Every interval depends on it. Fix: measure the scatter",
+                fitted.name, fitted.measured_sd, fitted.unit)
+          : fmt::format("{}: its scatter was not measured; assumed: {:.3g} % of the mean. Every "
+                        "interval depends on it. Fix: measure the scatter",
+                        fitted.name, assumed));
+}
+
+/// Says so when an interval is not from the measurements.
+void warn_of_prior(const Parameter& parameter, const FittedParameter& fitted,
+                   std::vector<std::string>& warnings) {
+  if (!parameter.prior || fitted.verdict != Verdict::determined) return;
+  const double known = 2 * std::sqrt(kChi2Limit) * parameter.prior->sd;
+  if (fitted.interval.high - fitted.interval.low < kHardlyNarrower * known) return;
+  warnings.push_back(fmt::format(
+      "{}: its interval is what was known beforehand; these measurements add next to nothing",
+      fitted.name));
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_for(const Problem& problem, const Solution& solution,
+                                      const JointFit& fit) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < fit.observables.size(); ++i) {
+    const FittedObservable& fitted = fit.observables[i];
+    const SurrogateQuality& quality = fit.surrogates[i];
+    warn_of_reach(problem, solution, i, fitted, warnings);
+    warn_of_scatter(problem.observables[i], fitted, warnings);
+    if (quality.inflation > kDoubtful) {
+      warnings.push_back(fmt::format(
+          "{}: the surrogate missed runs by {:.1f} times what it claimed; its uncertainty was "
+          "enlarged accordingly",
+          fitted.name, quality.inflation));
+    }
+    if (quality.failed_runs > 0) {
+      warnings.push_back(
+          fmt::format("{}: {} of {} runs gave no reading; sets of parameters near "
+                      "them are taken as unlikely",
+                      fitted.name, quality.failed_runs, quality.failed_runs + quality.runs));
+    }
+    if (solution.misfit.surrogate_variance_fraction(i, solution.best.point) > kSurrogateFraction) {
+      warnings.push_back(
+          fmt::format("{}: the simulations are less sure than the measurement: a "
+                      "larger budget narrows the intervals",
+                      fitted.name));
+    }
+  }
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+    warn_of_prior(problem.parameters[j], fit.parameters[j], warnings);
+  }
+  if (solution.best.chi2 > kChi2Limit) {
+    std::string text = "no set of parameters fits everything at once:";
+    for (const FittedObservable& fitted : fit.observables) {
+      text += fmt::format(" {} {:+.1f} sigma,", fitted.name, fitted.difference_sigma);
+    }
+    text.back() = '.';
+    warnings.push_back(text +
+                       " The intervals hold only if the model does. Fix: check readings, protocols "
+                       "and bounds");
+  }
+  return warnings;
+}
+
+}  // namespace repose::calibrate

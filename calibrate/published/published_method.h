@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/problem.h"
+#include "calibrate/statistics/regress/regression.h"
+#include "calibrate/statistics/regress/surface.h"
+#include "calibrate/study/job_runner.h"
+
+/// The way a published study of hazelnuts was calibrated, step by step, to be compared with: one
+/// coefficient after the other, from single runs, on the absolute error of one heap. THEORY.md says
+/// what is wrong with it; the joint fit (fit/joint_fit.h) is what we recommend.
+namespace repose::calibrate {
+
+/// One wall coefficient: swept, a parabola through the runs solved for what was measured.
+struct PublishedSweep {
+  std::string parameter;
+  std::string observable;
+  double measured = 0;
+  std::vector<double> levels;
+  std::vector<double> results;  ///< of one run each; levels whose run gave no reading are left out
+  Regression parabola;
+  double value = 0;        ///< where the parabola takes the measured value
+  bool is_reached = true;  ///< false: it does not, and `value` is where it is nearest
+};
+
+/// A heap with one set of coefficients between the grains.
+struct PublishedHeap {
+  std::vector<double> coefficients;  ///< restitution, sliding, rolling
+  std::optional<double> angle_deg;
+  std::optional<double> error_percent;  ///< |angle - measured| / measured
+};
+
+struct PublishedOutcome {
+  std::vector<PublishedSweep> sweeps;    ///< restitution, sliding, rolling, against the wall
+  std::vector<PublishedHeap> ascent;     ///< steps along a straight line
+  std::size_t best_step = 0;             ///< of them
+  std::vector<PublishedHeap> composite;  ///< of the central composite design around the best
+  Regression surface;                    ///< of the error
+  CanonicalForm form;
+  SurfacePoint optimum;  ///< least of the surface in the design's box
+  std::vector<SurfaceDiagnostic> diagnostics;
+  std::vector<double> values;  ///< all six, as in Problem::parameters
+  std::vector<PublishedHeap> verification;
+  std::vector<Run> checks;  ///< the runs of these
+  double measured_angle_deg = 0;
+};
+
+/// Runs it. All six coefficients must be sought and all four experiments measured.
+/// None when it was interrupted.
+/// @throws std::invalid_argument  the study lacks something, or too few runs gave a reading.
+std::optional<PublishedOutcome> calibrate_as_published(const Problem& problem, JobRunner& runner);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,141 @@
+#include "calibrate/statistics/bench/bench.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error_list.h"
+#include "calibrate/statistics/bench/method.h"
+
+namespace repose::calibrate {
+namespace {
+
+Method method_of(BenchTest test) {
+  switch (test) {
+    case BenchTest::restitution:
+      return restitution_method();
+    case BenchTest::sliding:
+      return sliding_method();
+    case BenchTest::rolling:
+      return rolling_method();
+    case BenchTest::density:
+      return density_method();
+    case BenchTest::young:
+      return young_method();
+    case BenchTest::poisson:
+      return poisson_method();
+    case BenchTest::size:
+      break;
+  }
+  return size_method();
+}
+
+std::string range_of(const ReadingColumn& column) {
+  const std::string least =
+      column.above < 0 ? "0 or more" : fmt::format("more than {:g}", column.above);
+  if (column.below == std::numeric_limits<double>::infinity()) {
+    return column.above == -column.below ? "finite" : least;
+  }
+  return fmt::format("{} and less than {:g}", least, column.below);
+}
+
+void check_reading(const Method& method, const BenchReading& reading, base::ErrorList& errors) {
+  if (reading.values.size() != method.columns.size()) {
+    errors.add(fmt::format("{}: {} values are given for {} columns. Fix: give one for each.",
+                           reading.place, reading.values.size(), method.columns.size()));
+    return;
+  }
+  bool is_possible = true;
+  for (std::size_t i = 0; i < method.columns.size(); ++i) {
+    const ReadingColumn& column = method.columns[i];
+    const double value = reading.values[i];
+    if (value > column.above && value < column.below) continue;  // false for NaN
+    is_possible = false;
+    errors.add(
+        fmt::format("{}: {} = {:g}: the {} must be {}. Fix: mend the reading or leave it "
+                    "out.",
+                    reading.place, column.name, value, column.what, range_of(column)));
+  }
+  if (!is_possible || !method.error) return;
+  if (const auto error = method.error(reading.values)) {
+    errors.add(fmt::format("{}: {}", reading.place, *error));
+  }
+}
+
+/// The mean over the repeats on each sample, samples in the order of their first reading.
+std::vector<double> sample_means(std::span<const BenchReading> readings,
+                                 const MethodOutput& output) {
+  struct Sum {
+    double sum = 0;
+    int count = 0;
+  };
+  std::vector<Sum> sums;
+  std::map<std::string, std::size_t> known;
+  for (const BenchReading& reading : readings) {
+    std::size_t index = sums.size();
+    if (!reading.sample.empty()) index = known.emplace(reading.sample, index).first->second;
+    if (index == sums.size()) sums.emplace_back();
+    sums[index].sum += output.of(reading.values);
+    ++sums[index].count;
+  }
+  std::vector<double> means;
+  means.reserve(sums.size());
+  for (const Sum& sum : sums) means.push_back(sum.sum / sum.count);
+  return means;
+}
+
+std::vector<std::string> notes_on(const Method& method, std::span<const BenchReading> readings,
+                                  const std::vector<BenchQuantity>& quantities) {
+  std::vector<std::string> notes = {method.validity};
+  const BenchQuantity& first = quantities.front();
+  if (first.values.size() < readings.size()) {
+    notes.push_back(fmt::format(
+        "{} readings of {} samples: repeats on one sample were averaged first, and n counts "
+        "samples.",
+        readings.size(), first.values.size()));
+  }
+  if (first.repeats.n == 1) {
+    notes.emplace_back("One reading has no scatter and no interval: repeat the test.");
+    return notes;
+  }
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const auto& [name, unit, what, values, repeats] = quantities[i];
+    if (std::equal(values.begin() + 1, values.end(), values.begin())) {
+      notes.push_back(
+          fmt::format("All values of the {} are the same: the scatter is hidden by the step of the "
+                      "instrument, and so is the interval.",
+                      what));
+    } else if (repeats.mean - *repeats.mean_uncertainty < method.outputs[i].least ||
+               repeats.mean + *repeats.mean_uncertainty > method.outputs[i].greatest) {
+      notes.push_back(fmt::format(
+          "The interval of the {} reaches values that are impossible: take more repeats.", what));
+    }
+  }
+  return notes;
+}
+
+}  // namespace
+
+std::vector<ReadingColumn> columns_of(BenchTest test) { return method_of(test).columns; }
+
+BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings) {
+  const Method method = method_of(test);
+  base::ErrorList errors;
+  errors.require(!readings.empty(), "bench: there are no readings. Fix: give at least one.");
+  for (const BenchReading& reading : readings) check_reading(method, reading, errors);
+  errors.throw_if_any();
+
+  BenchResult result{.quantities = {}, .source = method.source, .notes = {}};
+  for (const MethodOutput& output : method.outputs) {
+    std::vector<double> values = sample_means(readings, output);
+    const calibrate::Summary repeats = calibrate::summarise(values);
+    result.quantities.push_back(
+        {output.name, output.unit, output.what, std::move(values), repeats});
+  }
+  result.notes = notes_on(method, readings, result.quantities);
+  return result;
+}
+
+}  // namespace repose::calibrate

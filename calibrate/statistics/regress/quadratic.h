@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "calibrate/statistics/regress/regression.h"
+
+namespace repose::calibrate {
+
+/// q(x) = a + g'x + x'Bx, B symmetric.
+struct Quadratic {
+  double constant = 0;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd curvature;
+
+  double operator()(const Eigen::VectorXd& x) const {
+    return constant + gradient.dot(x) + x.dot(curvature * x);
+  }
+  Quadratic operator-() const { return {-constant, -gradient, -curvature}; }
+
+  /// The same surface over fewer variables: the one at `index` is held at `value`.
+  Quadratic with_fixed(Eigen::Index index, double value) const;
+};
+
+/// The fitted surface over the coded factors.
+Quadratic surface_of(const Regression& regression);
+
+/// The values of the terms at a point.
+Eigen::VectorXd term_values(const std::vector<Coefficient>& coefficients,
+                            std::span<const double> coded);
+
+/// Fills in the coefficients of the factors in their own units.
+void set_natural(Regression& regression);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,304 @@
+#include "calibrate/statistics/regress/regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/QR>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error_list.h"
+#include "calibrate/statistics/regress/quadratic.h"
+
+namespace repose::calibrate {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The box's faces are walked one by one: 3^8 of them.
+constexpr std::size_t kMaxFactors = 8;
+/// A column of which less than this share is its own follows from the others.
+constexpr double kOwnFraction = 1e-9;
+
+Index at(std::size_t i) { return static_cast<Index>(i); }
+
+bool is_constant(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [&](double value) { return value == values.front(); });
+}
+
+void check_column(const RunTable& table, const std::string& column,
+                  const std::vector<double>& values, const char* fix, base::ErrorList& errors) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  errors.require(values.size() == table.responses.size(),
+                 fmt::format("{}: {} has {} values for {} runs. Fix: give one for each run.",
+                             table.name, column, values.size(), table.responses.size()));
+  if (!std::all_of(values.begin(), values.end(), is_finite)) {
+    errors.add(fmt::format("{}: {} has values that are not finite. Fix: leave those runs out.",
+                           table.name, column));
+  } else if (!values.empty() && is_constant(values)) {
+    errors.add(fmt::format("{}: {} is {:g} in every run. Fix: {}.", table.name, column,
+                           values.front(), fix));
+  }
+}
+
+void check(const RunTable& table, std::size_t terms, base::ErrorList& errors) {
+  const std::size_t factors = table.factors.size();
+  errors.require(factors >= 1 && factors <= kMaxFactors && factors == table.levels.size(),
+                 fmt::format("{}: {} factors. Rule: 1 to {}. Fix: name those that matter with "
+                             "--factors A,B,C.",
+                             table.name, factors, kMaxFactors));
+  for (std::size_t i = 0; i < std::min(factors, table.levels.size()); ++i) {
+    const Factor& factor = table.factors[i];
+    check_column(table, factor.name, table.levels[i], "leave this factor out", errors);
+    errors.require(
+        std::isfinite(factor.low) && std::isfinite(factor.high) && factor.low < factor.high,
+        fmt::format("{} = {:g}:{:g}: the lower level must be below the higher. Fix: "
+                    "{}=MIN:MAX.",
+                    factor.name, factor.low, factor.high, factor.name));
+  }
+  check_column(table, table.response_name, table.responses,
+               "there is nothing to explain: name another response", errors);
+  errors.require(table.responses.size() > terms,
+                 fmt::format("{}: {} runs for the {} terms of the model. Rule: more runs than "
+                             "terms. Fix: make more runs, or choose --model linear or fewer "
+                             "--factors.",
+                             table.name, table.responses.size(), terms));
+}
+
+std::vector<FittedRun> coded_runs(const RunTable& table) {
+  std::vector<FittedRun> runs(table.responses.size());
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    runs[run].response = table.responses[run];
+    for (std::size_t i = 0; i < table.factors.size(); ++i) {
+      runs[run].coded.push_back(table.factors[i].coded(table.levels[i][run]));
+    }
+  }
+  return runs;
+}
+
+std::vector<std::array<double, 2>> box_of(const std::vector<FittedRun>& runs) {
+  std::vector<std::array<double, 2>> box;
+  for (const double level : runs.front().coded) box.push_back({level, level});
+  for (const FittedRun& run : runs) {
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      box[i] = {std::min(box[i][0], run.coded[i]), std::max(box[i][1], run.coded[i])};
+    }
+  }
+  return box;
+}
+
+/// X = Q R, columns scaled to length 1 first so that units do not matter.
+struct Decomposition {
+  VectorXd scale;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr;
+};
+
+Decomposition decompose(const Regression& regression) {
+  const Index runs = at(regression.runs.size());
+  MatrixXd design(runs, at(regression.coefficients.size()));
+  for (std::size_t i = 0; i < regression.runs.size(); ++i) {
+    design.row(at(i)) = term_values(regression.coefficients, regression.runs[i].coded);
+  }
+  Decomposition decomposition;
+  decomposition.scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  decomposition.qr.setThreshold(kOwnFraction);
+  decomposition.qr.compute(design * decomposition.scale.asDiagonal());
+  return decomposition;
+}
+
+void check_rank(const RunTable& table, const Regression& regression,
+                const Decomposition& decomposition) {
+  const Index rank = decomposition.qr.rank();
+  if (rank == decomposition.qr.cols()) return;
+  std::vector<std::string> names;
+  for (Index k = rank; k < decomposition.qr.cols(); ++k) {
+    const Index column = decomposition.qr.colsPermutation().indices()[k];
+    const Term& term = regression.coefficients[static_cast<std::size_t>(column)].term;
+    names.push_back(term.empty() ? "the constant" : name_of(term, regression.factors));
+  }
+  std::sort(names.begin(), names.end());
+  throw std::invalid_argument(
+      fmt::format("{}: the runs cannot tell {} from other terms. Rule: a square needs three levels "
+                  "of its factor, and no term may follow from others. Fix: choose --model linear "
+                  "or interaction, fewer --factors, or a design made for the model.",
+                  table.name, fmt::join(names, ", ")));
+}
+
+/// F of a variance against an error's; none where the error is nothing but rounding.
+void test_against(Variance& variance, const Variance& error, bool is_testable) {
+  if (!is_testable || variance.df < 1) return;
+  variance.f = variance.mean_square() / error.mean_square();
+  variance.p = cdf(complement(boost::math::fisher_f(variance.df, error.df), *variance.f));
+}
+
+/// Residual = lack of fit + pure error. Montgomery, sec. 11.2: runs with equal levels can differ
+/// only by error.
+void split_residual(const RunTable& table, Regression& regression) {
+  std::map<std::vector<double>, std::vector<double>> groups;
+  for (std::size_t run = 0; run < table.responses.size(); ++run) {
+    std::vector<double> levels;
+    for (const std::vector<double>& column : table.levels) levels.push_back(column[run]);
+    groups[levels].push_back(table.responses[run]);
+  }
+  Variance pure;
+  double largest = 0;
+  for (const auto& [levels, responses] : groups) {
+    double mean = 0;
+    for (const double response : responses)
+      mean += response / static_cast<double>(responses.size());
+    for (const double response : responses) {
+      pure.sum_of_squares += (response - mean) * (response - mean);
+      largest = std::max(largest, std::abs(response));
+    }
+    pure.df += static_cast<int>(responses.size()) - 1;
+  }
+  if (pure.df == 0) return;
+  regression.pure_error = pure;
+  Variance lack{
+      .sum_of_squares = std::max(0.0, regression.residual.sum_of_squares - pure.sum_of_squares),
+      .df = regression.residual.df - pure.df,
+      .f = {},
+      .p = {}};
+  if (lack.df < 1) return;
+  constexpr double kRounding = 1e-13;
+  test_against(lack, pure, pure.sum_of_squares > std::pow(kRounding * largest, 2));
+  regression.lack_of_fit = lack;
+}
+
+void set_residuals(Regression& regression, const Decomposition& decomposition) {
+  const Index runs = decomposition.qr.rows(), terms = decomposition.qr.cols();
+  const MatrixXd q = decomposition.qr.householderQ() * MatrixXd::Identity(runs, terms);
+  double mean = 0, largest = 0;
+  for (const FittedRun& run : regression.runs) mean += run.response / static_cast<double>(runs);
+  double press = 0;
+  bool has_press = true;
+  constexpr double kAlone = 1 - 1e-9;
+  for (std::size_t i = 0; i < regression.runs.size(); ++i) {
+    FittedRun& run = regression.runs[i];
+    run.fitted = regression.predicted(run.coded);
+    run.leverage = q.row(at(i)).squaredNorm();
+    const double residual = run.response - run.fitted;
+    regression.residual.sum_of_squares += residual * residual;
+    regression.total.sum_of_squares += (run.response - mean) * (run.response - mean);
+    has_press = has_press && run.leverage < kAlone;
+    press += std::pow(residual / (1 - run.leverage), 2);
+    largest = std::max(largest, std::abs(run.response));
+  }
+  regression.residual.df = static_cast<int>(runs - terms);
+  regression.total.df = static_cast<int>(runs) - 1;
+  regression.explained.df = static_cast<int>(terms) - 1;
+  regression.explained.sum_of_squares =
+      regression.total.sum_of_squares - regression.residual.sum_of_squares;
+  constexpr double kRounding = 1e-13;
+  regression.is_exact = regression.residual.sum_of_squares <=
+                        std::pow(kRounding * largest, 2) * static_cast<double>(runs);
+  regression.residual_sd = std::sqrt(regression.residual.mean_square());
+  const double total = regression.total.sum_of_squares;
+  regression.r2 = 1 - regression.residual.sum_of_squares / total;
+  regression.r2_adjusted = 1 - regression.residual.mean_square() / regression.total.mean_square();
+  if (!has_press) return;
+  regression.press = press;
+  regression.r2_predicted = 1 - press / total;
+}
+
+/// What the fit loses without some terms: b'C^-1 b, C their block of (X'X)^-1.
+Variance loss_without(const Regression& regression, const std::vector<Index>& terms,
+                      const MatrixXd& inverse_normal) {
+  VectorXd values(at(terms.size()));
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    values[at(k)] = regression.coefficients[static_cast<std::size_t>(terms[k])].value;
+  }
+  const MatrixXd block = inverse_normal(terms, terms);
+  Variance loss{.sum_of_squares = values.dot(block.ldlt().solve(values)),
+                .df = static_cast<int>(terms.size()),
+                .f = {},
+                .p = {}};
+  test_against(loss, regression.residual, !regression.is_exact);
+  return loss;
+}
+
+void set_tests(Regression& regression, const Decomposition& decomposition) {
+  const Index terms = decomposition.qr.cols();
+  const MatrixXd r = decomposition.qr.matrixR().topRows(terms);
+  const MatrixXd inverse_r =
+      r.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(terms, terms));
+  const MatrixXd unscaled =
+      decomposition.scale.asDiagonal() * (decomposition.qr.colsPermutation() * inverse_r);
+  const MatrixXd inverse_normal = unscaled * unscaled.transpose();
+  const double variance = regression.residual.mean_square();
+  const boost::math::students_t student(regression.residual.df);
+  constexpr double kUpper = .975;
+  regression.student_t = quantile(student, kUpper);
+  std::vector<std::vector<Index>> of_factor(regression.factors.size());
+  for (Index k = 0; k < terms; ++k) {
+    Coefficient& coefficient = regression.coefficients[static_cast<std::size_t>(k)];
+    coefficient.standard_error = std::sqrt(variance * inverse_normal(k, k));
+    const double half_width = regression.student_t * coefficient.standard_error;
+    coefficient.interval = {coefficient.value - half_width, coefficient.value + half_width};
+    coefficient.partial = loss_without(regression, {k}, inverse_normal);
+    if (!regression.is_exact) {
+      coefficient.t = coefficient.value / coefficient.standard_error;
+      coefficient.p = 2 * cdf(complement(student, std::abs(*coefficient.t)));
+    }
+    for (std::size_t i = 0; i < of_factor.size(); ++i) {
+      const Term& term = coefficient.term;
+      if (std::find(term.begin(), term.end(), i) != term.end()) of_factor[i].push_back(k);
+    }
+  }
+  for (const std::vector<Index>& which : of_factor) {
+    regression.of_factor.push_back(loss_without(regression, which, inverse_normal));
+  }
+  const MatrixXd covariance = variance * inverse_normal;
+  regression.covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  test_against(regression.explained, regression.residual, !regression.is_exact);
+}
+
+}  // namespace
+
+double Regression::predicted(std::span<const double> coded) const {
+  const VectorXd values = term_values(coefficients, coded);
+  double sum = 0;
+  for (std::size_t k = 0; k < coefficients.size(); ++k)
+    sum += coefficients[k].value * values[at(k)];
+  return sum;
+}
+
+double Regression::standard_error(std::span<const double> coded) const {
+  const VectorXd values = term_values(coefficients, coded);
+  const Eigen::Map<const MatrixXd> matrix(covariance.data(), values.size(), values.size());
+  return std::sqrt(std::max(0.0, values.dot(matrix * values)));
+}
+
+Regression regress(const RunTable& table, SurfaceModel model) {
+  const std::vector<Term> terms = terms_of(model, table.factors.size());
+  base::ErrorList errors;
+  check(table, terms.size(), errors);
+  errors.throw_if_any();
+
+  Regression regression;
+  regression.model = model;
+  regression.response_name = table.response_name;
+  regression.factors = table.factors;
+  regression.runs = coded_runs(table);
+  regression.box = box_of(regression.runs);
+  for (const Term& term : terms) regression.coefficients.emplace_back().term = term;
+  const Decomposition decomposition = decompose(regression);
+  check_rank(table, regression, decomposition);
+
+  const Eigen::Map<const VectorXd> responses(table.responses.data(), at(table.responses.size()));
+  const VectorXd values = decomposition.scale.cwiseProduct(decomposition.qr.solve(responses));
+  for (std::size_t k = 0; k < terms.size(); ++k) regression.coefficients[k].value = values[at(k)];
+  set_natural(regression);
+  set_residuals(regression, decomposition);
+  set_tests(regression, decomposition);
+  split_residual(table, regression);
+  return regression;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibrate/statistics/factor.h"
+
+/// Response surfaces: a polynomial of the factors, fitted to the runs of a design by least squares.
+/// Factors are coded (Factor): -1 and +1 are their low and high. THEORY.md has the formulas.
+namespace repose::calibrate {
+
+enum class SurfaceModel {
+  linear,       ///< 1, x_i
+  interaction,  ///< and x_i x_j
+  quadratic,    ///< and x_i^2
+};
+
+/// Results of runs.
+struct RunTable {
+  std::string name;                         ///< for messages
+  std::vector<Factor> factors;              ///< how their levels are coded
+  std::vector<std::vector<double>> levels;  ///< natural: [factor][run]
+  std::string response_name;
+  std::vector<double> responses;
+};
+
+/// A product of up to two factors: {} is 1, {0} the first factor, {1, 1} the second's square.
+using Term = std::vector<std::size_t>;
+
+std::vector<Term> terms_of(SurfaceModel model, std::size_t factors);
+
+/// "1", "e", "e*mu", "e^2".
+std::string name_of(const Term& term, const std::vector<Factor>& factors);
+
+/// What part of the scatter something explains, and whether chance would do as well. F and p do not
+/// exist where there is nothing to compare with.
+struct Variance {
+  double sum_of_squares = 0;
+  int df = 0;
+  std::optional<double> f;
+  std::optional<double> p;
+
+  double mean_square() const { return sum_of_squares / df; }
+};
+
+struct Coefficient {
+  Term term;
+  double value = 0;                  ///< of the coded factors
+  double natural = 0;                ///< of the factors in their own units
+  double standard_error = 0;         ///< of the coded one
+  std::array<double, 2> interval{};  ///< 95 %, of the coded one
+  std::optional<double> t, p;
+  Variance partial;  ///< what the fit loses without this term
+};
+
+struct FittedRun {
+  std::vector<double> coded;
+  double response = 0;
+  double fitted = 0;
+  double leverage = 0;
+};
+
+struct Regression {
+  SurfaceModel model = SurfaceModel::quadratic;
+  std::string response_name;
+  std::vector<Factor> factors;
+  std::vector<Coefficient> coefficients;
+  std::vector<double> covariance;  ///< of the coded coefficients, row by row
+  std::vector<FittedRun> runs;
+  std::vector<std::array<double, 2>> box;  ///< coded levels that the runs span, of each factor
+
+  Variance explained;  ///< by all terms but the constant
+  Variance residual;
+  Variance total;
+  std::optional<Variance> pure_error;   ///< scatter of runs with the same levels
+  std::optional<Variance> lack_of_fit;  ///< the rest of the residual, against the pure error
+  std::vector<Variance> of_factor;      ///< what the fit loses without any term of a factor
+
+  double residual_sd = 0;
+  bool is_exact = false;  ///< nothing but rounding is left: no test is possible
+  double r2 = 0;
+  double r2_adjusted = 0;
+  /// Prediction sum of squares: each run foretold from the others. None if a run stands alone for
+  /// some term (leverage 1).
+  std::optional<double> press;
+  std::optional<double> r2_predicted;
+  double student_t = 0;  ///< 97.5 % point for the residual's degrees of freedom
+
+  double predicted(std::span<const double> coded) const;
+  /// Standard error of the surface there, not of a new run.
+  double standard_error(std::span<const double> coded) const;
+};
+
+/// Least squares by QR decomposition. Montgomery, Design and Analysis of Experiments (8th ed.),
+/// ch. 10 and 11. Proved by Regression.* in tests/calibrate/regress_test.cpp: the hazelnut study's
+/// printed analysis, R's lm, and NIST's Longley problem.
+///
+/// @throws std::invalid_argument  every error: no factors or more than 8, a constant factor or
+/// response, not more runs than terms, values that are not finite, terms that the design cannot
+/// tell from others.
+Regression regress(const RunTable& table, SurfaceModel model);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/statistics/regress/regression.h"
+
+/// What a fitted surface says: its shape, its extremes within the runs' box, and where it takes a
+/// wanted value.
+namespace repose::calibrate {
+
+struct SurfacePoint {
+  std::vector<double> coded;
+  std::vector<double> natural;
+  double value = 0;
+  double uncertainty = 0;  ///< half-width of the surface's 95 % interval there
+};
+
+/// One of the directions in which a quadratic surface bends by itself.
+struct CanonicalAxis {
+  double curvature = 0;    ///< eigenvalue of B: the surface rises by it times the distance squared
+  double uncertainty = 0;  ///< half-width of its 95 % interval
+  std::vector<double> direction;  ///< coded, length 1
+
+  bool is_certain() const { return curvature > uncertainty || curvature < -uncertainty; }
+};
+
+enum class SurfaceShape { minimum, maximum, saddle };
+
+/// A quadratic surface in its own axes: y = y_s + sum of curvature_i w_i^2.
+struct CanonicalForm {
+  std::vector<CanonicalAxis> axes;            ///< curvatures rising
+  std::optional<SurfacePoint> stationary;     ///< none if the surface has no single one
+  bool is_inside = false;                     ///< of the box
+  SurfaceShape shape = SurfaceShape::saddle;  ///< by the signs alone
+};
+
+/// Canonical analysis: Montgomery, sec. 11.3.2. The uncertainty of a curvature v'Bv takes its
+/// direction v for given: Bisgaard and Ankenman (1996), Technometrics 38, 238. Quadratic models
+/// only.
+std::optional<CanonicalForm> canonical_form(const Regression& regression);
+
+struct BoxExtremes {
+  SurfacePoint least;
+  SurfacePoint greatest;
+};
+
+/// The lowest and the highest point of the surface within the box of the runs. Exact: each face of
+/// the box (inside, faces, edges, corners) is solved by itself.
+BoxExtremes extremes_in_box(const Regression& regression);
+
+/// Where the surface takes the wanted value on a straight line along a factor.
+struct Crossing {
+  std::size_t factor = 0;
+  SurfacePoint point;
+  /// Half-width of the 95 % interval of the coded and the natural level, from that of the surface
+  /// and its slope; none where the surface is level.
+  std::optional<double> coded_uncertainty, natural_uncertainty;
+};
+
+/// All points of the box at which the surface takes a wanted value.
+struct TargetSet {
+  double target = 0;
+  bool is_reached = false;
+  /// Coded levels that each factor takes in the set, as intervals.
+  std::vector<std::vector<std::array<double, 2>>> ranges;
+  std::vector<Crossing> through_centre;  ///< on the lines through the box's centre
+  std::vector<Crossing> grid;            ///< on a grid of lines
+};
+
+TargetSet solve_target(const Regression& regression, double target);
+
+struct SurfaceDiagnostic {
+  std::string code;  ///< a fixed word
+  std::string message;
+};
+
+/// What a careful reader would object to; a sentence each.
+std::vector<SurfaceDiagnostic> diagnostics_of(const Regression& regression,
+                                              const std::optional<CanonicalForm>& form,
+                                              const BoxExtremes& extremes,
+                                              const std::optional<TargetSet>& target);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Tables with a header, from spreadsheets: CSV.
+namespace repose::calibrate {
+
+struct TableRow {
+  int line = 0;  ///< of the file, from 1
+  std::vector<std::string> cells;
+};
+
+/// What stands in a CSV file, cell by cell; every row has as many cells as there are columns.
+struct Table {
+  std::string name;  ///< for messages
+  std::vector<std::string> columns;
+  std::vector<TableRow> rows;
+  bool has_decimal_comma = false;  ///< cells are parted by semicolons or tabs: 3,5 may be a number
+
+  std::optional<std::size_t> column(std::string_view wanted) const;
+};
+
+/// Reads RFC 4180 text, in UTF-8 with or without a byte order mark. Cells are parted by the first
+/// of semicolon, tab and comma that the header has. Blank lines are passed over.
+///
+/// @throws std::invalid_argument  every error, a line each: "NAME:LINE: ... Fix: ...": no header,
+/// no rows, columns without a name or with the same name, rows with too few or too many cells,
+/// quotes that do not match.
+Table parse_table(const std::string& name, std::string_view text);
+
+/// parse_table of a file's content.
+Table read_table(const std::filesystem::path& file);
+
+/// A cell as a finite number; none if it is not one.
+std::optional<double> number_of(const Table& table, std::string_view cell);
+
+/// The numbers of some columns: [column][row].
+///
+/// @throws std::invalid_argument  every error: columns that are not there, cells that are no finite
+/// numbers, each with its line.
+std::vector<std::vector<double>> numbers_of(const Table& table,
+                                            std::span<const std::string> columns);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,58 @@
+#include "calibrate/study/job_runner.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace repose::calibrate {
+
+std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
+                                               const std::vector<Job>& jobs) {
+  std::vector<std::optional<Run>> runs(jobs.size());
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    runs[k] = folder_.find(simulator_, jobs[k]);
+    if (!runs[k]) open.push_back(k);
+  }
+  reused_ += static_cast<int>(jobs.size() - open.size());
+  std::stable_sort(open.begin(), open.end(),
+                   [&](std::size_t a, std::size_t b) { return cost_s(jobs[a]) > cost_s(jobs[b]); });
+  simulate(stage, jobs, open, runs);
+  if (is_interrupted_) return std::nullopt;
+  std::vector<Run> done;
+  done.reserve(runs.size());
+  for (std::optional<Run>& run : runs) done.push_back(std::move(run.value()));
+  return done;
+}
+
+void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
+                         const std::vector<std::size_t>& open,
+                         std::vector<std::optional<Run>>& runs) {
+  std::vector<Job> missing;
+  StudyProgress progress{.stage = stage, .done = 0, .of = static_cast<int>(open.size())};
+  for (const std::size_t k : open) {
+    missing.push_back(jobs[k]);
+    progress.seconds_of += cost_s(jobs[k]);
+  }
+  if (missing.empty()) return;
+  report_(progress);
+  executor_.run(
+      missing,
+      [&](std::size_t k, const SimulatedJob& done) {
+        folder_.keep(simulator_, done);
+        runs[open[k]] = done.run;
+        ++simulated_;
+        ++progress.done;
+        progress.seconds_done += cost_s(missing[k]);
+        report_(progress);
+      },
+      is_interrupted_);
+}
+
+double JobRunner::cost_s(const Job& job) const {
+  for (const Experiment& experiment : problem_.experiments) {
+    if (experiment.name == job.experiment) return experiment.run_s;
+  }
+  return 0;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,44 @@
+#include "cli/common/output_places.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/whole_file.h"
+#include "cli/common/output.h"
+#include "cli/common/picture_list.h"
+
+namespace repose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_file(const fs::path& a, const fs::path& b) { return identity(a) == identity(b); }
+
+}  // namespace
+
+void check_output_places(const std::vector<OutputPlace>& places,
+                         const std::vector<fs::path>& inputs, std::vector<std::string>& errors) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [option, file] = places[i];
+    if (file.empty()) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (places[j].file.empty() || !same_file(places[j].file, file)) continue;
+      errors.push_back(fmt::format("{} and {} both write to {}. Fix: give each its own file.",
+                                   places[j].option, option, file));
+    }
+    if (file == kStandardOutput) continue;
+    for (const fs::path& input : inputs) {
+      if (input.empty() || !same_file(input, file)) continue;
+      errors.push_back(fmt::format(
+          "{} {}: would overwrite a file that is read. Fix: choose another name.", option, file));
+    }
+    try {
+      base::check_can_write(file);
+    } catch (const std::invalid_argument& error) {
+      errors.push_back(fmt::format("{} {}", option, error.what()));
+    }
+  }
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace repose::cli {
+
+/// A file, or standard output, that an option names; empty when it is not given.
+struct OutputPlace {
+  const char* option = "";
+  std::string file;
+};
+
+/// Adds an error for two outputs in one place, an input that would be overwritten, and a place that
+/// cannot be written.
+void check_output_places(const std::vector<OutputPlace>& places,
+                         const std::vector<std::filesystem::path>& inputs,
+                         std::vector<std::string>& errors);
+
+}  // namespace repose::cli

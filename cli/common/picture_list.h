@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace repose::cli {
+
+/// The same for all names of one file, whether it exists or not.
+std::filesystem::path identity(const std::filesystem::path& file);
+
+/// "FILE: what. Fix: ...": errors of measuring a picture do not name it, those of reading it do.
+std::string naming_file(const std::string& file, const std::string& error);
+
+/// What the names on the command line come down to.
+struct PictureList {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> errors;  ///< "NAME: what. Fix: ..."
+  std::vector<std::string> notes;   ///< for the user to know, no errors
+};
+
+/// Folders become the pictures in them, by the names' endings, sorted by name, without subfolders.
+/// A picture named twice is taken once. Files need not exist: reading them says so.
+PictureList list_pictures(const std::vector<std::string>& names);
+
+/// Where the overlay of each picture goes.
+struct OverlayFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> notes;
+};
+
+/// FOLDER/NAME.png; pictures of the same name, and names that would overwrite a picture that is
+/// read, get a number.
+OverlayFiles name_overlays(const std::vector<std::filesystem::path>& pictures,
+                           const std::filesystem::path& folder);
+
+}  // namespace repose::cli

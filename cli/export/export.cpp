@@ -1,0 +1,135 @@
+#include "cli/export/export.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/export/export.h"
+#include "calibrate/study/study_record.h"
+#include "cli/calibrate/calibrate_table.h"
+#include "cli/common/output.h"
+#include "cli/common/output_places.h"
+#include "cli/common/terminal.h"
+
+namespace repose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using calibrate::Conversion;
+using calibrate::StudyExport;
+
+/// An export worked out, but for its output.
+struct ExportPlan {
+  calibrate::ExportRequest request;
+  fs::path out_folder;
+  StudyExport made;
+  std::vector<std::string> errors;  ///< empty: it can be carried out
+};
+
+std::string known_targets() {
+  std::string names;
+  for (const auto& [target, name] : calibrate::kExportTargets) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  }
+  return names;
+}
+
+/// The text of result.json, which a study has once it has ended.
+std::string result_text(const fs::path& folder) {
+  const fs::path file = folder / "result.json";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    throw std::invalid_argument(
+        fmt::format("{}: there is no result.json in it: the study has not ended. Fix: the same "
+                    "repose calibrate again goes on with it.",
+                    folder.string()));
+  }
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& request) {
+  const calibrate::StudyRecord record = calibrate::read_study_record(folder);
+  const auto fitted =
+      calibrate::parse_fitted_values(result_text(folder), (folder / "result.json").string());
+  return calibrate::export_study(record.study, record.grain.shape, fitted, request);
+}
+
+ExportPlan plan_export(const ExportArguments& arguments) {
+  ExportPlan plan;
+  const auto target = calibrate::export_target_named(arguments.target);
+  if (!target) {
+    plan.errors.push_back(fmt::format("--to {}: must be one of {}. Fix: --to liggghts.",
+                                      arguments.target, known_targets()));
+  }
+  check_output_places({{"--json", arguments.json_file}}, {}, plan.errors);
+  plan.request = {.target = target.value_or(calibrate::ExportTarget::liggghts),
+                  .takes_approximate = arguments.takes_approximate || !target};
+  plan.out_folder = arguments.out_folder.empty()
+                        ? fs::path(arguments.folder) / "export" / arguments.target
+                        : fs::path(arguments.out_folder);
+  try {
+    plan.made = export_of(arguments.folder, plan.request);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
+  }
+  return plan;
+}
+
+std::string export_json(const ExportPlan& plan) {
+  Json json{{"target", name_of(plan.request.target)}, {"folder", plan.out_folder.string()}};
+  json["files"] = Json::array();
+  for (const auto& file : plan.made.files) json["files"].push_back(file.name);
+  json["conversions"] = Json::array();
+  for (const Conversion& conversion : plan.made.conversions) {
+    json["conversions"].push_back({{"coefficient", conversion.coefficient},
+                                   {"value", conversion.value},
+                                   {"target_name", conversion.target_name},
+                                   {"exported", conversion.exported},
+                                   {"standing", name_of(conversion.fidelity)},
+                                   {"ours", conversion.ours},
+                                   {"theirs", conversion.theirs},
+                                   {"limits", conversion.limits}});
+  }
+  json["warnings"] = plan.made.warnings;
+  constexpr int kIndent = 2;
+  // Names of folders need not be UTF-8, JSON must be.
+  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string export_table(const ExportPlan& plan) {
+  std::string text =
+      fmt::format("{}{:>9}{:>10}  conversion\n", padded("coefficient", 35), "ours", "theirs");
+  for (const Conversion& conversion : plan.made.conversions) {
+    text += fmt::format("{}{:>9.4g}{:>10.4g}  {}\n", padded(short_name(conversion.coefficient), 35),
+                        conversion.value, conversion.exported, name_of(conversion.fidelity));
+  }
+  return text +
+         fmt::format("\n{}: {} files.\nREADME.txt says what carries over and what does not.\n",
+                     plan.out_folder.string(), plan.made.files.size());
+}
+
+}  // namespace
+
+ExitCode run_export(const ExportArguments& arguments) {
+  const ExportPlan plan = plan_export(arguments);
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
+  calibrate::write_export(plan.out_folder, plan.made.files);
+  print_lines(plan.made.warnings);
+  if (!arguments.json_file.empty()) write_output(arguments.json_file, export_json(plan));
+  if (arguments.json_file != kStandardOutput) {
+    write_output(std::string(kStandardOutput), export_table(plan));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace repose::cli

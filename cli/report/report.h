@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "cli/common/exit_code.h"
+
+namespace repose::cli {
+
+/// What `repose report` is asked to do, as typed.
+struct ReportArguments {
+  std::string folder;         ///< that repose calibrate --out wrote
+  std::string out_file;       ///< empty: FOLDER/report.html
+  std::string tables_folder;  ///< empty: FOLDER/tables; "none": no tables
+};
+
+/// Carries out `repose report`.
+ExitCode run_report(const ReportArguments& arguments);
+
+}  // namespace repose::cli

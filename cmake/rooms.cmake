@@ -1,0 +1,78 @@
+# A module is a library of rooms, a folder each. A room names the rooms that it may include, and
+# tests/layers holds it to that.
+#
+#   repose_add_module(vision LIBRARIES fmt::fmt HEADERS <vector> <fmt/format.h>)
+#   repose_add_room(vision/measure USES base vision/picture LIBRARIES Ceres::ceres)
+#
+# repose_add_module makes the static library repose_MODULE, which users of the installed package know
+# as repose::MODULE. All of its rooms are compiled with LIBRARIES and OPTIONS; HEADERS are compiled
+# once for all of them. repose_add_room adds all .cpp files of one folder but those after WITHOUT.
+# USES names rooms, or modules all of whose rooms may be used.
+
+option(REPOSE_PRECOMPILED_HEADERS "Compile headers of libraries once for many sources" ON)
+
+function(repose_add_module module)
+  cmake_parse_arguments(PARSE_ARGV 1 given "" "" "LIBRARIES;OPTIONS;HEADERS")
+  add_library(repose_${module} STATIC)
+  add_library(repose::${module} ALIAS repose_${module})
+  set_target_properties(repose_${module} PROPERTIES EXPORT_NAME ${module} LINKER_LANGUAGE CXX)
+  target_compile_features(repose_${module} PUBLIC cxx_std_20)
+  target_include_directories(repose_${module} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(repose_${module} PRIVATE ${given_LIBRARIES})
+  set_property(TARGET repose_${module} PROPERTY REPOSE_LIBRARIES "${given_LIBRARIES}")
+  set_property(TARGET repose_${module} PROPERTY REPOSE_OPTIONS "${given_OPTIONS}")
+  repose_add_headers(repose_${module}_headers
+    LIBRARIES ${given_LIBRARIES} OPTIONS ${given_OPTIONS} HEADERS ${given_HEADERS})
+endfunction()
+
+function(repose_add_room room)
+  cmake_parse_arguments(PARSE_ARGV 1 given "" "" "USES;LIBRARIES;WITHOUT")
+  list(JOIN given_USES " " uses)
+  set_property(GLOBAL APPEND PROPERTY repose_rooms "${room}: ${uses}")
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/*.cpp)
+  foreach(source IN LISTS given_WITHOUT)
+    list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/${room}/${source})
+  endforeach()
+  if(NOT sources)  # headers alone
+    return()
+  endif()
+  string(REGEX MATCH "^[^/]+" module ${room})
+  string(REPLACE / _ target repose_room_${room})
+  get_target_property(libraries repose_${module} REPOSE_LIBRARIES)
+  get_target_property(options repose_${module} REPOSE_OPTIONS)
+  add_library(${target} OBJECT ${sources})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_options(${target} PRIVATE ${options})
+  target_link_libraries(${target} PRIVATE ${libraries} ${given_LIBRARIES})
+  repose_use_headers(${target} repose_${module}_headers)
+  target_sources(repose_${module} PRIVATE $<TARGET_OBJECTS:${target}>)
+  target_link_libraries(repose_${module} PRIVATE ${given_LIBRARIES})
+endfunction()
+
+# Headers that many sources include, compiled once: a target of their own, which those that are
+# compiled with the same options may use.
+function(repose_add_headers target)
+  cmake_parse_arguments(PARSE_ARGV 1 given "" "" "LIBRARIES;OPTIONS;HEADERS")
+  if(NOT REPOSE_PRECOMPILED_HEADERS OR NOT given_HEADERS)
+    return()
+  endif()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// Nothing but what all sources include first.\n")
+  add_library(${target} OBJECT ${source})
+  target_compile_options(${target} PRIVATE ${given_OPTIONS})
+  target_link_libraries(${target} PRIVATE ${given_LIBRARIES})
+  target_precompile_headers(${target} PRIVATE ${given_HEADERS})
+endfunction()
+
+function(repose_use_headers target headers)
+  if(TARGET ${headers})
+    target_precompile_headers(${target} REUSE_FROM ${headers})
+  endif()
+endfunction()
+
+# Writes what rooms may use, a line each: for tests/layers.
+function(repose_write_rooms file)
+  get_property(rooms GLOBAL PROPERTY repose_rooms)
+  list(JOIN rooms "\n" text)
+  file(WRITE ${file} "${text}\n")
+endfunction()

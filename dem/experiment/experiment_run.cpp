@@ -1,0 +1,102 @@
+#include "dem/experiment/experiment_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace repose::dem {
+namespace {
+
+/// Grains times steps between two looks at the latest: some seconds of work.
+constexpr std::int64_t kClumpStepsBetweenLooks = 1'000'000;
+
+int count_present(const Simulation& simulation) {
+  int present = 0;
+  for (int k = 0; k < simulation.grain_count(); ++k) present += simulation.is_present(k) ? 1 : 0;
+  return present;
+}
+
+/// The first multiple of `every` after `step`: where looks are does not depend on where a run was
+/// taken up again.
+std::int64_t multiple_after(std::int64_t step, std::int64_t every) {
+  return (step / every + 1) * every;
+}
+
+}  // namespace
+
+ExperimentRun::ExperimentRun(Simulation simulation, const Observers& observers,
+                             HeapProgress progress)
+    : simulation_(std::move(simulation)), observers_(observers), progress_(std::move(progress)) {}
+
+std::int64_t ExperimentRun::steps_of(double duration_s) const {
+  const double steps = std::ceil(duration_s / simulation_.setup().timestep_s);
+  return static_cast<std::int64_t>(std::max(1.0, steps));
+}
+
+/// Frames are taken at the steps nearest to the multiples of their interval.
+std::int64_t ExperimentRun::next_frame_step() const {
+  if (!observers_.record.frame) return std::numeric_limits<std::int64_t>::max();
+  const double steps = observers_.record.frame_interval_s / simulation_.setup().timestep_s;
+  const std::int64_t now = simulation_.step();
+  if (steps <= 1) return now + 1;
+  auto frame = static_cast<std::int64_t>(static_cast<double>(now) / steps);
+  const auto step_of = [steps](std::int64_t k) {
+    return static_cast<std::int64_t>(std::llround(static_cast<double>(k) * steps));
+  };
+  while (step_of(frame) <= now) ++frame;
+  return step_of(frame);
+}
+
+void ExperimentRun::advance(std::int64_t steps) {
+  const RunRecord& record = observers_.record;
+  const std::int64_t between_looks =
+      std::max<std::int64_t>(1, kClumpStepsBetweenLooks / std::max(1, simulation_.grain_count()));
+  progress_.steps_left = steps;
+  if (record.frame && steps > 0 && simulation_.step() == 0) record.frame(simulation_);
+  while (progress_.steps_left > 0) {
+    const std::int64_t now = simulation_.step();
+    const std::int64_t frame_at = next_frame_step();
+    const std::int64_t look_at = multiple_after(now, between_looks);
+    const std::int64_t stretch = std::min({progress_.steps_left, frame_at - now, look_at - now});
+    const int present = count_present(simulation_);
+    simulation_.advance(stretch);
+    progress_.steps_left -= stretch;
+    progress_.work.steps += stretch;
+    progress_.work.clump_steps += static_cast<double>(present) * static_cast<double>(stretch);
+    if (now + stretch == frame_at) record.frame(simulation_);
+    if (now + stretch == look_at) look();
+  }
+}
+
+void ExperimentRun::report_progress(double fraction) {
+  fraction_ = std::clamp(fraction, 0.0, 1.0);
+  look();
+}
+
+void ExperimentRun::look() const {
+  const RunRecord& record = observers_.record;
+  const bool goes_on = !observers_.report || observers_.report(fraction_, simulation_);
+  if (record.save_restart && (!goes_on || (record.is_restart_due && record.is_restart_due()))) {
+    record.save_restart(simulation_, progress_);
+  }
+  if (goes_on) return;
+  throw Interrupted(fmt::format("interrupted at {:.4f} s of the experiment", simulation_.time_s()));
+}
+
+Repeat ExperimentRun::finish(double value, std::uint64_t seed,
+                             std::map<std::string, double> readings) {
+  const double timestep_s = simulation_.setup().timestep_s;
+  return {.value = value,
+          .seed = seed,
+          .steps = progress_.work.steps,
+          .timestep_s = timestep_s,
+          .clump_steps = progress_.work.clump_steps,
+          .readings = std::move(readings),
+          .state = std::make_shared<const Simulation>(std::move(simulation_))};
+}
+
+}  // namespace repose::dem

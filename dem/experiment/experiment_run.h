@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "dem/experiment/experiment.h"
+
+namespace repose::dem {
+
+/// Who is told what on the way.
+struct Observers {
+  const ProgressReport& report;
+  const RunRecord& record;
+};
+
+/// A simulation on its way through an experiment: counts its steps, reports and records them.
+class ExperimentRun {
+ public:
+  ExperimentRun(Simulation simulation, const Observers& observers, HeapProgress progress = {});
+
+  Simulation& simulation() { return simulation_; }
+  const Simulation& simulation() const { return simulation_; }
+  HeapProgress& progress() { return progress_; }
+  const Observers& observers() const { return observers_; }
+  const ClumpShape& shape() const { return simulation_.setup().kinds.front().shape; }
+
+  /// Steps that take this long, at least one.
+  std::int64_t steps_of(double duration_s) const;
+  /// Reports by itself when the steps take long. The bytes do not depend on who watches.
+  void advance(std::int64_t steps);
+  /// Throws Interrupted when the report asks for it, with a restart point kept.
+  void report_progress(double fraction);
+
+  /// Ends the run: its simulation goes into the result.
+  Repeat finish(double value, std::uint64_t seed, std::map<std::string, double> readings);
+
+ private:
+  std::int64_t next_frame_step() const;
+  void look() const;
+
+  Simulation simulation_;
+  Observers observers_;
+  HeapProgress progress_;
+  double fraction_ = 0;  ///< as last told
+};
+
+}  // namespace repose::dem

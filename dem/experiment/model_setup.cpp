@@ -1,0 +1,80 @@
+#include "dem/experiment/model_setup.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dem/engine/time_step.h"
+
+namespace repose::dem {
+namespace {
+
+Material softened(Material material, double factor) {
+  material.young_modulus_pa *= factor;
+  return material;
+}
+
+ContactTable contact_table(const Model& model) {
+  // What walls do to each other is never asked for.
+  return {{softened(model.grain_material, model.stiffness_factor),
+           softened(model.wall_material, model.stiffness_factor)},
+          {model.grain_grain, model.grain_wall, model.grain_wall, model.grain_wall},
+          model.rolling};
+}
+
+bool is_positive(double value) { return std::isfinite(value) && value > 0; }
+
+}  // namespace
+
+void find_errors(const Model& model, base::ErrorList& errors) {
+  bool has_radii = !model.grain.spheres.empty();
+  for (const ClumpSphere& sphere : model.grain.spheres) {
+    has_radii = has_radii && is_positive(sphere.radius) && sphere.centre.allFinite();
+  }
+  errors.require(has_radii && is_positive(model.grain.volume_m3) &&
+                     model.grain.gyration_m2.allFinite() && model.grain.gyration_m2.minCoeff() > 0,
+                 "grain: it has no spheres, volume or inertia. Fix: make it from a scan or from "
+                 "its sizes.");
+  const bool has_stiffness = is_positive(model.stiffness_factor);
+  errors.require(has_stiffness,
+                 fmt::format("stiffness_factor is {:g}. Rule: above 0. Fix: 1 for the real "
+                             "material.",
+                             model.stiffness_factor));
+  errors.require(model.timestep_fraction > 0 && model.timestep_fraction <= 1,
+                 fmt::format("timestep_fraction is {:g}. Rule: above 0, at most 1. Fix: 1.",
+                             model.timestep_fraction));
+  errors.require(!model.timestep_s || is_positive(*model.timestep_s),
+                 fmt::format("timestep_s is {:g}. Rule: above 0. Fix: leave it to the program.",
+                             model.timestep_s.value_or(0)));
+  errors.require(model.threads >= 1,
+                 fmt::format("threads is {}. Rule: 1 or more. Fix: 1.", model.threads));
+  if (!has_stiffness) return;
+  try {
+    contact_table(model);
+  } catch (const std::invalid_argument& error) {
+    errors.add(error.what());
+  }
+}
+
+Wall study_wall(WallShape shape, const Pose& pose) {
+  return {std::move(shape), kWallMaterial, pose, {}};
+}
+
+SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
+                            double speed_m_s, double timestep_fraction) {
+  SimulationSetup setup{.kinds = {{.shape = shape, .material = kGrainMaterial}},
+                        .walls = std::move(walls),
+                        .contacts = contact_table(model),
+                        .threads = model.threads};
+  if (model.timestep_s) {
+    check_timestep(*model.timestep_s, setup, speed_m_s);
+    setup.timestep_s = *model.timestep_s;
+  } else {
+    setup.timestep_s =
+        model.timestep_fraction * timestep_fraction * accurate_timestep_s(setup, speed_m_s);
+  }
+  return setup;
+}
+
+}  // namespace repose::dem

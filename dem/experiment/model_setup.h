@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "base/error_list.h"
+#include "dem/experiment/experiment.h"
+
+namespace repose::dem {
+
+/// The materials of every experiment's contact table.
+inline constexpr int kGrainMaterial = 0;
+inline constexpr int kWallMaterial = 1;
+
+/// Notes what is wrong with the bench itself.
+void find_errors(const Model& model, base::ErrorList& errors);
+
+/// A wall of the bench's wall material, at rest.
+Wall study_wall(WallShape shape, const Pose& pose = {});
+
+/// Grains of one shape among walls, with the bench's materials and a time step for impacts at up to
+/// `speed_m_s`: the bench's own, or the bench's fraction times `timestep_share` of the longest
+/// accurate one. Throws std::invalid_argument for a time step asked for that is not safe.
+SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
+                            double speed_m_s, double timestep_fraction = 1);
+
+}  // namespace repose::dem

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dem/shape/clump/clump_errors.h"
+#include "dem/shape/clump/clump_shape.h"
+
+namespace repose::dem {
+
+/// A clump with where it comes from, as kept in a file.
+struct ClumpFile {
+  std::string source;                ///< name of the scan, or the calliper sizes
+  std::vector<std::string> repairs;  ///< what was mended in the scan
+  ClumpShape shape;
+  ClumpErrors errors;
+};
+
+/// As JSON, SI units in the key names; every number comes back to the last bit.
+/// @throws std::invalid_argument  a number is not finite: JSON has none of these.
+std::string clump_json(const ClumpFile& clump);
+
+/// Reads it back. `name` is what errors call it.
+/// @throws std::invalid_argument  all that is wrong, a line each.
+ClumpFile parse_clump_json(const std::string& text, const std::string& name);
+
+/// @throws std::invalid_argument  as parse_clump_json, and when the file cannot be read.
+ClumpFile read_clump_file(const std::filesystem::path& file);
+
+}  // namespace repose::dem

@@ -1,0 +1,163 @@
+#include "dem/shape/clump/fill.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "dem/shape/clump/inscribed_spheres.h"
+#include "dem/shape/clump/relocation.h"
+#include "dem/shape/clump/sphere_fit.h"
+#include "dem/shape/clump/sphere_groups.h"
+#include "dem/shape/clump/surface_distance.h"
+#include "dem/shape/clump/surface_samples.h"
+#include "dem/shape/scan/mass_properties.h"
+
+namespace repose::dem {
+namespace {
+
+std::size_t samples_for(int spheres) {
+  constexpr int kPerSphere = 120, kFewest = 2500, kMost = 8000;
+  return static_cast<std::size_t>(std::clamp(kPerSphere * spheres, kFewest, kMost));
+}
+
+/// Points above every other sample, low and high in turn, with their true distance: in a dent, the
+/// nearest surface may be another part of it.
+std::vector<SphereFit::Guard> guards_above(const Mesh& mesh,
+                                           const std::vector<SurfaceSample>& samples,
+                                           double equal_radius) {
+  constexpr double kLow = 0.1, kHigh = 0.3;  // of the radius of the sphere of equal volume
+  const SurfaceDistance surface(mesh);
+  std::vector<SphereFit::Guard> guards;
+  for (std::size_t i = 0; i < samples.size(); i += 2) {
+    const double height = (i % 4 == 0 ? kLow : kHigh) * equal_radius;
+    const Vector point = samples[i].point + height * samples[i].normal;
+    const double distance = surface.signed_distance(point);
+    if (distance > 0) guards.push_back({point, distance});
+  }
+  return guards;
+}
+
+std::vector<ClumpSphere> fitted_spheres(const Mesh& mesh, int count,
+                                        double smallest_radius_fraction) {
+  const MassProperties body = mass_properties(mesh);
+  const double equal_radius = std::cbrt(3 * body.volume_m3 / (4 * std::numbers::pi));
+  if (count == 1) return {{body.centroid, equal_radius}};
+  const std::vector<SurfaceSample> samples = sample_surface(mesh, samples_for(count));
+  const double smallest_radius = smallest_radius_fraction * equal_radius;
+  const SphereFit fit(samples, guards_above(mesh, samples, equal_radius), smallest_radius);
+  std::vector<ClumpSphere> spheres = inscribed_spheres(mesh, count);
+  std::erase_if(spheres, [&](const ClumpSphere& s) { return s.radius < smallest_radius; });
+  relocate_and_fit(fit, samples, static_cast<std::size_t>(count), spheres);
+  return spheres;
+}
+
+FillReport filled(const Mesh& mesh, int count, double smallest_radius_fraction) {
+  FillReport report{.spheres = fitted_spheres(mesh, count, smallest_radius_fraction), .errors = {}};
+  report.errors = clump_errors(mesh, report.spheres);
+  return report;
+}
+
+/// The fewest spheres that reach the error: doubled until they do, then halved in between.
+FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_radius_fraction) {
+  int too_few = 0, enough = 1;
+  FillReport best = filled(mesh, enough, smallest_radius_fraction);
+  double least_error = best.errors.volume_error;
+  while (best.errors.volume_error > volume_error) {
+    if (enough == kMaxSpheres) {
+      std::ostringstream error;
+      error << "volume error: " << volume_error << " is not reached with " << kMaxSpheres
+            << " spheres, " << least_error
+            << " is. Fix: ask for no less than that, or smooth the surface.";
+      throw std::invalid_argument(error.str());
+    }
+    too_few = enough;
+    enough = std::min(2 * enough, kMaxSpheres);
+    best = filled(mesh, enough, smallest_radius_fraction);
+    least_error = std::min(least_error, best.errors.volume_error);
+  }
+  while (enough - too_few > 1) {
+    const int between = (too_few + enough) / 2;
+    FillReport report = filled(mesh, between, smallest_radius_fraction);
+    if (report.errors.volume_error <= volume_error) {
+      best = std::move(report);
+      enough = between;
+    } else {
+      too_few = between;
+    }
+  }
+  return best;
+}
+
+/// The fit of few spheres to a slender body may end in ones that the body could lie in.
+void check_sizes(const Mesh& mesh, const FillReport& report) {
+  const Vector centroid = mass_properties(mesh).centroid;
+  double reach = 0;
+  for (const Vector& vertex : mesh.vertices) reach = std::max(reach, (vertex - centroid).norm());
+  for (const ClumpSphere& sphere : report.spheres) {
+    if (sphere.radius <= reach) continue;
+    throw std::invalid_argument("spheres: " + std::to_string(report.spheres.size()) +
+                                " cannot follow this surface, one came out larger than all of it. "
+                                "Fix: more spheres.");
+  }
+}
+
+void check_hangs_together(const FillReport& report) {
+  const int groups = sphere_groups(report.spheres);
+  if (groups <= 1) return;
+  throw std::invalid_argument(
+      "spheres: these " + std::to_string(report.spheres.size()) + " fall into " +
+      std::to_string(groups) +
+      " groups that do not touch each other; other grains could pass between them. Fix: more "
+      "spheres, or a smaller volume error.");
+}
+
+}  // namespace
+
+std::vector<std::string> FillOptions::problems() const {
+  std::vector<std::string> problems;
+  if (spheres < 1 || spheres > kMaxSpheres) {
+    problems.push_back("spheres: " + std::to_string(spheres) + " must be from 1 to " +
+                       std::to_string(kMaxSpheres) + ". Fix: 11 is usual for a nut.");
+  }
+  if (volume_error && !(*volume_error > 0 && *volume_error < 1)) {
+    problems.push_back("volume error: " + std::to_string(*volume_error) +
+                       " must be a share between 0 and 1. Fix: 0.02 for 2 %.");
+  }
+  if (!(smallest_radius_fraction > 0 && smallest_radius_fraction < 1)) {
+    problems.push_back("smallest radius: " + std::to_string(smallest_radius_fraction) +
+                       " must be a share between 0 and 1. Fix: 0.1 is usual.");
+  }
+  return problems;
+}
+
+FillReport fill(const Mesh& mesh, const FillOptions& options) {
+  const std::vector<std::string> problems = options.problems();
+  if (!problems.empty()) {
+    std::string text;
+    for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+    throw std::invalid_argument(text);
+  }
+  FillReport report =
+      options.volume_error
+          ? fill_to_error(mesh, *options.volume_error, options.smallest_radius_fraction)
+          : filled(mesh, options.spheres, options.smallest_radius_fraction);
+  check_sizes(mesh, report);
+  check_hangs_together(report);
+  return report;
+}
+
+FilledClump clump_of(const Mesh& surface, const FillOptions& options) {
+  const PrincipalFrame frame = principal_frame(surface);
+  FilledClump clump;
+  clump.shape.surface = in_frame(surface, frame);
+  clump.shape.volume_m3 = mass_properties(surface).volume_m3;
+  clump.shape.gyration_m2 = frame.gyration_m2;
+  FillReport report = fill(clump.shape.surface, options);
+  clump.shape.spheres = std::move(report.spheres);
+  clump.errors = report.errors;
+  return clump;
+}
+
+}  // namespace repose::dem

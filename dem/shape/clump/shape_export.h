@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "dem/shape/clump/clump_shape.h"
+
+namespace repose::dem {
+
+enum class ShapeFormat {
+  glb,  ///< binary glTF 2.0, metres, the surface see-through
+  stl,  ///< binary STL, millimetres
+};
+
+/// The clump's spheres and, if it has one, its surface, as the content of a file to look at.
+std::vector<std::byte> export_shape(const ClumpShape& shape, ShapeFormat format);
+
+}  // namespace repose::dem

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "render/gl/objects.h"
+#include "render/scene/scene.h"
+#include "render/scene/style.h"
+#include "render/scene/view.h"
+
+namespace repose::render {
+
+/// Grains of one shape, or a wall, ready to be drawn in one go.
+struct Batch {
+  enum class Kind { grains, spheres, wall };
+  Kind kind = Kind::grains;
+  std::shared_ptr<const gl::Shape> shape;
+  std::vector<float> instances = {};  ///< kInstanceParts floats each
+  bool is_closed = true;              ///< its back faces cannot be seen
+  /// Where the shell's pattern runs: unit vector to the blunt end, as long as the shape reaches.
+  dem::Vector blunt_end = dem::Vector::UnitX();
+};
+
+/// Vertex: position, normal. Instance: three rows of the matrix to the stage; the grain's own
+/// random number, 0 to 1, in four parts.
+inline const std::vector<int> kVertexParts = {3, 3};
+inline const std::vector<int> kInstanceParts = {4, 4, 4, 4};
+inline const std::vector<const char*> kAttributes = {"position", "normal", "row_x",
+                                                     "row_y",    "row_z",  "chance"};
+
+/// A scene in the driver's memory. Positions are relative to `origin`, where floats are fine.
+struct Stage {
+  dem::Vector origin = dem::Vector::Zero();
+  double radius_m = 0;  ///< of a ball about the origin that holds all grains
+  std::vector<Batch> grains = {};
+  std::vector<Batch> walls = {};
+};
+
+/// Puts scenes on the stage, and keeps surfaces that are used again.
+class SceneUploader {
+ public:
+  explicit SceneUploader(const gl::Functions& gl) : gl_(gl) {}
+
+  /// Grains as fine as the view can show.
+  Stage set(const Scene& scene, const View& view, Shown shown, std::uint64_t seed);
+
+ private:
+  /// What the surface is made of, as a hash; spheres or mesh; its tolerance's step.
+  using Key = std::tuple<std::uint64_t, bool, int>;
+
+  std::shared_ptr<const gl::Shape> grain_shape(const dem::ClumpShape& shape, bool as_spheres,
+                                               double tolerance_m);
+
+  const gl::Functions& gl_;
+  std::map<Key, std::shared_ptr<const gl::Shape>> saved_;
+};
+
+}  // namespace repose::render

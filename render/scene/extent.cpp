@@ -1,0 +1,64 @@
+#include "render/scene/extent.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace repose::render {
+namespace {
+
+/// A wall face is level up to this sine of its slope.
+constexpr double kLevel = 1e-6;
+
+/// Height of a wall's upper face, if that is level.
+std::optional<double> level_face_m(const PlacedWall& wall) {
+  const Eigen::Matrix3d axes = wall.pose.orientation.toRotationMatrix();
+  if (std::holds_alternative<dem::Plane>(wall.shape)) {
+    if (std::hypot(axes(0, 2), axes(1, 2)) > kLevel || axes(2, 2) < 0) return std::nullopt;
+    return wall.pose.position.z();
+  }
+  if (const auto* box = std::get_if<dem::Box>(&wall.shape)) {
+    for (int k = 0; k < 3; ++k) {
+      if (std::hypot(axes(0, k), axes(1, k)) > kLevel) continue;
+      return wall.pose.position.z() + box->half_size[k];
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes) {
+  const std::vector<double> reaches_m = reaches_of(scene);
+  Eigen::AlignedBox3d bounds;
+  for (const PlacedGrain& grain : scene.grains) {
+    const auto kind = static_cast<std::size_t>(grain.shape);
+    const dem::Vector middle = axes * grain.pose.position;
+    const dem::Vector reach = dem::Vector::Constant(reaches_m[kind]);
+    // Grains inside add nothing, however they lie.
+    if (bounds.contains(Eigen::AlignedBox3d(middle - reach, middle + reach))) continue;
+    const dem::ClumpShape& shape = scene.shapes[kind];
+    const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
+    for (const dem::ClumpSphere& sphere : shape.spheres) {
+      const dem::Vector centre = middle + turn * sphere.centre;
+      bounds.extend((centre.array() - sphere.radius).matrix());
+      bounds.extend((centre.array() + sphere.radius).matrix());
+    }
+    for (const dem::Vector& vertex : shape.surface.vertices) bounds.extend(middle + turn * vertex);
+  }
+  return bounds;
+}
+
+std::optional<double> ground_m(const Scene& scene) {
+  if (scene.grains.empty()) return std::nullopt;
+  double middle_m = 0;
+  for (const PlacedGrain& grain : scene.grains) middle_m += grain.pose.position.z();
+  middle_m /= static_cast<double>(scene.grains.size());
+  std::optional<double> ground;
+  for (const PlacedWall& wall : scene.walls) {
+    const auto face = level_face_m(wall);
+    if (face && *face < middle_m) ground = std::max(ground.value_or(*face), *face);
+  }
+  return ground;
+}
+
+}  // namespace repose::render

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "render/scene/scene.h"
+
+/// How large a scene is and where it stands.
+namespace repose::render {
+
+/// Box round all grains, along axes whose rows are given; empty without grains. Exact for spheres
+/// and surfaces, whichever is larger.
+Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes);
+
+/// What the grains lie on: height of the highest level wall face below the grains' middle, m. None
+/// without such a wall.
+std::optional<double> ground_m(const Scene& scene);
+
+}  // namespace repose::render

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "dem/engine/simulation.h"
+#include "dem/shape/clump/clump_shape.h"
+#include "dem/state/state_file.h"
+#include "dem/vector.h"
+#include "dem/wall/wall.h"
+
+/// What there is to see. Metres, z upwards.
+namespace repose::render {
+
+/// A grain where it lies.
+struct PlacedGrain {
+  int shape = 0;   ///< which of the scene's shapes
+  int number = 0;  ///< in the simulation; its looks follow from it
+  dem::Pose pose;  ///< of the centre of mass
+};
+
+/// A wall where it stands.
+struct PlacedWall {
+  dem::WallShape shape;
+  dem::Pose pose;
+};
+
+struct Scene {
+  std::vector<dem::ClumpShape> shapes;
+  std::vector<PlacedGrain> grains;
+  std::vector<PlacedWall> walls;
+};
+
+/// The grains and walls that are present, at the time of the state.
+Scene scene_of(const dem::SavedState& state);
+Scene scene_of(const dem::Simulation& simulation);
+
+/// How far a shape reaches from its centre of mass, spheres and surface, m.
+double reach_m(const dem::ClumpShape& shape);
+
+/// The same for each of a scene's shapes.
+std::vector<double> reaches_of(const Scene& scene);
+
+}  // namespace repose::render

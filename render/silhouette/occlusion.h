@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/scene/scene.h"
+#include "render/scene/style.h"
+#include "render/scene/view.h"
+
+namespace repose::render {
+
+/// Radius of a ball about the centre of mass that lies wholly inside what is drawn, m; 0 when there
+/// is none.
+double core_radius_m(const dem::ClumpShape& shape, Shown shown);
+
+/// The part of a silhouette that needs no drawing.
+struct Occlusion {
+  std::vector<std::uint8_t> mask;    ///< 255 where a grain's core is in the way, else 0
+  std::vector<PlacedGrain> visible;  ///< the others lie wholly in front of or behind cores
+};
+
+/// Exact for parallel rays: all that a left-out grain could blacken is black in the mask.
+Occlusion occluded_part(const Scene& scene, const View& view, Shown shown);
+
+}  // namespace repose::render

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "render/scene/scene.h"
+#include "render/scene/style.h"
+#include "render/scene/view.h"
+#include "vision/picture/picture.h"
+
+namespace repose::render {
+
+/// Upper edge of all grains in the middle of each pixel column that shows any, left to right, at
+/// most the picture's width. Of whole meshes and of spheres finer than any picture.
+std::vector<vision::Point> upper_edge(const Scene& scene, const View& view, Shown shown);
+
+}  // namespace repose::render

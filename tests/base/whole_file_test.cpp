@@ -1,0 +1,55 @@
+#include "base/whole_file.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace repose::base {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+TEST(WholeFile, ReplacesTheOldContentAndLeavesNothingElse) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("table.csv", std::string("a much longer old content"));
+  write_whole_file(file, "new");
+  EXPECT_EQ(testing::text_of(file), "new");
+  EXPECT_THAT(folder.names(), ElementsAre("table.csv"));
+}
+
+TEST(WholeFile, AFullDiskIsSaidAndTheDeviceStays) {
+  EXPECT_THAT([] { write_whole_file("/dev/full", "text"); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("Fix: "))));
+  EXPECT_FALSE(std::filesystem::is_regular_file("/dev/full"));
+}
+
+TEST(WholeFile, CheckingLeavesNothingBehind) {
+  const testing::TemporaryFolder folder;
+  check_can_write(folder.path() / "table.csv");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(WholeFile, CheckingFindsAMissingFolder) {
+  const testing::TemporaryFolder folder;
+  EXPECT_THROW(check_can_write(folder.path() / "no" / "table.csv"), std::invalid_argument);
+}
+
+TEST(WholeFile, CheckingFindsALockedFolder) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const testing::TemporaryFolder folder;
+  std::filesystem::permissions(
+      folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_THROW(check_can_write(folder.path() / "table.csv"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace repose::base

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/problem.h"
+
+// Made-up experiments with the shapes and the scatter of the real ones, that take no time.
+namespace repose::calibrate::fake {
+
+/// Restitution, sliding and rolling friction: of grain and wall, then of grain and grain.
+std::vector<Parameter> parameters();
+
+/// drop, tilt, roll depend on the first three parameters, heap on all six; costs as on one core.
+std::vector<Experiment> experiments();
+
+/// Expectation of a reading over all seeds: "value", and "base_radius_mm" of the heap,
+/// "lowest_point_rise_mm" of the drop.
+double expected(const std::string& experiment, const std::string& reading,
+                const std::vector<double>& values);
+
+/// Run names something else inside of a gtest test.
+using Runs = std::vector<Run>;
+
+/// One run with its scatter. Heaps of much friction stay in the tube when `jams`.
+Run run(const Job& job, bool jams = false);
+
+Runs run_all(const std::vector<Job>& jobs, bool jams = false);
+
+/// Ten readings of each of the four experiments at `truth`, with a bench's own scatter.
+std::vector<Observable> measured(const std::vector<double>& truth, std::uint64_t seed);
+
+/// All of the above in one problem.
+Problem problem(const std::vector<double>& truth, std::uint64_t seed);
+
+/// Runs whatever is proposed until nothing more is.
+Runs study(const Problem& problem, bool jams = false);
+
+}  // namespace repose::calibrate::fake

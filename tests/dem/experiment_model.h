@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "dem/experiment/experiment.h"
+
+namespace repose::dem::test {
+
+/// A hazelnut as a sphere of equal volume, on steel. Every coefficient may be changed.
+inline Model sphere_bench() {
+  Model model;
+  model.grain = sphere_shape(9.6349e-3);
+  model.grain_material = {"nut", 851, 1.254e9, .38};
+  model.wall_material = {"steel", 7850, 2.1e11, .3};
+  model.grain_wall = {.31, .39, .04};
+  model.grain_grain = {.11, .21, .04};
+  return model;
+}
+
+/// Spheres on the long axis (x) of a spheroid, each the largest inside it.
+inline ClumpShape spheroid_clump(int count) {
+  const double a = 11.24e-3;
+  const double b = 8.92e-3;
+  const double end = (a * a - b * b) / a;
+  ClumpShape shape;
+  for (int k = 0; k < count; ++k) {
+    const double x = end * (2.0 * k / (count - 1) - 1);
+    shape.spheres.push_back(
+        {.centre = {x, 0, 0}, .radius = b * std::sqrt(1 - x * x / (a * a - b * b))});
+  }
+  shape.volume_m3 = 4.0 / 3 * std::numbers::pi * a * b * b;
+  shape.gyration_m2 = Vector(2 * b * b, a * a + b * b, a * a + b * b) / 5;
+  return shape;
+}
+
+inline Model clump_bench() {
+  Model model = sphere_bench();
+  model.grain = spheroid_clump(11);
+  return model;
+}
+
+/// All positions and orientations equal bit for bit.
+inline bool same_state(const Simulation& a, const Simulation& b) {
+  if (a.grain_count() != b.grain_count() || a.step() != b.step()) return false;
+  for (int k = 0; k < a.grain_count(); ++k) {
+    if (a.is_present(k) != b.is_present(k)) return false;
+    if (a.grain(k).position != b.grain(k).position) return false;
+    if (a.grain(k).orientation.coeffs() != b.grain(k).orientation.coeffs()) return false;
+  }
+  return true;
+}
+
+/// What a run throws, as text; empty when it throws nothing.
+template <typename Error, typename Run>
+std::string message_of(const Run& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace repose::dem::test

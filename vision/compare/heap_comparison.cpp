@@ -1,0 +1,241 @@
+#include "vision/compare/heap_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "vision/compare/angle_difference.h"
+#include "vision/compare/comparison_notes.h"
+#include "vision/compare/hausdorff.h"
+#include "vision/compare/outline_scale.h"
+#include "vision/compare/placed_heap.h"
+#include "vision/compare/skyline.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kWidestShift = 0.25;  // of the wider base
+constexpr int kShiftSteps = 50;        // each way
+constexpr int kShiftHalvings = 12;     // to .0001 % of the base
+
+using Measured = std::array<const ReposeAngle*, 2>;
+using Skylines = std::array<Skyline, 2>;
+
+/// Both heaps on their level ground, their axes at 0.
+struct Aligned {
+  Skylines skylines;  ///< px of each picture
+  std::array<double, 2> height = {};
+  std::array<Point, 2> axis_px;
+  bool by_crest = false;
+};
+
+Aligned align(const Measured& measured) {
+  const std::array heaps = {standing_heap(*measured[0]), standing_heap(*measured[1])};
+  Aligned aligned;
+  aligned.by_crest = !heaps[0].axis || !heaps[1].axis;
+  for (const std::size_t i : {0, 1}) {
+    const double origin = aligned.by_crest ? heaps[i].crest : *heaps[i].axis;
+    aligned.skylines[i] = placed(heaps[i].skyline, origin, 1);
+    aligned.height[i] = heaps[i].height;
+    aligned.axis_px[i] = heaps[i].on_ground(origin);
+  }
+  return aligned;
+}
+
+SkylineDifference difference_on(const Skylines& heaps, const Reach& reach, Side side) {
+  const auto [from, to] = reach.stretch(heaps[0], heaps[1], side);
+  return difference_of(heaps[0], heaps[1], from, to);
+}
+
+SkylineDifference difference_on_both(const Skylines& heaps, const Reach& reach) {
+  SkylineDifference total = difference_on(heaps, reach, Side::left);
+  total += difference_on(heaps, reach, Side::right);
+  return total;
+}
+
+/// Where the second heap would fit the first one best: the best of equal steps, then between its
+/// neighbours. By the heights' root mean square, as the overlap does not change while one outline
+/// moves inside the other.
+void find_best_shift(HeapComparison& result, const Skylines& heaps, const Reach& reach) {
+  const auto rmse_at = [&](double shift) {
+    return difference_on_both({heaps[0], placed(heaps[1], -shift, 1)}, reach).rmse();
+  };
+  const auto width = [](const Skyline& heap) { return heap.back().along - heap.front().along; };
+  const double coarse = kWidestShift * std::max(width(heaps[0]), width(heaps[1])) / kShiftSteps;
+  double best = 0;
+  double best_rmse = rmse_at(0);
+  const auto try_shift = [&](double shift) {
+    const double rmse = rmse_at(shift);
+    if (rmse >= best_rmse) return;
+    best = shift;
+    best_rmse = rmse;
+  };
+  for (int i = 1; i <= kShiftSteps; ++i) {
+    try_shift(i * coarse);
+    try_shift(-i * coarse);
+  }
+  double step = coarse;
+  for (int i = 0; i < kShiftHalvings; ++i) {
+    step /= 2;
+    const double centre = best;
+    try_shift(centre + step);
+    try_shift(centre - step);
+  }
+  result.best_shift = best;
+  result.best_shift_rmse = best_rmse;
+}
+
+SideComparison compare_side(const Measured& measured, const Skylines& heaps, const Reach& reach,
+                            Side side, const CompareOptions& options) {
+  SideComparison result;
+  const std::size_t at = side == Side::left ? 0 : 1;
+  const auto flank = [&](std::size_t i) -> const Flank& {
+    return side == Side::left ? measured[i]->left : measured[i]->right;
+  };
+  result.cover = reach.cover[at];
+  if (result.cover != Cover::none) {
+    const SkylineDifference difference = difference_on(heaps, reach, side);
+    result.iou = difference.iou();
+    result.profile_rmse = difference.rmse();
+    result.profile_mean = difference.mean();
+  }
+  for (const std::size_t i : {0, 1}) {
+    if (flank(i).status != FlankStatus::ok || flank(i).leaves_frame) continue;
+    result.run_out[i] = side == Side::left ? -heaps[i].front().along : heaps[i].back().along;
+  }
+  if (flank(0).angle_rad && flank(1).angle_rad) {
+    result.angle = angle_difference({*flank(0).angle_rad, flank(0).uncertainty_rad.value_or(0)},
+                                    {*flank(1).angle_rad, flank(1).uncertainty_rad.value_or(0)},
+                                    options.margin_rad, options.same_measurement);
+  }
+  return result;
+}
+
+/// The angles that are subtracted: of both sides, or of one side alone.
+void compare_angles(HeapComparison& result, const Measured& measured,
+                    const CompareOptions& options) {
+  const bool left = result.left.angle.has_value();
+  const bool right = result.right.angle.has_value();
+  std::array<UncertainAngle, 2> angles;
+  for (const std::size_t i : {0, 1}) {
+    const ReposeAngle& heap = *measured[i];
+    const Flank& one = left ? heap.left : heap.right;
+    const bool takes_one = left != right;
+    result.angle_rad[i] = takes_one ? one.angle_rad : heap.angle_rad;
+    result.uncertainty_rad[i] = takes_one ? one.uncertainty_rad : heap.uncertainty_rad;
+    angles[i] = {result.angle_rad[i].value(), result.uncertainty_rad[i].value()};
+  }
+  result.angle =
+      angle_difference(angles[0], angles[1], options.margin_rad, options.same_measurement);
+}
+
+/// Equal areas were made, so the heights' mean difference is 0 by itself: it says nothing.
+void forget_made_equal(HeapComparison& result) {
+  if (result.unit != LengthUnit::root_area) return;
+  result.profile_mean.reset();
+  if (result.left.cover == Cover::none) result.right.profile_mean.reset();
+  if (result.right.cover == Cover::none) result.left.profile_mean.reset();
+}
+
+/// Everything that the outlines alone say, in the unit.
+void compare_outlines(HeapComparison& result, const Measured& measured, const Skylines& heaps,
+                      const Reach& reach) {
+  for (const std::size_t i : {0, 1}) {
+    const bool shows_feet = result.left.run_out[i] && result.right.run_out[i];
+    if (shows_feet) result.base[i] = *measured[i]->base_px * result.unit_per_px[i];
+  }
+  const SkylineDifference total = difference_on_both(heaps, reach);
+  if (total.length <= 0) return;
+  result.iou = total.iou();
+  result.profile_rmse = total.rmse();
+  result.profile_mean = total.mean();
+  const double from = reach.stretch(heaps[0], heaps[1], Side::left)[0];
+  const double to = reach.stretch(heaps[0], heaps[1], Side::right)[1];
+  const EdgeDistance distance =
+      edge_distance(part_of(heaps[0], from, to), part_of(heaps[1], from, to));
+  result.hausdorff = distance.largest;
+  result.hausdorff_95 = distance.most_of_it;
+  find_best_shift(result, heaps, reach);
+  forget_made_equal(result);
+}
+
+HeapComparison refused(const Measured& measured) {
+  HeapComparison result;
+  for (const std::size_t i : {0, 1}) {
+    if (measured[i]->status != MeasureStatus::refused) continue;
+    if (!result.reason.empty()) result.reason += '\n';
+    result.reason +=
+        fmt::format("{} picture: {}", i == 0 ? "first" : "second", measured[i]->reason);
+  }
+  return result;
+}
+
+void check(const CompareOptions& options) {
+  const std::vector<std::string> errors = options.problems();
+  if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
+}
+
+bool is_flagged(const ReposeAngle* measured) { return measured->status == MeasureStatus::flagged; }
+
+}  // namespace
+
+std::vector<std::string> CompareOptions::problems() const {
+  std::vector<std::string> errors;
+  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kWidestMargin_rad = 45 * kDegree;
+  // Written so that NaN fails.
+  if (!(margin_rad > 0 && margin_rad <= kWidestMargin_rad)) {
+    errors.push_back(
+        fmt::format("margin = {:g} degrees must be more than 0 and at most 45. Fix: give the "
+                    "difference that does not matter to you, such as 2.",
+                    margin_rad / kDegree));
+  }
+  if (scale[0].has_value() != scale[1].has_value()) {
+    errors.emplace_back("only one picture has a scale. Fix: give both, or none.");
+  }
+  for (const auto& one : scale) {
+    if (one && !(one->length_m > 0 && std::isfinite(one->length_m))) {
+      errors.push_back(fmt::format(
+          "scale = {:g} m must be more than 0. Fix: give the length of one pixel, or of the base.",
+          one->length_m));
+    }
+  }
+  return errors;
+}
+
+HeapComparison compare_heaps(const ReposeAngle& first, const ReposeAngle& second,
+                             const CompareOptions& options) {
+  check(options);
+  const Measured measured = {&first, &second};
+  if (first.status == MeasureStatus::refused || second.status == MeasureStatus::refused) {
+    return refused(measured);
+  }
+  HeapComparison result;
+  const bool any_flagged = std::any_of(measured.begin(), measured.end(), is_flagged);
+  result.status = any_flagged ? MeasureStatus::flagged : MeasureStatus::ok;
+
+  const Aligned aligned = align(measured);
+  result.is_aligned_by_crest = aligned.by_crest;
+  result.axis_px = aligned.axis_px;
+  const Reach reach = reach_of(first, second);
+  const OutlineScale scale = outline_scale(measured, aligned.skylines, reach, options);
+  result.unit = scale.unit;
+  result.unit_per_px = scale.unit_per_px;
+  Skylines heaps;
+  for (const std::size_t i : {0, 1}) {
+    heaps[i] = placed(aligned.skylines[i], 0, scale.unit_per_px[i]);
+    result.height[i] = aligned.height[i] * scale.unit_per_px[i];
+  }
+  result.left = compare_side(measured, heaps, reach, Side::left, options);
+  result.right = compare_side(measured, heaps, reach, Side::right, options);
+  compare_angles(result, measured, options);
+  compare_outlines(result, measured, heaps, reach);
+  add_notes(result, measured, options);
+  result.outlines = heaps;
+  return result;
+}
+
+}  // namespace repose::vision

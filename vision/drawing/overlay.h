@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vision/measure/repose_angle.h"
+#include "vision/picture/picture.h"
+
+namespace repose::vision {
+
+/// What the picture and its result do not know of themselves.
+struct OverlayNotes {
+  std::string title;          ///< the picture's name
+  std::vector<Box> excluded;  ///< MeasureOptions::excluded
+};
+
+/// The picture with everything that was measured drawn into it, for a person to check or a paper
+/// to show: silhouette, ground line, fitted lines over their window, angles; a caption below with
+/// the mean angle, its interval, the method, and every warning or the reason of a refusal.
+///
+/// Small pictures are enlarged and large ones reduced, so that lines and letters suit each other.
+Picture draw_overlay(const Picture& picture, const ReposeAngle& measured,
+                     const OverlayNotes& notes = {});
+
+}  // namespace repose::vision

@@ -1,0 +1,238 @@
+#include "vision/measure/repose_angle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/measure/camera_pitch.h"
+#include "vision/measure/choice.h"
+#include "vision/measure/definitions.h"
+#include "vision/measure/paper_method.h"
+#include "vision/measure/uncertainty.h"
+#include "vision/measure/verdict.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kNarrowestWindow = 0.1;
+constexpr double kLargestPitch_rad = 30 * std::numbers::pi / 180;
+constexpr int kSmallestSide = 64;
+
+// Assumed: pitch that 95 of 100 cameras stay below which were levelled by eye, and which see the
+// heap cross an edge behind it.
+constexpr double kPitchByEye_rad = 2 * std::numbers::pi / 180;
+constexpr double kPitchOverEdge_rad = 5 * std::numbers::pi / 180;
+
+void check(const Picture& picture, const MeasureOptions& options) {
+  std::vector<std::string> errors = options.problems();
+  if (picture.empty()) errors.emplace_back("the picture is empty. Fix: read one first.");
+  for (const Box& box : options.excluded) {
+    if (box.x < 0 || box.y < 0 || box.width <= 0 || box.height <= 0 ||
+        box.width > picture.width - box.x || box.height > picture.height - box.y) {
+      errors.push_back(
+          fmt::format("excluded box {},{},{},{} does not lie inside the {} x {} picture. Fix: give "
+                      "the top-left "
+                      "pixel, width and height in pixels of the picture.",
+                      box.x, box.y, box.width, box.height, picture.width, picture.height));
+    }
+  }
+  if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
+}
+
+/// Pictures are measured side by side. Threads inside OpenCV would gain nothing then, and while one
+/// of them waited it could start on another picture and reseed the generator that GrabCut draws
+/// from.
+void one_thread_a_picture() {
+  static const bool once = [] {
+    cv::setNumThreads(1);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+Point to_picture(Point working, double shrink) { return {working.x * shrink, working.y * shrink}; }
+
+/// Pitch that a camera may have which was taken for level: what the base's bow tells, where the
+/// base is the heap's own (a plate's front edge is straight from wherever one looks).
+double assumed_pitch_rad(const Reading& reading) {
+  const Ground& ground = reading.body.ground;
+  const Profile& profile = reading.profile;
+  if (ground.behind) return kPitchOverEdge_rad;
+  const bool goes_beyond_heap = profile.leaves_frame_left || profile.leaves_frame_right ||
+                                reading.left.apron_cut || reading.right.apron_cut;
+  if (goes_beyond_heap || !ground.bow) return kPitchByEye_rad;
+  return pitch_from_bow(*ground.bow);
+}
+
+/// Takes the camera's pitch out of the angles of one reading, as far as it was told.
+class PitchCorrection {
+ public:
+  PitchCorrection(const Reading& reading, const WorkingPicture& work,
+                  std::optional<double> pitch_rad)
+      : pitch_rad_(pitch_rad), assumed_rad_(assumed_pitch_rad(reading)) {
+    const Profile& profile = reading.profile;
+    const GroundFrame ground(reading.body.ground);
+    const Point crest = ground.picture(profile.along[profile.crest], profile.crest_height);
+    const double middle = work.frame.y + work.frame.height / 2.0;
+    const double radius = (profile.along.back() - profile.along.front()) / 2;
+    if (radius > 0) crest_rise_ = (middle - crest.y) / radius;
+  }
+
+  double angle_rad(double apparent_rad) const {
+    return angle_without_pitch(apparent_rad, pitch_rad_.value_or(0));
+  }
+  /// With what the camera's unknown distance or pitch adds to the half-width. An untold pitch
+  /// always lowers the angle: that is no chance, so it is not added in quadrature.
+  double half_width_rad(double apparent_rad, double own_rad) const {
+    if (!pitch_rad_) return own_rad + assumed_pitch_error(apparent_rad, assumed_rad_);
+    return std::hypot(own_rad, far_camera_error(apparent_rad, *pitch_rad_, crest_rise_));
+  }
+
+ private:
+  std::optional<double> pitch_rad_;  // as it was told
+  double assumed_rad_;               // that a level camera may have
+  double crest_rise_ = 0;            // above the picture's middle / the base's radius
+};
+
+/// The side in the picture's own pixels, its angle corrected for the camera's pitch.
+Flank flank_of(const Reading& reading, Side side, double shrink, double half_width_rad,
+               const PitchCorrection& correction) {
+  const FlankFit& fit = reading.flank(side);
+  Flank flank;
+  flank.status = fit.status;
+  flank.reason = fit.reason;
+  flank.leaves_frame =
+      side == Side::left ? reading.profile.leaves_frame_left : reading.profile.leaves_frame_right;
+  if (fit.status != FlankStatus::ok) return flank;
+  flank.angle_rad = correction.angle_rad(fit.angle_rad);
+  flank.uncertainty_rad = correction.half_width_rad(fit.angle_rad, half_width_rad);
+  flank.least_squares_rad = correction.angle_rad(std::atan(-fit.least_squares.slope));
+  flank.robust_rad = correction.angle_rad(std::atan(-fit.robust.slope));
+  flank.r2 = fit.least_squares.r2;
+  flank.points = static_cast<int>(fit.along.size());
+  flank.bend_rad = fit.bend_rad;
+  flank.other_windows = fit.other_windows;
+  for (WindowAngle& window : flank.other_windows) {
+    window.angle_rad = correction.angle_rad(window.angle_rad);
+  }
+
+  const GroundFrame ground(reading.body.ground);
+  const double crest = reading.profile.along[reading.profile.crest];
+  const auto place = [&](double out, double height) {
+    const double along = side == Side::left ? crest - out : crest + out;
+    return to_picture(ground.picture(along, height), shrink);
+  };
+  for (std::size_t i = 0; i < fit.along.size(); ++i) {
+    flank.edge.push_back(place(fit.along[i], fit.height[i]));
+  }
+  const LineFit& line = fit.shown;
+  flank.line = Segment{place(fit.along.front(), line.y(fit.along.front())),
+                       place(fit.along.back(), line.y(fit.along.back()))};
+  return flank;
+}
+
+std::vector<Point> outline_of(const cv::Mat1b& mask, double shrink) {
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::vector<Point> outline;
+  if (contours.empty()) return outline;
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < contours.size(); ++i) {
+    if (contours[i].size() > contours[longest].size()) longest = i;
+  }
+  for (const cv::Point& p : contours[longest]) {
+    outline.push_back(to_picture({p.x + 0.5, p.y + 0.5}, shrink));
+  }
+  return outline;
+}
+
+/// Everything that was seen, in the picture's own pixels; judged later.
+ReposeAngle described(const Choice& choice, const WorkingPicture& work,
+                      const MeasureOptions& options) {
+  const Reading& best = choice.best;
+  ReposeAngle result;
+  result.method = options.method;
+  result.window = {options.window_from, options.window_to};
+  result.camera_pitch_rad = options.camera_pitch_rad;
+  result.segmentation = best.segmentation.name;
+  if (best.body.mask.empty() || best.profile.size() == 0) return result;
+  const Uncertainty u = uncertainty_of(choice);
+  const PitchCorrection correction(best, work, options.camera_pitch_rad);
+  result.left = flank_of(best, Side::left, work.shrink, u.left_rad, correction);
+  result.right = flank_of(best, Side::right, work.shrink, u.right_rad, correction);
+  if (best.has_flank()) {
+    result.angle_rad = correction.angle_rad(best.angle_rad());
+    result.uncertainty_rad = correction.half_width_rad(best.angle_rad(), u.mean_rad);
+  }
+  result.ground_tilt_rad = best.body.ground.tilt_rad();
+  const GroundFrame ground(best.body.ground);
+  result.ground = Segment{to_picture(ground.picture(best.profile.along.front(), 0), work.shrink),
+                          to_picture(ground.picture(best.profile.along.back(), 0), work.shrink)};
+  result.outline = outline_of(best.body.mask, work.shrink);
+  for (std::size_t i = 0; i < best.profile.size(); ++i) {
+    const Point edge = ground.picture(best.profile.along[i], best.profile.height[i]);
+    result.upper_edge.push_back(to_picture(edge, work.shrink));
+  }
+  const double crest = best.profile.along[best.profile.crest];
+  result.crest = to_picture(ground.picture(crest, best.profile.crest_height), work.shrink);
+  result.height_px = best.profile.crest_height * work.shrink;
+  result.base_px = (best.profile.along.back() - best.profile.along.front()) * work.shrink;
+  if (best.grain) result.grain_px = *best.grain * work.shrink;
+  result.strays = count_strays(best.body, best.segmentation, work);
+  result.definitions = other_definitions(best);
+  return result;
+}
+
+ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
+  ReposeAngle result;
+  result.method = options.method;
+  result.window = {options.window_from, options.window_to};
+  result.camera_pitch_rad = options.camera_pitch_rad;
+  result.reason = fmt::format(
+      "of the {} x {} pixels too few remain to measure in. Fix: use a picture of at least {} "
+      "pixels "
+      "each way, not much longer than wide, whose heap is 100 pixels high.",
+      picture.width, picture.height, kSmallestSide);
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> MeasureOptions::problems() const {
+  std::vector<std::string> errors;
+  // Written so that NaN fails.
+  if (!(window_from >= 0 && window_to <= 1 && window_to - window_from >= kNarrowestWindow)) {
+    errors.push_back(fmt::format(
+        "window = {},{} must be two rising fractions of the heap's height from 0 to 1, at least {} "
+        "apart. Fix: try 0.2,0.8.",
+        window_from, window_to, kNarrowestWindow));
+  }
+  if (camera_pitch_rad && !(std::abs(*camera_pitch_rad) <= kLargestPitch_rad)) {
+    errors.push_back(fmt::format(
+        "camera pitch = {:.1f} degrees must lie within -30 and 30. Fix: retake the picture with a "
+        "level camera.",
+        *camera_pitch_rad * 180 / std::numbers::pi));
+  }
+  return errors;
+}
+
+ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options) {
+  check(picture, options);
+  one_thread_a_picture();
+  const WorkingPicture work = working_picture(picture, options.excluded);
+  if (std::min(work.frame.width, work.frame.height) < kSmallestSide) {
+    return too_small(picture, options);
+  }
+  const Choice choice = options.method == Method::paper ? read_by_paper(work, options)
+                                                        : choose_reading(work, options);
+  ReposeAngle result = described(choice, work, options);
+  judge(result, choice, options);
+  return result;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/picture/picture.h"
+
+/// Static angle of repose of a heap from one side-view photograph or rendered silhouette.
+///
+/// Angles are radians, from the ground line, positive; uncertainties are half-widths of 95 %
+/// intervals. A number that does not exist is an empty optional, never 0.
+namespace repose::vision {
+
+enum class Method {
+  automatic,  ///< candidate segmentations, ground line, apron and crest left out, robust line
+  paper,      ///< grey, Otsu, holes filled, edge, ordinary least squares on each side
+};
+
+struct MeasureOptions {
+  Method method = Method::automatic;
+  /// Stretch of the flank that is fitted, as fractions of the heap's height above the ground line.
+  /// Lower values let in the spreading toe, higher ones the rounded crest; both flatten the line.
+  double window_from = 0.2;
+  double window_to = 0.8;
+  /// Parts of the picture that are no evidence: timers, labels, hands [px of the picture].
+  std::vector<Box> excluded;
+  /// Camera's downward pitch; the angle is corrected for it, as a far camera's. Its interval allows
+  /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. None: not
+  /// told, and taken for level; the interval then allows for the pitch that the base's bow gives
+  /// away.
+  std::optional<double> camera_pitch_rad = {};
+  /// Same picture + same seed = same bytes (bootstrap, GrabCut).
+  std::uint64_t seed = 1;
+
+  /// Empty when usable; else a line for each error: name = value, rule, what to try.
+  std::vector<std::string> problems() const;
+};
+
+enum class MeasureStatus {
+  ok,       ///< the number and its interval can be used
+  flagged,  ///< a number, but a warning says why a person must look first
+  refused,  ///< no number; `reason` says why and what to do
+};
+
+enum class FlankStatus { ok, absent, truncated };
+
+/// Something the user should know. `code` is stable (snake_case), `message` is a sentence.
+struct Warning {
+  std::string code;
+  std::string message;
+};
+
+/// A line angle from another stretch of the same flank.
+struct WindowAngle {
+  double window_from = 0;
+  double window_to = 0;
+  double angle_rad = 0;
+};
+
+struct Flank {
+  FlankStatus status = FlankStatus::absent;
+  std::string reason;                       ///< why it is absent or truncated
+  bool leaves_frame = false;                ///< the picture's edge hides its foot
+  std::optional<double> angle_rad;          ///< the method's angle of this side
+  std::optional<double> uncertainty_rad;    ///< 95 % half-width
+  std::optional<double> least_squares_rad;  ///< ordinary least squares, y on x
+  std::optional<double> robust_rad;         ///< Tukey loss
+  std::optional<double> r2;                 ///< of the least-squares line
+  int points = 0;                           ///< edge points in the line
+  /// Angle of the window's upper half minus that of its lower half: > 0 is a hollow (concave)
+  /// flank.
+  std::optional<double> bend_rad;
+  std::vector<WindowAngle> other_windows;
+  std::optional<Segment> line;  ///< the fitted line over its window [px]
+  std::vector<Point> edge;      ///< the edge points it was fitted to [px]
+};
+
+/// The angle by another definition people use. Always named beside the number.
+struct NamedAngle {
+  std::string name;         ///< e.g. "height_over_base"
+  std::string description;  ///< one line: what is divided by what
+  double angle_rad = 0;
+};
+
+struct ReposeAngle {
+  MeasureStatus status = MeasureStatus::refused;
+  std::string reason;               ///< when refused: what is wrong and how to mend it
+  std::optional<double> angle_rad;  ///< mean of the sides that exist
+  std::optional<double> uncertainty_rad;
+  Flank left;
+  Flank right;
+  std::optional<double>
+      ground_tilt_rad;            ///< of the ground line in the picture, > 0: right end lower
+  std::optional<Segment> ground;  ///< ground line over the heap's base [px]
+  std::array<double, 2> window = {0.2, 0.8};
+  Method method = Method::automatic;
+  std::optional<double> camera_pitch_rad;  ///< as it was told
+  std::string segmentation;                ///< name of the segmentation that was chosen
+  double confidence = 0;                   ///< 0 to 1
+  std::vector<Warning> warnings;
+  std::vector<Point> outline;       ///< silhouette of the heap's body, closed [px]
+  std::vector<Point> upper_edge;    ///< ... its upper side, left to right, finer than 1 px [px]
+  std::optional<Point> crest;       ///< middle of the highest part, on the lightly smoothed edge
+  std::optional<double> height_px;  ///< crest above the ground line
+  std::optional<double> base_px;    ///< width of the base along the ground line
+  std::optional<double> grain_px;   ///< typical grain size, from the body's pattern
+  int strays = 0;                   ///< grains lying apart from the body
+  std::vector<NamedAngle> definitions;  ///< height over base, half-height tangent, ...
+};
+
+/// Measures one picture. Deterministic; safe to call from several threads at once. The first call
+/// sets OpenCV to one thread for the whole process.
+/// @throws std::invalid_argument  options.problems() is not empty, the picture is empty, or an
+///   excluded box lies outside it.
+ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options = {});
+
+}  // namespace repose::vision

@@ -1,0 +1,134 @@
+#include "vision/picture/jpeg.h"
+
+#include <array>
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>  // before jpeglib.h, which uses FILE and size_t
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include "vision/picture/claimed_size.h"
+#include "vision/picture/mat_of_picture.h"
+
+namespace repose::vision {
+namespace {
+
+// Some cameras pad the data before the end marker. More than this was picture once.
+constexpr int kMaxPaddingBytes = 16;
+
+/// The decoder and all that its callbacks need. libjpeg reports an error by calling back and must
+/// not return from there, so the functions below leave it with longjmp. Each function that calls
+/// setjmp therefore owns nothing that has a destructor: this struct is owned by their caller.
+struct Decoder {
+  jpeg_decompress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf escape{};
+  std::array<char, JMSG_LENGTH_MAX> message{};
+
+  Decoder() = default;
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+  Decoder(Decoder&&) = delete;
+  Decoder& operator=(Decoder&&) = delete;
+  ~Decoder() { jpeg_destroy_decompress(&jpeg); }
+};
+
+Decoder& decoder_of(j_common_ptr jpeg) { return *static_cast<Decoder*>(jpeg->client_data); }
+
+[[noreturn]] void leave(j_common_ptr jpeg) {
+  Decoder& decoder = decoder_of(jpeg);
+  decoder.errors.format_message(jpeg, decoder.message.data());
+  std::longjmp(decoder.escape, 1);
+}
+
+bool is_harmless(const jpeg_error_mgr& warning) {
+  switch (warning.msg_code) {
+    case JWRN_JFIF_MAJOR:
+    case JWRN_ADOBE_XFORM:
+      return true;
+    case JWRN_EXTRANEOUS_DATA:
+      return warning.msg_parm.i[0] <= kMaxPaddingBytes && warning.msg_parm.i[1] == JPEG_EOI;
+    default:
+      return false;
+  }
+}
+
+/// A negative level is a warning; the rest is chatter.
+void on_message(j_common_ptr jpeg, int level) {
+  if (level < 0 && !is_harmless(*jpeg->err)) leave(jpeg);
+}
+
+/// False: it failed and decoder.message says why.
+bool read_header(Decoder& decoder, std::span<const std::uint8_t> bytes) {
+  jpeg_decompress_struct& jpeg = decoder.jpeg;
+  jpeg.err = jpeg_std_error(&decoder.errors);
+  jpeg.client_data = &decoder;
+  decoder.errors.error_exit = leave;
+  decoder.errors.emit_message = on_message;
+  if (setjmp(decoder.escape) != 0) return false;
+  jpeg_create_decompress(&jpeg);
+  jpeg_mem_src(&jpeg, bytes.data(), bytes.size());
+  jpeg_read_header(&jpeg, TRUE);
+  return true;
+}
+
+/// Rows of `row_bytes` bytes to `pixels`, in libjpeg's `colours`. False as above.
+bool read_rows(Decoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels,
+               std::size_t row_bytes) {
+  jpeg_decompress_struct& jpeg = decoder.jpeg;
+  if (setjmp(decoder.escape) != 0) return false;
+  jpeg.out_color_space = colours;
+  jpeg_start_decompress(&jpeg);
+  while (jpeg.output_scanline < jpeg.output_height) {
+    JSAMPROW row = pixels + row_bytes * jpeg.output_scanline;
+    jpeg_read_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_decompress(&jpeg);
+  return true;
+}
+
+[[noreturn]] void refuse(const Decoder& decoder) {
+  throw std::invalid_argument(
+      fmt::format("the JPEG is cut short or damaged ({}). Fix: copy it from the camera again, or "
+                  "take another picture.",
+                  decoder.message.data()));
+}
+
+/// Ink on white paper: what is left of the light. Adobe programs store the inks inverted.
+void inks_to_bgr(const std::vector<std::uint8_t>& cmyk, bool inverted, Picture& picture) {
+  const auto light = [inverted](std::uint8_t ink) { return inverted ? ink : 255 - ink; };
+  for (std::size_t in = 0, out = 0; in < cmyk.size(); in += 4, out += 3) {
+    const int key = light(cmyk[in + 3]);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const int colour = light(cmyk[in + 2 - channel]);
+      picture.bgr[out + channel] = static_cast<std::uint8_t>((colour * key + 127) / 255);
+    }
+  }
+}
+
+}  // namespace
+
+Picture decode_jpeg(std::span<const std::uint8_t> bytes) {
+  Decoder decoder;
+  if (!read_header(decoder, bytes)) refuse(decoder);
+  check_claimed_size(decoder.jpeg.image_width, decoder.jpeg.image_height);
+
+  Picture picture = blank_picture(static_cast<int>(decoder.jpeg.image_width),
+                                  static_cast<int>(decoder.jpeg.image_height));
+  const auto width = static_cast<std::size_t>(picture.width);
+  const bool is_ink = decoder.jpeg.num_components == 4;
+  if (!is_ink) {
+    if (!read_rows(decoder, JCS_EXT_BGR, picture.bgr.data(), 3 * width)) refuse(decoder);
+    return picture;
+  }
+  std::vector<std::uint8_t> cmyk(4 * width * static_cast<std::size_t>(picture.height));
+  if (!read_rows(decoder, JCS_CMYK, cmyk.data(), 4 * width)) refuse(decoder);
+  inks_to_bgr(cmyk, decoder.jpeg.saw_Adobe_marker, picture);
+  return picture;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "vision/picture/picture.h"
+
+namespace repose::vision {
+
+/// Decodes a JPEG file's content, not yet turned upright.
+///
+/// OpenCV would do it too, but it returns half a picture without a word when the file is cut short.
+/// @throws std::invalid_argument  "what. Fix: ..." when it is damaged, cut short or too large.
+Picture decode_jpeg(std::span<const std::uint8_t> bytes);
+
+}  // namespace repose::vision

@@ -1,0 +1,167 @@
+#include "vision/picture/picture.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "base/whole_file.h"
+#include "vision/picture/bmp.h"
+#include "vision/picture/jpeg.h"
+#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/png.h"
+#include "vision/picture/tiff.h"
+#include "vision/picture/upright.h"
+#include "vision/picture/webp.h"
+
+namespace repose::vision {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr int kJpegQuality = 95;
+constexpr int kPngCompression = 1;  // 9 takes ten times as long for a tenth less space
+
+/// Only the command line prints.
+void silence_opencv() { cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT); }
+
+std::string_view text_at(Bytes bytes, std::size_t from, std::size_t length) {
+  if (from + length > bytes.size()) return {};
+  return {reinterpret_cast<const char*>(bytes.data()) + from, length};
+}
+
+enum class Format { jpeg, png, tiff, bmp, webp, heic, unknown };
+
+/// By content: names lie.
+Format format_of(Bytes bytes) {
+  if (text_at(bytes, 0, 3) == "\xFF\xD8\xFF") return Format::jpeg;
+  if (text_at(bytes, 0, 4) == "\x89PNG") return Format::png;
+  using namespace std::string_view_literals;
+  if (text_at(bytes, 0, 4) == "II*\0"sv || text_at(bytes, 0, 4) == "MM\0*"sv) return Format::tiff;
+  if (text_at(bytes, 0, 2) == "BM" && bytes.size() > 26) return Format::bmp;
+  if (text_at(bytes, 0, 4) == "RIFF" && text_at(bytes, 8, 4) == "WEBP") return Format::webp;
+  if (text_at(bytes, 4, 4) == "ftyp") return Format::heic;
+  return Format::unknown;
+}
+
+std::vector<std::uint8_t> read_bytes(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) {
+    throw std::invalid_argument("there is no such file. Fix: check the name and the folder.");
+  }
+  if (fs::is_directory(status)) {
+    throw std::invalid_argument("is a folder, not a picture. Fix: name a picture inside it.");
+  }
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) {
+    throw std::invalid_argument(
+        "cannot be opened. Fix: allow yourself to read it, for example with chmod u+r.");
+  }
+  const auto size = static_cast<std::streamoff>(in.tellg());
+  std::vector<std::uint8_t> bytes(size > 0 ? static_cast<std::size_t>(size) : 0);
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!in) {
+    throw std::invalid_argument("cannot be read to its end. Fix: copy it to this machine first.");
+  }
+  if (bytes.empty()) {
+    throw std::invalid_argument("is empty (0 bytes). Fix: copy it from the camera again.");
+  }
+  return bytes;
+}
+
+Picture decode(Bytes bytes) {
+  switch (format_of(bytes)) {
+    case Format::jpeg:
+      return turned_upright(decode_jpeg(bytes), jpeg_orientation(bytes));
+    case Format::png:
+      return decode_png(bytes);
+    case Format::tiff:
+      return decode_tiff(bytes);
+    case Format::bmp:
+      return decode_bmp(bytes);
+    case Format::webp:
+      return decode_webp(bytes);
+    case Format::heic:
+      throw std::invalid_argument(
+          "is a HEIC or AVIF picture, which is not read. Fix: convert it to JPEG, for example "
+          "with heif-convert, or set the telephone's camera to \"most compatible\".");
+    case Format::unknown:
+      break;
+  }
+  throw std::invalid_argument(
+      "no picture: the content is none of JPEG, PNG, TIFF, BMP, WebP. Fix: name a picture, or save "
+      "it as JPEG or PNG.");
+}
+
+std::string lower_case_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  for (char& letter : ending)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return ending;
+}
+
+}  // namespace
+
+Picture read_picture(const fs::path& file) {
+  silence_opencv();
+  try {
+    return decode(read_bytes(file));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+void write_picture(const fs::path& file, const Picture& picture) {
+  silence_opencv();
+  const std::string ending = lower_case_ending(file);
+  const bool is_jpeg = ending == ".jpg" || ending == ".jpeg";
+  if (!is_jpeg && ending != ".png") {
+    throw std::invalid_argument(fmt::format(
+        "{}: cannot be written as \"{}\". Fix: let the name end in .png, .jpg or .jpeg.",
+        file.string(), ending));
+  }
+  if (picture.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "{}: a picture of {} x {} pixels cannot be written. Fix: give at least one pixel.",
+        file.string(), picture.width, picture.height));
+  }
+  std::vector<std::uint8_t> content;
+  cv::imencode(is_jpeg ? ".jpg" : ".png", mat_of(picture), content,
+               is_jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, kJpegQuality}
+                       : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, kPngCompression});
+  base::write_whole_file(file, std::as_bytes(std::span(content)));
+}
+
+std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality) {
+  if (picture.empty()) {
+    throw std::invalid_argument("a picture without pixels cannot be written. Fix: give one.");
+  }
+  std::vector<std::uint8_t> content;
+  cv::imencode(".jpg", mat_of(picture), content, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return content;
+}
+
+Picture reduced(const Picture& picture, int longest_side_px) {
+  const int longest = std::max(picture.width, picture.height);
+  if (longest <= longest_side_px) return picture;
+  const double scale = static_cast<double>(longest_side_px) / longest;
+  Picture smaller = blank_picture(std::max(1, cvRound(picture.width * scale)),
+                                  std::max(1, cvRound(picture.height * scale)));
+  cv::Mat target = mat_of(smaller);
+  cv::resize(mat_of(picture), target, target.size(), 0, 0, cv::INTER_AREA);
+  return smaller;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "vision/picture/picture.h"
+
+namespace repose::vision {
+
+/// Decodes a PNG file's content, upright.
+///
+/// OpenCV would do it too, but lets libpng print to stderr, also for harmless colour profiles.
+/// @throws std::invalid_argument  "what. Fix: ..." when it is damaged, cut short or too large.
+Picture decode_png(std::span<const std::uint8_t> bytes);
+
+}  // namespace repose::vision

@@ -1,0 +1,182 @@
+#include "vision/picture/tiff.h"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <tiffio.h>
+
+#include "vision/picture/claimed_size.h"
+#include "vision/picture/flatten.h"
+#include "vision/picture/upright.h"
+
+namespace repose::vision {
+namespace {
+
+/// What libtiff reads from, and the first error that it reports.
+struct Source {
+  std::span<const std::uint8_t> bytes;
+  std::uint64_t position = 0;
+  std::string error;
+};
+
+Source& source_of(thandle_t handle) { return *static_cast<Source*>(handle); }
+
+tmsize_t on_read(thandle_t handle, void* to, tmsize_t count) {
+  Source& source = source_of(handle);
+  if (source.position >= source.bytes.size()) return 0;
+  const auto rest = source.bytes.subspan(source.position);
+  const std::size_t read = std::min(static_cast<std::size_t>(count), rest.size());
+  std::copy_n(rest.begin(), read, static_cast<std::uint8_t*>(to));
+  source.position += read;
+  return static_cast<tmsize_t>(read);
+}
+
+tmsize_t on_write(thandle_t, void*, tmsize_t) { return 0; }
+
+toff_t on_seek(thandle_t handle, toff_t offset, int whence) {
+  Source& source = source_of(handle);
+  if (whence == SEEK_CUR) offset += source.position;
+  if (whence == SEEK_END) offset += source.bytes.size();
+  return source.position = offset;
+}
+
+int on_close(thandle_t) { return 0; }
+
+toff_t on_size(thandle_t handle) { return source_of(handle).bytes.size(); }
+
+/// Returns 1: nothing more is to be done, above all no printing.
+int on_error(TIFF*, void* user, const char*, const char* format, std::va_list arguments) {
+  auto& error = static_cast<Source*>(user)->error;
+  if (!error.empty()) return 1;
+  char text[200];
+  std::vsnprintf(text, sizeof text, format, arguments);
+  error = text;
+  return 1;
+}
+
+/// Warnings are about unknown tags.
+int on_warning(TIFF*, void*, const char*, const char*, std::va_list) { return 1; }
+
+using File = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
+
+File open(Source& source) {
+  const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(
+      TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), on_error, &source);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), on_warning, nullptr);
+  // "m": no memory mapping, there is no file.
+  return File(TIFFClientOpenExt("picture", "rm", &source, on_read, on_write, on_seek, on_close,
+                                on_size, nullptr, nullptr, options.get()),
+              &TIFFClose);
+}
+
+[[noreturn]] void refuse_damaged(const Source& source) {
+  throw std::invalid_argument(
+      fmt::format("the TIFF is cut short or damaged ({}). Fix: copy it from where it came from "
+                  "again, or save it as PNG.",
+                  source.error.empty() ? "no picture in it" : source.error));
+}
+
+/// A tag of the file, or the value the standard says it has when it is missing.
+template <typename Value>
+Value tag(const File& file, std::uint32_t name, Value missing = 0) {
+  Value value = missing;
+  TIFFGetFieldDefaulted(file.get(), name, &value);
+  return value;
+}
+
+struct Layout {
+  int bits = 0;
+  int channels = 0;
+  std::uint16_t colours = 0;
+  bool is_rows_of_whole_pixels = false;  ///< not tiled, channels not apart
+  bool is_integer = true;
+
+  /// Read sample by sample, which keeps 16 bits and alpha as they are.
+  bool is_plain() const {
+    const bool is_grey = colours == PHOTOMETRIC_MINISBLACK || colours == PHOTOMETRIC_MINISWHITE;
+    const bool fits = (is_grey && channels == 1) ||
+                      (colours == PHOTOMETRIC_RGB && (channels == 3 || channels == 4));
+    return fits && is_rows_of_whole_pixels && (bits == 8 || bits == 16);
+  }
+};
+
+Layout layout_of(const File& file) {
+  const auto sample_format = tag<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+  return {
+      .bits = tag<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE),
+      .channels = tag<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL),
+      .colours = tag<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK),
+      .is_rows_of_whole_pixels =
+          !TIFFIsTiled(file.get()) &&
+          tag<std::uint16_t>(file, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_CONTIG,
+      .is_integer = sample_format == SAMPLEFORMAT_UINT,
+  };
+}
+
+cv::Mat read_plain(const File& file, const Source& source, const Layout& layout, cv::Size size) {
+  const int depth = layout.bits == 16 ? CV_16U : CV_8U;
+  cv::Mat samples(size, CV_MAKETYPE(depth, layout.channels));
+  for (int y = 0; y < size.height; ++y) {
+    if (TIFFReadScanline(file.get(), samples.ptr(y), static_cast<std::uint32_t>(y)) < 0) {
+      refuse_damaged(source);
+    }
+  }
+  if (layout.colours == PHOTOMETRIC_MINISWHITE) cv::bitwise_not(samples, samples);
+  if (layout.channels == 3) cv::cvtColor(samples, samples, cv::COLOR_RGB2BGR);
+  if (layout.channels == 4) cv::cvtColor(samples, samples, cv::COLOR_RGBA2BGRA);
+  return samples;
+}
+
+/// Everything else through libtiff's own conversion to 8 bits. It multiplies the colours by alpha,
+/// so dropping alpha lays them over black.
+cv::Mat read_converted(const File& file, const Source& source, cv::Size size, int orientation) {
+  char why_not[1024];
+  if (!TIFFRGBAImageOK(file.get(), why_not)) {
+    throw std::invalid_argument(
+        fmt::format("this kind of TIFF is not read ({}). Fix: save it as PNG.", why_not));
+  }
+  cv::Mat rgba(size, CV_8UC4);
+  constexpr int kStopAtErrors = 1;
+  // Asked for as it is stored: libtiff does not turn pictures that lie on a side.
+  if (!TIFFReadRGBAImageOriented(file.get(), static_cast<std::uint32_t>(size.width),
+                                 static_cast<std::uint32_t>(size.height), rgba.ptr<std::uint32_t>(),
+                                 orientation, kStopAtErrors)) {
+    refuse_damaged(source);
+  }
+  cv::Mat bgr;
+  cv::cvtColor(rgba, bgr, cv::COLOR_RGBA2BGR);
+  return bgr;
+}
+
+}  // namespace
+
+Picture decode_tiff(std::span<const std::uint8_t> bytes) {
+  Source source{.bytes = bytes, .position = 0, .error = {}};
+  const File file = open(source);
+  if (!file) refuse_damaged(source);
+  const auto width = tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
+  const auto height = tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
+  check_claimed_size(width, height);
+  const Layout layout = layout_of(file);
+  if (!layout.is_integer || layout.bits > 16) {
+    throw std::invalid_argument(
+        fmt::format("a TIFF of {}-bit {} samples is not read. Fix: save it with 8 or 16 bits.",
+                    layout.bits, layout.is_integer ? "whole" : "signed or floating-point"));
+  }
+  const cv::Size size(static_cast<int>(width), static_cast<int>(height));
+  const int orientation = tag<std::uint16_t>(file, TIFFTAG_ORIENTATION, kUprightOrientation);
+  const cv::Mat samples = layout.is_plain() ? read_plain(file, source, layout, size)
+                                            : read_converted(file, source, size, orientation);
+  return turned_upright(flatten(samples), orientation);
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,52 @@
+#include "vision/picture/webp.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include <opencv2/core/mat.hpp>
+#include <webp/decode.h>
+#include <webp/demux.h>
+
+#include "vision/picture/claimed_size.h"
+#include "vision/picture/flatten.h"
+#include "vision/picture/upright.h"
+
+namespace repose::vision {
+namespace {
+
+int orientation_of(std::span<const std::uint8_t> bytes) {
+  const WebPData data{bytes.data(), bytes.size()};
+  const std::unique_ptr<WebPDemuxer, decltype(&WebPDemuxDelete)> demuxer(WebPDemux(&data),
+                                                                         &WebPDemuxDelete);
+  WebPChunkIterator chunk;
+  if (!demuxer || !WebPDemuxGetChunk(demuxer.get(), "EXIF", 1, &chunk)) return kUprightOrientation;
+  const int orientation = exif_block_orientation({chunk.chunk.bytes, chunk.chunk.size});
+  WebPDemuxReleaseChunkIterator(&chunk);
+  return orientation;
+}
+
+[[noreturn]] void refuse_damaged() {
+  throw std::invalid_argument(
+      "the WebP is cut short or damaged. Fix: copy it from where it came from again.");
+}
+
+}  // namespace
+
+Picture decode_webp(std::span<const std::uint8_t> bytes) {
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) refuse_damaged();
+  if (features.has_animation) {
+    throw std::invalid_argument("is a moving picture. Fix: save one frame as PNG.");
+  }
+  check_claimed_size(features.width, features.height);
+
+  cv::Mat samples(features.height, features.width, features.has_alpha ? CV_8UC4 : CV_8UC3);
+  const auto decode = features.has_alpha ? WebPDecodeBGRAInto : WebPDecodeBGRInto;
+  if (!decode(bytes.data(), bytes.size(), samples.data, samples.total() * samples.elemSize(),
+              static_cast<int>(samples.step))) {
+    refuse_damaged();
+  }
+  return turned_upright(flatten(samples), orientation_of(bytes));
+}
+
+}  // namespace repose::vision
