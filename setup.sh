@@ -3,8 +3,9 @@
 #
 #   ./setup.sh [--tests] [PRESET [TARGET]...]
 #
-#   --tests   also install what only the tests need: clang-format, clang-tidy, MPI, Chromium
-#   PRESET    release (default), dev or sanitize
+#   --tests   also install what only the tests need, and build them: GoogleTest, clang-format,
+#             clang-tidy, a compiler cache, MPI, Chromium
+#   PRESET    release (default), dev, sanitize or thread
 #   TARGET    build only this, not everything
 #
 # Started again it only looks whether something is to be done. It reports to stderr, a line a step.
@@ -16,14 +17,15 @@ needed="g++ cmake ninja-build pkg-config
   libassimp-dev libtomlplusplus-dev libpugixml-dev
   libosmesa6-dev libmeshoptimizer-dev libgif-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev libcsv-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core
-  libgtest-dev libgmock-dev libbenchmark-dev"
+  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core"
 # Whoever has npm from elsewhere need not have Debian's.
 command -v npm >/dev/null || needed="$needed npm"
 node_packages=calibrate/report
+tests=OFF
 if [ "${1-}" = --tests ]; then
-  needed="$needed clang-format-14 clang-tidy-22 libopenmpi-dev openmpi-bin chromium
-    python3-jsonschema"
+  needed="$needed libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-22 ccache
+    libopenmpi-dev openmpi-bin chromium python3-jsonschema"
+  tests=ON
   node_packages="$node_packages tests/report"
   shift
 fi
@@ -105,10 +107,16 @@ for folder in $node_packages; do
   touch -- "$folder/node_modules/.package-lock.json"
 done
 build=build/$preset
-# Once configured, Ninja itself sees when CMake must run again, but for a change in the presets and
-# for packages that were missing before.
-if [ -n "$installed" ] || [ ! "$build/build.ninja" -nt CMakePresets.json ]; then
-  step "configuring $build" cmake --preset "$preset"
+# Once configured, Ninja itself sees when CMake must run again, but for a change in the presets, for
+# tests that were not asked for before, and for packages that were missing: what was looked for in
+# vain is not looked for again, so that the last needs a fresh start.
+fresh=
+[ -z "$installed" ] || fresh=--fresh
+is_built_with_tests() { grep -q '^REPOSE_TESTS:BOOL=ON' "$build/CMakeCache.txt" 2>/dev/null; }
+if [ -n "$fresh" ] || [ ! "$build/build.ninja" -nt CMakePresets.json ] ||
+  { [ $tests = ON ] && ! is_built_with_tests; }; then
+  if is_built_with_tests; then tests=ON; fi
+  step "configuring $build" cmake --preset "$preset" $fresh -DREPOSE_TESTS=$tests
 fi
 if [ $# -gt 0 ]; then set -- --target "$@"; fi
 first_time=
