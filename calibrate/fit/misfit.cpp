@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/core.h>
 
+#include "base/distributions.h"
 #include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
@@ -59,8 +59,7 @@ std::string too_few(const Observable& observable, std::size_t readings,
 
 double few_readings_factor(const Observable& observable) {
   if (!observable.sd) return 1;
-  const boost::math::students_t student(observable.n - 1);
-  return quantile(student, .975) / kNormal95;
+  return base::student_t_quantile(.975, observable.n - 1) / kNormal95;
 }
 
 Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,

@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/core.h>
 
+#include "base/distributions.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
@@ -132,9 +132,8 @@ Verification verify(const Problem& problem, const std::vector<double>& values,
         std::hypot(agreement.measured_uncertainty, agreement.simulated_uncertainty);
     bool within = false;
     if (std::isfinite(agreement.difference_sigma)) {
-      const boost::math::students_t student(
-          degrees_of_freedom(observable, agreement, of_simulated));
-      within = std::abs(agreement.difference_sigma) <= quantile(student, level);
+      const double df = degrees_of_freedom(observable, agreement, of_simulated);
+      within = std::abs(agreement.difference_sigma) <= base::student_t_quantile(level, df);
     }
     verification.agrees = verification.agrees && within;
     verification.observables.push_back(agreement);

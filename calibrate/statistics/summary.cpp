@@ -4,7 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <boost/math/distributions/students_t.hpp>
+#include "base/distributions.h"
 
 namespace repose::calibrate {
 
@@ -22,7 +22,7 @@ Summary summarise(std::span<const double> values) {
   double squares = 0;
   for (const double value : values) squares += (value - repeats.mean) * (value - repeats.mean);
   repeats.sd = std::sqrt(squares / (n - 1));
-  const double t = quantile(boost::math::students_t(n - 1), 0.975);
+  const double t = base::student_t_quantile(.975, n - 1);
   repeats.mean_uncertainty = t * *repeats.sd / std::sqrt(n);
   return repeats;
 }

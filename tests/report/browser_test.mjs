@@ -45,59 +45,78 @@ const makeReports = (folder) => {
 const open = async (browser, file, width) => {
   const page = await browser.newPage();
   page.setDefaultTimeout(kPatience_ms);
-  const faults = [];
-  page.on('console', (message) => { if (message.type() === 'error') faults.push(`console: ${message.text()}`); });
-  page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+  const errors = [];
+  page.on('console', (message) => { if (message.type() === 'error') errors.push(`console: ${message.text()}`); });
+  page.on('pageerror', (error) => errors.push(`error: ${error.message}`));
   page.on('request', (request) => {
     const url = request.url();
-    if (!url.startsWith('data:') && !url.startsWith('blob:') && url !== pathToFileURL(file).href) faults.push(`request: ${url.slice(0, 200)}`);
+    if (!url.startsWith('data:') && !url.startsWith('blob:') && url !== pathToFileURL(file).href) errors.push(`request: ${url.slice(0, 200)}`);
   });
   await page.setViewport({width, height: 900});
   const start = Date.now();
   await page.goto(pathToFileURL(file).href);
   console.log(`${file} at ${width} px: loaded in ${Date.now() - start} ms`);
   await page.waitForFunction(() => [...document.querySelectorAll('.chart')].every(({dataset}) => dataset.state === 'drawn'));
-  return {page, faults};
+  return {page, errors};
 };
 
 // What is wrong with the charts of a page, a line each.
-const chartFaults = (page) => page.evaluate(() => {
-  const faults = [];
+const chartErrors = (page) => page.evaluate(() => {
+  const errors = [];
   for (const figure of document.querySelectorAll('.chart')) {
     const name = figure.dataset.chart ?? figure.id, plot = figure.querySelector('.plot');
     const canvas = plot.querySelector('canvas');
     const marks = plot.querySelectorAll('.scatterlayer path, .contourlayer path').length;
-    if (!canvas && marks === 0) faults.push(`${name}: nothing is drawn`);
-    if (canvas && !(canvas.width > 0 && canvas.height > 0)) faults.push(`${name}: its canvas is empty`);
-    if (!plot.getAttribute('aria-label')) faults.push(`${name}: no label`);
+    if (!canvas && marks === 0) errors.push(`${name}: nothing is drawn`);
+    if (canvas && !(canvas.width > 0 && canvas.height > 0)) errors.push(`${name}: its canvas is empty`);
+    if (!plot.getAttribute('aria-label')) errors.push(`${name}: no label`);
     const frame = plot.getBoundingClientRect();
     for (const text of plot.querySelectorAll('.xtitle, .ytitle, .legendtext, .xtick text, .ytick text')) {
       const box = text.getBoundingClientRect();
       const slack = 2;
       if (box.width > 0 && (box.left < frame.left - slack || box.right > frame.right + slack || box.top < frame.top - slack || box.bottom > frame.bottom + slack)) {
-        faults.push(`${name}: “${text.textContent}” leaves the chart`);
+        errors.push(`${name}: “${text.textContent}” leaves the chart`);
       }
     }
     const below = [...plot.querySelectorAll('.xtitle')].map((text) => text.getBoundingClientRect().bottom);
     const legend = plot.querySelector('.legend')?.getBoundingClientRect();
-    if (legend && below.some((bottom) => bottom > legend.top + 3)) faults.push(`${name}: the legend hides the axis title`);
+    if (legend && below.some((bottom) => bottom > legend.top + 3)) errors.push(`${name}: the legend hides the axis title`);
   }
-  return faults;
+  return errors;
 });
 
-const checkPage = async (page, faults) => {
-  assert.deepEqual(await chartFaults(page), []);
+const checkPage = async (page, errors) => {
+  assert.deepEqual(await chartErrors(page), []);
   assert.equal(await page.evaluate(() => window.hacked), undefined, 'a name became a script');
   assert.equal(await page.evaluate(() => document.querySelectorAll('main script, main img[src=x], main b b').length), 0);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false, 'the page is wider than the screen');
   assert.deepEqual(await page.evaluate(() => [...document.images].filter((image) => !image.alt || (image.getAttribute('src') && !image.naturalWidth)).length), 0, 'a picture lacks its text or does not open');
-  assert.deepEqual(faults, []);
+  assert.deepEqual(errors, []);
 };
 
 const click = (page, figure, text) => page.evaluate((id, wanted) => {
   const button = [...document.querySelectorAll(`${id} button`)].find(({textContent}) => textContent === wanted);
   button.click();
 }, figure, text);
+
+// A mark that can be hit: in sight, and where it was for half a second, with every chart drawn. Charts
+// above it that are drawn anew move it.
+const inPlace = async (page, mark) => {
+  await mark.evaluate((element) => element.scrollIntoView({block: 'center', behavior: 'instant'}));
+  const place = () => mark.evaluate((element) => {
+    const drawn = [...document.querySelectorAll('.chart')].every(({dataset}) => dataset.state === 'drawn');
+    const {left, top} = element.getBoundingClientRect();
+    return drawn ? `${left} ${top}` : '';
+  });
+  const kLooks = 5, kBetween_ms = 100;
+  for (let last = '', looks = 0, start = Date.now(); looks < kLooks; ) {
+    assert.ok(Date.now() - start < kPatience_ms, 'the page does not come to rest');
+    const now = await place();
+    looks = now && now === last ? looks + 1 : 0;
+    last = now;
+    await new Promise((resolve) => { setTimeout(resolve, kBetween_ms); });
+  }
+};
 
 const checkInteraction = async (page) => {
   const camera = () => page.evaluate(() => JSON.stringify(document.querySelector('#chart-heap .plot').layout.scene.camera));
@@ -119,7 +138,7 @@ const checkInteraction = async (page) => {
   await page.waitForFunction((z) => JSON.stringify(document.querySelector('#surface-viewer .plot').data[0].z) !== z, {}, old);
 
   const toggle = await page.$(`${first} .legendtoggle`);
-  await toggle.evaluate((mark) => mark.scrollIntoView({block: 'center'}));
+  await inPlace(page, toggle);
   await toggle.click();
   await page.waitForFunction((id) => document.querySelector(`${id} .plot`).data.some(({visible}) => visible === 'legendonly'), {}, first);
 };
@@ -132,12 +151,12 @@ try {
   for (const file of reports) {
     assert.ok(statSync(file).size <= 12 * kMegabyte, `${file}: ${statSync(file).size} bytes`);
     for (const width of [1280, 390]) {
-      const {page, faults} = await open(browser, file, width);
-      await checkPage(page, faults);
+      const {page, errors} = await open(browser, file, width);
+      await checkPage(page, errors);
       if (file === reports[0] && width === 1280) {
         await checkInteraction(page);
         await page.pdf({preferCSSPageSize: true, printBackground: true, timeout: kPatience_ms});
-        assert.deepEqual(faults, []);
+        assert.deepEqual(errors, []);
       }
       await page.close();
     }

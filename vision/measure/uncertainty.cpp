@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <boost/math/distributions/students_t.hpp>
+#include "base/distributions.h"
 
 namespace repose::vision {
 namespace {
@@ -14,8 +14,7 @@ constexpr double kFloor_rad = 0.06 * std::numbers::pi / 180;
 constexpr double kWindowFraction = 0.5;
 
 double student_95(double degrees_of_freedom) {
-  const boost::math::students_t student(std::max(1.0, degrees_of_freedom));
-  return boost::math::quantile(student, 0.975);
+  return base::student_t_quantile(.975, std::max(1.0, degrees_of_freedom));
 }
 
 double grains_95(const FlankFit& flank) {

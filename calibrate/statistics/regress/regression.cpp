@@ -5,11 +5,10 @@
 #include <map>
 
 #include <Eigen/QR>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/distributions.h"
 #include "base/error_list.h"
 #include "calibrate/statistics/regress/quadratic.h"
 
@@ -134,7 +133,7 @@ void check_rank(const RunTable& table, const Regression& regression,
 void test_against(Variance& variance, const Variance& error, bool is_testable) {
   if (!is_testable || variance.df < 1) return;
   variance.f = variance.mean_square() / error.mean_square();
-  variance.p = cdf(complement(boost::math::fisher_f(variance.df, error.df), *variance.f));
+  variance.p = base::fisher_f_above(*variance.f, variance.df, error.df);
 }
 
 /// Residual = lack of fit + pure error. Montgomery, sec. 11.2: runs with equal levels can differ
@@ -232,9 +231,8 @@ void set_tests(Regression& regression, const Decomposition& decomposition) {
       decomposition.scale.asDiagonal() * (decomposition.qr.colsPermutation() * inverse_r);
   const MatrixXd inverse_normal = unscaled * unscaled.transpose();
   const double variance = regression.residual.mean_square();
-  const boost::math::students_t student(regression.residual.df);
-  constexpr double kUpper = .975;
-  regression.student_t = quantile(student, kUpper);
+  const int df = regression.residual.df;
+  regression.student_t = base::student_t_quantile(.975, df);
   std::vector<std::vector<Index>> of_factor(regression.factors.size());
   for (Index k = 0; k < terms; ++k) {
     Coefficient& coefficient = regression.coefficients[static_cast<std::size_t>(k)];
@@ -244,7 +242,7 @@ void set_tests(Regression& regression, const Decomposition& decomposition) {
     coefficient.partial = loss_without(regression, {k}, inverse_normal);
     if (!regression.is_exact) {
       coefficient.t = coefficient.value / coefficient.standard_error;
-      coefficient.p = 2 * cdf(complement(student, std::abs(*coefficient.t)));
+      coefficient.p = 2 * base::student_t_above(std::abs(*coefficient.t), df);
     }
     for (std::size_t i = 0; i < of_factor.size(); ++i) {
       const Term& term = coefficient.term;
