@@ -8,7 +8,7 @@
 #   PRESET    release (default), dev, sanitize or thread
 #   TARGET    build only this, not everything
 #
-# Started again it only looks whether something is to be done. It reports to stderr, a line a step.
+# Started again it only checks whether there is something to do. It reports to stderr, one line a step.
 set -eu
 
 root=$(dirname -- "$(readlink -f -- "$0")")
@@ -18,7 +18,7 @@ needed="g++ cmake ninja-build pkg-config
   libosmesa6-dev libmeshoptimizer-dev libgif-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev libcsv-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core"
-# Whoever has npm from elsewhere need not have Debian's.
+# npm may also come from elsewhere than Debian.
 command -v npm >/dev/null || needed="$needed npm"
 node_packages=calibrate/report
 tests=OFF
@@ -78,7 +78,7 @@ install_packages() {
     fi
   fi
   say "installing$1"
-  apt update || say "the list of packages could not be renewed; going on with the one that is here"
+  apt update || say "the list of packages could not be updated; continuing with the present one"
   if ! apt install -y --no-install-recommends $1; then
     tail -n 30 "$log" >&2
     say "the packages could not be installed. Fix: see the lines above, then start this again"
@@ -94,7 +94,7 @@ if command -v dpkg-query >/dev/null; then
     installed=yes
   fi
 else
-  say "not Debian: going on with the compiler, CMake, Ninja and libraries that are here (README.md" \
+  say "not Debian: using the compiler, CMake, Ninja and libraries that are installed (docs/building.md" \
     "lists them)"
 fi
 
@@ -121,5 +121,5 @@ fi
 if [ $# -gt 0 ]; then set -- --target "$@"; fi
 first_time=
 [ -e "$build/.ninja_log" ] || first_time=" (this takes some minutes the first time)"
-# -k 0: a failing build names every fault, not only the first.
+# -k 0: a failing build names every error, not only the first.
 step "building $build$first_time" cmake --build "$build" --parallel "$(nproc)" "$@" -- -k 0

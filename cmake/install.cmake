@@ -18,6 +18,7 @@ foreach(module base vision dem render calibrate)
 endforeach()
 install(TARGETS repose_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(cmake/reposeConfig.cmake.in reposeConfig.cmake
   INSTALL_DESTINATION ${package_folder})
