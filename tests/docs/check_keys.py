@@ -1,0 +1,127 @@
+"""Keys of the program's JSON and of study files are documented: check_keys.py REPOSE"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import documents
+import workplace
+
+# Objects whose keys are names of factors, coefficients, observables or experiments.
+OPEN = {"levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated",
+        "stiffness_factor", "shortest_timestep_s"}
+# Commands by the heading in json.md under which their output is described. (repose verify is left out:
+# it takes long.)
+OUTPUTS = {
+    "measure": ["measure photos --json - --threads 2"],
+    "measure#summary": ["measure photos --summary -"],
+    "compare": ["compare photo.jpg render.png --json -"],
+    "shape": ["shape --size-mm 20,18,17 --density-kg-m3 900 --json -"],
+    "simulate": [f"simulate {name} study.toml --repeats 2 --json -" for name in ("drop", "roll", "tilt")]
+    + ["simulate heap study.toml --views 2 --json -"],
+    "render": ["render state/heap_seed_1.vtp --size 640,360 --out heap.png --truth -"],
+    "bench": ["bench sliding --set angle_deg=22.1,22.9 --json -"],
+    "regress": ["regress runs.csv --response angle_deg --target 23 --json -"],
+    "export": ["export hazelnut --to edem --json -"],
+    "calibrate": ["calibrate study.toml --out hazelnut --json -"],
+}
+SECTIONS = ["particle", "wall", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
+            "experiment", "experiment.drop", "experiment.tilt", "experiment.roll", "experiment.heap",
+            "experiment.heap.measured", "experiment.heap.also_measured",
+            "experiment.drop.also_measured", "simulation"]
+
+
+def keys_in(value):
+    """All keys of a JSON value but those of open objects."""
+    if isinstance(value, list):
+        for item in value:
+            yield from keys_in(item)
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            yield key
+            if key not in OPEN or not isinstance(item, dict):
+                yield from keys_in(item)
+
+
+def keys_of_schema(part):
+    """All keys that a JSON Schema knows."""
+    if isinstance(part, dict):
+        if isinstance(part.get("properties"), dict):
+            yield from part["properties"]
+        part = list(part.values())
+    if isinstance(part, list):
+        for item in part:
+            yield from keys_of_schema(item)
+
+
+def words_under(document, heading=None):
+    """All words in code spans and headings, below one heading or everywhere."""
+    words = set()
+    is_there = heading is None
+    for line in document.lines:
+        found = documents.HEADING.match(line.text)
+        if found and heading is not None and line.text.startswith("## "):
+            is_there = documents.anchor_of(found[1]) == heading
+        if is_there:
+            if found:
+                words.update(re.findall(r"\w+", found[1]))
+            for span in documents.SPAN.findall(line.text):
+                words.update(re.findall(r"\w+", span))
+    return words
+
+
+def errors_of_outputs(document, folder, repose):
+    for output, commands in OUTPUTS.items():
+        heading = output.partition("#")[0]
+        known = words_under(document, heading)
+        if heading == "calibrate":
+            known |= words_under(document, "regress") | words_under(document, "simulate")
+        for command in commands:
+            done = subprocess.run([repose, *command.split()], cwd=folder, capture_output=True, text=True)
+            if done.returncode != 0:
+                yield f"repose {command}: exit code {done.returncode}\n{done.stderr}"
+                continue
+            for key in sorted(set(keys_in(json.loads(done.stdout))) - known):
+                yield f"{document.name}: ## {heading} does not explain {key}, written by repose {command}"
+
+
+def errors_of_schema(document, root):
+    schema = json.loads((root / "calibrate/report/result.schema.json").read_text(encoding="utf-8"))
+    known = words_under(document, "calibrate") | words_under(document, "regress")
+    for key in sorted(set(keys_of_schema(schema)) - known):
+        yield f"{document.name}: ## calibrate does not explain {key} of result.schema.json"
+
+
+def errors_of_studies(document, folder, repose):
+    """The program lists the keys of a section when one is not among them."""
+    words = words_under(document)
+    settings = [word for section in SECTIONS for word in ("--set", f"{section}.unheard_of=1")]
+    done = subprocess.run([repose, "simulate", "drop", "study.toml", *settings], cwd=folder,
+                          capture_output=True, text=True)
+    listed = dict(re.findall(r"keys of \[([\w.]*)\] are ([\w, ]+)", done.stderr))
+    for section in SECTIONS:
+        if section not in listed:
+            yield f"repose does not list the keys of [{section}]: {done.stderr}"
+            continue
+        for key in sorted(set(re.findall(r"\w+", listed[section])) - words):
+            yield f"{document.name}: {key} of [{section}] is not explained"
+
+
+def main(repose):
+    root = documents.root_folder()
+    texts = {document.name: document for document in documents.user_documents(root)}
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        workplace.prepare(folder, root, repose)
+        subprocess.run([repose, *"simulate heap study.toml --views 0 --out state".split()],
+                       cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        errors = [*errors_of_outputs(texts["docs/json.md"], folder, repose),
+                  *errors_of_schema(texts["docs/json.md"], root),
+                  *errors_of_studies(texts["docs/study-file.md"], folder, repose)]
+    documents.finish(errors, f"{len(OUTPUTS)} outputs and {len(SECTIONS)} sections of a study")
+
+
+main(*sys.argv[1:])

@@ -1,0 +1,102 @@
+"""The files that the documents' commands read, in a folder of their own."""
+
+import math
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import zlib
+
+PHOTOGRAPHS = {"heap_01.jpg": "heap_01.jpg", "heap_02.jpg": "heap_02.jpg",
+               "photo.jpg": "heap_02.jpg", "my_heap.jpg": "heap_03.jpg"}
+
+DROPS = "drop_mm,rebound_mm\n500,9.1\n500,9.6\n500,9.4\n"
+
+# Angles of a plane with some scatter over two factors, five levels each in part.
+RUNS = """mu_s,mu_r,angle_deg
+.1,.01,18.1
+.1,.05,21.9
+.3,.01,24.2
+.3,.05,28.3
+.2,.03,23.2
+.2,.03,22.9
+.2,.01,21.1
+.2,.05,25.0
+.1,.03,20.2
+.3,.03,26.1
+"""
+
+
+def ellipsoid(half_axes_mm, rings=16, sectors=24):
+    """A closed surface of triangles, each three corners."""
+    def point(ring, sector):
+        polar, azimuth = math.pi * ring / rings, 2 * math.pi * (sector % sectors) / sectors
+        if ring in (0, rings):
+            return (0.0, 0.0, half_axes_mm[2] * (1 if ring == 0 else -1))
+        return (half_axes_mm[0] * math.sin(polar) * math.cos(azimuth),
+                half_axes_mm[1] * math.sin(polar) * math.sin(azimuth),
+                half_axes_mm[2] * math.cos(polar))
+
+    for ring in range(rings):
+        for sector in range(sectors):
+            a, b = point(ring, sector), point(ring + 1, sector)
+            c, d = point(ring + 1, sector + 1), point(ring, sector + 1)
+            if ring < rings - 1:
+                yield a, b, c
+            if ring > 0:
+                yield a, c, d
+
+
+def stl_of(triangles):
+    lines = ["solid nut"]
+    for corners in triangles:
+        lines += ["facet normal 0 0 0", "outer loop"]
+        lines += [f"vertex {x:.6f} {y:.6f} {z:.6f}" for x, y, z in corners]
+        lines += ["endloop", "endfacet"]
+    return "\n".join([*lines, "endsolid nut", ""])
+
+
+def silhouette_png(width=960, height=640, slope=0.45):
+    """A black heap with straight flanks on white, as repose render draws them."""
+    foot = height - 120
+    top = foot - int(0.4 * width * slope)
+    rows = bytearray()
+    for y in range(height):
+        half = int((y - top) / slope) if top <= y < foot else 0
+        white = width // 2 - half
+        rows += b"\0" + b"\xff" * white + b"\0" * (2 * half) + b"\xff" * (width - white - 2 * half)
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
+            + chunk(b"IDAT", zlib.compress(bytes(rows))) + chunk(b"IEND", b""))
+
+
+def environment(repose):
+    """In which `repose` is the program under test."""
+    folder = str(pathlib.Path(repose).resolve().parent)
+    return {**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]}
+
+
+def prepare(folder, root, repose):
+    """Fills a folder with a sample of all that the documents name as input."""
+    samples = root / "samples"
+    (folder / "samples").symlink_to(samples)
+    (folder / "photos").mkdir()
+    for name in ("heap_01.jpg", "heap_02.jpg"):
+        shutil.copy(samples / "hazelnut/photos" / name, folder / "photos" / name)
+    for name, photograph in PHOTOGRAPHS.items():
+        shutil.copy(samples / "hazelnut/photos" / photograph, folder / name)
+    study = pathlib.Path(__file__).with_name("study.toml").read_text(encoding="utf-8")
+    for name in ("study.toml", "my_study.toml"):
+        (folder / name).write_text(study, encoding="utf-8")
+    (folder / "nut.stl").write_text(stl_of(ellipsoid((11.2, 9.1, 8.7))), encoding="utf-8")
+    (folder / "render.png").write_bytes(silhouette_png())
+    (folder / "drops.csv").write_text(DROPS, encoding="utf-8")
+    (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
+    for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):
+        subprocess.run([repose, "calibrate", name, "--out", out], cwd=folder, check=True,
+                       stdout=subprocess.DEVNULL)
