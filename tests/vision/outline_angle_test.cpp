@@ -119,6 +119,12 @@ TEST(OutlineAngle, TheFootOfALayerIsNearItsEnd) {
   EXPECT_NEAR(angle.right->foot, 700, 3);
 }
 
+TEST(OutlineAngle, ALevelTopIsNoFlank) {
+  const OutlineAngle angle = measure_outline(
+      outline_of([](double along) { return std::max(0.0, 20 - .018 * std::abs(along - 350)); }));
+  EXPECT_FALSE(angle.left || angle.right);
+}
+
 TEST(OutlineAngle, FewPointsHaveNoFlank) {
   EXPECT_FALSE(measure_outline({.along = {0}, .height = {1}}).angle_rad());
   EXPECT_FALSE(measure_outline({.along = {0, 1, 2}, .height = {1, 2, 1}}).angle_rad());

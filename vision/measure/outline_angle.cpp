@@ -73,9 +73,9 @@ std::optional<OutlineFlank> flank_of(const Profile& profile, Side side, double s
   const FlankFit fit = fit_flank(profile, side, options);
   if (fit.status != FlankStatus::ok) return std::nullopt;
   const LineFit& line = fit.shown;
-  if (line.slope >= 0 || line.intercept > kHighestAtCrest * profile.crest_height) {
-    return std::nullopt;
-  }
+  const bool is_level = line.slope >= -kFlattestSlope;
+  const bool is_plateau = line.intercept > kHighestAtCrest * profile.crest_height;
+  if (is_level || is_plateau) return std::nullopt;
   const double end = side == Side::left ? profile.along.front() : profile.along.back();
   const double reach = std::abs(end - profile.along[profile.crest]);
   const double foot = std::min(-line.intercept / line.slope, kFarthestFoot * reach);

@@ -35,9 +35,10 @@ struct OutlineAngle {
 };
 
 /// The angle of a heap by the rules that pictures are measured with: crest, window, apron and line
-/// are those of measure_repose_angle(). Two rules are added, for an outline that nobody looks at:
-/// a line that does not fall is no flank, nor is one that would meet the crest's axis higher than
-/// three times the crest, which is the edge of a plateau, such as the outermost grain of a layer.
+/// are those of measure_repose_angle(). Its verdict on what was seen is replaced by two rules: a
+/// line that falls less than 1 in 50 is no flank but a layer's top, nor is one that would meet the
+/// crest's axis higher than three times the crest, which is the edge of a plateau, such as the
+/// outermost grain of a layer.
 /// Proved by OutlineAngle.* in tests/vision/outline_angle_test.cpp.
 /// @throws std::invalid_argument  no points, not as many heights as places, places that do not
 ///   ascend, numbers that are not finite, or a window that MeasureOptions refuses.
