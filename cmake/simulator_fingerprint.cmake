@@ -4,7 +4,8 @@ file(GLOB_RECURSE simulator_sources CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/dem/*.cpp ${PROJECT_SOURCE_DIR}/dem/*.h
   ${PROJECT_SOURCE_DIR}/render/*.cpp ${PROJECT_SOURCE_DIR}/render/*.h
   ${PROJECT_SOURCE_DIR}/vision/*.cpp ${PROJECT_SOURCE_DIR}/vision/*.h
-  ${PROJECT_SOURCE_DIR}/calibrate/study/heap_views.*)
+  ${PROJECT_SOURCE_DIR}/calibrate/study/heap_views.*
+  ${PROJECT_SOURCE_DIR}/calibrate/study/position_angle.*)
 list(SORT simulator_sources)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${simulator_sources})
 set(simulator_hashes "")

@@ -13,6 +13,7 @@
 #include "base/fingerprint.h"
 #include "calibrate/study/coefficients.h"
 #include "calibrate/study/heap_views.h"
+#include "calibrate/study/position_angle.h"
 #include "dem/contact/rolling_name.h"
 #include "dem/engine/unstable_run.h"
 #include "dem/state/state_file.h"
@@ -74,7 +75,9 @@ dem::Repeat run_experiment(const dem::Study& study, const dem::Model& model,
     case dem::Experiment::heap:
       break;
   }
-  return run_heap(model, *study.heap, seed, report);
+  dem::Repeat heap = run_heap(model, *study.heap, seed, report);
+  add_position_angle(heap);
+  return heap;
 }
 
 /// A reading that does not exist is not there, never NaN.

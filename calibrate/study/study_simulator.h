@@ -24,11 +24,12 @@ struct SimulatedJob {
 
 /// Turns jobs into readings: the study's bench with a job's coefficients.
 ///
-/// A heap has, beside the readings of dem::HeapProtocol, "angle_from_positions_deg",
-/// "angle_from_pictures_deg" (where a view could be measured), "sd_between_views_deg" and
-/// "views_measured"; its value is the angle from pictures where at least half of the views could be
-/// measured ("from_pictures" 1), else that from positions. Where not all of the study's grains fit
-/// into the tube with a job's friction, the heap is of those that do ("grains").
+/// A heap has, beside the readings of dem::HeapProtocol and add_position_angle(),
+/// "angle_from_positions_deg", "angle_from_pictures_deg" (where a view could be measured),
+/// "sd_between_views_deg" and "views_measured"; its value is the angle from pictures where at least
+/// half of the views could be measured ("from_pictures" 1), else that from positions. Where not all
+/// of the study's grains fit into the tube with a job's friction, the heap is of those that do
+/// ("grains").
 class StudySimulator {
  public:
   /// @param names  of Problem::parameters, in their order

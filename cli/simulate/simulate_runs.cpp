@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "calibrate/study/position_angle.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/simulate/simulate_progress.h"
 #include "cli/simulate/simulate_saved.h"
@@ -137,8 +138,11 @@ class Batch {
       case dem::Experiment::heap:
         break;
     }
-    if (saved) return resume_heap(model_, *plan_.study.heap, seed, saved->from, report, record);
-    return run_heap(model_, *plan_.study.heap, seed, report, record);
+    const dem::HeapProtocol& protocol = *plan_.study.heap;
+    dem::Repeat heap = saved ? resume_heap(model_, protocol, seed, saved->from, report, record)
+                             : run_heap(model_, protocol, seed, report, record);
+    calibrate::add_position_angle(heap);
+    return heap;
   }
 
   const SimulatePlan& plan_;

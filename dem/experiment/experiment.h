@@ -7,9 +7,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "dem/contact/material.h"
 #include "dem/engine/simulation.h"
+#include "dem/experiment/heap_envelope.h"
 #include "dem/experiment/heap_progress.h"
 #include "dem/shape/clump/clump_shape.h"
 
@@ -82,15 +84,12 @@ struct RollProtocol {
 
 /// A tube filled with grains and lifted off a plate.
 ///
-/// Value: the heap's angle as measure_surface() defines it (surface_profile.h), degrees. Grains
-/// that spread in a layer too low to be a heap (below 2.5 grain diameters) have the reading
-/// "no_heap" 1; the value is then that layer's own small angle, or 0 if it has none. Readings:
-/// "grains" (when the lift began), "grains_on_plate", "grains_off_plate", "height_mm",
-/// "base_radius_mm", "between_views_deg" (scatter between directions), "angle_xz_deg" (seen along
-/// y), "inner_window_deg" (as the value, but fitted from 30 to 70 % of the height instead of 20 to
-/// 80: low heaps are hollow at the foot, and the stretch moves their angle), "no_heap", "at_rest"
-/// (0: still creeping 5 s after the tube was away, as constant torques let heaps do), "time_s" (of
-/// lift and settling). Throws NoReading when the grains stay in the tube or leave the plate.
+/// The result is `Repeat::envelopes`, the heap's outline from all around: a line through them gives
+/// its angle, and there is no value yet. Readings: "grains" (when the lift began),
+/// "grains_on_plate", "grains_off_plate", "height_mm", "no_heap" (1: the grains spread in a layer
+/// too low to be a heap, below 2.5 grain diameters), "at_rest" (0: still creeping 5 s after the
+/// tube was away, as constant torques let heaps do), "time_s" (of lift and settling). Throws
+/// NoReading when the grains stay in the tube or leave the plate.
 struct HeapProtocol {
   double tube_diameter_m = .1;  ///< inner
   double tube_height_m = .4;
@@ -106,13 +105,14 @@ struct HeapProtocol {
 
 /// One repeat of an experiment.
 struct Repeat {
-  double value = 0;  ///< drop mm, tilt deg, roll mm, heap deg
+  double value = 0;  ///< drop mm, tilt deg, roll mm; NaN for a heap
   std::uint64_t seed = 0;
   std::int64_t steps = 0;
   double timestep_s = 0;
   double clump_steps = 0;  ///< grains times steps, summed
   /// Other readings, named with their unit: "lowest_point_rise_mm", "grains_off_plate".
   std::map<std::string, double> readings;
+  std::vector<HeapEnvelope> envelopes = {};  ///< of a heap, from 18 sides; else empty
   /// The end of the run, to look at; shared because a simulation cannot be copied.
   std::shared_ptr<const Simulation> state;
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -7,12 +8,12 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
+#include "dem/experiment/heap_envelope.h"
 #include "dem/experiment/heap_fill.h"
 #include "dem/experiment/heap_settling.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
-#include "dem/experiment/surface_profile.h"
 
 namespace repose::dem {
 namespace {
@@ -20,6 +21,8 @@ namespace {
 constexpr double kLongestLift_s = 600;
 /// Heaps lower than this many grain diameters are layers.
 constexpr double kLowestHeap = 2.5;
+/// Sides that a heap's envelopes are seen from.
+constexpr int kViews = 18;
 /// Shares of the run when the lift begins and when the tube is away.
 constexpr double kLiftFrom = .35;
 constexpr double kLiftTo = .9;
@@ -141,22 +144,19 @@ Repeat finish_heap(ExperimentRun run, const Model& model, std::uint64_t seed) {
                     "friction.",
                     grains));
   }
-  const std::vector<ClumpSphere> spheres = placed_spheres(run.simulation());
-  const SurfaceReading surface = measure_surface(spheres);
-  const SurfaceReading inner = measure_surface(spheres, {.window_from = .3, .window_to = .7});
-  const bool is_layer = surface.height_m < kLowestHeap * diameter_m(model.grain);
-  return run.finish(surface.angle_deg, seed,
-                    {{"grains", grains},
-                     {"grains_on_plate", on_plate},
-                     {"grains_off_plate", grains - on_plate},
-                     {"height_mm", 1e3 * surface.height_m},
-                     {"base_radius_mm", 1e3 * surface.base_radius_m},
-                     {"between_views_deg", surface.between_views_deg},
-                     {"angle_xz_deg", surface.first_view_deg},
-                     {"inner_window_deg", inner.angle_deg},
-                     {"no_heap", is_layer ? 1 : 0},
-                     {"at_rest", is_at_rest ? 1 : 0},
-                     {"time_s", run.simulation().time_s()}});
+  std::vector<HeapEnvelope> envelopes = heap_envelopes(placed_spheres(run.simulation()), kViews);
+  const double height = height_m(envelopes);
+  const bool is_layer = height < kLowestHeap * diameter_m(model.grain);
+  Repeat repeat = run.finish(std::numeric_limits<double>::quiet_NaN(), seed,
+                             {{"grains", grains},
+                              {"grains_on_plate", on_plate},
+                              {"grains_off_plate", grains - on_plate},
+                              {"height_mm", 1e3 * height},
+                              {"no_heap", is_layer ? 1 : 0},
+                              {"at_rest", is_at_rest ? 1 : 0},
+                              {"time_s", run.simulation().time_s()}});
+  repeat.envelopes = std::move(envelopes);
+  return repeat;
 }
 
 }  // namespace

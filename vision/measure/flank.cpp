@@ -71,7 +71,7 @@ Window window_between(const Descent& d, double low, double high) {
   w.last = first_below(d, w.first, low);
   for (int round = 0; round < 4 && w.size() >= kFewestPoints; ++round) {
     const LineFit line = fit_window(d, w);
-    if (line.slope >= -0.02) break;
+    if (line.slope >= -kFlattestSlope) break;
     const Window next{index_at(d, (high - line.intercept) / line.slope),
                       index_at(d, (low - line.intercept) / line.slope)};
     if (next.size() < kFewestPoints || (next.first == w.first && next.last == w.last)) break;

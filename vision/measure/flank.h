@@ -13,6 +13,9 @@ namespace repose::vision {
 
 enum class Side { left, right };
 
+/// A line that falls less than this is level: where it has the window's heights says nothing.
+inline constexpr double kFlattestSlope = 0.02;
+
 /// One side of the heap, fitted. Lengths in working pixels, along and above the ground line.
 struct FlankFit {
   FlankStatus status = FlankStatus::absent;

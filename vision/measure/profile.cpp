@@ -92,6 +92,13 @@ std::vector<double> moving_average(const std::vector<double>& values, std::size_
   return smooth;
 }
 
+void set_crest(Profile& profile) {
+  const std::size_t width = std::max<std::size_t>(3, profile.size() / 40);
+  const std::vector<double> smooth = moving_average(profile.height, width);
+  profile.crest_height = *std::max_element(smooth.begin(), smooth.end());
+  profile.crest = crest_middle(smooth, profile.crest_height);
+}
+
 Profile upper_profile(const Body& body, const Segmentation& segmentation,
                       const WorkingPicture& work) {
   const GroundFrame ground(body.ground);
@@ -115,11 +122,7 @@ Profile upper_profile(const Body& body, const Segmentation& segmentation,
     profile.height.push_back(columns[i].height);
     if (columns[i].at_top) profile.leaves_frame_top = true;
   }
-  if (profile.size() == 0) return profile;
-  const std::size_t width = std::max<std::size_t>(3, profile.size() / 40);
-  const std::vector<double> smooth = moving_average(profile.height, width);
-  profile.crest_height = *std::max_element(smooth.begin(), smooth.end());
-  profile.crest = crest_middle(smooth, profile.crest_height);
+  if (profile.size() > 0) set_crest(profile);
   return profile;
 }
 

@@ -22,6 +22,10 @@ struct Profile {
 Profile upper_profile(const Body& body, const Segmentation& segmentation,
                       const WorkingPicture& work);
 
+/// Finds the crest: the middle of what stays within 3 % of the top of the lightly smoothed edge.
+/// Needs a point.
+void set_crest(Profile& profile);
+
 /// Moving average over `width` points, narrower at the ends.
 std::vector<double> moving_average(const std::vector<double>& values, std::size_t width);
 

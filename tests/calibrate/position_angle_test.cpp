@@ -1,0 +1,185 @@
+#include "calibrate/study/position_angle.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tests/dem/experiment_model.h"
+#include "tests/support/sphere_heap.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::ClumpSphere;
+using repose::testing::sphere_cone;
+using repose::testing::sphere_frustum;
+using ::testing::IsEmpty;
+using ::testing::Key;
+using ::testing::UnorderedElementsAre;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+PositionAngle angle_of(const std::vector<ClumpSphere>& heap, int views = 18) {
+  return position_angle(dem::heap_envelopes(heap, views));
+}
+
+class Cone : public ::testing::TestWithParam<double> {};
+
+TEST_P(Cone, IsMeasuredWithin3TenthsOfADegree) {
+  const PositionAngle angle = angle_of(sphere_cone(GetParam(), .06, .002));
+  // Spheres on a lattice: the envelope is bumpy by up to a tenth of their radius.
+  EXPECT_NEAR(angle.angle_deg, GetParam(), .3);
+  EXPECT_LT(angle.between_views_deg, .3);
+  EXPECT_EQ(angle.flanks, 36);
+}
+
+INSTANTIATE_TEST_SUITE_P(PositionAngle, Cone, ::testing::Values(10.0, 18.0, 25.0, 35.0, 45.0));
+
+TEST(PositionAngle, DoesNotDependOnWhereTheHeapStands) {
+  const PositionAngle here = angle_of(sphere_cone(25, .06, .002));
+  const PositionAngle there = angle_of(sphere_cone(25, .06, .002, {.3, -.2, 0}));
+  EXPECT_NEAR(here.angle_deg, there.angle_deg, .05);
+  EXPECT_NEAR(here.base_radius_m, there.base_radius_m, 2e-4);
+  EXPECT_NEAR(here.base_radius_m, .06 / std::tan(25 * kDegree), 2e-3);
+}
+
+TEST(PositionAngle, TheFirstViewIsThatAlongY) {
+  // A ridge along y: from there 30 degrees, from the side a wall.
+  std::vector<ClumpSphere> ridge;
+  for (int i = -50; i <= 50; ++i) {
+    const double top = .06 - std::abs(i) * 2e-3 * std::tan(30 * kDegree);
+    for (int j = -20; top > .002 && j <= 20; ++j) {
+      ridge.push_back({.centre = {i * 2e-3, j * 2e-3, top - .002}, .radius = .002});
+    }
+  }
+  EXPECT_NEAR(angle_of(ridge, 2).first_view_deg, 30, .4);
+}
+
+TEST(PositionAngle, BelievesTheFlankMoreThanStrayGrainsOnIt) {
+  std::vector<ClumpSphere> heap = sphere_cone(25, .06, .002);
+  // Seen along y, one grain stands out of the right flank at half height.
+  heap.push_back({.centre = {.06, 0, .036}, .radius = .003});
+  EXPECT_NEAR(angle_of(heap, 1).angle_deg, 25, .5);
+}
+
+TEST(PositionAngle, AGrainLyingAtTheFootChangesNothing) {
+  std::vector<ClumpSphere> heap = sphere_cone(25, .06, .002);
+  const double alone = angle_of(heap, 1).angle_deg;
+  heap.push_back({.centre = {.12, 0, .009}, .radius = .009});
+  // But for the columns, which go with the mean radius.
+  EXPECT_NEAR(angle_of(heap, 1).angle_deg, alone, .01);
+}
+
+TEST(PositionAngle, LeavesAnApronOut) {
+  std::vector<ClumpSphere> heap = sphere_cone(25, .06, .002);
+  // A layer a third as high as the heap runs out from its foot at .129 m to .2 m.
+  for (int k = -50; k <= 50; ++k) {
+    heap.push_back({.centre = {k * 4e-3, 0, .009}, .radius = .009});
+  }
+  // A line through all of it has 16 degrees.
+  EXPECT_NEAR(angle_of(heap, 1).angle_deg, 25, .3);
+}
+
+TEST(PositionAngle, AHollowFootOfFewLargeGrainsIsNoApron) {
+  // Five grains high, 35 degrees above half its height and 14 below: too few grains to tell such a
+  // foot from an apron. The upper half alone has 31 degrees.
+  constexpr double kGrainRadius = .008;
+  const double steep = std::tan(35 * kDegree);
+  const double flat = std::tan(14 * kDegree);
+  std::vector<ClumpSphere> heap;
+  for (int k = -20; k <= 20; ++k) {
+    const double x = 1.8 * kGrainRadius * k;
+    const double top =
+        std::max(.08 - std::abs(x) * steep, .04 - (std::abs(x) - .04 / steep) * flat);
+    if (top < 1.3 * kGrainRadius) continue;
+    const double z = std::max(kGrainRadius, top - kGrainRadius);
+    heap.push_back({.centre = {x, 0, z}, .radius = kGrainRadius});
+  }
+  EXPECT_NEAR(angle_of(heap, 1).angle_deg, 22, .5);
+}
+
+TEST(PositionAngle, MeasuresBothSidesOfALopsidedHeap) {
+  std::vector<ClumpSphere> ridge;
+  for (int k = -100; k <= 100; ++k) {
+    const double x = k * 1e-3;
+    const double top = .06 - std::abs(x) * std::tan((x < 0 ? 40 : 20) * kDegree);
+    if (top > .001) ridge.push_back({.centre = {x, 0, top - .002}, .radius = .002});
+  }
+  EXPECT_NEAR(angle_of(ridge, 1).angle_deg, 30, .4);
+}
+
+TEST(PositionAngle, ALayerHasNone) {
+  // It falls at its rim alone.
+  const PositionAngle angle = angle_of(sphere_frustum(45, .02, .2, .001));
+  EXPECT_EQ(angle.flanks, 0);
+  EXPECT_EQ(angle.angle_deg, 0);
+  EXPECT_EQ(angle.base_radius_m, 0);
+}
+
+TEST(PositionAngle, TheBaseOfALayerEndsNearItsGrains) {
+  // Its top falls by a quarter of its height over .2 m: a line that would meet the ground at .8 m.
+  std::vector<ClumpSphere> layer;
+  for (int i = -50; i <= 50; ++i) {
+    for (int j = -50; j <= 50; ++j) {
+      const double from_axis = 4e-3 * std::hypot(i, j);
+      if (from_axis > .2) continue;
+      layer.push_back({.centre = {4e-3 * i, 4e-3 * j, .018 - .025 * from_axis}, .radius = .002});
+    }
+  }
+  const PositionAngle angle = angle_of(layer);
+  EXPECT_GT(angle.flanks, 0);
+  EXPECT_LT(angle.angle_deg, 2);
+  EXPECT_NEAR(angle.base_radius_m, .4, .01);
+}
+
+TEST(PositionAngle, AHeapWithAFlatTopHasFlanks) {
+  const PositionAngle angle = angle_of(sphere_frustum(25, .03, .064, .002));
+  EXPECT_EQ(angle.flanks, 36);
+  EXPECT_NEAR(angle.angle_deg, 25, 1);
+}
+
+TEST(PositionAngle, ASingleSphereHasNone) {
+  const PositionAngle angle = angle_of({{.centre = {0, 0, .01}, .radius = .01}});
+  EXPECT_EQ(angle.flanks, 0);
+  EXPECT_EQ(angle.angle_deg, 0);
+}
+
+TEST(PositionAngle, RougherGrainsHeapSteeper) {
+  const auto angle_deg = [](const dem::PairCoefficients& wall, const dem::PairCoefficients& grain) {
+    dem::Model model = dem::test::sphere_bench();
+    model.stiffness_factor = 1e-3;
+    model.grain_wall = wall;
+    model.grain_grain = grain;
+    dem::HeapProtocol protocol;
+    protocol.tube_diameter_m = .07;
+    protocol.tube_height_m = .1;
+    protocol.lift_speed_m_s = .1;
+    protocol.plate_m = .3;
+    dem::Repeat heap = run_heap(model, protocol, 1);
+    add_position_angle(heap);
+    return heap.value;
+  };
+  const double rough = angle_deg({.31, .5, .2}, {.11, .5, .2});
+  EXPECT_GT(rough, 3);
+  EXPECT_LT(rough, 60);
+  EXPECT_GT(rough, angle_deg({.31, .2, .02}, {.11, .1, .01}));
+}
+
+TEST(PositionAngle, CompletesAHeapsReadings) {
+  dem::Repeat heap;
+  heap.envelopes = dem::heap_envelopes(sphere_cone(25, .06, .002), 18);
+  const PositionAngle angle = position_angle(heap.envelopes);
+  add_position_angle(heap);
+  EXPECT_EQ(heap.value, angle.angle_deg);
+  EXPECT_THAT(heap.envelopes, IsEmpty());
+  EXPECT_THAT(heap.readings, UnorderedElementsAre(Key("base_radius_mm"), Key("between_views_deg"),
+                                                  Key("angle_xz_deg"), Key("inner_window_deg")));
+  EXPECT_EQ(heap.readings["base_radius_mm"], 1e3 * angle.base_radius_m);
+  EXPECT_EQ(heap.readings["angle_xz_deg"], angle.first_view_deg);
+  EXPECT_NEAR(heap.readings["inner_window_deg"], 25, .3);
+}
+
+}  // namespace
+}  // namespace repose::calibrate

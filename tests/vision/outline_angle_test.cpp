@@ -1,0 +1,153 @@
+#include "vision/measure/outline_angle.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/heap_random.h"
+#include "tests/vision/pictures.h"
+#include "tests/vision/profiles.h"
+#include "vision/measure/flank.h"
+
+namespace repose::vision {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const Triangle kTriangle{350, 110, std::tan(20 * kDegree), std::tan(30 * kDegree)};
+
+/// The part of a height function that is above the ground, `unit` long from point to point.
+template <class Height>
+Outline outline_of(Height height, double unit = 1, int columns = 700) {
+  Outline outline;
+  for (int col = 0; col < columns; ++col) {
+    const double here = height(col + 0.5);
+    if (here <= 0) continue;
+    outline.along.push_back(unit * (col + 0.5));
+    outline.height.push_back(unit * here);
+  }
+  return outline;
+}
+
+TEST(OutlineAngle, StraightFlanksAreExact) {
+  const OutlineAngle angle = measure_outline(outline_of(kTriangle));
+  ASSERT_TRUE(angle.left && angle.right);
+  EXPECT_NEAR(angle.left->angle_rad, 20 * kDegree, 1e-6);
+  EXPECT_NEAR(angle.right->angle_rad, 30 * kDegree, 1e-6);
+  EXPECT_NEAR(*angle.angle_rad(), 25 * kDegree, 1e-6);
+  // From the middle of the highest part, which lies up to 3 % of the height down a side.
+  EXPECT_NEAR(angle.left->foot + angle.right->foot,
+              110 / kTriangle.left_slope + 110 / kTriangle.right_slope, 1e-3);
+}
+
+/// A heap whose grains are twelve columns long.
+double bumpy(double along) {
+  return kTriangle(along) > 0 ? std::max(0.0, kTriangle(along) + 3 * std::sin(along / 2)) : 0;
+}
+
+TEST(OutlineAngle, IsThatOfThePictureWhoseEdgeIsTheOutline) {
+  const Outline outline = outline_of(bumpy);
+  Profile profile{.along = outline.along, .height = outline.height};
+  set_crest(profile);
+  for (const auto grain : {std::optional<double>{}, std::optional<double>{12}}) {
+    const OutlineAngle angle = measure_outline(outline, {.grain = grain});
+    ASSERT_TRUE(angle.left && angle.right);
+    const FlankOptions options{.grain = grain};
+    EXPECT_EQ(angle.left->angle_rad, fit_flank(profile, Side::left, options).angle_rad);
+    EXPECT_EQ(angle.right->angle_rad, fit_flank(profile, Side::right, options).angle_rad);
+  }
+}
+
+TEST(OutlineAngle, DoesNotDependOnTheUnit) {
+  const OutlineAngle pixels = measure_outline(outline_of(bumpy), {.grain = 12});
+  const OutlineAngle metres = measure_outline(outline_of(bumpy, 1e-4), {.grain = 12e-4});
+  ASSERT_TRUE(pixels.right && metres.right);
+  EXPECT_NEAR(metres.right->angle_rad, pixels.right->angle_rad, 1e-9);
+  EXPECT_NEAR(metres.right->foot, 1e-4 * pixels.right->foot, 1e-9);
+}
+
+TEST(OutlineAngle, UsesTheWindowThatIsAskedFor) {
+  // 35 degrees above half its height, 20 below.
+  const double steep = std::tan(35 * kDegree);
+  const double flat = std::tan(20 * kDegree);
+  const Outline hollow = outline_of([&](double along) {
+    const double from_crest = std::abs(along - 350);
+    const double knee = 50 / steep;
+    return from_crest < knee ? 100 - steep * from_crest : 50 - flat * (from_crest - knee);
+  });
+  const auto angle_between = [&](double from, double to) {
+    return *measure_outline(hollow, {.window_from = from, .window_to = to, .grain = 2}).angle_rad();
+  };
+  EXPECT_NEAR(angle_between(.55, .9), 35 * kDegree, 1e-6);
+  EXPECT_NEAR(angle_between(.1, .45), 20 * kDegree, 1e-6);
+}
+
+TEST(OutlineAngle, AHeapOfOneSideHasThatSidesAngle) {
+  const OutlineAngle angle =
+      measure_outline(outline_of([](double along) { return along < 350 ? 0 : kTriangle(along); }));
+  EXPECT_FALSE(angle.left);
+  ASSERT_TRUE(angle.right);
+  EXPECT_EQ(angle.angle_rad(), angle.right->angle_rad);
+}
+
+/// Level for 500 columns, with rims of 45 degrees.
+double plateau(double along) { return std::min(60.0, 310 - std::abs(along - 350)); }
+
+TEST(OutlineAngle, AWidePlateauHasNoFlank) {
+  const OutlineAngle angle = measure_outline(outline_of(plateau));
+  EXPECT_FALSE(angle.left || angle.right);
+  EXPECT_FALSE(angle.angle_rad());
+}
+
+TEST(OutlineAngle, AHeapWithAFlatTopHasFlanks) {
+  const OutlineAngle angle = measure_outline(
+      outline_of([](double along) { return std::min(60.0, 150 - .5 * std::abs(along - 350)); }));
+  ASSERT_TRUE(angle.left && angle.right);
+  EXPECT_NEAR(*angle.angle_rad(), std::atan(.5), 1e-3);
+}
+
+TEST(OutlineAngle, TheFootOfALayerIsNearItsEnd) {
+  // Its top falls by a quarter of its height: a line that meets the ground four times as far away.
+  const OutlineAngle angle = measure_outline(
+      outline_of([](double along) { return std::max(0.0, 40 - .03 * std::abs(along - 350)); }));
+  ASSERT_TRUE(angle.left && angle.right);
+  EXPECT_LT(*angle.angle_rad(), 2 * kDegree);
+  EXPECT_NEAR(angle.left->foot, 700, 3);
+  EXPECT_NEAR(angle.right->foot, 700, 3);
+}
+
+TEST(OutlineAngle, ALevelTopIsNoFlank) {
+  const OutlineAngle angle = measure_outline(
+      outline_of([](double along) { return std::max(0.0, 20 - .018 * std::abs(along - 350)); }));
+  EXPECT_FALSE(angle.left || angle.right);
+}
+
+TEST(OutlineAngle, FewPointsHaveNoFlank) {
+  EXPECT_FALSE(measure_outline({.along = {0}, .height = {1}}).angle_rad());
+  EXPECT_FALSE(measure_outline({.along = {0, 1, 2}, .height = {1, 2, 1}}).angle_rad());
+}
+
+TEST(OutlineAngle, RefusesWhatIsNoOutline) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const Outline good = outline_of(kTriangle);
+  EXPECT_THROW(measure_outline({}), std::invalid_argument);
+  EXPECT_THROW(measure_outline({.along = {0, 1}, .height = {1}}), std::invalid_argument);
+  EXPECT_THROW(measure_outline({.along = {0, 1}, .height = {1, kNan}}), std::invalid_argument);
+  EXPECT_THROW(measure_outline({.along = {1, 0}, .height = {1, 1}}), std::invalid_argument);
+  EXPECT_THROW(measure_outline(good, {.grain = 0}), std::invalid_argument);
+  EXPECT_THROW(measure_outline(good, {.window_from = .8, .window_to = .2}), std::invalid_argument);
+  EXPECT_THROW(measure_outline(good, {.window_from = kNan}), std::invalid_argument);
+  try {
+    measure_outline({.along = {1, 0}, .height = {1}}, {.window_from = .8, .window_to = .2});
+    FAIL() << "it was taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("window = 0.8,0.2"), HasSubstr("1 heights"),
+                                    HasSubstr("goes back")));
+  }
+}
+
+}  // namespace
+}  // namespace repose::vision

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace repose::vision {
+
+/// A heap's upper edge that is known, seen from the side: nothing needs to be found in a picture.
+/// Lengths in one unit, whichever: m or pixels.
+struct Outline {
+  std::vector<double> along;   ///< ascending, about evenly spaced
+  std::vector<double> height;  ///< above the ground line; as many as `along`
+};
+
+struct OutlineOptions {
+  /// Stretch of the flanks the lines are fitted to, as fractions of the crest's height.
+  double window_from = 0.2;
+  double window_to = 0.8;
+  /// A grain's size in the outline's unit. Empty: read off the edge's bumps, as in a silhouette.
+  std::optional<double> grain = {};
+};
+
+/// One side's line.
+struct OutlineFlank {
+  double angle_rad = 0;
+  double foot = 0;  ///< from below the crest to where the line meets the ground; at most twice as
+                    ///< far as the outline reaches
+};
+
+struct OutlineAngle {
+  std::optional<OutlineFlank> left;
+  std::optional<OutlineFlank> right;
+
+  std::optional<double> angle_rad() const;  ///< mean of the sides that exist
+};
+
+/// The angle of a heap by the rules that pictures are measured with: crest, window, apron and line
+/// are those of measure_repose_angle(). Its verdict on what was seen is replaced by two rules: a
+/// line that falls less than 1 in 50 is no flank but a layer's top, nor is one that would meet the
+/// crest's axis higher than three times the crest, which is the edge of a plateau, such as the
+/// outermost grain of a layer.
+/// Proved by OutlineAngle.* in tests/vision/outline_angle_test.cpp.
+/// @throws std::invalid_argument  no points, not as many heights as places, places that do not
+///   ascend, numbers that are not finite, or a window that MeasureOptions refuses.
+OutlineAngle measure_outline(const Outline& outline, const OutlineOptions& options = {});
+
+}  // namespace repose::vision
