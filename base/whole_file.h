@@ -2,12 +2,22 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 /// Files that are there whole or not at all: written beside their place and then renamed, so that
 /// a full disk or a kill leaves the earlier file as it was.
 namespace repose::base {
+
+/// The bytes of a file.
+/// @throws std::invalid_argument  "FILE: what. Fix: ..." when it is not there or cannot be read.
+std::string read_whole_file(const std::filesystem::path& file);
+
+/// The same; none when there is no such file.
+/// @throws std::invalid_argument  when it is there and cannot be read.
+std::optional<std::string> read_file_if_there(const std::filesystem::path& file);
 
 /// @throws std::invalid_argument  "FILE: what. Fix: ..." when the place cannot be written.
 void write_whole_file(const std::filesystem::path& file, std::span<const std::byte> content);

@@ -1,6 +1,9 @@
 #include "cli/arguments.h"
 
 #include <algorithm>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,8 +17,8 @@ namespace {
 
 constexpr const char* kAbout =
     "Measures heaps of grains in photographs, simulates the bench experiments that\n"
-    "give contact parameters, draws what it simulates, and finds the parameters with\n"
-    "which both agree.";
+    "give contact parameters, renders the simulations, and calibrates the parameters\n"
+    "so that measurement and simulation agree.";
 
 constexpr const char* kExamples = R"(
 Examples:
@@ -37,6 +40,42 @@ Exit codes: 0 done, 1 internal error, 2 bad usage or input,
 3 nothing measurable, 130 interrupted.
 )";
 
+constexpr int kOptionColumn = 32;  // where the help's explanations begin
+
+/// A command and what CLI11 knows of it.
+struct Registered {
+  Command command;
+  CLI::App* app = nullptr;
+};
+
+CLI::Option* add_to(CLI::App& app, const std::string& name, std::string& text) {
+  return app.add_option(name, text);
+}
+
+CLI::Option* add_to(CLI::App& app, const std::string& name, std::vector<std::string>& texts) {
+  CLI::Option* option = app.add_option(name, texts);
+  // A list is given by repeating its option: words that follow belong to the command.
+  return name.starts_with('-') ? option->allow_extra_args(false) : option;
+}
+
+CLI::Option* add_to(CLI::App& app, const std::string& name, bool& is_given) {
+  return app.add_flag(name, is_given);
+}
+
+Registered registered(CLI::App& program, Command command) {
+  CLI::App* app = program.add_subcommand(command.name, command.summary);
+  app->get_formatter()->column_width(kOptionColumn);
+  app->footer(command.notes);
+  for (const CommandOption& option : command.options) {
+    CLI::Option* added =
+        std::visit([&](auto* target) { return add_to(*app, option.name, *target); }, option.target);
+    added->description(option.help)->required(option.is_required);
+    if (!option.value_name.empty()) added->option_text(option.value_name);
+    if (option.word_count > 0) added->expected(option.word_count);
+  }
+  return {std::move(command), app};
+}
+
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -56,22 +95,22 @@ std::string unknown_word(const CLI::App& app, const std::string& usage, const st
   const bool is_option = word.starts_with('-');
   const auto known = is_option ? option_names(app) : command_names(app);
   const std::string guess = base::closest_word(word.substr(0, word.find('=')), known);
-  return fmt::format("{} is no {} of {}. {}Fix: see {} --help.", word,
+  return fmt::format("{}: unknown {} of {}. {}Fix: see {} --help.", word,
                      is_option ? "option" : "command", usage,
                      guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), usage);
 }
 
-std::string error_of(const CLI::App& app, const Command* command, const CLI::ParseError& error) {
-  const CLI::App& active = command ? *command->app : app;
-  const std::string usage = command ? "repose " + command->app->get_name() : "repose";
+std::string error_of(const CLI::App& app, const Registered* parsed, const CLI::ParseError& error) {
+  const CLI::App& active = parsed ? *parsed->app : app;
+  const std::string usage = parsed ? "repose " + parsed->command.name : "repose";
   const auto unknown = active.remaining();
   if (!unknown.empty()) {
     const auto option = std::find_if(unknown.begin(), unknown.end(),
                                      [](const std::string& word) { return word.starts_with('-'); });
     return unknown_word(active, usage, option == unknown.end() ? unknown.front() : *option);
   }
-  if (command && dynamic_cast<const CLI::RequiredError*>(&error)) {
-    return command->app->get_name() + ": " + command->missing;
+  if (parsed && dynamic_cast<const CLI::RequiredError*>(&error)) {
+    return parsed->command.name + ": " + parsed->command.missing;
   }
   return fmt::format("{}. Fix: see {} --help.", error.what(), usage);
 }
@@ -82,19 +121,21 @@ Arguments parse_arguments(int count, const char* const* words) {
   CLI::App app(kAbout, "repose");
   app.set_version_flag("--version", base::kProgram);
   app.footer(kExamples);
-  app.get_formatter()->column_width(32);
-  const std::vector<Command> commands = add_commands(app);
-  const auto parsed = [&commands]() -> const Command* {
+  app.get_formatter()->column_width(kOptionColumn);
+  std::vector<Registered> commands;
+  for (Command& command : all_commands()) commands.push_back(registered(app, std::move(command)));
+  const auto parsed = [&commands]() -> const Registered* {
     const auto found = std::find_if(commands.begin(), commands.end(),
-                                    [](const Command& command) { return command.app->parsed(); });
+                                    [](const Registered& one) { return one.app->parsed(); });
     return found == commands.end() ? nullptr : &*found;
   };
 
   Arguments arguments;
   try {
     app.parse(count, words);
-    if (const Command* command = parsed()) {
-      arguments.run = command->run;
+    if (const Registered* found = parsed()) {
+      arguments.run = found->command.run;
+      arguments.option_names = found->command.option_names;
     } else {
       arguments.text = app.help();
     }

@@ -6,6 +6,7 @@
 
 namespace repose::cli {
 
-std::vector<Command> add_commands(CLI::App& app);
+/// In the order of the program's help.
+std::vector<Command> all_commands();
 
 }  // namespace repose::cli

@@ -16,7 +16,13 @@ ExitCode run(int count, const char* const* words) {
     fmt::print(stderr, "repose: {}\n", arguments.error);
     return ExitCode::bad_input;
   }
-  if (arguments.run) return arguments.run();
+  if (arguments.run) {
+    try {
+      return arguments.run();
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(naming_options(error.what(), arguments.option_names));
+    }
+  }
   write_output(std::string(kStandardOutput), arguments.text);
   return ExitCode::done;
 }

@@ -38,7 +38,7 @@ void check(const PhotoStyle& style) {
   require("blur_px", style.blur_px, 0, 100);
   require("noise", style.noise, 0, 1);
   require("vignette", style.vignette, 0, 1);
-  require("passes", style.passes, 1, 1000);
+  require("passes", style.passes, 1, kMaxPasses);
 }
 
 }  // namespace

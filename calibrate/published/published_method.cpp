@@ -26,16 +26,16 @@ const Observable& observable_of(const Problem& problem, const std::string& exper
     if (observable.experiment == experiment && observable.reading == "value") return observable;
   }
   throw std::invalid_argument(fmt::format(
-      "--method paper: [experiment.{}] has no measured value, and every step needs its own. Fix: "
-      "add it, or --method joint.",
+      "the published method: [experiment.{}] has no measured value, and every step needs its own. "
+      "Fix: add it, or use the joint method.",
       experiment));
 }
 
 void require_all_sought(const Problem& problem) {
   if (problem.parameters.size() == kGrains + kStep.size()) return;
   throw std::invalid_argument(
-      "--method paper: finds restitution, sliding and rolling friction of both pairs, and some of "
-      "the six have no bounds. Fix: give all bounds, or --method joint.");
+      "the published method: finds restitution, sliding and rolling friction of both pairs, and "
+      "some of the six have no bounds. Fix: give all bounds, or use the joint method.");
 }
 
 /// The values of a job: those of the set that the experiment does not depend on stay in the middle,

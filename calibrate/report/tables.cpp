@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/csv.h"
+
 namespace repose::calibrate::report {
 namespace {
 
@@ -12,19 +14,9 @@ using Json = nlohmann::ordered_json;
 
 std::string six_digits(double value) { return fmt::format("{:.6g}", value); }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char letter : text) {
-    if (letter == '"') result += '"';
-    result += letter;
-  }
-  return result + '"';
-}
-
 std::string csv_cell(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) return six_digits(*number);
-  if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&cell)) return base::csv_cell(*text);
   return {};
 }
 
@@ -137,8 +129,8 @@ std::string csv_of(const DataTable& table) {
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const Column& column = table.columns[k];
     if (k > 0) csv += ',';
-    csv += quoted(column.unit.empty() ? column.name
-                                      : fmt::format("{} [{}]", column.name, column.unit));
+    csv += base::csv_cell(column.unit.empty() ? column.name
+                                              : fmt::format("{} [{}]", column.name, column.unit));
   }
   csv += '\n';
   for (const std::vector<Cell>& row : table.rows) {

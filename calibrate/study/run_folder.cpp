@@ -1,7 +1,5 @@
 #include "calibrate/study/run_folder.h"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -19,11 +17,6 @@ using Json = nlohmann::ordered_json;
 
 fs::path file_of(const fs::path& runs, const std::string& key) { return runs / (key + ".json"); }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
@@ -38,10 +31,9 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
 }
 
 std::optional<Run> RunFolder::find(const StudySimulator& simulator, const Job& job) const {
-  const fs::path file = file_of(runs(), simulator.key(job));
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return std::nullopt;
-  const Json json = Json::parse(text_of(file), nullptr, false);
+  const auto text = base::read_file_if_there(file_of(runs(), simulator.key(job)));
+  if (!text) return std::nullopt;
+  const Json json = Json::parse(*text, nullptr, false);
   try {
     if (json.at("simulated") != Json::parse(simulator.description(job))) return std::nullopt;
     return Run{.job = job, .readings = json.at("readings"), .failure = json.at("failure")};

@@ -203,7 +203,7 @@ Budget budget_named(const std::string& name) {
             .family_sets = 0};
   }
   throw std::invalid_argument(
-      fmt::format("--budget {}: must be quick, standard or paper. Fix: --budget quick.", name));
+      fmt::format("budget = {}: must be quick, standard or paper. Fix: choose quick.", name));
 }
 
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,

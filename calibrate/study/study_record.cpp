@@ -1,7 +1,5 @@
 #include "calibrate/study/study_record.h"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -21,11 +19,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kStudy = "study.toml";
 constexpr const char* kClump = "clump.json";
 constexpr const char* kRecord = "study.json";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Names of files need not be UTF-8, JSON must be.
 std::string json_text(const Json& json) {
@@ -82,13 +75,13 @@ namespace {
 
 /// A file that is there already need not be written: a full disk does not stop what goes on.
 void keep(const fs::path& file, const std::string& text) {
-  if (text_of(file) != text) base::write_whole_file(file, text);
+  if (base::read_file_if_there(file) != text) base::write_whole_file(file, text);
 }
 
 }  // namespace
 
 void write_study_record(const fs::path& folder, const StudyRecord& record) {
-  keep(folder / kStudy, text_of(record.study.file));
+  keep(folder / kStudy, base::read_whole_file(record.study.file));
   keep(folder / kClump, dem::clump_json(record.grain));
   keep(folder / kRecord, json_text(record_json(record)));
 }
@@ -98,15 +91,15 @@ StudyRecord read_study_record(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
     throw std::invalid_argument(
-        fmt::format("{}: is no folder of a study, there is no {} in it. Fix: name the folder that "
-                    "repose calibrate made (--out).",
+        fmt::format("{}: is no folder of a study, there is no {} in it. Fix: name the output "
+                    "folder of repose calibrate.",
                     folder.string(), kRecord));
   }
   StudyRecord record;
   std::string name;
   std::string hash;
   try {
-    const Json json = Json::parse(text_of(file));
+    const Json json = Json::parse(base::read_whole_file(file));
     name = json.at("study").at("file");
     hash = json.at("study").at("hash");
     record.settings = json.at("study").at("settings");

@@ -2,14 +2,13 @@
 
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/whole_file.h"
 #include "calibrate/study/rank_executor.h"
 #include "calibrate/study/run_folder.h"
 #include "calibrate/study/study_run.h"
@@ -39,8 +38,7 @@ std::vector<std::string> parameter_names(const CalibratePlan& plan) {
 /// The result of another study or budget is kept, under another name.
 void set_aside_old_result(const CalibratePlan& plan) {
   const std::filesystem::path file = plan.out_folder / "result.json";
-  std::ifstream in(file, std::ios::binary);
-  const std::string old{std::istreambuf_iterator<char>(in), {}};
+  const std::string old = base::read_file_if_there(file).value_or("");
   const std::string name = name_when_set_aside(old, plan);
   if (name.empty()) return;
   std::filesystem::rename(file, plan.out_folder / name);

@@ -1,6 +1,7 @@
 #include "cli/calibrate/calibrate_options.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <thread>
 
@@ -9,6 +10,7 @@
 #include "base/whole_file.h"
 #include "cli/common/degrees.h"
 #include "cli/common/number.h"
+#include "cli/common/option_names.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "vision/measure/repose_angle.h"
@@ -19,6 +21,8 @@ namespace repose::cli {
 namespace {
 
 constexpr int kMaxJobs = 1024;
+constexpr std::array kNames{OptionName{.value = "budget", .option = "--budget"},
+                            OptionName{.value = "setting", .option = "--set"}};
 
 /// Does `work`; what it refuses becomes errors.
 template <typename Work>
@@ -27,7 +31,7 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
     work();
     return true;
   } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), errors);
+    add_lines(naming_options(error.what(), kNames), errors);
     return false;
   }
 }

@@ -2,20 +2,35 @@
 
 #include <functional>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "cli/common/exit_code.h"
-
-namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
-class App;
-}
+#include "cli/common/option_names.h"
 
 namespace repose::cli {
 
-/// A subcommand: its options, and what carries it out once they are parsed.
+/// An option of a command: how it is typed, what it is for, and where its text goes.
+struct CommandOption {
+  std::string name;        ///< "--json"; without dashes: a word known by its place
+  std::string value_name;  ///< "FILE|-"; empty for a switch
+  std::string help;
+  /// A list takes the option several times, or all words that are left.
+  std::variant<std::string*, std::vector<std::string>*, bool*> target;
+  bool is_required = false;
+  int word_count = 0;  ///< of a list of words, when there must be just so many
+};
+
+/// A subcommand: what its help says, its options, and what carries it out once they are parsed.
 struct Command {
-  CLI::App* app = nullptr;
-  std::function<ExitCode()> run;
-  std::string missing;  ///< said when something required is not given
+  std::string name;
+  std::string summary;
+  std::vector<CommandOption> options;
+  std::string notes = {};    ///< below the options in its help
+  std::string missing = {};  ///< said when something required is not given
+  /// How libraries call its options in what they throw.
+  std::vector<OptionName> option_names = {};
+  std::function<ExitCode()> run = {};
 };
 
 }  // namespace repose::cli

@@ -1,6 +1,7 @@
 #include "cli/common/output_places.h"
 
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,25 @@ void check_output_places(const std::vector<OutputPlace>& places,
     } catch (const std::invalid_argument& error) {
       errors.push_back(fmt::format("{} {}", option, error.what()));
     }
+  }
+}
+
+bool make_output_folder(const char* option, const fs::path& folder,
+                        std::vector<std::string>& errors) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (std::error_code ignored; error || !fs::is_directory(folder, ignored)) {
+    errors.push_back(fmt::format(
+        "{} {}: the folder cannot be made ({}). Fix: choose a place you may write to.", option,
+        folder.string(), error ? error.message() : "there is a file of that name"));
+    return false;
+  }
+  try {
+    base::check_can_write(folder / "file");
+    return true;
+  } catch (const std::invalid_argument& unwritable) {
+    errors.push_back(fmt::format("{} {}", option, unwritable.what()));
+    return false;
   }
 }
 

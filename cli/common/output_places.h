@@ -18,4 +18,9 @@ void check_output_places(const std::vector<OutputPlace>& places,
                          const std::vector<std::filesystem::path>& inputs,
                          std::vector<std::string>& errors);
 
+/// Makes a folder that an option names, for files to be written into; adds an error when it cannot.
+/// @returns whether it is there and can be written to.
+bool make_output_folder(const char* option, const std::filesystem::path& folder,
+                        std::vector<std::string>& errors);
+
 }  // namespace repose::cli

@@ -1,22 +1,33 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "cli/common/option_names.h"
 #include "vision/measure/repose_angle.h"
 
-/// Options of all commands that measure pictures, as typed. Each adds what is wrong to `errors`; an
-/// empty text leaves the default.
+/// Options of all commands that measure pictures.
 namespace repose::cli {
 
-using ErrorList = std::vector<std::string>;
+/// As typed; an empty text leaves the default.
+struct TypedMeasuring {
+  const std::string& method;
+  const std::string& window;
+  const std::string& pitch_deg;
+  const std::vector<std::string>& exclude;
+  const char* exclude_option = "--exclude";
+};
 
-void read_method(const std::string& text, vision::MeasureOptions& options, ErrorList& errors);
-void read_window(const std::string& text, vision::MeasureOptions& options, ErrorList& errors);
-void read_pitch(const std::string& text, vision::MeasureOptions& options, ErrorList& errors);
+/// Adds what is wrong to `errors`, also what the measurement itself refuses.
+vision::MeasureOptions read_measuring(const TypedMeasuring& typed,
+                                      std::vector<std::string>& errors);
 
-/// `option` is the name under which the boxes were given.
-void read_boxes(const std::string& option, const std::vector<std::string>& texts,
-                vision::MeasureOptions& options, ErrorList& errors);
+/// What a measurement calls these options.
+std::array<OptionName, 2> measuring_names(const char* exclude_option);
+
+/// Names them in all that a measurement says.
+void name_options(vision::ReposeAngle& angle, std::span<const OptionName> names);
 
 }  // namespace repose::cli

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -12,35 +11,54 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kClearLine = "\r\033[K";
+constexpr std::chrono::milliseconds kBetweenReports{200};
+constexpr double kEnoughToTell = .01;  // of the work done, before a time left means anything
+
+std::string time_text(double seconds) {
+  constexpr double kMinute_s = 60;
+  return seconds < 2 * kMinute_s ? fmt::format("{:.0f} s", std::ceil(seconds))
+                                 : fmt::format("{:.0f} min", std::ceil(seconds / kMinute_s));
+}
 
 }  // namespace
 
-Progress::Progress(std::size_t total, const char* done_word)
-    : total_(total), done_word_(done_word), is_shown_(total > 1 && is_terminal(stderr)) {
-  if (is_shown_) show();
-}
+ProgressLine::ProgressLine() : is_shown_(is_terminal(stderr)) {}
 
-Progress::~Progress() {
+ProgressLine::~ProgressLine() {
   if (is_shown_) fmt::print(stderr, "{}", kClearLine);
 }
 
-void Progress::advance() {
+void ProgressLine::report(const std::string& done, double fraction) {
   if (!is_shown_) return;
   const std::lock_guard lock(mutex_);
-  ++done_;
-  show();
-}
-
-void Progress::show() const {
-  std::string line = fmt::format("{}{} {} of {}", kClearLine, done_word_, done_, total_);
-  if (done_ > 0) {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-    const double left_s =
-        spent.count() * static_cast<double>(total_ - done_) / static_cast<double>(done_);
-    line += fmt::format(", {:.0f} s left", std::ceil(left_s));
+  const auto now = Clock::now();
+  if (now < next_shown_) return;
+  next_shown_ = now + kBetweenReports;
+  std::string line = kClearLine + done;
+  if (fraction >= kEnoughToTell) {
+    const std::chrono::duration<double> spent = now - start_;
+    line += fmt::format(", {} left", time_text(spent.count() * (1 - fraction) / fraction));
   }
   fmt::print(stderr, "{}", line);
   std::fflush(stderr);
+}
+
+void ProgressLine::begin_stage() {
+  const std::lock_guard lock(mutex_);
+  start_ = Clock::now();
+  next_shown_ = start_;
+}
+
+Progress::Progress(std::size_t total, const char* done_word)
+    : total_(total), done_word_(done_word) {
+  line_.report(fmt::format("{} 0 of {}", done_word_, total_), 0);
+}
+
+void Progress::advance() {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  line_.report(fmt::format("{} {} of {}", done_word_, done_, total_),
+               static_cast<double>(done_) / static_cast<double>(total_));
 }
 
 }  // namespace repose::cli

@@ -3,31 +3,52 @@
 #include <chrono>
 #include <cstddef>
 #include <mutex>
+#include <string>
 
 namespace repose::cli {
 
-/// "measured 3 of 10, 12 s left" on standard error, only when that is a terminal. The line goes
-/// away with the object. advance() may be called from any thread.
+/// One line on standard error that is written over, such as "measured 3 of 10, 12 s left"; only
+/// when that is a terminal. The line goes away with the object. Any thread may report.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ProgressLine(ProgressLine&&) = delete;
+  ProgressLine& operator=(ProgressLine&&) = delete;
+
+  bool is_shown() const { return is_shown_; }
+
+  /// What is done, and which fraction of all the work that is, from 0 to 1. A report that follows
+  /// another at once is not shown, unless it is the first of a stage.
+  void report(const std::string& done, double fraction);
+
+  /// The time left is that of the stage that begins now.
+  void begin_stage();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const bool is_shown_;
+  std::mutex mutex_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_shown_ = start_;
+};
+
+/// A progress line for a number of equal pieces of work.
 class Progress {
  public:
   explicit Progress(std::size_t total, const char* done_word = "measured");
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  Progress(Progress&&) = delete;
-  Progress& operator=(Progress&&) = delete;
 
   void advance();
 
  private:
-  void show() const;
-
   const std::size_t total_;
   const char* const done_word_;
-  const bool is_shown_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::size_t done_ = 0;
+  ProgressLine line_;
 };
 
 }  // namespace repose::cli

@@ -1,9 +1,6 @@
 #include "cli/common/terminal.h"
 
-#include <algorithm>
 #include <cstdlib>
-#include <sstream>
-#include <utility>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -12,8 +9,6 @@ namespace repose::cli {
 namespace {
 
 constexpr int kUsualColumns = 80;
-
-bool starts_a_letter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
 
 /// Null when it is not set.
 const char* environment(const char* name) {
@@ -44,33 +39,12 @@ bool wants_colour(std::FILE* stream) {
   return is_terminal(stream) && !is_plain && (no_colour == nullptr || *no_colour == '\0');
 }
 
-std::size_t letters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_a_letter));
-}
-
 std::string padded(std::string_view text, std::size_t width) {
   return std::string(text) + blanks(text, width);
 }
 
 std::string right_aligned(std::string_view text, std::size_t width) {
   return blanks(text, width) + std::string(text);
-}
-
-std::vector<std::string> wrapped(std::string_view text, std::size_t most) {
-  std::vector<std::string> lines;
-  std::istringstream paragraphs{std::string(text)};
-  for (std::string paragraph; std::getline(paragraphs, paragraph);) {
-    std::istringstream words(paragraph);
-    std::string line;
-    for (std::string word; words >> word;) {
-      if (!line.empty() && letters(line) + 1 + letters(word) > most) {
-        lines.push_back(std::exchange(line, {}));
-      }
-      line += line.empty() ? word : ' ' + word;
-    }
-    lines.push_back(line);
-  }
-  return lines;
 }
 
 }  // namespace repose::cli

@@ -10,6 +10,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
+#include "cli/common/picture_options.h"
 #include "cli/common/terminal.h"
 #include "cli/compare/compare_json.h"
 #include "cli/compare/compare_options.h"
@@ -28,11 +29,13 @@ struct MeasuredHeap {
 std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
   std::array<MeasuredHeap, 2> heaps;
   tbb::parallel_for(std::size_t{0}, heaps.size(), [&](std::size_t i) {
+    const auto names = measuring_names(kExcludeOptions[i]);
     try {
       heaps[i].picture = vision::read_picture(plan.pictures[i]);
       heaps[i].angle = vision::measure_repose_angle(heaps[i].picture, plan.measuring[i]);
+      name_options(heaps[i].angle, names);
     } catch (const std::invalid_argument& error) {
-      heaps[i].error = naming_file(plan.pictures[i].string(), error.what());
+      heaps[i].error = naming_options(naming_file(plan.pictures[i].string(), error.what()), names);
     }
   });
   return heaps;

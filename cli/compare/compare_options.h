@@ -11,6 +11,9 @@
 
 namespace repose::cli {
 
+/// The option with which each picture's boxes are left out.
+inline constexpr std::array kExcludeOptions = {"--exclude-first", "--exclude-second"};
+
 /// A `repose compare` that can be carried out.
 struct ComparePlan {
   std::vector<std::filesystem::path> pictures;  ///< two

@@ -1,71 +1,58 @@
 #include "cli/compare/compare_table.h"
 
-#include <algorithm>
+#include <array>
+#include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/common/degrees.h"
-#include "cli/common/terminal.h"
+#include "cli/common/table.h"
 #include "cli/compare/compare_names.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
 
-constexpr std::size_t kNameWidth = 24;
-constexpr std::size_t kCellWidth = 14;
-constexpr const char* kNothing = "–";
-
 using Cell = std::optional<double>;
 using Cells = std::array<Cell, 2>;
 
-class Table {
+/// Lengths as they are shown: in mm, or in % without a scale.
+class Lengths {
  public:
-  Table(const vision::HeapComparison& comparison, int columns)
-      : is_metric_(comparison.unit == vision::LengthUnit::metre),
-        columns_(static_cast<std::size_t>(std::max(40, columns))) {}
+  explicit Lengths(vision::LengthUnit unit) : is_metric_(unit == vision::LengthUnit::metre) {}
 
-  void add_row(std::string_view name, std::string_view a, std::string_view b, std::string_view c) {
-    std::string row =
-        fmt::format("{}  {}  {}  {}", padded(name, kNameWidth), right_aligned(a, kCellWidth),
-                    right_aligned(b, kCellWidth), right_aligned(c, kCellWidth));
-    text_ += row + '\n';
-  }
-  void add_lengths(std::string_view name, const std::array<Cell, 3>& cells) {
-    add_row(name_with_unit(name), length(cells[0]), length(cells[1]), length(cells[2]));
-  }
-  /// A value of each heap, and the first minus the second.
-  void add_pair(std::string_view name, const Cells& pair) {
-    const Cell difference = pair[0] && pair[1] ? Cell(*pair[0] - *pair[1]) : std::nullopt;
-    add_lengths(name, {pair[0], pair[1], difference});
-  }
-  void add_line(std::string_view mark, std::string_view text) {
-    std::string before(mark);
-    for (const std::string& line : wrapped(text, columns_ - letters(mark))) {
-      text_ += before + line + '\n';
-      before = std::string(letters(mark), ' ');
-    }
-  }
-  void add_gap() { text_ += '\n'; }
-
-  std::string length(const Cell& cell) const {
-    if (!cell) return kNothing;
-    const std::string text = fmt::format("{:.2f}", *cell * (is_metric_ ? 1000 : 100));
+  std::string cell(const Cell& length) const {
+    if (!length) return kNothing;
+    const std::string text = fmt::format("{:.2f}", *length * (is_metric_ ? 1000 : 100));
     return text == "-0.00" ? "0.00" : text;
   }
+  std::vector<std::string> row(std::string_view name, const std::array<Cell, 3>& lengths) const {
+    return {fmt::format("{} [{}]", name, unit()), cell(lengths[0]), cell(lengths[1]),
+            cell(lengths[2])};
+  }
+  /// A length of each heap, and the first minus the second.
+  std::vector<std::string> pair_row(std::string_view name, const Cells& pair) const {
+    const Cell difference = pair[0] && pair[1] ? Cell(*pair[0] - *pair[1]) : std::nullopt;
+    return row(name, {pair[0], pair[1], difference});
+  }
   const char* unit() const { return is_metric_ ? "mm" : "%"; }
-  const std::string& text() const { return text_; }
 
  private:
-  std::string name_with_unit(std::string_view name) const {
-    return fmt::format("{} [{}]", name, unit());
-  }
-
   bool is_metric_;
-  std::size_t columns_;
-  std::string text_;
 };
+
+/// A name and three columns of numbers, as wide in all tables of the comparison.
+Table comparison_table(const std::array<const char*, 4>& headings) {
+  constexpr std::size_t kNameWidth = 24, kCellWidth = 14;
+  std::vector<Column> columns = {{.heading = headings[0], .min_width = kNameWidth}};
+  for (const std::size_t i : {1, 2, 3}) {
+    columns.push_back({.heading = headings[i], .align = Align::right, .min_width = kCellWidth});
+  }
+  return Table(std::move(columns));
+}
 
 std::string fraction(const Cell& cell) { return cell ? fmt::format("{:.3f}", *cell) : kNothing; }
 
@@ -84,97 +71,100 @@ std::string difference_cell(const std::optional<vision::AngleDifference>& angle)
   return angle ? difference_cell(*angle) : kNothing;
 }
 
-void add_verdict(Table& table, const vision::AngleDifference& angle, double margin_rad) {
+std::string verdict_text(const vision::AngleDifference& angle, double margin_rad) {
   const double margin = to_degrees(margin_rad);
   switch (angle.verdict) {
     case vision::Agreement::equivalent:
-      table.add_line("", fmt::format("equivalent: the angles differ by less than {:g}°", margin));
-      return;
+      return fmt::format("equivalent: the angles differ by less than {:g}°", margin);
     case vision::Agreement::different:
-      table.add_line(
-          "",
-          fmt::format("different: the interval leaves out 0, and is not within ±{:g}°", margin));
-      return;
+      return fmt::format("different: the interval excludes 0 and is not within ±{:g}°", margin);
     case vision::Agreement::cannot_tell:
-      table.add_line("", fmt::format("cannot tell: the interval holds 0, but also more than {:g}°. "
-                                     "Take larger heaps, or several of each, and compare the "
-                                     "means of repose measure.",
-                                     margin));
+      break;
   }
+  return fmt::format(
+      "cannot tell: the interval includes 0, but also more than {:g}°. Take larger heaps, or "
+      "several of each, and compare the means of repose measure.",
+      margin);
 }
 
-void add_outlines(Table& table, const ComparePlan& plan, const vision::HeapComparison& comparison) {
+std::string outlines_text(const ComparePlan& plan, const vision::HeapComparison& comparison,
+                          int columns) {
+  const Lengths lengths(comparison.unit);
   const vision::SideComparison& left = comparison.left;
   const vision::SideComparison& right = comparison.right;
-  table.add_row("outlines", "all", "left", "right");
-  table.add_row("overlap (IoU)", fraction(comparison.iou), fraction(left.iou), fraction(right.iou));
-  table.add_lengths("height, root mean sq.",
-                    {comparison.profile_rmse, left.profile_rmse, right.profile_rmse});
-  table.add_lengths("height, mean",
-                    {comparison.profile_mean, left.profile_mean, right.profile_mean});
-  table.add_lengths("Hausdorff distance", {comparison.hausdorff, std::nullopt, std::nullopt});
-  table.add_lengths("  of 95 % of the edge", {comparison.hausdorff_95, std::nullopt, std::nullopt});
+  Table table = comparison_table({"outlines", "all", "left", "right"});
+  table.add_row(
+      {"overlap (IoU)", fraction(comparison.iou), fraction(left.iou), fraction(right.iou)});
+  table.add_row(lengths.row("height, root mean sq.",
+                            {comparison.profile_rmse, left.profile_rmse, right.profile_rmse}));
+  table.add_row(lengths.row("height, mean",
+                            {comparison.profile_mean, left.profile_mean, right.profile_mean}));
+  table.add_row(
+      lengths.row("Hausdorff distance", {comparison.hausdorff, std::nullopt, std::nullopt}));
+  table.add_row(
+      lengths.row("  of 95 % of the edge", {comparison.hausdorff_95, std::nullopt, std::nullopt}));
   if (plan.grain_m && comparison.unit == vision::LengthUnit::metre) {
-    table.add_line("", fmt::format("In grains, the root mean square is {:.2f}.",
+    table.add_note("", fmt::format("In grain sizes, the root mean square is {:.2f}.",
                                    *comparison.profile_rmse / *plan.grain_m));
   }
-  table.add_line(
-      "", fmt::format("Aligned by {}. Moved by {} {}, the second heap would fit best: root mean "
-                      "square {} {}.",
-                      comparison.is_aligned_by_crest ? "crest" : "axis",
-                      table.length(comparison.best_shift), table.unit(),
-                      table.length(comparison.best_shift_rmse), table.unit()));
+  table.add_note("", fmt::format("Aligned by {}. Moved by {} {}, the second heap would fit best: "
+                                 "root mean square {} {}.",
+                                 comparison.is_aligned_by_crest ? "crest" : "axis",
+                                 lengths.cell(comparison.best_shift), lengths.unit(),
+                                 lengths.cell(comparison.best_shift_rmse), lengths.unit()));
+  return table.text(columns);
 }
 
-void add_measured(Table& table, const ComparePlan& plan, const vision::HeapComparison& comparison) {
+std::string measured_text(const ComparePlan& plan, const vision::HeapComparison& comparison,
+                          int columns) {
+  const Lengths lengths(comparison.unit);
   const auto& angle = comparison.angle_rad;
   const auto& uncertainty = comparison.uncertainty_rad;
-  table.add_row("", "first", "second", "difference");
-  table.add_row("angle [°]", angle_cell(angle[0], uncertainty[0]),
-                angle_cell(angle[1], uncertainty[1]), difference_cell(comparison.angle));
-  table.add_row("  left sides [°]", "", "", difference_cell(comparison.left.angle));
-  table.add_row("  right sides [°]", "", "", difference_cell(comparison.right.angle));
-  table.add_pair("height", comparison.height);
-  table.add_pair("base", comparison.base);
-  table.add_pair("  left of the axis", comparison.left.run_out);
-  table.add_pair("  right of the axis", comparison.right.run_out);
-  add_verdict(table, *comparison.angle, plan.comparing.margin_rad);
-  if (!comparison.iou) return;
-  table.add_gap();
-  add_outlines(table, plan, comparison);
+  Table table = comparison_table({"", "first", "second", "difference"});
+  table.add_row({"angle [°]", angle_cell(angle[0], uncertainty[0]),
+                 angle_cell(angle[1], uncertainty[1]), difference_cell(comparison.angle)});
+  table.add_row({"  left sides [°]", "", "", difference_cell(comparison.left.angle)});
+  table.add_row({"  right sides [°]", "", "", difference_cell(comparison.right.angle)});
+  table.add_row(lengths.pair_row("height", comparison.height));
+  table.add_row(lengths.pair_row("base", comparison.base));
+  table.add_row(lengths.pair_row("  left of the axis", comparison.left.run_out));
+  table.add_row(lengths.pair_row("  right of the axis", comparison.right.run_out));
+  table.add_note("", verdict_text(*comparison.angle, plan.comparing.margin_rad));
+  return table.text(columns);
 }
 
-void add_warnings(Table& table, const vision::HeapComparison& comparison) {
+std::string warnings_text(const vision::HeapComparison& comparison, int columns) {
+  std::string text;
   if (comparison.status == vision::MeasureStatus::flagged) {
-    table.add_line("! ", "A picture is flagged: look at it before you use the verdict.");
+    text +=
+        paragraph("! ", "A picture is flagged: look at it before you use the verdict.", columns);
   }
   for (const vision::CompareWarning& warning : comparison.warnings) {
     const char* whose = !warning.picture        ? "! "
                         : *warning.picture == 0 ? "! first: "
                                                 : "! second: ";
-    table.add_line(whose, warning.warning.message);
+    text += paragraph(whose, warning.warning.message, columns);
   }
+  return text;
 }
 
 }  // namespace
 
 std::string compare_table(const ComparePlan& plan, const vision::HeapComparison& comparison,
                           int columns) {
-  Table table(comparison, columns);
-  table.add_line("first   ", plan.pictures[0].string());
-  table.add_line("second  ", plan.pictures[1].string());
+  std::string text = paragraph("first   ", plan.pictures[0].string(), columns) +
+                     paragraph("second  ", plan.pictures[1].string(), columns);
   if (comparison.status == vision::MeasureStatus::refused) {
-    table.add_line("refused: ", comparison.reason);
-    return table.text();
+    return text + paragraph("refused: ", comparison.reason, columns);
   }
-  add_measured(table, plan, comparison);
+  text += measured_text(plan, comparison, columns);
+  if (comparison.iou) text += '\n' + outlines_text(plan, comparison, columns);
   if (comparison.unit == vision::LengthUnit::root_area) {
-    table.add_line("", "Lengths are in % of the square root of a silhouette's area.");
+    text += paragraph("", "Lengths are in % of the square root of a silhouette's area.", columns);
   } else if (comparison.unit == vision::LengthUnit::height) {
-    table.add_line("", "Lengths are in % of a heap's height.");
+    text += paragraph("", "Lengths are in % of a heap's height.", columns);
   }
-  add_warnings(table, comparison);
-  return table.text();
+  return text + warnings_text(comparison, columns);
 }
 
 }  // namespace repose::cli

@@ -1,8 +1,6 @@
 #include "cli/export/export.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -11,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/whole_file.h"
 #include "calibrate/export/export.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_table.h"
@@ -52,8 +51,7 @@ std::string result_text(const fs::path& folder) {
                     "repose calibrate again goes on with it.",
                     folder.string()));
   }
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return base::read_whole_file(file);
 }
 
 StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& request) {

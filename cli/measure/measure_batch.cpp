@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "cli/common/picture_list.h"
+#include "cli/common/picture_options.h"
 #include "cli/common/progress.h"
 #include "vision/drawing/overlay.h"
 #include "vision/picture/picture.h"
@@ -31,12 +32,15 @@ void draw(const vision::Picture& picture, const MeasurePlan& plan, std::size_t i
   }
 }
 
+const auto kNames = measuring_names("--exclude X,Y,W,H");
+
 MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
   MeasuredPicture measured;
   measured.file = plan.pictures[index].string();
   try {
     const vision::Picture picture = vision::read_picture(plan.pictures[index]);
     measured.angle = vision::measure_repose_angle(picture, plan.options);
+    name_options(measured.angle, kNames);
     if (!plan.overlays.empty()) draw(picture, plan, index, measured);
     if (plan.keeps_overlays) {
       measured.overlay = calibrate::report::overlay_for_page(
@@ -48,7 +52,7 @@ MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
     measured.angle.right.edge = {};
   } catch (const std::invalid_argument& error) {
     measured.outcome = Outcome::bad_input;
-    measured.error = naming_file(measured.file, error.what());
+    measured.error = naming_options(naming_file(measured.file, error.what()), kNames);
   } catch (const std::exception& error) {
     measured.outcome = Outcome::internal_error;
     measured.error = naming_file(measured.file, error.what());

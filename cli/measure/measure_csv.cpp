@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/csv.h"
 #include "cli/common/degrees.h"
 #include "vision/measure/status_name.h"
 
@@ -22,18 +23,7 @@ constexpr const char* kHeader =
 /// One row, field by field.
 class Row {
  public:
-  void add_text(std::string_view text) {
-    if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
-      fields_.emplace_back(text);
-      return;
-    }
-    std::string quoted = "\"";
-    for (const char letter : text) {
-      if (letter == '"') quoted += '"';
-      quoted += letter;
-    }
-    fields_.push_back(quoted + '"');
-  }
+  void add_text(std::string_view text) { fields_.emplace_back(text); }
   void add_number(const std::optional<double>& value) {
     fields_.push_back(value ? fmt::format("{}", *value) : "");
   }
@@ -41,7 +31,7 @@ class Row {
   void add_degrees(const std::optional<double>& angle_rad) {
     add_number(angle_rad ? std::optional(rounded_degrees(*angle_rad)) : std::nullopt);
   }
-  std::string line() const { return fmt::format("{}\n", fmt::join(fields_, ",")); }
+  std::string line() const { return base::csv_row(fields_); }
 
  private:
   std::vector<std::string> fields_;

@@ -1,27 +1,16 @@
 #include "cli/measure/measure_table.h"
 
-#include <algorithm>
 #include <optional>
-#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/common/degrees.h"
-#include "cli/common/terminal.h"
+#include "cli/common/table.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
-
-constexpr std::size_t kAngleWidth = 12;  // "23.38 ± 0.52"
-constexpr std::size_t kTiltWidth = 5;
-constexpr std::size_t kConfidenceWidth = 5;
-constexpr std::size_t kStatusWidth = 8;
-constexpr std::size_t kGapWidth = 2;
-constexpr std::size_t kRestWidth =
-    3 * kAngleWidth + kTiltWidth + kConfidenceWidth + kStatusWidth + 6 * kGapWidth;
-constexpr std::size_t kNarrowestName = 8;
-constexpr const char* kNothing = "–";
 
 std::string angle_cell(const std::optional<double>& angle_rad,
                        const std::optional<double>& uncertainty_rad) {
@@ -48,51 +37,18 @@ std::string status_cell(const MeasuredPicture& picture, bool has_colour) {
   return fmt::format("{}{}\033[0m", colour, name);
 }
 
-class Table {
- public:
-  Table(const TableStyle& style, std::size_t name_width) : style_(style), name_width_(name_width) {}
-
-  /// A name that is wider than its column has a line of its own.
-  void add_row(std::string_view name, std::string_view angle, std::string_view left,
-               std::string_view right, std::string_view tilt, std::string_view confidence,
-               std::string_view status) {
-    const bool fits = letters(name) <= name_width_;
-    if (!fits) text_ += fmt::format("{}\n", name);
-    text_ += fmt::format("{}  {}  {}  {}  {}  {}  {}\n", padded(fits ? name : "", name_width_),
-                         padded(angle, kAngleWidth), padded(left, kAngleWidth),
-                         padded(right, kAngleWidth), right_aligned(tilt, kTiltWidth),
-                         right_aligned(confidence, kConfidenceWidth), status);
-  }
-
-  /// Text below a row, wrapped, its first line behind `mark`.
-  void add_remark(std::string_view mark, std::string_view remark) {
-    const std::string indent(2 + letters(mark), ' ');
-    const auto width = static_cast<std::size_t>(std::max(20, style_.columns)) - indent.size();
-    std::string before = fmt::format("  {}", mark);
-    for (const std::string& line : wrapped(remark, width)) {
-      text_ += before + line + '\n';
-      before = indent;
-    }
-  }
-
-  const std::string& text() const { return text_; }
-
- private:
-  const TableStyle& style_;
-  std::size_t name_width_;
-  std::string text_;
-};
+constexpr const char* kBelow = "  ";  // before what is said below a row
 
 void add_definitions(Table& table, const vision::ReposeAngle& angle) {
   for (const vision::NamedAngle& definition : angle.definitions) {
-    table.add_remark(fmt::format("{:5.2f}°  ", to_degrees(definition.angle_rad)),
-                     fmt::format("{}: {}", definition.name, definition.description));
+    table.add_note(fmt::format("{}{:5.2f}°  ", kBelow, to_degrees(definition.angle_rad)),
+                   fmt::format("{}: {}", definition.name, definition.description));
   }
   for (const auto& [side, flank] : {std::pair("left", &angle.left), {"right", &angle.right}}) {
     for (const vision::WindowAngle& other : flank->other_windows) {
-      table.add_remark(fmt::format("{:5.2f}°  ", to_degrees(other.angle_rad)),
-                       fmt::format("{} side, window {:.0f}–{:.0f} % of the height", side,
-                                   100 * other.window_from, 100 * other.window_to));
+      table.add_note(fmt::format("{}{:5.2f}°  ", kBelow, to_degrees(other.angle_rad)),
+                     fmt::format("{} side, window {:.0f}–{:.0f} % of the height", side,
+                                 100 * other.window_from, 100 * other.window_to));
     }
   }
 }
@@ -101,39 +57,36 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
   const vision::ReposeAngle& angle = picture.angle;
   const std::string status = status_cell(picture, style.has_colour);
   if (picture.outcome != Outcome::measured) {
-    table.add_row(picture.file, kNothing, kNothing, kNothing, kNothing, kNothing, status);
+    table.add_row({picture.file, kNothing, kNothing, kNothing, kNothing, kNothing, status});
     return;
   }
   table.add_row(
-      picture.file, angle_cell(angle.angle_rad, angle.uncertainty_rad),
-      flank_cell(angle.left, angle.status), flank_cell(angle.right, angle.status),
-      angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
-      fmt::format("{:.2f}", angle.confidence), status);
+      {picture.file, angle_cell(angle.angle_rad, angle.uncertainty_rad),
+       flank_cell(angle.left, angle.status), flank_cell(angle.right, angle.status),
+       angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
+       fmt::format("{:.2f}", angle.confidence), status});
   if (angle.status == vision::MeasureStatus::refused) {
-    table.add_remark("refused: ", angle.reason);
+    table.add_note(fmt::format("{}refused: ", kBelow), angle.reason);
   }
-  for (const vision::Warning& warning : angle.warnings) table.add_remark("! ", warning.message);
+  for (const vision::Warning& warning : angle.warnings) {
+    table.add_note(fmt::format("{}! ", kBelow), warning.message);
+  }
   if (style.shows_definitions) add_definitions(table, angle);
-}
-
-/// As wide as the longest name that leaves room for the numbers.
-std::size_t name_width(const std::vector<MeasuredPicture>& pictures, int columns) {
-  const auto available = static_cast<std::size_t>(std::max(0, columns));
-  std::size_t width = kNarrowestName;
-  for (const MeasuredPicture& picture : pictures) {
-    const std::size_t count = letters(picture.file);
-    if (count + kRestWidth <= available) width = std::max(width, count);
-  }
-  return width;
 }
 
 }  // namespace
 
 std::string measure_table(const std::vector<MeasuredPicture>& pictures, const TableStyle& style) {
-  Table table(style, name_width(pictures, style.columns));
-  table.add_row("picture", "angle [°]", "left [°]", "right [°]", "tilt", "conf.", "status");
+  constexpr std::size_t kAngleWidth = 12;  // "23.38 ± 0.52"
+  Table table({{.heading = "picture"},
+               {.heading = "angle [°]", .min_width = kAngleWidth},
+               {.heading = "left [°]", .min_width = kAngleWidth},
+               {.heading = "right [°]", .min_width = kAngleWidth},
+               {.heading = "tilt [°]", .align = Align::right},
+               {.heading = "conf.", .align = Align::right},
+               {.heading = "status"}});
   for (const MeasuredPicture& picture : pictures) add_picture(table, picture, style);
-  return table.text();
+  return table.text(style.columns);
 }
 
 }  // namespace repose::cli

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/common/number.h"
+#include "cli/common/option_names.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output_places.h"
 
 namespace repose::cli {
@@ -20,93 +19,43 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 void read_view(const std::string& text, RenderPlan& plan) {
-  if (text.empty() || text == "xz") return;
-  const auto azimuth_deg = number_in<double>(text);
-  constexpr double kMost_deg = 3600;
-  if (!azimuth_deg || std::abs(*azimuth_deg) > kMost_deg) {
-    plan.errors.push_back(
-        fmt::format("--view {}: must be xz or an azimuth in degrees. Fix: --view 90 looks at the "
-                    "heap from its right.",
-                    text));
-    return;
-  }
-  plan.level.azimuth_rad = *azimuth_deg * kDegree;
+  if (text == "xz") return;
+  const auto azimuth_rad = read_angle({"--view", text, plan.errors},
+                                      "xz, or an azimuth: --view 90 looks at the heap from its "
+                                      "right");
+  plan.level.azimuth_rad = azimuth_rad.value_or(plan.level.azimuth_rad);
 }
 
-void read_size(const std::string& text, RenderPlan& plan) {
-  if (text.empty()) return;
-  const auto size = numbers_in<int, 2>(text);
-  if (!size || (*size)[0] < 1 || (*size)[1] < 1) {
-    plan.errors.push_back(fmt::format(
-        "--size {}: must be width and height in pixels, each above 0, with a comma between them. "
-        "Fix: --size 1920,1080.",
-        text));
-    return;
-  }
-  plan.size = {.width = (*size)[0], .height = (*size)[1]};
-}
-
-void read_scale(const std::string& text, RenderPlan& plan) {
-  if (text.empty()) return;
-  const auto mm_per_px = number_in<double>(text);
-  if (!mm_per_px || *mm_per_px <= 0) {
-    plan.errors.push_back(fmt::format(
-        "--mm-per-px {}: must be a number above 0. Fix: leave it out to see all grains.", text));
-    return;
-  }
-  plan.level.mm_per_px = mm_per_px;
-}
-
-std::optional<render::Shown> shown_named(const std::string& name) {
-  if (name.empty() || name == "mesh") return render::Shown::mesh;
-  if (name == "spheres") return render::Shown::spheres;
-  if (name == "both") return render::Shown::both;
-  return std::nullopt;
+void read_photo(const RenderArguments& arguments, render::PhotoStyle& photo, RenderPlan& plan) {
+  photo.seed = read_seed({"--seed", arguments.seed, plan.errors}).value_or(photo.seed);
+  photo.passes = read_whole_number({"--passes", arguments.passes, plan.errors}, 1,
+                                   render::kMaxPasses, fmt::format("{} is usual", photo.passes))
+                     .value_or(photo.passes);
 }
 
 void read_style(const RenderArguments& arguments, RenderPlan& plan) {
-  const auto shown = shown_named(arguments.show);
-  if (!shown) {
-    plan.errors.push_back(fmt::format(
-        "--show {}: is none that is known here. Fix: mesh, spheres or both.", arguments.show));
-  }
-  if (!arguments.style.empty() && arguments.style != "silhouette" && arguments.style != "photo") {
-    plan.errors.push_back(fmt::format(
-        "--style {}: is none that is known here. Fix: silhouette or photo.", arguments.style));
-  }
-  const bool is_photo = arguments.style == "photo";
-  for (const auto& [option, text] :
-       {std::pair{"--seed", &arguments.seed}, std::pair{"--passes", &arguments.passes}}) {
-    if (!text->empty() && !is_photo) {
-      plan.errors.push_back(fmt::format(
-          "{}: a silhouette has neither noise nor shadows. Fix: --style photo, or leave it out.",
-          option));
-    }
-  }
-  if (!is_photo) {
-    plan.style = render::SilhouetteStyle{.shown = shown.value_or(render::Shown::mesh)};
+  enum class Kind { silhouette, photo };
+  const auto shown = read_choice<render::Shown>({"--show", arguments.show, plan.errors},
+                                                {{"mesh", render::Shown::mesh},
+                                                 {"spheres", render::Shown::spheres},
+                                                 {"both", render::Shown::both}})
+                         .value_or(render::Shown::mesh);
+  const auto kind = read_choice<Kind>({"--style", arguments.style, plan.errors},
+                                      {{"silhouette", Kind::silhouette}, {"photo", Kind::photo}});
+  if (kind == Kind::photo) {
+    render::PhotoStyle photo{.shown = shown};
+    read_photo(arguments, photo, plan);
+    plan.style = photo;
     return;
   }
-  render::PhotoStyle photo{.shown = shown.value_or(render::Shown::mesh)};
-  if (!arguments.seed.empty()) {
-    const auto seed = number_in<std::uint64_t>(arguments.seed);
-    if (!seed) {
-      plan.errors.push_back(fmt::format(
-          "--seed {}: must be a whole number from 0 on. Fix: --seed 1.", arguments.seed));
-    }
-    photo.seed = seed.value_or(photo.seed);
+  plan.style = render::SilhouetteStyle{.shown = shown};
+  for (const auto& [option, text] :
+       {std::pair{"--seed", &arguments.seed}, std::pair{"--passes", &arguments.passes}}) {
+    if (text->empty() || (!kind && !arguments.style.empty())) continue;
+    plan.errors.push_back(fmt::format(
+        "{}: a silhouette has neither noise nor shadows. Fix: --style photo, or leave it out.",
+        option));
   }
-  if (!arguments.passes.empty()) {
-    constexpr int kMaxPasses = 1000;
-    const auto passes = number_in<int>(arguments.passes);
-    if (!passes || *passes < 1 || *passes > kMaxPasses) {
-      plan.errors.push_back(
-          fmt::format("--passes {}: must be a whole number from 1 to {}. Fix: {} is usual.",
-                      arguments.passes, kMaxPasses, photo.passes));
-    }
-    photo.passes = passes.value_or(photo.passes);
-  }
-  plan.style = photo;
 }
 
 /// One KEY=VALUE of --camera; false when there is no such key or it has no number.
@@ -160,16 +109,10 @@ void read_camera(const RenderArguments& arguments, RenderPlan& plan) {
 }
 
 void read_turntable(const RenderArguments& arguments, RenderPlan& plan) {
-  if (arguments.turntable.empty()) return;
   constexpr int kMaxFrames = 10'000;
-  const auto frames = number_in<int>(arguments.turntable);
-  if (!frames || *frames < 1 || *frames > kMaxFrames) {
-    plan.errors.push_back(
-        fmt::format("--turntable {}: must be a whole number of frames from 1 to {}. Fix: 72 is one "
-                    "every 5 degrees.",
-                    arguments.turntable, kMaxFrames));
-    return;
-  }
+  const auto frames = read_whole_number({"--turntable", arguments.turntable, plan.errors}, 1,
+                                        kMaxFrames, "72 is one frame every 5 degrees");
+  if (!frames) return;
   plan.turntable_frames = *frames;
   if (plan.is_series) {
     plan.errors.push_back(fmt::format(
@@ -180,31 +123,26 @@ void read_turntable(const RenderArguments& arguments, RenderPlan& plan) {
 
 void read_output(const RenderArguments& arguments, RenderPlan& plan) {
   const std::string& file = arguments.out_file;
-  const auto ends_in = [&file](std::initializer_list<std::string_view> endings) {
-    return std::any_of(endings.begin(), endings.end(),
-                       [&file](std::string_view ending) { return file.ends_with(ending); });
-  };
-  const bool is_film = plan.is_series || plan.turntable_frames > 0;
   if (file.empty()) {
-    plan.errors.emplace_back("--out: there is no place for the picture. Fix: --out heap.png.");
-  } else if (ends_in({".png", ".jpg", ".jpeg"})) {
-    plan.output = RenderOutput::picture;
-  } else if (ends_in({".glb"})) {
-    plan.output = RenderOutput::model;
-  } else if (ends_in({".mp4", ".gif"})) {
-    plan.output = RenderOutput::film;
-  } else {
-    plan.errors.push_back(fmt::format(
-        "--out {}: its ending must say what it is. Fix: .png or .jpg for a picture, .glb for a "
-        "model, .mp4 or .gif for a film.",
-        file));
+    plan.errors.emplace_back("--out: no place for the picture is given. Fix: --out heap.png.");
     return;
   }
-  if (file.empty() || (plan.output == RenderOutput::film) == is_film) return;
+  const auto output =
+      read_format<RenderOutput>({"--out", file, plan.errors}, {{".png", RenderOutput::picture},
+                                                               {".jpg", RenderOutput::picture},
+                                                               {".jpeg", RenderOutput::picture},
+                                                               {".glb", RenderOutput::model},
+                                                               {".mp4", RenderOutput::film},
+                                                               {".gif", RenderOutput::film}});
+  if (!output) return;
+  plan.output = *output;
+  const bool is_film = plan.is_series || plan.turntable_frames > 0;
+  if ((plan.output == RenderOutput::film) == is_film) return;
   plan.errors.push_back(
-      is_film ? fmt::format("--out {}: a film is asked for. Fix: a name that ends in .mp4 or .gif.",
+      is_film ? fmt::format("--out {}: these frames make a film. Fix: a name that ends in .mp4 or "
+                            ".gif.",
                             file)
-              : fmt::format("--out {}: one state is no film. Fix: add --turntable 72, or name a "
+              : fmt::format("--out {}: one state makes no film. Fix: add --turntable 72, or name a "
                             "trajectory.pvd.",
                             file));
 }
@@ -215,8 +153,15 @@ RenderPlan plan_render(const RenderArguments& arguments) {
   RenderPlan plan;
   plan.is_series = arguments.state.ends_with(".pvd");
   read_view(arguments.view, plan);
-  read_size(arguments.size, plan);
-  read_scale(arguments.mm_per_px, plan);
+  if (const auto size = read_size({"--size", arguments.size, plan.errors})) {
+    plan.size = {.width = (*size)[0], .height = (*size)[1]};
+    constexpr std::array kSize{OptionName{.value = "picture size", .option = "--size"}};
+    for (const std::string& problem : plan.size.problems()) {
+      plan.errors.push_back(naming_options(problem, kSize));
+    }
+  }
+  plan.level.mm_per_px = read_positive({"--mm-per-px", arguments.mm_per_px, plan.errors},
+                                       "a number of mm", "leave it out to see all grains");
   read_style(arguments, plan);
   read_camera(arguments, plan);
   read_turntable(arguments, plan);
@@ -225,8 +170,8 @@ RenderPlan plan_render(const RenderArguments& arguments) {
     for (const auto& [option, file] :
          {std::pair{"--mask", &arguments.mask_file}, std::pair{"--truth", &arguments.truth_file}}) {
       if (file->empty()) continue;
-      plan.errors.push_back(
-          fmt::format("{}: belongs to one picture. Fix: leave it out, or --out heap.png.", option));
+      plan.errors.push_back(fmt::format(
+          "{}: is for a single picture. Fix: leave it out, or --out heap.png.", option));
     }
   }
   if (!arguments.mask_file.empty() && !arguments.mask_file.ends_with(".png")) {

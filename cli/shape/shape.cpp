@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/common/output.h"
+#include "cli/common/terminal.h"
 #include "cli/shape/shape_options.h"
 #include "cli/shape/shape_report.h"
 #include "dem/shape/clump/clump_file.h"
@@ -28,7 +29,7 @@ std::string source_of(const ShapeArguments& arguments) {
                      arguments.tip.empty() ? "0" : arguments.tip);
 }
 
-void diagnostic_unit(const ShapeArguments& arguments, const dem::ClumpShape& shape) {
+void warn_of_unit(const ShapeArguments& arguments, const dem::ClumpShape& shape) {
   if (arguments.scan.empty() || !arguments.unit.empty()) return;
   const double reach = shape.reach_m();
   if (2 * reach >= kDoubtfulLength_m) return;
@@ -53,7 +54,8 @@ void write_results(const dem::ClumpFile& clump, const ShapeArguments& arguments,
                                arguments.out_file == kStandardOutput ||
                                arguments.mesh_file == kStandardOutput;
   if (!stdout_is_taken) {
-    write_output(std::string(kStandardOutput), shape_table(clump, plan.density_kg_m3));
+    write_output(std::string(kStandardOutput),
+                 shape_table(clump, plan.density_kg_m3, columns_of(stdout)));
   }
 }
 
@@ -70,7 +72,7 @@ ExitCode run_shape(const ShapeArguments& arguments) {
                              .repairs = std::move(scan.repairs),
                              .shape = std::move(filled.shape),
                              .errors = filled.errors};
-  diagnostic_unit(arguments, clump.shape);
+  warn_of_unit(arguments, clump.shape);
   write_results(clump, arguments, plan);
   return ExitCode::done;
 }

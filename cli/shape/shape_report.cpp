@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/common/table.h"
+
 namespace repose::cli {
 namespace {
 
@@ -31,20 +33,41 @@ double mass_g(const dem::ClumpShape& shape, double density_kg_m3) {
 
 dem::Vector gyration_mm2(const dem::ClumpShape& shape) { return kMm2PerM2 * shape.gyration_m2; }
 
-std::string mass_lines(const dem::ClumpShape& shape, std::optional<double> density_kg_m3) {
+void add_mass(const dem::ClumpShape& shape, std::optional<double> density_kg_m3, Table& table) {
   const dem::Vector gyration = gyration_mm2(shape);
   if (!density_kg_m3) {
-    return fmt::format(
-        "mass            – (needs --density-kg-m3)\n"
-        "moments         {:.4g}, {:.4g}, {:.4g} mm² times the mass\n",
-        gyration.x(), gyration.y(), gyration.z());
+    table.add_row({"mass", fmt::format("{} (needs --density-kg-m3)", kNothing)});
+    table.add_row({"moments", fmt::format("{:.4g}, {:.4g}, {:.4g} mm² times the mass", gyration.x(),
+                                          gyration.y(), gyration.z())});
+    return;
   }
   const double mass = mass_g(shape, *density_kg_m3);
   const dem::Vector moments = mass * gyration;
-  return fmt::format(
-      "mass            {:.4g} g at {:g} kg/m³\n"
-      "moments         {:.4g}, {:.4g}, {:.4g} g mm²\n",
-      mass, *density_kg_m3, moments.x(), moments.y(), moments.z());
+  table.add_row({"mass", fmt::format("{:.4g} g at {:g} kg/m³", mass, *density_kg_m3)});
+  table.add_row({"moments", fmt::format("{:.4g}, {:.4g}, {:.4g} g mm²", moments.x(), moments.y(),
+                                        moments.z())});
+}
+
+void add_spheres(const dem::ClumpFile& clump, Table& table) {
+  const auto& spheres = clump.shape.spheres;
+  const dem::ClumpErrors& errors = clump.errors;
+  const auto [smallest, largest] =
+      std::minmax_element(spheres.begin(), spheres.end(),
+                          [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  table.add_row({"spheres", fmt::format("{}, radii {:.4g} … {:.4g} mm", spheres.size(),
+                                        kMmPerM * smallest->radius, kMmPerM * largest->radius)});
+  table.add_row(
+      {"volume error", fmt::format("{:.2f} % missing or sticking out; in all {:+.2f} %",
+                                   100 * errors.volume_error, 100 * errors.volume_difference)});
+  table.add_row({"inertia error",
+                 fmt::format("{:.2f} % of the spheres alone (a simulation uses the surface's own)",
+                             100 * errors.inertia_error)});
+  table.add_row({"surface error", fmt::format("{:.3g} mm on average, {:.3g} mm for 95 %",
+                                              kMmPerM * errors.surface_error_mean_m,
+                                              kMmPerM * errors.surface_error_p95_m)});
+  table.add_row(
+      {"farthest", fmt::format("{:.3g} mm outside the surface, {:.3g} mm inside it",
+                               kMmPerM * errors.sticks_out_m, kMmPerM * errors.falls_short_m)});
 }
 
 Json vector_json(const dem::Vector& vector) { return {vector.x(), vector.y(), vector.z()}; }
@@ -62,34 +85,20 @@ Json spheres_json(const dem::ClumpShape& shape) {
 
 }  // namespace
 
-std::string shape_table(const dem::ClumpFile& clump, std::optional<double> density_kg_m3) {
+std::string shape_table(const dem::ClumpFile& clump, std::optional<double> density_kg_m3,
+                        int columns) {
   const dem::ClumpShape& shape = clump.shape;
-  const dem::ClumpErrors& errors = clump.errors;
-  const auto [smallest, largest] =
-      std::minmax_element(shape.spheres.begin(), shape.spheres.end(),
-                          [](const auto& a, const auto& b) { return a.radius < b.radius; });
   const dem::Vector size = size_mm(shape);
-  std::string text = fmt::format(
-      "grain           {}\n"
-      "size            {:.4g} × {:.4g} × {:.4g} mm along the principal axes\n"
-      "surface         {} triangles, closed\n"
-      "volume          {:.5g} mm³\n",
-      clump.source, size.x(), size.y(), size.z(), shape.surface.triangles.size(),
-      kMm3PerM3 * shape.volume_m3);
-  text += mass_lines(shape, density_kg_m3);
-  text += fmt::format(
-      "spheres         {}, radii {:.4g} … {:.4g} mm\n"
-      "volume error    {:.2f} % missing or sticking out; in all {:+.2f} %\n"
-      "inertia error   {:.2f} % of the spheres alone (a simulation uses the surface's own)\n"
-      "surface error   {:.3g} mm mean, {:.3g} mm for 95 %\n"
-      "farthest        {:.3g} mm out of the surface, {:.3g} mm short of it\n",
-      shape.spheres.size(), kMmPerM * smallest->radius, kMmPerM * largest->radius,
-      100 * errors.volume_error, 100 * errors.volume_difference, 100 * errors.inertia_error,
-      kMmPerM * errors.surface_error_mean_m, kMmPerM * errors.surface_error_p95_m,
-      kMmPerM * errors.sticks_out_m, kMmPerM * errors.falls_short_m);
-  for (const std::string& repair : clump.repairs)
-    text += fmt::format("mended          {}\n", repair);
-  return text;
+  Table table({{.heading = ""}, {.heading = ""}});
+  table.add_row({"grain", clump.source});
+  table.add_row({"size", fmt::format("{:.4g} × {:.4g} × {:.4g} mm along the principal axes",
+                                     size.x(), size.y(), size.z())});
+  table.add_row({"surface", fmt::format("{} triangles, closed", shape.surface.triangles.size())});
+  table.add_row({"volume", fmt::format("{:.5g} mm³", kMm3PerM3 * shape.volume_m3)});
+  add_mass(shape, density_kg_m3, table);
+  add_spheres(clump, table);
+  for (const std::string& repair : clump.repairs) table.add_row({"repaired", repair});
+  return table.text(columns);
 }
 
 std::string shape_json(const dem::ClumpFile& clump, std::optional<double> density_kg_m3) {

@@ -8,7 +8,8 @@
 namespace repose::cli {
 
 /// The table for people.
-std::string shape_table(const dem::ClumpFile& clump, std::optional<double> density_kg_m3);
+std::string shape_table(const dem::ClumpFile& clump, std::optional<double> density_kg_m3,
+                        int columns);
 
 /// Everything, for programs.
 std::string shape_json(const dem::ClumpFile& clump, std::optional<double> density_kg_m3);

@@ -1,6 +1,7 @@
 #include "cli/simulate/simulate_options.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "base/whole_file.h"
 #include "cli/common/number.h"
+#include "cli/common/option_names.h"
 #include "cli/common/output.h"
 #include "cli/simulate/simulate_names.h"
 #include "cli/simulate/simulate_saved.h"
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 constexpr int kMaxRepeats = 100'000;
 constexpr int kMaxThreads = 1024;
 constexpr int kUsualViews = 18;
+constexpr std::array kNames{OptionName{.value = "setting", .option = "--set"}};
 constexpr int kMaxViews = 360;
 
 /// The whole text as a number from `least` to `most`; an error otherwise. None when it is empty.
@@ -159,7 +162,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
     plan.study = dem::read_study(arguments.study, arguments.settings);
     is_read = true;
   } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
+    add_lines(naming_options(error.what(), kNames), plan.errors);
   }
   read_numbers(arguments, plan);
   if (experiment) read_views(arguments, plan);

@@ -1,8 +1,6 @@
 #include "cli/simulate/simulate_saved.h"
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/whole_file.h"
 #include "cli/common/output.h"
 #include "cli/simulate/simulate_names.h"
 #include "dem/state/state_file.h"
@@ -37,11 +36,6 @@ fs::path finished_file(const SimulatePlan& plan, std::uint64_t seed) {
 }
 fs::path restart_file(const SimulatePlan& plan, std::uint64_t seed) {
   return file_of(plan, seed, ".restart.vtp");
-}
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 bool is_there(const fs::path& file) {
@@ -154,7 +148,7 @@ fs::path place_of(const SimulatePlan& plan, std::uint64_t seed) {
 std::string error_of_saved(const SimulatePlan& plan) {
   const fs::path file = identity_file(plan);
   if (plan.out_folder.empty() || !is_there(file)) return {};
-  const Json saved = Json::parse(read_text(file), nullptr, false);
+  const Json saved = Json::parse(base::read_whole_file(file), nullptr, false);
   const Json asked = identity_of(plan);
   if (saved == asked) return {};
   return fmt::format(
@@ -213,7 +207,7 @@ void save_restart(const SimulatePlan& plan, std::uint64_t seed, const dem::Simul
 std::optional<Run> saved_run(const SimulatePlan& plan, std::uint64_t seed) {
   if (plan.out_folder.empty() || !is_finished(plan, seed)) return std::nullopt;
   const fs::path file = finished_file(plan, seed);
-  return checked(file, identity_of(plan, seed), read_text(file), [&](const Json& json) {
+  return checked(file, identity_of(plan, seed), base::read_whole_file(file), [&](const Json& json) {
     Run run;
     run.outcome = RunOutcome::done;
     run.repeat = {.value = number_or_nan(json.at("value")),

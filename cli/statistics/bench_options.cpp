@@ -12,7 +12,7 @@
 
 #include "base/closest_word.h"
 #include "calibrate/statistics/table/table.h"
-#include "cli/common/number.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 
@@ -30,30 +30,6 @@ std::vector<std::string> names_of(const std::vector<calibrate::ReadingColumn>& c
   return names;
 }
 
-std::optional<calibrate::BenchTest> test_named(const std::string& name, BenchPlan& plan) {
-  const auto& names = calibrate::kBenchTestNames;
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    plan.errors.push_back(
-        fmt::format("bench {}: there is no such test. Fix: {}.", name, fmt::join(names, ", ")));
-    return std::nullopt;
-  }
-  return static_cast<calibrate::BenchTest>(found - names.begin());
-}
-
-/// "V,V,V" with as many numbers as there are; none if one is none.
-std::optional<std::vector<double>> list_in(std::string_view text) {
-  std::vector<double> numbers;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    const auto number = number_in<double>(text.substr(0, comma));
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-    if (comma == std::string_view::npos) return numbers;
-    text.remove_prefix(comma + 1);
-  }
-}
-
 Settings read_settings(const BenchArguments& arguments, const std::vector<std::string>& names,
                        BenchPlan& plan) {
   Settings settings;
@@ -62,11 +38,11 @@ Settings read_settings(const BenchArguments& arguments, const std::vector<std::s
     const std::string name = text.substr(0, equals);
     const auto numbers = equals == std::string::npos
                              ? std::nullopt
-                             : list_in(std::string_view(text).substr(equals + 1));
+                             : numbers_in(std::string_view(text).substr(equals + 1));
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       const std::string guess = base::closest_word(name, names);
       plan.errors.push_back(fmt::format(
-          "--set {}: {} is not read in this test. {}Fix: {}.", text, name,
+          "--set {}: {} is no reading of this test. {}Fix: {}.", text, name,
           guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), fmt::join(names, ", ")));
     } else if (!settings.emplace(name, numbers.value_or(std::vector{0.0})).second) {
       plan.errors.push_back(
@@ -185,9 +161,11 @@ void evaluate(BenchPlan& plan) {
 BenchPlan plan_bench(const BenchArguments& arguments) {
   BenchPlan plan;
   plan.json_file = arguments.json_file;
-  if (const auto test = test_named(arguments.test, plan)) {
-    plan.test = *test;
-    const std::vector<std::string> names = names_of(calibrate::columns_of(*test));
+  const auto& tests = calibrate::kBenchTestNames;
+  if (const auto test =
+          read_word({"bench", arguments.test, plan.errors}, {tests.begin(), tests.end()})) {
+    plan.test = static_cast<calibrate::BenchTest>(*test);
+    const std::vector<std::string> names = names_of(calibrate::columns_of(plan.test));
     const Settings settings = read_settings(arguments, names, plan);
     if (arguments.files.empty()) add_typed_readings(settings, names, plan);
     for (const std::string& file : arguments.files) {

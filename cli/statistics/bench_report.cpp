@@ -1,50 +1,41 @@
 #include "cli/statistics/bench_report.h"
 
-#include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common/terminal.h"
+#include "cli/common/table.h"
 
 namespace repose::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kNothing = "–";
-
-std::string quantity_line(const calibrate::BenchQuantity& quantity, std::size_t width) {
+std::vector<std::string> quantity_row(const calibrate::BenchQuantity& quantity) {
   const auto& [n, mean, sd, uncertainty] = quantity.repeats;
-  const std::string name =
-      quantity.unit.empty() ? quantity.name : fmt::format("{} [{}]", quantity.name, quantity.unit);
-  const std::string interval =
+  return {
+      quantity.unit.empty() ? quantity.name : fmt::format("{} [{}]", quantity.name, quantity.unit),
+      fmt::format("{:.4g}", mean), sd ? fmt::format("{:.3g}", *sd) : kNothing, fmt::format("{}", n),
       uncertainty ? fmt::format("{:.4g} … {:.4g}", mean - *uncertainty, mean + *uncertainty)
-                  : kNothing;
-  return fmt::format("{}{:>11.4g}{}{:>6}{}\n", padded(name, width), mean,
-                     right_aligned(sd ? fmt::format("{:.3g}", *sd) : kNothing, 11), n,
-                     right_aligned(interval, 27));
+                  : kNothing};
 }
 
 }  // namespace
 
 std::string bench_table(const std::string& test, const calibrate::BenchResult& result,
                         int columns) {
-  constexpr std::size_t kNameWidth = 24;
-  constexpr int kNarrowest = 40;
-  std::string text = fmt::format("{}: {}\n\n", test, result.source);
-  text += fmt::format("{}{:>11}{:>11}{:>6}{}\n", padded("", kNameWidth), "mean", "sd", "n",
-                      right_aligned("95 % of the mean (Student)", 27));
+  Table table({{.heading = ""},
+               {.heading = "mean", .align = Align::right},
+               {.heading = "sd", .align = Align::right},
+               {.heading = "n", .align = Align::right},
+               {.heading = "95 % interval of the mean (Student)", .align = Align::right}});
   for (const calibrate::BenchQuantity& quantity : result.quantities) {
-    text += quantity_line(quantity, kNameWidth);
+    table.add_row(quantity_row(quantity));
   }
-  text += '\n';
-  for (const std::string& note : result.notes) {
-    for (const std::string& line :
-         wrapped(note, static_cast<std::size_t>(std::max(kNarrowest, columns)))) {
-      text += line + '\n';
-    }
-  }
+  std::string text = paragraph("", fmt::format("{}: {}", test, result.source), columns) + '\n' +
+                     table.text(columns) + '\n';
+  for (const std::string& note : result.notes) text += paragraph("", note, columns);
   return text;
 }
 

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "base/csv.h"
 
 namespace repose::cli {
 namespace {
@@ -32,7 +33,7 @@ std::string design_csv(const calibrate::Design& design, const DesignCsvOptions& 
   if (options.with_coded) {
     for (const calibrate::Factor& factor : design.factors) header.push_back(factor.name + "_coded");
   }
-  std::string csv = fmt::format("{}\n", fmt::join(header, ","));
+  std::string csv = base::csv_row(header);
   int number = 0;
   for (const calibrate::DesignRun& run : design.runs) {
     std::vector<std::string> cells = {fmt::format("{}", ++number)};
@@ -45,7 +46,7 @@ std::string design_csv(const calibrate::Design& design, const DesignCsvOptions& 
     if (options.with_coded) {
       for (const double level : run.coded) cells.push_back(level_text(level));
     }
-    csv += fmt::format("{}\n", fmt::join(cells, ","));
+    csv += base::csv_row(cells);
   }
   return csv;
 }

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +14,7 @@
 #include "calibrate/statistics/design/steepest_ascent.h"
 #include "calibrate/statistics/regress/run_table.h"
 #include "cli/common/number.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "cli/statistics/factor_options.h"
@@ -68,31 +67,23 @@ std::vector<std::string_view> typed_options(const DesignArguments& given) {
 }
 
 void check_kind(const DesignArguments& arguments, DesignPlan& plan) {
-  const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
-                                 [&](const Kind& known) { return known.name == arguments.kind; });
-  if (kind == kKinds.end()) {
-    plan.errors.push_back(fmt::format(
-        "design {}: there is no such design. Fix: ccd, box-behnken, lhs, sweep or ascent.",
-        arguments.kind));
-    return;
-  }
+  std::vector<std::string> names;
+  for (const Kind& known : kKinds) names.emplace_back(known.name);
+  const auto found = read_word({"design", arguments.kind, plan.errors}, names);
+  if (!found) return;
+  const Kind& kind = kKinds[*found];
   for (const std::string_view option : typed_options(arguments)) {
-    if (std::find(kind->options.begin(), kind->options.end(), option) != kind->options.end()) {
-      continue;
-    }
+    if (std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end()) continue;
     plan.errors.push_back(
-        fmt::format("{}: means nothing in {}. Fix: leave it out.", option, kind->name));
+        fmt::format("{}: not an option of {}. Fix: leave it out.", option, kind.name));
   }
 }
 
-/// The whole text as a number; `otherwise` when it is empty, an error when it is no number.
-template <typename Number>
-Number number_or(Number otherwise, const char* option, const std::string& text, DesignPlan& plan) {
-  if (text.empty()) return otherwise;
-  if (const auto number = number_in<Number>(text)) return *number;
-  plan.errors.push_back(fmt::format("{0} {1}: must be a {2}number. Fix: {0} 3.", option, text,
-                                    std::is_integral_v<Number> ? "whole " : ""));
-  return otherwise;
+/// From a few to a million: what a design can be made of is decided where it is made.
+int count_or(int otherwise, const char* option, const std::string& text, DesignPlan& plan) {
+  constexpr int kMost = 1'000'000;
+  return read_whole_number({option, text, plan.errors}, -kMost, kMost, fmt::format("{} 3", option))
+      .value_or(otherwise);
 }
 
 void check_name(const char* option, const std::string& text, const std::string& name,
@@ -117,7 +108,7 @@ std::vector<Factor> read_factors(const DesignArguments& arguments, DesignPlan& p
 
 calibrate::CompositeOptions composite_options(const DesignArguments& arguments, DesignPlan& plan) {
   calibrate::CompositeOptions options;
-  options.centre_runs = number_or(kUsualCentreRuns, "--centre", arguments.centre_runs, plan);
+  options.centre_runs = count_or(kUsualCentreRuns, "--centre", arguments.centre_runs, plan);
   options.is_inscribed = arguments.is_inscribed;
   if (arguments.alpha.empty() || arguments.alpha == "rotatable") return options;
   if (arguments.alpha == "orthogonal") {
@@ -166,7 +157,9 @@ calibrate::Design typed_line(const DesignArguments& arguments, int runs, DesignP
 calibrate::Design fitted_line(const DesignArguments& arguments, const std::vector<Factor>& codings,
                               int runs, DesignPlan& plan) {
   constexpr double kUsualStride = .5;
-  const double stride = number_or(kUsualStride, "--stride", arguments.stride, plan);
+  const double stride =
+      read_number({"--stride", arguments.stride, plan.errors}, "a number", "--stride 0.5")
+          .value_or(kUsualStride);
   if (arguments.response.empty()) {
     plan.errors.emplace_back("--fit: the response is not named. Fix: add --response COLUMN.");
   }
@@ -177,7 +170,7 @@ calibrate::Design fitted_line(const DesignArguments& arguments, const std::vecto
   constexpr double kSignificant = .05;
   if (plane.explained.p.value_or(0) > kSignificant) {
     plan.notes.push_back(fmt::format(
-        "{}: the plane explains no more than chance does (p = {:.2g}): this direction is a guess.",
+        "{}: the plane explains no more than chance would (p = {:.2g}): this direction is a guess.",
         arguments.fitted_table, *plane.explained.p));
   }
   return calibrate::steepest_ascent(plane, runs, stride, arguments.descends);
@@ -185,7 +178,7 @@ calibrate::Design fitted_line(const DesignArguments& arguments, const std::vecto
 
 calibrate::Design ascent(const DesignArguments& arguments, const std::vector<Factor>& factors,
                          DesignPlan& plan) {
-  const int runs = number_or(kUsualSteps, "--runs", arguments.runs, plan);
+  const int runs = count_or(kUsualSteps, "--runs", arguments.runs, plan);
   const bool is_typed = !arguments.starts.empty() || !arguments.steps.empty();
   if (is_typed == !arguments.fitted_table.empty()) {
     plan.errors.emplace_back(
@@ -202,12 +195,12 @@ calibrate::Design make_design(const DesignArguments& arguments, DesignPlan& plan
   const calibrate::CompositeOptions composite = composite_options(arguments, plan);
   const std::optional<int> centre =
       arguments.centre_runs.empty() ? std::nullopt : std::optional(composite.centre_runs);
-  const int levels = number_or(kUsualLevels, "--levels", arguments.levels, plan);
+  const int levels = count_or(kUsualLevels, "--levels", arguments.levels, plan);
   // Ten runs for each factor: Loeppky, Sacks, Welch (2009), Technometrics 51, 366.
   constexpr int kRunsForEach = 10;
   const int runs =
-      number_or(kRunsForEach * static_cast<int>(factors.size()), "--runs", arguments.runs, plan);
-  const auto seed = number_or<std::uint64_t>(1, "--seed", arguments.seed, plan);
+      count_or(kRunsForEach * static_cast<int>(factors.size()), "--runs", arguments.runs, plan);
+  const auto seed = read_seed({"--seed", arguments.seed, plan.errors}).value_or(1);
   if (!plan.errors.empty()) return {};
   if (arguments.kind == "ccd") return calibrate::central_composite(factors, composite);
   if (arguments.kind == "box-behnken") return calibrate::box_behnken(factors, centre);
@@ -240,7 +233,7 @@ DesignPlan plan_design(const DesignArguments& arguments) {
   plan.csv = {.with_coded = arguments.with_coded, .with_standard = !arguments.random_order.empty()};
   check_kind(arguments, plan);
   const auto order_seed =
-      number_or<std::uint64_t>(1, "--random-order", arguments.random_order, plan);
+      read_seed({"--random-order", arguments.random_order, plan.errors}).value_or(1);
   check_output_places({{"--out", arguments.out_file}}, {arguments.fitted_table}, plan.errors);
   try {
     plan.design = make_design(arguments, plan);

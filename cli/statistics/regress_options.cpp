@@ -1,12 +1,15 @@
 #include "cli/statistics/regress_options.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "calibrate/statistics/regress/run_table.h"
-#include "cli/common/number.h"
+#include "cli/common/option_names.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "cli/statistics/factor_options.h"
@@ -14,18 +17,10 @@
 namespace repose::cli {
 namespace {
 
-void read_model(const std::string& text, RegressPlan& plan) {
-  using calibrate::SurfaceModel;
-  if (text.empty() || text == "quadratic") return;
-  if (text == "linear") {
-    plan.model = SurfaceModel::linear;
-  } else if (text == "interaction") {
-    plan.model = SurfaceModel::interaction;
-  } else {
-    plan.errors.push_back(fmt::format(
-        "--model {}: is none that is known here. Fix: linear, interaction or quadratic.", text));
-  }
-}
+/// How the library calls the options.
+constexpr std::array kNames{OptionName{.value = "linear model", .option = "--model linear"},
+                            OptionName{.value = "factor columns", .option = "--factors A,B,C"}};
+constexpr std::array kTarget{OptionName{.value = "target value", .option = "--target"}};
 
 std::vector<std::string> names_in(const std::string& text, RegressPlan& plan) {
   std::vector<std::string> names;
@@ -48,26 +43,29 @@ std::vector<std::string> names_in(const std::string& text, RegressPlan& plan) {
 RegressPlan plan_regress(const RegressArguments& arguments) {
   RegressPlan plan;
   plan.json_file = arguments.json_file;
-  read_model(arguments.model, plan);
+  using calibrate::SurfaceModel;
+  plan.model = read_choice<SurfaceModel>({"--model", arguments.model, plan.errors},
+                                         {{"linear", SurfaceModel::linear},
+                                          {"interaction", SurfaceModel::interaction},
+                                          {"quadratic", SurfaceModel::quadratic}})
+                   .value_or(plan.model);
   const std::vector<std::string> factors = names_in(arguments.factors, plan);
   std::vector<calibrate::Factor> codings;
   for (const std::string& text : arguments.codings) {
     if (const auto coding = factor_in("--coding", text, plan.errors)) codings.push_back(*coding);
   }
-  if (!arguments.target.empty()) {
-    plan.target = number_in<double>(arguments.target);
-    if (!plan.target) {
-      plan.errors.push_back(
-          fmt::format("--target {}: must be a number. Fix: --target 23.4.", arguments.target));
-    }
-  }
+  plan.target =
+      read_number({"--target", arguments.target, plan.errors}, "a number", "--target 23.4");
   check_output_places({{"--json", plan.json_file}}, {arguments.table}, plan.errors);
   try {
     const calibrate::RunTable runs = calibrate::runs_in(calibrate::read_table(arguments.table),
                                                         arguments.response, factors, codings);
     plan.report = report_on(calibrate::regress(runs, plan.model), plan.target);
+    for (calibrate::SurfaceDiagnostic& diagnostic : plan.report.diagnostics) {
+      diagnostic.message = naming_options(std::move(diagnostic.message), kTarget);
+    }
   } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
+    add_lines(naming_options(error.what(), kNames), plan.errors);
   }
   return plan;
 }

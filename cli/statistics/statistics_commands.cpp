@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "cli/statistics/bench.h"
 #include "cli/statistics/design.h"
 #include "cli/statistics/regress.h"
@@ -29,8 +27,8 @@ Examples:
 )";
 
 constexpr const char* kDesignNotes = R"(
-Prints a CSV table with a row for each run: natural levels of each factor.
-MIN and MAX are the coded levels -1 and 1.
+Prints a CSV table with a row for each run: the level of each factor in its own
+unit. MIN and MAX are the coded levels -1 and 1.
   ccd          central composite: corners, axial points at alpha, centre runs;
                2 to 6 factors. Axial points lie outside MIN ... MAX, unless
                --inscribed or --alpha face
@@ -57,105 +55,74 @@ coded already is taken as it is, and any other by its lowest and highest level
 (of the runs whose point is cube, if there are such).
 
 Fit the measured quantity with its sign, not an error's absolute value, and
-give the value that it should have as --target.
+give the value it should have as --target.
 
 Example:
   repose regress runs.csv --response angle_deg --target 23.38
 )";
 
-void add_composite_options(CLI::App& design, DesignArguments& arguments) {
-  design.add_option("--alpha", arguments.alpha, "ccd: axial points (rotatable)")
-      ->option_text("WHERE|NUMBER");
-  design.add_option("--centre", arguments.centre_runs, "ccd, box-behnken: centre runs")
-      ->option_text("N");
-  design.add_flag("--inscribed", arguments.is_inscribed, "ccd: nothing outside MIN ... MAX");
-}
-
-void add_ascent_options(CLI::App& design, DesignArguments& arguments) {
-  design.add_option("--start", arguments.starts, "ascent: first level; repeatable")
-      ->option_text("NAME=NUMBER")
-      ->allow_extra_args(false);
-  design.add_option("--step", arguments.steps, "ascent: by run; repeatable")
-      ->option_text("NAME=NUMBER")
-      ->allow_extra_args(false);
-  design.add_option("--fit", arguments.fitted_table, "ascent: runs that were made")
-      ->option_text("TABLE.csv");
-  design.add_option("--response", arguments.response, "ascent: the table's response")
-      ->option_text("COLUMN");
-  design.add_option("--stride", arguments.stride, "ascent: coded step of --fit (0.5)")
-      ->option_text("NUMBER");
-  design.add_flag("--descend", arguments.descends, "ascent: down the slope of --fit");
-}
-
 }  // namespace
 
-Command bench_command(CLI::App& app) {
+Command bench_command() {
   const auto given = std::make_shared<BenchArguments>();
-  BenchArguments& arguments = *given;
-  CLI::App* bench = app.add_subcommand("bench", "Work out bench tests from their readings");
-  bench->add_option("test", arguments.test, "Which test")->option_text("TEST")->required();
-  bench->add_option("readings", arguments.files, "Tables of readings")
-      ->option_text("READINGS.csv ...");
-  bench->add_option("--set", arguments.settings, "A reading, or several; repeatable")
-      ->option_text("NAME=VALUE,...")
-      ->allow_extra_args(false);
-  bench->add_option("--json", arguments.json_file, "Everything, for programs")
-      ->option_text("FILE|-");
-  bench->footer(kBenchNotes);
-  return {bench, [given] { return run_bench(*given); },
-          "no test is named. Fix: repose bench sliding READINGS.csv; see repose bench --help."};
+  return {.name = "bench",
+          .summary = "Evaluate bench tests from their readings",
+          .options = {{"test", "TEST", "Which test", &given->test, true},
+                      {"readings", "READINGS.csv ...", "Tables of readings", &given->files},
+                      {"--set", "NAME=VALUE,...", "A reading, or several; repeatable",
+                       &given->settings},
+                      {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+          .notes = kBenchNotes,
+          .missing =
+              "no test is named. Fix: repose bench sliding READINGS.csv; see repose bench --help.",
+          .run = [given] { return run_bench(*given); }};
 }
 
-Command design_command(CLI::App& app) {
+Command design_command() {
   const auto given = std::make_shared<DesignArguments>();
-  DesignArguments& arguments = *given;
-  CLI::App* design = app.add_subcommand("design", "Say which runs to make");
-  design->add_option("kind", arguments.kind, "Kind of design")
-      ->option_text("ccd|box-behnken|lhs|sweep|ascent")
-      ->required();
-  design->add_option("--factor", arguments.factors, "Factor and its range; repeatable")
-      ->option_text("NAME=MIN:MAX")
-      ->allow_extra_args(false);
-  add_composite_options(*design, arguments);
-  design->add_option("--runs", arguments.runs, "lhs (10 a factor), ascent (5): how many")
-      ->option_text("N");
-  design->add_option("--seed", arguments.seed, "lhs: other points (1)")->option_text("N");
-  design->add_option("--levels", arguments.levels, "sweep: of each factor (9)")->option_text("N");
-  add_ascent_options(*design, arguments);
-  design->add_option("--random-order", arguments.random_order, "Runs in random order")
-      ->option_text("SEED");
-  design->add_flag("--coded", arguments.with_coded, "Coded levels too");
-  design->add_option("--out", arguments.out_file, "Where the table goes (-)")
-      ->option_text("FILE|-");
-  design->footer(kDesignNotes);
-  return {design, [given] { return run_design(*given); },
-          "no kind of design is named. Fix: ccd, box-behnken, lhs, sweep or ascent."};
+  return {
+      .name = "design",
+      .summary = "Design simulation experiments",
+      .options = {{"kind", "ccd|box-behnken|lhs|sweep|ascent", "Kind of design", &given->kind,
+                   true},
+                  {"--factor", "NAME=MIN:MAX", "Factor and its range; repeatable", &given->factors},
+                  {"--alpha", "WHERE|NUMBER", "ccd: axial points (rotatable)", &given->alpha},
+                  {"--centre", "N", "ccd, box-behnken: centre runs", &given->centre_runs},
+                  {"--inscribed", "", "ccd: nothing outside MIN ... MAX", &given->is_inscribed},
+                  {"--runs", "N", "lhs (10 a factor), ascent (5): how many", &given->runs},
+                  {"--seed", "N", "lhs: other points (1)", &given->seed},
+                  {"--levels", "N", "sweep: of each factor (9)", &given->levels},
+                  {"--start", "NAME=NUMBER", "ascent: first level; repeatable", &given->starts},
+                  {"--step", "NAME=NUMBER", "ascent: by run; repeatable", &given->steps},
+                  {"--fit", "TABLE.csv", "ascent: runs already made", &given->fitted_table},
+                  {"--response", "COLUMN", "ascent: the table's response", &given->response},
+                  {"--stride", "NUMBER", "ascent: coded step of --fit (0.5)", &given->stride},
+                  {"--descend", "", "ascent: down the slope of --fit", &given->descends},
+                  {"--random-order", "SEED", "Runs in random order", &given->random_order},
+                  {"--coded", "", "Coded levels too", &given->with_coded},
+                  {"--out", "FILE|-", "Where the table goes (-)", &given->out_file}},
+      .notes = kDesignNotes,
+      .missing = "no kind of design is named. Fix: ccd, box-behnken, lhs, sweep or ascent.",
+      .run = [given] { return run_design(*given); }};
 }
 
-Command regress_command(CLI::App& app) {
+Command regress_command() {
   const auto given = std::make_shared<RegressArguments>();
-  RegressArguments& arguments = *given;
-  CLI::App* regress = app.add_subcommand("regress", "Fit a response surface to runs");
-  regress->add_option("table", arguments.table, "The runs and their results")
-      ->option_text("TABLE.csv")
-      ->required();
-  regress->add_option("--response", arguments.response, "Column to explain")
-      ->option_text("COLUMN")
-      ->required();
-  regress->add_option("--factors", arguments.factors, "Columns to explain it by")
-      ->option_text("A,B,C");
-  regress->add_option("--model", arguments.model, "Terms (quadratic)")
-      ->option_text("linear|interaction|quadratic");
-  regress->add_option("--coding", arguments.codings, "Levels that are -1 and 1; repeatable")
-      ->option_text("NAME=MIN:MAX")
-      ->allow_extra_args(false);
-  regress->add_option("--target", arguments.target, "Where does the response take this value?")
-      ->option_text("VALUE");
-  regress->add_option("--json", arguments.json_file, "Everything, for programs")
-      ->option_text("FILE|-");
-  regress->footer(kRegressNotes);
-  return {regress, [given] { return run_regress(*given); },
-          "a table and its response are needed. Fix: repose regress TABLE.csv --response COLUMN."};
+  return {
+      .name = "regress",
+      .summary = "Fit a response surface to runs",
+      .options = {{"table", "TABLE.csv", "The runs and their results", &given->table, true},
+                  {"--response", "COLUMN", "Column that is the response", &given->response, true},
+                  {"--factors", "A,B,C", "Columns that are factors", &given->factors},
+                  {"--model", "linear|interaction|quadratic", "Terms (quadratic)", &given->model},
+                  {"--coding", "NAME=MIN:MAX", "Levels that are -1 and 1; repeatable",
+                   &given->codings},
+                  {"--target", "VALUE", "Where the response has this value", &given->target},
+                  {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+      .notes = kRegressNotes,
+      .missing =
+          "a table and its response are needed. Fix: repose regress TABLE.csv --response COLUMN.",
+      .run = [given] { return run_regress(*given); }};
 }
 
 }  // namespace repose::cli

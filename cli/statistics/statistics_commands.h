@@ -4,8 +4,8 @@
 
 namespace repose::cli {
 
-Command bench_command(CLI::App& app);
-Command design_command(CLI::App& app);
-Command regress_command(CLI::App& app);
+Command bench_command();
+Command design_command();
+Command regress_command();
 
 }  // namespace repose::cli

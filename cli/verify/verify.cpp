@@ -9,29 +9,38 @@
 
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
+#include "cli/common/table.h"
+#include "cli/common/terminal.h"
 #include "dem/verify/verify.h"
 
 namespace repose::cli {
 namespace {
 
-/// A case's name and source, then a row for each of its numbers: 99 columns.
-std::string verify_table(const std::vector<dem::CaseResult>& results) {
-  std::string text = fmt::format("{:<45} {:>9} {:>10} {:>9} {:>8} {:>8}\n", "case, quantity",
-                                 "expected", "measured", "error", "allowed", "step, s");
+/// A case's name and source, then a row for each of its numbers.
+std::string verify_table(const std::vector<dem::CaseResult>& results, int columns) {
+  Table table({{.heading = "case, quantity"},
+               {.heading = "expected", .align = Align::right},
+               {.heading = "measured", .align = Align::right},
+               {.heading = "error", .align = Align::right},
+               {.heading = "allowed", .align = Align::right},
+               {.heading = "step [s]", .align = Align::right},
+               {.heading = ""}});
   std::string_view name;
   for (const dem::CaseResult& result : results) {
     if (result.name != name) {
       name = result.name;
-      text += fmt::format("{} [{}]\n", result.name, result.source);
+      table.add_note("", fmt::format("{} [{}]", result.name, result.source));
     }
-    text +=
-        fmt::format("  {:<43} {:>9.5g} {:>10.5g} {:>9.2g} {:>8.2g} {:>8.2g} {}\n", result.quantity,
-                    result.expected, result.measured, result.measured - result.expected,
-                    result.tolerance, result.timestep_s, result.holds ? "pass" : "FAIL");
+    table.add_row({fmt::format("  {}", result.quantity), fmt::format("{:.5g}", result.expected),
+                   fmt::format("{:.5g}", result.measured),
+                   fmt::format("{:.2g}", result.measured - result.expected),
+                   fmt::format("{:.2g}", result.tolerance),
+                   fmt::format("{:.2g}", result.timestep_s), result.holds ? "pass" : "FAIL"});
   }
   const auto passed = std::count_if(results.begin(), results.end(),
                                     [](const dem::CaseResult& result) { return result.holds; });
-  return text + fmt::format("{} of {} numbers are within tolerance\n", passed, results.size());
+  return table.text(columns) +
+         fmt::format("{} of {} numbers are within tolerance\n", passed, results.size());
 }
 
 std::string verify_json(const std::vector<dem::CaseResult>& results) {
@@ -56,12 +65,12 @@ std::string verify_json(const std::vector<dem::CaseResult>& results) {
 ExitCode run_verify(const VerifyArguments& arguments) {
   std::vector<dem::CaseResult> results;
   {
-    Progress progress(dem::case_names().size());
+    Progress progress(dem::case_names().size(), "verified");
     results = dem::run_cases(
         [&progress](std::size_t /*done*/, std::size_t /*count*/) { progress.advance(); });
   }
   if (arguments.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput), verify_table(results));
+    write_output(std::string(kStandardOutput), verify_table(results, columns_of(stdout)));
   }
   if (!arguments.json_file.empty()) write_output(arguments.json_file, verify_json(results));
   const bool all_hold = std::all_of(results.begin(), results.end(),

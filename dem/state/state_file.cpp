@@ -1,7 +1,5 @@
 #include "dem/state/state_file.h"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -20,16 +18,6 @@ namespace fs = std::filesystem;
 /// Counts up when older programs cannot read the arrays any more.
 constexpr std::int64_t kFormat = 1;
 constexpr const char* kFix = "give a .vtp file that repose wrote, unchanged.";
-
-std::string text_of(const fs::path& file) {
-  std::error_code ignored;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file, ignored)) {
-    throw std::invalid_argument(fmt::format(
-        "{}: there is no such file, or it may not be read. Fix: {}", file.string(), kFix));
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void check_format(const ArrayReader& fields) {
   const std::int64_t format = fields.integers("repose_state_format", 1).take();
@@ -59,7 +47,7 @@ void write_state(const fs::path& file, const Simulation& simulation,
 }
 
 SavedState read_state(const fs::path& file) {
-  const VtkPoints points = parse_vtk(file.string(), text_of(file));
+  const VtkPoints points = parse_vtk(file.string(), base::read_whole_file(file));
   try {
     const ArrayReader fields(points.field_arrays);
     check_format(fields);

@@ -71,8 +71,8 @@ std::vector<TrajectoryFrame> read_trajectory(const fs::path& file) {
   }
   if (frames.empty()) {
     throw std::invalid_argument(
-        fmt::format("{}: no film of states ({}). Fix: name the trajectory.pvd that repose simulate "
-                    "--trajectory-s wrote.",
+        fmt::format("{}: no film of states ({}). Fix: name the trajectory.pvd of a run that was "
+                    "simulated with one.",
                     file.string(), parsed ? "it names none" : parsed.description()));
   }
   return frames;

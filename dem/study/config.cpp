@@ -123,10 +123,9 @@ ConfigValue parse_config(const std::string& file, const std::string& text,
                          const std::vector<std::string>& settings, StudyErrors& errors) {
   ConfigValue config = parsed({text, {.file = file}}, "correct this line", errors);
   for (std::size_t k = 0; k < settings.size(); ++k) {
-    const Place place{.file = "--set", .setting = static_cast<int>(k) + 1};
+    const Place place{.file = "setting", .setting = static_cast<int>(k) + 1};
     const std::string fix =
-        "write " + settings[k] +
-        " as key.path=value, text in quotes of its own: --set 'particle.scan=\"nut.stl\"'";
+        "write " + settings[k] + " as key.path=value, text in quotes: particle.scan=\"nut.stl\"";
     lay_over(config, parsed({settings[k], place}, fix, errors));
   }
   return config;

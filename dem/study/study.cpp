@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <system_error>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/fingerprint.h"
+#include "base/whole_file.h"
 #include "dem/study/read_contact.h"
 #include "dem/study/read_experiments.h"
 #include "dem/study/read_particle.h"
@@ -23,23 +22,18 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestStudy_bytes = 1 << 20;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::string study_text(const fs::path& file) {
   const auto refuse = [&file](const char* what, const char* fix) {
     throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
   };
   std::error_code error;
-  if (!fs::exists(file, error)) refuse("there is no such file", "correct the name.");
-  if (!fs::is_regular_file(file, error)) refuse("is no file", "name a study file (TOML).");
-  if (fs::file_size(file, error) > kLargestStudy_bytes) {
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
+    refuse("is no file", "name a study file (TOML).");
+  }
+  if (const auto size = fs::file_size(file, error); !error && size > kLargestStudy_bytes) {
     refuse("is larger than 1 MiB, which no study file is", "name a study file (TOML).");
   }
-  if (!std::ifstream(file)) refuse("cannot be read", "look at the file's permissions.");
-  return text_of(file);
+  return base::read_whole_file(file);
 }
 
 /// A section that every study has.
@@ -139,7 +133,7 @@ Study read_study(const fs::path& file, const std::vector<std::string>& settings)
   std::vector<std::string> parts = {text};
   parts.insert(parts.end(), settings.begin(), settings.end());
   for (const auto& shape : {study.grain.scan, study.grain.clump}) {
-    if (shape) parts.push_back(text_of(*shape));
+    if (shape) parts.push_back(base::read_whole_file(*shape));
   }
   study.hash = base::fingerprint(parts);
   return study;

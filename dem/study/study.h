@@ -79,7 +79,7 @@ struct Study {
 /// value as in TOML; files named in them are looked for beside the study file, like all others.
 ///
 /// Throws std::invalid_argument with every error of the file: line, column, value, rule, fix. Those
-/// of a setting are called "--set:N:column", N counting the settings from 1.
+/// of a setting are called "setting:N:column", N counting the settings from 1.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
 /// Reads a copy kept elsewhere than the study: the files that it names need not be there any more,

@@ -5,14 +5,14 @@
 
 namespace repose::dem {
 
-/// Where in a study something stands: in the file, or in a --set that came after it.
+/// Where in a study something stands: in the file, or in a setting laid over it.
 struct Place {
   std::string file;
-  int setting = 0;  ///< 0 for the file, 1 for the first --set
+  int setting = 0;  ///< 0 for the file, 1 for the first setting
   int line = 0;
   int column = 0;
 
-  std::string text() const;  ///< "study.toml:12:5" or "--set:1:5"
+  std::string text() const;  ///< "study.toml:12:5" or "setting:1:5"
 };
 
 /// All that is wrong with a study, told at once.

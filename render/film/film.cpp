@@ -153,7 +153,8 @@ void Film::add(const vision::Picture& picture) {
   if (!writer_) {
     width_ = picture.width;
     height_ = picture.height;
-    if (width_ < 2 || height_ < 2) refuse(file_, "its pictures are too small", "--size 640,480.");
+    if (width_ < 2 || height_ < 2)
+      refuse(file_, "its picture size is too small", "640 x 480 pixels.");
     if (file_.extension() == ".gif") {
       writer_ = std::make_unique<GifWriter>(temporary_, frames_per_s_, width_, height_);
     } else {

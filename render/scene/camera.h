@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "dem/vector.h"
 
@@ -14,6 +16,9 @@ namespace repose::render {
 struct PictureSize {
   int width = 1920;
   int height = 1080;
+
+  /// Empty when usable; else what is wrong, the rule, and what to do.
+  std::vector<std::string> problems() const;
 };
 
 /// Level, parallel rays: all depths have the same scale.

@@ -26,6 +26,8 @@ using Colour = std::array<double, 3>;
 
 /// As a camera in a laboratory sees it: soft light from the upper left and from all around,
 /// shadows, a plate on a table before a backdrop, a lens with limited depth of field, sensor noise.
+inline constexpr int kMaxPasses = 1000;
+
 struct PhotoStyle {
   Shown shown = Shown::mesh;
   Colour grain = {0.56, 0.38, 0.24};
@@ -42,7 +44,7 @@ struct PhotoStyle {
   double blur_px = 0.6;            ///< of lens and sensor, standard deviation
   double noise = 0.008;            ///< standard deviation at full light / full light
   double vignette = 0.10;          ///< light lost in the corners
-  int passes = 24;                 ///< pictures that are averaged; more: smoother shadows
+  int passes = 24;                 ///< pictures averaged, to kMaxPasses; more: smoother shadows
   std::uint64_t seed = 1;          ///< of grains' looks, textures and noise
 };
 

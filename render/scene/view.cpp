@@ -27,13 +27,7 @@ constexpr double kMargin = .1;
 constexpr double kMinSlope = .1;
 
 void check(const PictureSize& size) {
-  if (size.width < 1 || size.height < 1 || size.width > kLongestSide ||
-      size.height > kLongestSide || std::int64_t{size.width} * size.height > kMaxPixels) {
-    throw std::invalid_argument(fmt::format(
-        "picture of {} x {} pixels. Rule: each side from 1 to {}, {} megapixels at most. Fix: "
-        "1920,1080.",
-        size.width, size.height, kLongestSide, kMaxPixels / 1'000'000));
-  }
+  for (const std::string& problem : size.problems()) throw std::invalid_argument(problem);
 }
 
 void check_number(const char* name, double value, double least, double most, const char* fix) {
@@ -157,6 +151,17 @@ View perspective(const Scene& scene, const PerspectiveCamera& camera, const Pict
 }
 
 }  // namespace
+
+std::vector<std::string> PictureSize::problems() const {
+  if (width >= 1 && height >= 1 && width <= kLongestSide && height <= kLongestSide &&
+      std::int64_t{width} * height <= kMaxPixels) {
+    return {};
+  }
+  return {fmt::format(
+      "picture size = {} x {} pixels. Rule: each side from 1 to {}, {} megapixels at most. Fix: "
+      "1920 x 1080 is usual.",
+      width, height, kLongestSide, kMaxPixels / 1'000'000)};
+}
 
 double distorted_r(const View& view, double r) {
   const double inside = std::min(r, view.greatest_r), r2 = inside * inside;

@@ -25,6 +25,23 @@ TEST(WholeFile, ReplacesTheOldContentAndLeavesNothingElse) {
   EXPECT_THAT(folder.names(), ElementsAre("table.csv"));
 }
 
+TEST(WholeFile, IsReadToItsLastByte) {
+  const testing::TemporaryFolder folder;
+  const std::string content("a\0b\r\n", 5);
+  EXPECT_EQ(read_whole_file(folder.write("data", content)), content);
+}
+
+TEST(WholeFile, MissingFilesAndFoldersAreRefused) {
+  const testing::TemporaryFolder folder;
+  const auto missing = folder.path() / "missing";
+  EXPECT_EQ(read_file_if_there(missing), std::nullopt);
+  EXPECT_THAT([&] { read_whole_file(missing); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("missing: there is no such file"), HasSubstr("Fix: "))));
+  EXPECT_THAT([&] { read_file_if_there(folder.path()); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("is a folder")));
+}
+
 TEST(WholeFile, AFullDiskIsSaidAndTheDeviceStays) {
   EXPECT_THAT([] { write_whole_file("/dev/full", "text"); },
               ThrowsMessage<std::invalid_argument>(

@@ -116,7 +116,7 @@ TEST_F(Calibrate, EveryErrorIsToldAtOnce) {
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.out, IsEmpty());
   EXPECT_THAT(wrong.err,
-              AllOf(HasSubstr("--budget cheap: must be quick, standard or paper"),
+              AllOf(HasSubstr("budget (--budget) = cheap: must be quick, standard or paper"),
                     HasSubstr("--method best: must be joint or paper"),
                     HasSubstr("--jobs 0: must be a whole number"), HasSubstr("min below max")));
   EXPECT_FALSE(std::filesystem::exists(path("study_calibration")));

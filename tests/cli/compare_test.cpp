@@ -166,10 +166,11 @@ TEST_F(Compare, WrongOptionsAreNamedTogether) {
       run({"steep.png", "flat.png", "--mm-per-px", "0.5,", "--base-mm", "-3", "--margin-deg", "0",
            "--grain-mm", "x", "--pitch-deg", "1,60", "--exclude-second", "1,2", "--window", "1"});
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_THAT(done.err, AllOf(HasSubstr("--mm-per-px 0.5,"), HasSubstr("--base-mm -3"),
-                              HasSubstr("both give the scale"), HasSubstr("margin = 0"),
-                              HasSubstr("--grain-mm x"), HasSubstr("--pitch-deg 60"),
-                              HasSubstr("--exclude-second 1,2"), HasSubstr("--window 1")));
+  EXPECT_THAT(done.err,
+              AllOf(HasSubstr("--mm-per-px 0.5,"), HasSubstr("--base-mm -3"),
+                    HasSubstr("both give the scale"), HasSubstr("margin (--margin-deg) = 0"),
+                    HasSubstr("--grain-mm x"), HasSubstr("(--pitch-deg) = 60"),
+                    HasSubstr("--exclude-second 1,2"), HasSubstr("--window 1")));
   EXPECT_THAT(run({"steep.png", "flat.png", "--grain-mm", "4"}).err, HasSubstr("need a scale"));
 }
 

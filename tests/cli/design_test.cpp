@@ -92,9 +92,9 @@ TEST(DesignCommand, EveryErrorIsNamedAtOnce) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.out, IsEmpty());
   EXPECT_THAT(run.err, AllOf(HasSubstr("--factor a=2:1"), HasSubstr("--factor run=0:1"),
-                             HasSubstr("--levels: means nothing in lhs"), HasSubstr("--runs x"),
+                             HasSubstr("--levels: not an option of lhs"), HasSubstr("--runs x"),
                              HasSubstr("--random-order -1"), HasSubstr("--out no/where.csv")));
-  EXPECT_THAT(run_repose(folder, {"design", "dcc"}).err, HasSubstr("no such design"));
+  EXPECT_THAT(run_repose(folder, {"design", "dcc"}).err, HasSubstr("design dcc: unknown"));
   EXPECT_THAT(run_repose(folder, {"design"}).err, HasSubstr("no kind of design"));
   EXPECT_THAT(run_repose(folder, {"design", "ccd", "--factor", "a=0:1"}).err,
               HasSubstr("takes 2 to 6"));

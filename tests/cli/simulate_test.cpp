@@ -193,7 +193,8 @@ TEST_F(Simulate, AllErrorsAreToldAtOnce) {
 TEST_F(Simulate, ErrorsOfTheStudyHaveTheirPlace) {
   const Finished finished = run({"drop", "study.toml", "--set", "particle.poisson_ratio=0.5"});
   EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_THAT(finished.err, HasSubstr("--set:1:24: particle.poisson_ratio = 0.5. Rule: "));
+  EXPECT_THAT(finished.err,
+              HasSubstr("setting (--set):1:24: particle.poisson_ratio = 0.5. Rule: "));
 }
 
 TEST_F(Simulate, ExperimentsThatAreNotDescribedAreRefused) {

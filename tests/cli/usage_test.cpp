@@ -110,8 +110,9 @@ TEST(Usage, AllErrorsAreSaidAtOnce) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.out, IsEmpty());
   for (const char* error :
-       {"--method papr", "window = 0.8,0.2", "--exclude 1,2,3", "--exclude -1,0,5,5",
-        "--exclude 0,0,0,5", "--pitch-deg 45", "--threads 0", "--json no/all.json"}) {
+       {"--method papr", "window (--window) = 0.8,0.2", "--exclude 1,2,3",
+        "excluded box (--exclude) = -1,0,5,5", "excluded box (--exclude) = 0,0,0,5",
+        "camera pitch (--pitch-deg) = 45", "--threads 0", "--json no/all.json"}) {
     EXPECT_THAT(run.err, HasSubstr(error));
   }
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 8);

@@ -70,8 +70,8 @@ TEST(ClumpFile, IsReadFromDisk) {
   const auto file = folder.write("clump.json", dem::clump_json(small_clump()));
   EXPECT_EQ(dem::read_clump_file(file).shape.volume_m3, 1.0 / 7);
   EXPECT_THAT([&] { dem::read_clump_file(folder.path() / "none.json"); },
-              refused(HasSubstr("cannot be read")));
-  EXPECT_THAT([&] { dem::read_clump_file(folder.path()); }, refused(HasSubstr("cannot be read")));
+              refused(HasSubstr("there is no such file")));
+  EXPECT_THAT([&] { dem::read_clump_file(folder.path()); }, refused(HasSubstr("is a folder")));
 }
 
 TEST(ClumpFile, NamesAllThatIsWrongAtOnce) {

@@ -318,10 +318,10 @@ TEST_F(StudyFile, SettingsReplaceAndAddValues) {
 
 TEST_F(StudyFile, ErrorsOfSettingsAreCalledBySetting) {
   EXPECT_THAT(errors(kStudy, {"simulation.seed = 3", "simulation.replicates = 0"}),
-              HasSubstr("--set:2:25: simulation.replicates = 0. Rule: "));
+              HasSubstr("setting:2:25: simulation.replicates = 0. Rule: "));
   EXPECT_THAT(errors(kStudy, {"contact.rolling_model = none"}),
-              AllOf(HasSubstr("--set:1:"), HasSubstr("in quotes"), Not(HasSubstr("missing"))));
-  EXPECT_THAT(errors(kStudy, {"particle"}), HasSubstr("--set:1:"));
+              AllOf(HasSubstr("setting:1:"), HasSubstr("in quotes"), Not(HasSubstr("missing"))));
+  EXPECT_THAT(errors(kStudy, {"particle"}), HasSubstr("setting:1:"));
   EXPECT_THAT(errors(kStudy, {"particle.densty_kg_m3 = 1"}),
               HasSubstr("did you mean density_kg_m3?"));
   EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3.x = 1"}), HasSubstr("Rule: "));

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <opencv2/freetype.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "base/text.h"
 
 namespace repose::vision {
 namespace {
@@ -17,8 +18,6 @@ constexpr int kFilled = -1;
 constexpr double kLetterPart = 0.78;  // of a line's height; below it hang the tails of g and y
 
 int letter_height(int height) { return std::max(1, cvRound(kLetterPart * height)); }
-
-bool starts_a_letter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
 
 std::string to_ascii(std::string text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSpelled{
@@ -32,7 +31,7 @@ std::string to_ascii(std::string text) {
   for (const char byte : text) {
     if (static_cast<unsigned char>(byte) < 0x80) {
       ascii += byte;
-    } else if (starts_a_letter(byte)) {
+    } else if (base::starts_a_letter(byte)) {
       ascii += '?';
     }
   }
@@ -94,28 +93,18 @@ void Lettering::draw(cv::Mat& image, const std::string& text, cv::Point top_left
 }
 
 std::vector<std::string> Lettering::wrap(const std::string& text, int height, int max_width) const {
+  const auto fits = [&](const std::string& line) { return width(line, height) <= max_width; };
   std::vector<std::string> lines;
-  std::string line;
-  const auto finish_line = [&] {
-    if (!line.empty()) lines.push_back(std::exchange(line, {}));
-  };
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    std::string longer = line;
-    if (!line.empty()) longer += ' ';
-    longer += word;
-    if (width(longer, height) <= max_width) {
-      line = std::move(longer);
-      continue;
+  for (const std::string& line : base::wrapped(text, fits)) {
+    std::string part;  // of a word that is wider alone
+    for (const char byte : line) {
+      const bool is_full = !part.empty() && base::starts_a_letter(byte) && !fits(line) &&
+                           width(part + 'm', height) > max_width;
+      if (is_full) lines.push_back(std::exchange(part, {}));
+      part += byte;
     }
-    finish_line();
-    for (const char byte : word) {
-      const bool is_full = starts_a_letter(byte) && width(line + 'm', height) > max_width;
-      if (is_full) finish_line();
-      line += byte;
-    }
+    if (!part.empty()) lines.push_back(std::move(part));
   }
-  finish_line();
   return lines;
 }
 

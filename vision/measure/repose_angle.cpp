@@ -32,12 +32,10 @@ void check(const Picture& picture, const MeasureOptions& options) {
   std::vector<std::string> errors = options.problems();
   if (picture.empty()) errors.emplace_back("the picture is empty. Fix: read one first.");
   for (const Box& box : options.excluded) {
-    if (box.x < 0 || box.y < 0 || box.width <= 0 || box.height <= 0 ||
-        box.width > picture.width - box.x || box.height > picture.height - box.y) {
+    if (box.width > picture.width - box.x || box.height > picture.height - box.y) {
       errors.push_back(
-          fmt::format("excluded box {},{},{},{} does not lie inside the {} x {} picture. Fix: give "
-                      "the top-left "
-                      "pixel, width and height in pixels of the picture.",
+          fmt::format("excluded box = {},{},{},{} must lie inside the {} x {} picture. Fix: give "
+                      "the top-left pixel, width and height in pixels of the picture.",
                       box.x, box.y, box.width, box.height, picture.width, picture.height));
     }
   }
@@ -213,10 +211,18 @@ std::vector<std::string> MeasureOptions::problems() const {
         window_from, window_to, kNarrowestWindow));
   }
   if (camera_pitch_rad && !(std::abs(*camera_pitch_rad) <= kLargestPitch_rad)) {
+    errors.push_back(
+        fmt::format("camera pitch = {:.1f} degrees must lie within -30 and 30. Fix: give the angle "
+                    "by which the "
+                    "camera looks down, or take the picture with a level camera.",
+                    *camera_pitch_rad * 180 / std::numbers::pi));
+  }
+  for (const Box& box : excluded) {
+    if (box.x >= 0 && box.y >= 0 && box.width >= 1 && box.height >= 1) continue;
     errors.push_back(fmt::format(
-        "camera pitch = {:.1f} degrees must lie within -30 and 30. Fix: retake the picture with a "
-        "level camera.",
-        *camera_pitch_rad * 180 / std::numbers::pi));
+        "excluded box = {},{},{},{} must begin at 0,0 or beyond, and be at least 1 pixel wide and "
+        "high. Fix: count from the picture's top left corner.",
+        box.x, box.y, box.width, box.height));
   }
   return errors;
 }

@@ -77,8 +77,8 @@ std::string reason_against(const FlankFit& flank, const std::string& name) {
   }
   if (flank.angle_rad > kSteepest_rad) {
     return fmt::format(
-        "the {} side stands at {:.0f} degrees, steeper than loose grains lie. Fix: exclude walls, "
-        "gates and tubes with --exclude X,Y,W,H.",
+        "the {} side stands at {:.0f} degrees, steeper than loose grains lie. Fix: lay an "
+        "excluded box over walls, gates and tubes.",
         name, degrees(flank.angle_rad));
   }
   if (flank.bend_rad < -kRoundest_rad) {
@@ -98,8 +98,9 @@ std::string reason_against(const FlankFit& flank, const std::string& name) {
   }
   if (flank.least_squares.r2 < kLeastR2) {
     return fmt::format(
-        "the {} side's edge is no line (r2 {:.2f}). Fix: use a plainer backdrop, or exclude what "
-        "stands before the flank with --exclude X,Y,W,H.",
+        "the {} side's edge is no line (r2 {:.2f}). Fix: use a plainer backdrop, or lay an "
+        "excluded "
+        "box over what stands before the flank.",
         name, flank.least_squares.r2);
   }
   return {};
@@ -123,8 +124,8 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
   if (confidence < kMinConfidence) {
     return fmt::format(
         "the heap's edge is too uncertain (confidence {:.2f} of 1). Fix: use a plain backdrop of "
-        "another colour than the grains, even light and a sharp picture; exclude foreign things "
-        "with --exclude X,Y,W,H.",
+        "another colour than the grains, even light and a sharp picture; lay an excluded box over "
+        "foreign things.",
         confidence);
   }
   if (best.profile.leaves_frame_top) {
@@ -136,8 +137,7 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
     return fmt::format(
         "the base bows downwards as if the camera looked down by about {:.0f} degrees, which "
         "changes the angle; or this is no heap. Fix: retake with a level camera at the heap's "
-        "height, or "
-        "give --pitch-deg with the camera's known pitch.",
+        "height, or give the camera pitch if it is known.",
         degrees(pitch));
   }
   if (best.grain && best.profile.crest_height < kFewestGrains * *best.grain) {
@@ -169,10 +169,10 @@ void warn_of_flank(ReposeAngle& result, const FlankFit& flank, const std::string
   }
   if (std::abs(flank.bend_rad) > kDoubtfulBend_rad) {
     flag(result, "bent_flank",
-         fmt::format("The {} flank is {} by {:.0f} degrees between its lower and upper half: one "
-                     "angle does not describe it.",
-                     name, flank.bend_rad > 0 ? "hollow" : "bulging",
-                     std::abs(degrees(flank.bend_rad))));
+         fmt::format(
+             "The {} flank is {}: its slope differs by {:.0f} degrees between its lower and "
+             "upper half, so one angle does not describe it.",
+             name, flank.bend_rad > 0 ? "concave" : "convex", std::abs(degrees(flank.bend_rad))));
   }
   if (flank.window_spread_rad > kDoubtfulSpread_rad) {
     flag(result, "window_sensitive",
@@ -205,7 +205,7 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
   if (!options.camera_pitch_rad && pitch > kDoubtfulPitch_rad) {
     flag(result, "base_bows",
          fmt::format("The base bows as if the camera looked down by about {:.0f} degrees; give "
-                     "--pitch-deg if it did.",
+                     "the camera pitch if it did.",
                      degrees(pitch)));
   }
   if (options.camera_pitch_rad && ground.bow &&

@@ -68,7 +68,7 @@ void diagnostic_response(const Regression& regression, const SurfacePoint& lowes
          fmt::format("{} looks like an absolute error: it is never negative, many runs are close "
                      "to 0, and it seems to have a kink there, which no such surface can follow. "
                      "Fit the quantity itself, with its sign, and give the measured value as "
-                     "--target.",
+                     "target value.",
                      regression.response_name)});
   }
   const std::vector<double> responses = responses_of(regression);

@@ -49,8 +49,8 @@ void check_column(const RunTable& table, const std::string& column,
 void check(const RunTable& table, std::size_t terms, base::ErrorList& errors) {
   const std::size_t factors = table.factors.size();
   errors.require(factors >= 1 && factors <= kMaxFactors && factors == table.levels.size(),
-                 fmt::format("{}: {} factors. Rule: 1 to {}. Fix: name those that matter with "
-                             "--factors A,B,C.",
+                 fmt::format("{}: {} factors. Rule: 1 to {}. Fix: name the factor columns that "
+                             "matter.",
                              table.name, factors, kMaxFactors));
   for (std::size_t i = 0; i < std::min(factors, table.levels.size()); ++i) {
     const Factor& factor = table.factors[i];
@@ -65,8 +65,8 @@ void check(const RunTable& table, std::size_t terms, base::ErrorList& errors) {
                "there is nothing to explain: name another response", errors);
   errors.require(table.responses.size() > terms,
                  fmt::format("{}: {} runs for the {} terms of the model. Rule: more runs than "
-                             "terms. Fix: make more runs, or choose --model linear or fewer "
-                             "--factors.",
+                             "terms. Fix: make more runs, or choose the linear model or fewer "
+                             "factor columns.",
                              table.name, table.responses.size(), terms));
 }
 
@@ -124,8 +124,8 @@ void check_rank(const RunTable& table, const Regression& regression,
   std::sort(names.begin(), names.end());
   throw std::invalid_argument(
       fmt::format("{}: the runs cannot tell {} from other terms. Rule: a square needs three levels "
-                  "of its factor, and no term may follow from others. Fix: choose --model linear "
-                  "or interaction, fewer --factors, or a design made for the model.",
+                  "of its factor, and no term may follow from others. Fix: choose the linear "
+                  "model or fewer factor columns, or a design made for the model.",
                   table.name, fmt::join(names, ", ")));
 }
 

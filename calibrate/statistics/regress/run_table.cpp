@@ -63,8 +63,8 @@ void check_names(const Table& table, const std::string& response,
                  base::ErrorList& errors) {
   for (std::size_t i = 0; i < factors.size(); ++i) {
     errors.require(factors[i] != response,
-                   fmt::format("{}: {} is the response, and no factor. Fix: leave it out of "
-                               "--factors.",
+                   fmt::format("{}: {} is the response, and no factor. Fix: leave it out of the "
+                               "factor columns.",
                                table.name, response));
     errors.require(
         std::find(factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(i), factors[i]) ==

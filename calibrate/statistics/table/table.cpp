@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-#include <memory>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +14,7 @@
 
 #include "base/closest_word.h"
 #include "base/error_list.h"
+#include "base/whole_file.h"
 
 namespace repose::calibrate {
 namespace {
@@ -143,13 +142,7 @@ Table parse_table(const std::string& name, std::string_view text) {
 }
 
 Table read_table(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw std::invalid_argument(
-        file.string() + ": cannot be read. Fix: name a CSV file that is there and readable.");
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_table(file.string(), text);
+  return parse_table(file.string(), base::read_whole_file(file));
 }
 
 std::optional<double> number_of(const Table& table, std::string_view cell) {

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "base/whole_file.h"
 #include "dem/shape/clump/sphere_groups.h"
 
 namespace repose::dem {
@@ -155,7 +154,7 @@ void check_hangs_together(const ClumpShape& shape, Reader& reader) {
   reader.error("spheres", "they fall into " + std::to_string(groups) +
                               " groups that do not touch each other; other grains could pass "
                               "between them. Fix: correct the sphere that was moved, or fill the "
-                              "body with more: repose shape --spheres N.");
+                              "body with more spheres.");
 }
 
 void read_gyration(const Json& root, Reader& reader, ClumpShape& shape) {
@@ -214,11 +213,10 @@ ClumpFile parse_clump_json(const std::string& text, const std::string& name) {
     root = Json::parse(text);
   } catch (const Json::exception& error) {
     throw std::invalid_argument(name + ": is no JSON (" + error.what() +
-                                "). Fix: write it again with repose shape --out.");
+                                "). Fix: write it again with repose shape.");
   }
   if (!root.is_object() || !root.contains("format") || root["format"] != kFormat) {
-    throw std::invalid_argument(name +
-                                ": is no clump file. Fix: make one with repose shape --out.");
+    throw std::invalid_argument(name + ": is no clump file. Fix: make one with repose shape.");
   }
   if (!root.contains("version") || root["version"] != kVersion) {
     throw std::invalid_argument(name + ": is of another version than " + std::to_string(kVersion) +
@@ -244,13 +242,7 @@ ClumpFile parse_clump_json(const std::string& text, const std::string& name) {
 }
 
 ClumpFile read_clump_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw std::invalid_argument(file.string() +
-                                ": cannot be read. Fix: check the name, and who may read it.");
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_clump_json(text, file.string());
+  return parse_clump_json(base::read_whole_file(file), file.string());
 }
 
 }  // namespace repose::dem

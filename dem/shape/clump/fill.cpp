@@ -123,11 +123,11 @@ std::vector<std::string> FillOptions::problems() const {
   }
   if (volume_error && !(*volume_error > 0 && *volume_error < 1)) {
     problems.push_back("volume error: " + std::to_string(*volume_error) +
-                       " must be a share between 0 and 1. Fix: 0.02 for 2 %.");
+                       " must be a fraction between 0 and 1. Fix: 0.02 for 2 %.");
   }
   if (!(smallest_radius_fraction > 0 && smallest_radius_fraction < 1)) {
     problems.push_back("smallest radius: " + std::to_string(smallest_radius_fraction) +
-                       " must be a share between 0 and 1. Fix: 0.1 is usual.");
+                       " must be a fraction between 0 and 1. Fix: 0.1 is usual.");
   }
   return problems;
 }

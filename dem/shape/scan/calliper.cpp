@@ -4,7 +4,6 @@
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "dem/shape/scan/scan.h"
@@ -15,25 +14,7 @@ namespace {
 constexpr int kRings = 63;       // odd: one of them is the widest
 constexpr int kAroundRing = 96;  // a multiple of 4: corners in the extremes of y and z
 
-void check(const CalliperSizes& sizes) {
-  std::ostringstream errors;
-  const auto check_size = [&](const char* name, double size_m) {
-    if (size_m >= kSmallestGrain_m && size_m <= kLargestGrain_m) return;
-    errors << "\nsize: the " << name << " is " << 1e3 * size_m << " mm, and grains are from "
-           << 1e3 * kSmallestGrain_m << " to " << 1e3 * kLargestGrain_m
-           << " mm. Fix: give length, width and thickness in mm.";
-  };
-  check_size("length", sizes.length_m);
-  check_size("width", sizes.width_m);
-  check_size("thickness", sizes.thickness_m);
-  if (!(sizes.tip_fraction >= 0 && sizes.tip_fraction <= 1)) {
-    errors << "\ntip: is " << sizes.tip_fraction
-           << ", and must be from 0 (round) to 1 (pointed). Fix: a hazelnut is about 0.5.";
-  }
-  if (!errors.str().empty()) throw std::invalid_argument(errors.str().substr(1));
-}
-
-/// Share of the full width at u from -1 to 1.
+/// Fraction of the full width at u from -1 to 1.
 double fraction_of_width(double u, double tip_fraction) {
   return std::pow((1 - u) * (1 + u), u > 0 ? (1 + tip_fraction) / 2 : 0.5);
 }
@@ -72,8 +53,33 @@ void add_triangles(Mesh& mesh) {
 
 }  // namespace
 
+std::vector<std::string> CalliperSizes::problems() const {
+  std::vector<std::string> problems;
+  const auto check_size = [&](const char* name, double size_m) {
+    if (size_m >= kSmallestGrain_m && size_m <= kLargestGrain_m) return;
+    std::ostringstream problem;
+    problem << "size: the " << name << " is " << 1e3 * size_m << " mm, and grains are from "
+            << 1e3 * kSmallestGrain_m << " to " << 1e3 * kLargestGrain_m
+            << " mm. Fix: give length, width and thickness in mm.";
+    problems.push_back(problem.str());
+  };
+  check_size("length", length_m);
+  check_size("width", width_m);
+  check_size("thickness", thickness_m);
+  if (!(tip_fraction >= 0 && tip_fraction <= 1)) {
+    std::ostringstream problem;
+    problem << "tip: is " << tip_fraction
+            << ", and must be from 0 (round) to 1 (pointed). Fix: a hazelnut is about 0.5.";
+    problems.push_back(problem.str());
+  }
+  return problems;
+}
+
 Mesh calliper_surface(const CalliperSizes& sizes) {
-  check(sizes);
+  const std::vector<std::string> problems = sizes.problems();
+  std::string text;
+  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+  if (!text.empty()) throw std::invalid_argument(text);
   Mesh mesh;
   add_corners(sizes, mesh);
   add_triangles(mesh);

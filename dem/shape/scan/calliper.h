@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "dem/shape/scan/mesh.h"
 
 namespace repose::dem {
@@ -11,6 +14,9 @@ struct CalliperSizes {
   double thickness_m = 0;
   /// 0: both ends round, an ellipsoid; 1: the end at +x comes to a point. A hazelnut is about .5.
   double tip_fraction = 0;
+
+  /// Empty when usable; else a line for each error.
+  std::vector<std::string> problems() const;
 };
 
 /// A closed surface whose bounding box is length x width x thickness along x, y, z, to the last

@@ -193,9 +193,8 @@ void check_size(Workpiece& piece, const char* other_unit, double other_factor) {
   const bool is_other = other_unit != nullptr && is_grain(size * other_factor);
   piece.errors.push_back(text("is %.4g mm long, and grains are from %g to %g mm. Fix: ", 1e3 * size,
                               1e3 * kSmallestGrain_m, 1e3 * kLargestGrain_m) +
-                         (is_other
-                              ? text("its unit is probably the other one, --unit %s.", other_unit)
-                              : std::string("scale the scan to mm before saving it.")));
+                         (is_other ? text("its unit is probably %s.", other_unit)
+                                   : std::string("scale the scan to mm before saving it.")));
 }
 
 Scan mended(Workpiece piece, const std::string& name) {

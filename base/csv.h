@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+/// Tables of comma-separated values, as RFC 4180 has them but for line ends, which are LF.
+namespace repose::base {
+
+/// Quoted when it must be.
+std::string csv_cell(std::string_view text);
+
+/// The cells with commas between them and the end of the line.
+std::string csv_row(std::span<const std::string> cells);
+
+}  // namespace repose::base

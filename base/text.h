@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Lines of text. Letters are the code points of UTF-8.
+namespace repose::base {
+
+/// Whether a byte of UTF-8 begins a letter rather than continuing one.
+constexpr bool starts_a_letter(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+}
+
+std::size_t letters(std::string_view text);
+
+/// The text in lines of at most `max_letters`, broken at blanks. Its own line breaks stay; a word
+/// that is longer alone stays whole.
+std::vector<std::string> wrapped(std::string_view text, std::size_t max_letters);
+
+/// The same for another measure of what `fits` in a line.
+std::vector<std::string> wrapped(std::string_view text,
+                                 const std::function<bool(const std::string& line)>& fits);
+
+}  // namespace repose::base

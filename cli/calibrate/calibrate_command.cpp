@@ -1,0 +1,59 @@
+#include "cli/calibrate/calibrate_command.h"
+
+#include <memory>
+
+#include "cli/calibrate/calibrate.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr const char* kNotes = R"(
+STUDY is a study file in which contact coefficients have bounds instead of a
+value, as in restitution = { min = 0.1, max = 0.6 }, and experiments state what
+was measured. All unknowns are fitted to all measurements at once; each gets an
+interval and a verdict: determined, one-sided, or undetermined by these data.
+The fitted values are then verified by simulations with new seeds.
+
+Simulations are saved in --out: the same command resumes an interrupted study,
+and a study with other bounds or measurements reuses them. The same study gives
+the same result with any number of --jobs.
+
+Methods:
+  joint     all unknowns fitted to all measurements at once, with intervals
+  paper     as a published calibration did: point estimates, for comparison
+
+Budgets:
+  quick     13 minutes of one core for the fit; heaps ten times softer, few
+  standard  150 minutes of one core; heaps as stiff as the study says
+  paper     62 simulations at most, as many as a published calibration made
+The minutes are estimates for a few hundred grains; verification is extra.
+
+Examples:
+  repose calibrate study.toml
+  repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
+)";
+
+}  // namespace
+
+Command calibrate_command() {
+  const auto given = std::make_shared<CalibrateArguments>();
+  return {.name = "calibrate",
+          .summary = "Calibrate a study's coefficients",
+          .options = {{"study", "STUDY.toml", "Study file", &given->study, true},
+                      {"--budget", "quick|standard|paper", "How much may be simulated (quick)",
+                       &given->budget},
+                      {"--method", "joint|paper", "How the coefficients are found (joint)",
+                       &given->method},
+                      {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
+                       &given->settings},
+                      {"--jobs", "N", "Simulations at a time (all cores)", &given->jobs},
+                      {"--out", "FOLDER", "Runs, result.json, heap.vtp (STUDY_calibration)",
+                       &given->out_folder},
+                      {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+          .notes = kNotes,
+          .missing = "no study file is named. Fix: repose calibrate STUDY.toml.",
+          .option_names = {{"the joint method", "--method joint"}},
+          .run = [given] { return run_calibrate(*given); }};
+}
+
+}  // namespace repose::cli

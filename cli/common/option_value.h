@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// Options as typed values: one reader for each type. Each gives nothing for an empty text, which
+/// is an option that was not given, and for a wrong one, which adds an error.
+namespace repose::cli {
+
+/// What was typed after an option, and where to say what is wrong with it.
+struct Typed {
+  const char* option = "";
+  const std::string& text;
+  std::vector<std::string>& errors;
+
+  /// Adds "OPTION TEXT: must be RULE. Fix: FIX."
+  void refuse(std::string_view rule, std::string_view fix) const;
+};
+
+std::optional<double> read_number(const Typed& typed, std::string_view what, std::string_view fix);
+
+/// Above 0.
+std::optional<double> read_positive(const Typed& typed, std::string_view what,
+                                    std::string_view fix);
+
+/// `min` and `max` may be the value.
+std::optional<double> read_number_within(const Typed& typed, double min, double max,
+                                         std::string_view fix);
+std::optional<int> read_whole_number(const Typed& typed, int min, int max, std::string_view fix);
+
+/// A seed: from 0 on.
+std::optional<std::uint64_t> read_seed(const Typed& typed);
+
+/// How much is done at a time; all of the machine's cores where nothing is typed.
+int read_threads(const Typed& typed);
+
+/// An angle that is typed in degrees [rad].
+std::optional<double> read_angle(const Typed& typed, std::string_view fix);
+
+/// "A,B,...": as many numbers as there are, at least one.
+std::optional<std::vector<double>> numbers_in(std::string_view text);
+
+/// "FROM,TO".
+std::optional<std::array<double, 2>> read_range(const Typed& typed, std::string_view fix);
+
+/// "X,Y,W,H" or "W,H" in pixels.
+std::optional<std::array<int, 4>> read_box(const Typed& typed);
+std::optional<std::array<int, 2>> read_size(const Typed& typed);
+
+/// Which of `words` was typed.
+std::optional<std::size_t> read_word(const Typed& typed, const std::vector<std::string>& words);
+
+/// Which of `endings` (".png") the name of a file has, in small or capital letters.
+std::optional<std::size_t> read_ending(const Typed& typed, const std::vector<std::string>& endings);
+
+/// The value of the word that was typed, or of a file's ending.
+template <typename Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+template <typename Value>
+std::vector<std::string> words_of(const Choices<Value>& choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : choices) words.push_back(word);
+  return words;
+}
+
+template <typename Value>
+std::optional<Value> read_choice(const Typed& typed, const Choices<Value>& choices) {
+  const auto found = read_word(typed, words_of(choices));
+  return found ? std::optional(choices[*found].second) : std::nullopt;
+}
+
+template <typename Value>
+std::optional<Value> read_format(const Typed& typed, const Choices<Value>& choices) {
+  const auto found = read_ending(typed, words_of(choices));
+  return found ? std::optional(choices[*found].second) : std::nullopt;
+}
+
+}  // namespace repose::cli

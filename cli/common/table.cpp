@@ -1,0 +1,130 @@
+#include "cli/common/table.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/text.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr std::size_t kGap = 2;
+constexpr std::size_t kNarrowestFirst = 8;  // a first column with longer cells than fit
+constexpr std::size_t kNarrowestLast = 20;  // a last column that is wrapped
+constexpr int kNarrowestTerminal = 40;
+
+std::size_t usable(int terminal_columns) {
+  return static_cast<std::size_t>(std::max(kNarrowestTerminal, terminal_columns));
+}
+
+/// Letters that are seen: a colour is written "ESC [ ... m".
+std::size_t visible(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\033') {
+      at = std::min(text.find('m', at), text.size());
+    } else if (base::starts_a_letter(text[at])) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+std::string aligned(const std::string& cell, const Column& column, std::size_t width) {
+  const std::string blanks(width - std::min(width, visible(cell)), ' ');
+  return column.align == Align::right ? blanks + cell : cell + blanks;
+}
+
+void add_line(std::string line, std::string& text) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  text += line + '\n';
+}
+
+}  // namespace
+
+void Table::add_row(std::vector<std::string> cells) {
+  cells.resize(columns_.size());
+  rows_.push_back({.cells = std::move(cells), .mark = {}, .note = {}});
+}
+
+void Table::add_note(std::string mark, std::string text) {
+  rows_.push_back({.cells = {}, .mark = std::move(mark), .note = std::move(text), .is_note = true});
+}
+
+std::vector<std::size_t> Table::widths(std::size_t available) const {
+  std::vector<std::size_t> widths;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    std::size_t width = std::max(columns_[i].min_width, visible(columns_[i].heading));
+    for (const Row& row : rows_) {
+      if (!row.is_note) width = std::max(width, visible(row.cells[i]));
+    }
+    widths.push_back(width);
+  }
+  const auto left_for = [&](std::size_t column) {
+    const std::size_t all = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
+    const std::size_t others = all - widths[column] + kGap * (widths.size() - 1);
+    return available - std::min(available, others);
+  };
+  if (columns_.back().align == Align::left) {
+    widths.back() = std::min(widths.back(), std::max(kNarrowestLast, left_for(widths.size() - 1)));
+  }
+  const std::size_t most = std::max(left_for(0), columns_.front().min_width);
+  if (widths.front() <= most) return widths;
+  widths.front() =
+      std::max({kNarrowestFirst, columns_.front().min_width, visible(columns_.front().heading)});
+  for (const Row& row : rows_) {
+    const std::size_t width = row.is_note ? 0 : visible(row.cells.front());
+    if (width <= most) widths.front() = std::max(widths.front(), width);
+  }
+  return widths;
+}
+
+void Table::add_lines(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
+                      std::string& text) const {
+  std::string line;
+  const bool fits = visible(cells.front()) <= widths.front();
+  if (!fits) add_line(cells.front(), text);
+  for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
+    line += aligned(i > 0 || fits ? cells[i] : "", columns_[i], widths[i]);
+    line += std::string(kGap, ' ');
+  }
+  if (visible(cells.back()) <= widths.back()) {
+    add_line(line + aligned(cells.back(), columns_.back(), widths.back()), text);
+    return;
+  }
+  const std::string below(visible(line), ' ');
+  for (const std::string& part : base::wrapped(cells.back(), widths.back())) {
+    add_line(std::exchange(line, below) + part, text);
+  }
+}
+
+std::string Table::text(int terminal_columns) const {
+  const auto widest = widths(usable(terminal_columns));
+  std::vector<std::string> headings;
+  for (const Column& column : columns_) headings.push_back(column.heading);
+  std::string text;
+  if (std::any_of(headings.begin(), headings.end(), [](const auto& name) { return !name.empty(); }))
+    add_lines(headings, widest, text);
+  for (const Row& row : rows_) {
+    if (row.is_note) {
+      text += paragraph(row.mark, row.note, terminal_columns);
+    } else {
+      add_lines(row.cells, widest, text);
+    }
+  }
+  return text;
+}
+
+std::string paragraph(std::string_view mark, std::string_view text, int terminal_columns) {
+  const std::size_t indent = base::letters(mark);
+  std::string before(mark), lines;
+  for (const std::string& line : base::wrapped(
+           text, usable(terminal_columns) - std::min(indent, usable(terminal_columns) / 2))) {
+    add_line(before + line, lines);
+    before = std::string(indent, ' ');
+  }
+  return lines;
+}
+
+}  // namespace repose::cli

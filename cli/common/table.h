@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// What people read on a terminal: tables and paragraphs, as wide as it is. Letters are counted as
+/// UTF-8; colours count for nothing.
+namespace repose::cli {
+
+/// Stands where a number does not exist.
+inline constexpr const char* kNothing = "–";
+
+enum class Align { left, right };
+
+struct Column {
+  std::string heading;
+  Align align = Align::left;
+  std::size_t min_width = 0;
+};
+
+/// Columns as wide as their widest cell. Where that is wider than the terminal, the last column is
+/// wrapped if it is aligned left, and a cell of the first that does not fit has a line of its own.
+class Table {
+ public:
+  explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+  /// Cells that are left out at the end are empty.
+  void add_row(std::vector<std::string> cells);
+
+  /// A paragraph below the last row.
+  void add_note(std::string mark, std::string text);
+
+  /// With a line of headings, unless all are empty.
+  std::string text(int terminal_columns) const;
+
+ private:
+  struct Row {
+    std::vector<std::string> cells;
+    std::string mark = {}, note = {};
+    bool is_note = false;
+  };
+
+  std::vector<std::size_t> widths(std::size_t available) const;
+  void add_lines(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
+                 std::string& text) const;
+
+  std::vector<Column> columns_;
+  std::vector<Row> rows_;
+};
+
+/// A text wrapped to the terminal: its first line behind `mark`, the others below its beginning.
+std::string paragraph(std::string_view mark, std::string_view text, int terminal_columns);
+
+}  // namespace repose::cli

@@ -1,0 +1,61 @@
+#include "cli/render/render_command.h"
+
+#include <memory>
+
+#include "cli/render/render.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr const char* kNotes = R"(
+STATE is a .vtp file that repose simulate --out wrote, or the trajectory.pvd of
+a run for a film.
+
+Styles:
+  silhouette  Black grains on white, every pixel one or the other.
+  photo       What a camera in a laboratory sees: soft light, shadows, a plate
+              before a backdrop, depth of field, noise.
+
+Without --camera the view is orthographic. With it there is a lens on a stand:
+distance_mm from the centre of the grains, height_mm above the ground, focal_mm
+for a 36 mm wide sensor, pitch_deg (down), roll_deg, k1 and k2 (distortion).
+Values left out are chosen so that the camera is level and all grains fit.
+
+--truth: camera, mm per pixel, the ground line and the heap's upper edge, in
+pixels from the top left corner.
+
+Examples:
+  repose render heaps/heap_seed_1.vtp --out heap.png
+  repose render heap.vtp --style photo --camera distance_mm=1500 --out heap.jpg
+  repose render heap.vtp --turntable 72 --out heap.mp4
+  repose render heap.vtp --out heap.glb
+)";
+
+}  // namespace
+
+Command render_command() {
+  const auto given = std::make_shared<RenderArguments>();
+  return {
+      .name = "render",
+      .summary = "Render a simulated state",
+      .options = {{"state", "STATE", "State, or trajectory.pvd", &given->state, true},
+                  {"--view", "xz|DEGREES", "Viewing direction (xz)", &given->view},
+                  {"--style", "silhouette|photo", "Appearance (silhouette)", &given->style},
+                  {"--size", "W,H", "Pixels (1920,1080)", &given->size},
+                  {"--mm-per-px", "MM", "Scale (all grains fit)", &given->mm_per_px},
+                  {"--camera", "KEY=NUMBER,...", "Perspective camera; keys below", &given->camera},
+                  {"--show", "mesh|spheres|both", "How grains are shown (mesh)", &given->show},
+                  {"--seed", "N", "For a photo's textures and noise (1)", &given->seed},
+                  {"--passes", "N", "Photo; more: smoother shadows (24)", &given->passes},
+                  {"--mask", "FILE.png", "Grains white, all else black", &given->mask_file},
+                  {"--truth", "FILE.json", "Exact geometry of the picture", &given->truth_file},
+                  {"--turntable", "FRAMES", "A film from all around", &given->turntable},
+                  {"--out", "FILE", "Picture .png .jpg, model .glb, film .mp4 .gif",
+                   &given->out_file}},
+      .notes = kNotes,
+      .missing = "no state is named. Fix: repose render STATE.vtp --out heap.png.",
+      .option_names = {{"picture size", "--size"}},
+      .run = [given] { return run_render(*given); }};
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,53 @@
+#include "cli/simulate/simulate_command.h"
+
+#include <memory>
+
+#include "cli/simulate/simulate.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr const char* kNotes = R"(
+EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, degrees),
+roll (distance along the flat, mm) or heap (angle of repose, degrees). STUDY
+is a study file: samples/hazelnut/study.toml explains all of its keys.
+
+A heap's final state is rendered as silhouettes from --views directions,
+equally spaced over half a turn, each measured as repose measure does: 1 is the
+XZ view alone, 0 renders none. If at least half of the views of every repeat
+could be measured, their mean is the value, else the angle from the grains'
+positions; both are reported.
+
+Each repeat has its own seed: --seed, and those that follow. The same seed
+gives the same result with any number of threads. With --out, the same command
+resumes an interrupted run.
+
+Examples:
+  repose simulate drop study.toml --repeats 10
+  repose simulate heap study.toml --set contact.particle_wall.restitution=0.3
+)";
+
+}  // namespace
+
+Command simulate_command() {
+  const auto given = std::make_shared<SimulateArguments>();
+  return {
+      .name = "simulate",
+      .summary = "Simulate an experiment of a study",
+      .options =
+          {{"experiment", "drop|tilt|roll|heap", "Which experiment", &given->experiment, true},
+           {"study", "STUDY.toml", "Study file", &given->study, true},
+           {"--set", "KEY=VALUE", "Replace a value of the study; repeatable", &given->settings},
+           {"--seed", "N", "Of the first repeat", &given->seed},
+           {"--repeats", "N", "How many, each with its own seed", &given->repeats},
+           {"--threads", "N", "At a time (all cores)", &given->threads},
+           {"--out", "FOLDER", "States, result.json; resumable", &given->out_folder},
+           {"--trajectory-s", "DT", "A frame each DT of simulated time, s", &given->trajectory_s},
+           {"--views", "N", "Views of each heap that are measured (18)", &given->views},
+           {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+      .notes = kNotes,
+      .missing = "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml.",
+      .run = [given] { return run_simulate(*given); }};
+}
+
+}  // namespace repose::cli
