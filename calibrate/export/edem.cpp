@@ -3,6 +3,7 @@
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/targets.h"
 #include "calibrate/study/study_simulator.h"
+#include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
@@ -35,7 +36,7 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   fields.set("WALL_SHEAR", shear_modulus_pa(wall));
   fields.set("WALL_POISSON", wall.poisson_ratio);
   add_interaction("contact.particle_wall.", sanitized(wall.name), conversions, fields);
-  if (facts.study().heap) {
+  if (facts.has(dem::Experiment::heap)) {
     add_interaction("contact.particle_particle.", "itself", conversions, fields);
     fields.add_section("HEAP").set("STIFFNESS", facts.stiffness(dem::Experiment::heap));
   }

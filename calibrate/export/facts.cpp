@@ -1,7 +1,6 @@
 #include "calibrate/export/facts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -23,8 +22,6 @@ namespace {
 
 using dem::Experiment;
 
-constexpr std::array kExperiments = {Experiment::drop, Experiment::tilt, Experiment::roll,
-                                     Experiment::heap};
 /// Other programs do not average the first and last step of an impact as ours does.
 constexpr double kTimestepFraction = .5;
 /// How far short of sliding the plate begins to turn, degrees.
@@ -42,11 +39,12 @@ TouchingPose touching(const dem::ClumpShape& shape, const dem::Quaternion& orien
 double speed_m_s(const ExportFacts& facts, Experiment experiment) {
   const double reach = facts.grain().reach_m();
   double fall_m = 8 * reach;  // grains that rain into a tube
-  if (experiment == Experiment::drop) fall_m = facts.study().drop->height_m;
+  if (experiment == Experiment::drop) fall_m = facts.study().protocol<dem::DropProtocol>().height_m;
   if (experiment == Experiment::tilt) fall_m = .01 * reach;
   if (experiment == Experiment::roll) {
     fall_m =
-        reach + facts.study().roll->release_m * std::sin(facts.study().roll->incline_deg * kDegree);
+        reach + facts.study().protocol<dem::RollProtocol>().release_m *
+                    std::sin(facts.study().protocol<dem::RollProtocol>().incline_deg * kDegree);
   }
   return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m);
 }
@@ -66,7 +64,8 @@ ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<Fi
   }
   base::ErrorList errors;
   for (const NamedCoefficient& named : coefficients_of(study_)) {
-    const bool is_needed = named.name.starts_with("contact.particle_wall") || study_.heap;
+    const bool is_needed =
+        named.name.starts_with("contact.particle_wall") || has(dem::Experiment::heap);
     errors.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.model)),
                    fmt::format("{}: has no value in the result. Fix: give the study a value for "
                                "it, or bounds and something measured to find it by.",
@@ -85,9 +84,7 @@ double ExportFacts::ball_density_kg_m3() const {
 
 std::vector<Experiment> ExportFacts::experiments() const {
   std::vector<Experiment> there;
-  for (const Experiment experiment : kExperiments) {
-    if (has(experiment)) there.push_back(experiment);
-  }
+  for (const auto& [experiment, described] : study_.experiments) there.push_back(experiment);
   return there;
 }
 
@@ -112,7 +109,7 @@ double ExportFacts::timestep_s(Experiment experiment) const {
 std::vector<TouchingPose> ExportFacts::drop_poses() const {
   dem::Random random(study_.seed);
   std::vector<TouchingPose> poses;
-  for (int k = 0; k < study_.drop->grains; ++k) {
+  for (int k = 0; k < study_.protocol<dem::DropProtocol>().grains; ++k) {
     poses.push_back(touching(grain(), random.orientation()));
   }
   return poses;
@@ -126,7 +123,7 @@ double ExportFacts::longest_drop_s() const {
 }
 
 dem::ClumpShape ExportFacts::tilt_body() const {
-  return dem::bonded_shape(grain(), study_.tilt->bonded);
+  return dem::bonded_shape(grain(), study_.protocol<dem::TiltProtocol>().bonded);
 }
 
 TouchingPose ExportFacts::tilt_pose() const {
@@ -135,19 +132,20 @@ TouchingPose ExportFacts::tilt_pose() const {
 
 double ExportFacts::tilt_begin_deg() const {
   const double slides_deg = std::atan(study_.model.grain_wall.sliding_friction) / kDegree;
-  return std::max({0.0, study_.tilt->start_deg, slides_deg - kTiltLead_deg});
+  return std::max(
+      {0.0, study_.protocol<dem::TiltProtocol>().start_deg, slides_deg - kTiltLead_deg});
 }
 
 dem::Grain ExportFacts::roll_start() const {
-  return dem::released(grain(), *study_.roll, study_.seed);
+  return dem::released(grain(), study_.protocol<dem::RollProtocol>(), study_.seed);
 }
 
 double ExportFacts::roll_flat_m() const {
   const double friction = study_.model.grain_wall.rolling_friction;
-  const double slope = study_.roll->incline_deg * kDegree;
+  const double slope = study_.protocol<dem::RollProtocol>().incline_deg * kDegree;
   // Without loss at the foot: L = S (sin - mu_r cos) / mu_r, see dem/THEORY.md.
-  const double longest =
-      study_.roll->release_m * std::max(0.0, std::sin(slope) / friction - std::cos(slope));
+  const double longest = study_.protocol<dem::RollProtocol>().release_m *
+                         std::max(0.0, std::sin(slope) / friction - std::cos(slope));
   const double room = .5 + 20 * grain().reach_m();
   return std::isfinite(longest) ? std::min(longest + room, kLongestFlat_m) : kLongestFlat_m;
 }
@@ -220,7 +218,7 @@ std::string steps(double time_s, double timestep_s) {
 }
 
 int grains_in_heap(const ExportFacts& facts) {
-  const dem::HeapProtocol& protocol = *facts.study().heap;
+  const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   constexpr double kPacked = .58;  // share of a tube some grains across that poured grains fill
   const double area = std::numbers::pi / 4 * protocol.tube_diameter_m * protocol.tube_diameter_m;
   const double fitting = kPacked * area * protocol.tube_height_m / facts.grain().volume_m3;

@@ -91,7 +91,7 @@ void add_body(const std::string& name, const dem::ClumpShape& shape, double mass
 }
 
 void add_drop(const ExportFacts& facts, std::vector<ExportedFile>& files) {
-  const dem::DropProtocol& protocol = *facts.study().drop;
+  const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
   const double reach = facts.grain().reach_m();
   const double speed = facts.drop_speed_m_s();
   DeckFields fields = deck_fields(facts, Experiment::drop, facts.is_sphere());
@@ -113,7 +113,7 @@ void add_drop(const ExportFacts& facts, std::vector<ExportedFile>& files) {
 }
 
 void add_tilt(const ExportFacts& facts, std::vector<ExportedFile>& files) {
-  const dem::TiltProtocol& protocol = *facts.study().tilt;
+  const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const dem::ClumpShape body = facts.tilt_body();
   const TouchingPose pose = facts.tilt_pose();
   const double timestep = facts.timestep_s(Experiment::tilt);
@@ -130,7 +130,7 @@ void add_tilt(const ExportFacts& facts, std::vector<ExportedFile>& files) {
 }
 
 void add_roll(const ExportFacts& facts, std::vector<ExportedFile>& files) {
-  const dem::RollProtocol& protocol = *facts.study().roll;
+  const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Vector normal = dem::incline_of(protocol).normal;
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(Experiment::roll);

@@ -76,8 +76,9 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
     const double wall = exported(conversions, fmt::format("contact.particle_wall.{}", name));
     // Without a heap grains never touch each other.
     const double grain =
-        study.heap ? exported(conversions, fmt::format("contact.particle_particle.{}", name))
-                   : wall;
+        facts.has(dem::Experiment::heap)
+            ? exported(conversions, fmt::format("contact.particle_particle.{}", name))
+            : wall;
     fields.set(fmt::format("WALL_{}", field), wall);
     fields.set(fmt::format("GRAIN_{}", field), grain);
   }
@@ -104,7 +105,7 @@ DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
 }
 
 ExportedFile drop_file(const ExportFacts& facts) {
-  const dem::DropProtocol& protocol = *facts.study().drop;
+  const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
   const double timestep = facts.timestep_s(Experiment::drop);
   const double speed = facts.drop_speed_m_s();
   DeckFields fields = deck_fields(facts, Experiment::drop);
@@ -127,7 +128,7 @@ ExportedFile drop_file(const ExportFacts& facts) {
 }
 
 ExportedFile tilt_file(const ExportFacts& facts) {
-  const dem::TiltProtocol& protocol = *facts.study().tilt;
+  const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const dem::ClumpShape body = facts.tilt_body();
   const TouchingPose pose = facts.tilt_pose();
   const double timestep = facts.timestep_s(Experiment::tilt);
@@ -146,7 +147,7 @@ ExportedFile tilt_file(const ExportFacts& facts) {
 }
 
 ExportedFile roll_file(const ExportFacts& facts) {
-  const dem::RollProtocol& protocol = *facts.study().roll;
+  const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Grain start = facts.roll_start();
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(Experiment::roll);
@@ -169,7 +170,7 @@ ExportedFile roll_file(const ExportFacts& facts) {
 }
 
 ExportedFile heap_file(const ExportFacts& facts) {
-  const dem::HeapProtocol& protocol = *facts.study().heap;
+  const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(Experiment::heap);
   const double tube_m3 = std::numbers::pi / 4 * protocol.tube_diameter_m *
@@ -206,20 +207,24 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
                                      {.name = "clump.txt", .text = spheres_text(facts.grain())}};
   if (facts.has(Experiment::drop)) files.push_back(drop_file(facts));
   if (facts.has(Experiment::tilt)) {
-    const bool is_sphere = facts.is_sphere() && facts.study().tilt->bonded == 1;
+    const bool is_sphere =
+        facts.is_sphere() && facts.study().protocol<dem::TiltProtocol>().bonded == 1;
     files.push_back(tilt_file(facts));
     files.push_back(place_file(facts, "place_body.lig", is_sphere));
     files.push_back({.name = "body.txt", .text = spheres_text(facts.tilt_body())});
   }
   if (facts.has(Experiment::roll)) {
     files.push_back(roll_file(facts));
-    files.push_back(
-        {.name = "incline.stl", .text = incline_stl(*facts.study().roll, facts.grain().reach_m())});
+    files.push_back({.name = "incline.stl",
+                     .text = incline_stl(facts.study().protocol<dem::RollProtocol>(),
+                                         facts.grain().reach_m())});
   }
   if (facts.has(Experiment::heap)) {
     files.push_back(heap_file(facts));
-    files.push_back({.name = "tube.stl", .text = tube_stl(*facts.study().heap, kTubeSides)});
-    files.push_back({.name = "plate.stl", .text = plate_stl(*facts.study().heap)});
+    files.push_back({.name = "tube.stl",
+                     .text = tube_stl(facts.study().protocol<dem::HeapProtocol>(), kTubeSides)});
+    files.push_back(
+        {.name = "plate.stl", .text = plate_stl(facts.study().protocol<dem::HeapProtocol>())});
   }
   return files;
 }

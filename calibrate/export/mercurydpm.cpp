@@ -26,10 +26,11 @@ void set_pair(const std::string& prefix, const std::string& pair, const ExportFa
 
 ExportedFile drop_file(const ExportFacts& facts, const Conversions& conversions) {
   const dem::ContactTable contacts = facts.contacts(Experiment::drop);
-  const double height = facts.study().drop->height_m;
+  const double height = facts.study().protocol<dem::DropProtocol>().height_m;
   const std::string walls = "contact.particle_wall.";
   // Without a heap grains never touch each other.
-  const std::string grains = facts.study().heap ? "contact.particle_particle." : walls;
+  const std::string grains =
+      facts.has(dem::Experiment::heap) ? "contact.particle_particle." : walls;
   DeckFields fields = common_fields(facts);
   fields.set("HEIGHT_MM", 1e3 * height);
   fields.set("RADIUS", .5 * dem::diameter_m(facts.grain()));

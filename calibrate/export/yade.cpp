@@ -30,8 +30,9 @@ void set_pair(const std::string& prefix, const std::string& pair, const ExportFa
               const Conversions& conversions, const dem::ContactLaw& law, DeckFields& fields) {
   const dem::Model& model = facts.study().model;
   const bool is_wall = prefix == "WALL";
-  const double restitution =
-      is_wall || !facts.study().heap ? model.grain_wall.restitution : model.grain_grain.restitution;
+  const double restitution = is_wall || !facts.has(dem::Experiment::heap)
+                                 ? model.grain_wall.restitution
+                                 : model.grain_grain.restitution;
   const double radius = facts.grain().spheres.front().radius;
   fields.set(prefix + "_BETAN", exported(conversions, pair + "restitution"));
   fields.set(prefix + "_BETAS", dem::textbook_damping_factor(restitution) / 2);
@@ -58,7 +59,8 @@ ExportedFile grain_file(const ExportFacts& facts, const Conversions& conversions
   fields.set("GRAIN_POISSON", study.model.grain_material.poisson_ratio);
   const std::string walls = "contact.particle_wall.";
   // Without a heap grains never touch each other.
-  const std::string grains = study.heap ? "contact.particle_particle." : walls;
+  const std::string grains =
+      facts.has(dem::Experiment::heap) ? "contact.particle_particle." : walls;
   set_pair("WALL", walls, facts, conversions, wall, fields);
   set_pair("GRAIN", grains, facts, conversions, grain, fields);
   return {.name = "grain.py", .text = filled("yade/grain.py", fields)};
@@ -72,7 +74,7 @@ DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
 }
 
 ExportedFile drop_file(const ExportFacts& facts) {
-  const dem::DropProtocol& protocol = *facts.study().drop;
+  const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
   const double speed = facts.drop_speed_m_s();
   const double reach = facts.grain().reach_m();
   DeckFields fields = deck_fields(facts, Experiment::drop);
@@ -91,7 +93,7 @@ ExportedFile drop_file(const ExportFacts& facts) {
 }
 
 ExportedFile tilt_file(const ExportFacts& facts) {
-  const dem::TiltProtocol& protocol = *facts.study().tilt;
+  const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const TouchingPose pose = facts.tilt_pose();
   const double begin = facts.tilt_begin_deg();
   DeckFields fields = deck_fields(facts, Experiment::tilt);
@@ -108,7 +110,7 @@ ExportedFile tilt_file(const ExportFacts& facts) {
 }
 
 ExportedFile roll_file(const ExportFacts& facts) {
-  const dem::RollProtocol& protocol = *facts.study().roll;
+  const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Grain start = facts.roll_start();
   const double timestep = facts.timestep_s(Experiment::roll);
   const double length = 4 * (protocol.release_m + 10 * facts.grain().reach_m());
@@ -128,7 +130,7 @@ ExportedFile roll_file(const ExportFacts& facts) {
 }
 
 ExportedFile heap_file(const ExportFacts& facts) {
-  const dem::HeapProtocol& protocol = *facts.study().heap;
+  const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double timestep = facts.timestep_s(Experiment::heap);
   const double reach = facts.grain().reach_m();
   const int grains = grains_in_heap(facts);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/version.h"
+#include "calibrate/experiment/picture_angles.h"
 #include "calibrate/report/document.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/picture_data.h"
@@ -47,18 +48,18 @@ std::string remarks_of(const MeasuredPhotograph& picture) {
   return shortened(text, 1000);
 }
 
-std::optional<calibrate::Summary> mean_of(const std::vector<MeasuredPhotograph>& pictures) {
-  std::vector<double> angles;
+calibrate::PictureMean mean_of(const std::vector<MeasuredPhotograph>& pictures) {
+  std::vector<calibrate::PictureAngle> angles;
   for (const MeasuredPhotograph& picture : pictures) {
-    const bool counts = picture.error.empty() && picture.angle.status == MeasureStatus::ok;
-    if (counts && picture.angle.angle_rad) angles.push_back(*degrees(picture.angle.angle_rad));
+    if (!picture.error.empty()) continue;
+    angles.push_back({picture.angle.status, picture.angle.angle_rad});
   }
-  if (angles.empty()) return std::nullopt;
-  return calibrate::summarise(angles);
+  return calibrate::mean_of_pictures(angles);
 }
 
 std::string mean_text(const std::vector<MeasuredPhotograph>& pictures,
-                      const std::optional<calibrate::Summary>& mean) {
+                      const calibrate::PictureMean& counting) {
+  const auto& mean = counting.angle_deg;
   const auto left_out = static_cast<long>(pictures.size()) - (mean ? mean->n : 0);
   std::string text;
   if (!mean) {
@@ -72,9 +73,8 @@ std::string mean_text(const std::vector<MeasuredPhotograph>& pictures,
         shown(mean->mean, 2), shown(mean->mean - *mean->mean_uncertainty, 2),
         shown(mean->mean + *mean->mean_uncertainty, 2), shown(mean->sd, 2), mean->n);
   }
-  if (left_out > 0) {
-    text += fmt::format(" Left out: {} flagged, refused or not read.", left_out);
-  }
+  if (counting.flagged > 0) text += fmt::format(" Flagged: {} of these.", counting.flagged);
+  if (left_out > 0) text += fmt::format(" Left out: {} refused or not read.", left_out);
   return text;
 }
 
@@ -151,7 +151,7 @@ PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAn
 }
 
 Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
-  const std::optional<calibrate::Summary> mean = mean_of(pictures);
+  const calibrate::PictureMean mean = mean_of(pictures);
   Document document{
       .title = fmt::format("{} picture{}", pictures.size(), pictures.size() == 1 ? "" : "s"),
       .kind = "Angles of repose",
@@ -160,7 +160,7 @@ Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
       .program = base::kProgram};
   Chapter answer{.id = "answer", .title = "The answer", .blocks = {}};
   answer.blocks.push_back(Paragraph{mean_text(pictures, mean)});
-  Chart chart = angles_chart(pictures, mean);
+  Chart chart = angles_chart(pictures, mean.angle_deg);
   if (!chart.data.rows.empty()) answer.blocks.push_back(ChartRow{{std::move(chart)}});
   answer.blocks.push_back(pictures_table(pictures));
   document.chapters.push_back(std::move(answer));

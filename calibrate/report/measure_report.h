@@ -30,8 +30,8 @@ struct MeasuredPhotograph {
   PageJpeg overlay;           ///< without bytes: not shown
 };
 
-/// A page about a batch of pictures, as `repose measure` measured them: the mean of those with
-/// status ok and its interval, each picture with its overlay, and why some gave no number.
+/// A page about a batch of pictures, as `repose measure` measured them: the mean of those that
+/// gave a number and its interval, each picture with its overlay, and why some gave no number.
 Report measure_report(const std::vector<MeasuredPhotograph>& pictures);
 
 }  // namespace repose::calibrate::report

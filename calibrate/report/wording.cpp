@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "dem/study/experiment_table.h"
+
 namespace repose::calibrate::report {
 namespace {
 
@@ -29,23 +31,6 @@ std::string raised(long power) {
     text += kDigits.at(static_cast<std::size_t>(digit - '0'));
   }
   return text;
-}
-
-struct KnownExperiment {
-  std::string_view name;
-  const char* reading;
-  const char* unit;
-};
-
-const KnownExperiment* known_experiment(const std::string& name) {
-  static constexpr std::array<KnownExperiment, 4> kKnown = {{{"drop", "rebound height", "mm"},
-                                                             {"tilt", "angle of sliding", "deg"},
-                                                             {"roll", "rolling distance", "mm"},
-                                                             {"heap", "angle of repose", "deg"}}};
-  for (const KnownExperiment& known : kKnown) {
-    if (known.name == name) return &known;
-  }
-  return nullptr;
 }
 
 }  // namespace
@@ -88,13 +73,14 @@ std::string label_of(const std::string& parameter) {
 }
 
 std::string unit_of_experiment(const std::string& name) {
-  const auto* known = known_experiment(name);
-  return known == nullptr ? "" : known->unit;
+  const auto* known = dem::find_experiment(name);
+  return known == nullptr ? "" : std::string(known->unit);
 }
 
 std::string axis_of_observable(const std::string& name, const std::string& unit) {
-  const auto* known = known_experiment(name);
-  const std::string what = known == nullptr ? shortened(spaced(name)) : known->reading;
+  const auto* known = dem::find_experiment(name);
+  const std::string what =
+      known == nullptr ? shortened(spaced(name)) : std::string(known->value_name);
   if (unit.empty()) return what;
   return fmt::format("{} [{}]", what, unit == "deg" ? "°" : unit);
 }

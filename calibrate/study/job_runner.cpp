@@ -10,7 +10,8 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
   std::vector<std::optional<Run>> runs(jobs.size());
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    runs[k] = folder_.find(simulator_, jobs[k]);
+    auto saved = folder_.find_whole(simulator_.spec(jobs[k]), jobs[k].seed);
+    if (saved) runs[k] = run_of({.job = jobs[k], .run = *std::move(saved)});
     if (!runs[k]) open.push_back(k);
   }
   reused_ += static_cast<int>(jobs.size() - open.size());
@@ -38,14 +39,20 @@ void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
   executor_.run(
       missing,
       [&](std::size_t k, const SimulatedJob& done) {
-        folder_.keep(simulator_, done);
-        runs[open[k]] = done.run;
+        keep(done);
+        runs[open[k]] = run_of(done);
         ++simulated_;
         ++progress.done;
         progress.seconds_done += cost_s(missing[k]);
         report_(progress);
       },
       is_interrupted_);
+}
+
+/// Whoever simulates saves its runs, but where its folder is another machine's.
+void JobRunner::keep(const SimulatedJob& done) const {
+  const RunSpec spec = simulator_.spec(done.job);
+  if (!folder_.find_whole(spec, done.job.seed)) folder_.save(spec, done.run);
 }
 
 double JobRunner::cost_s(const Job& job) const {

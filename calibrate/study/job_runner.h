@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/experiment/run_folder.h"
 #include "calibrate/study/executor.h"
-#include "calibrate/study/run_folder.h"
 
 namespace repose::calibrate {
 
@@ -44,6 +44,7 @@ class JobRunner {
  private:
   void simulate(const std::string& stage, const std::vector<Job>& jobs,
                 const std::vector<std::size_t>& open, std::vector<std::optional<Run>>& runs);
+  void keep(const SimulatedJob& done) const;
   double cost_s(const Job& job) const;
 
   const Problem& problem_;

@@ -1,5 +1,7 @@
 #include "calibrate/study/job_text.h"
 
+#include <stdexcept>
+
 #include <nlohmann/json.hpp>
 
 namespace repose::calibrate {
@@ -23,19 +25,14 @@ std::string text_of(const Job& job) { return json_of(job).dump(); }
 Job job_in(const std::string& text) { return job_in(Json::parse(text)); }
 
 std::string text_of(const SimulatedJob& done) {
-  return Json{{"job", json_of(done.run.job)},
-              {"readings", done.run.readings},
-              {"failure", done.run.failure},
-              {"wall_s", done.wall_s}}
-      .dump();
+  return Json{{"job", json_of(done.job)}, {"run", run_text(done.run)}}.dump();
 }
 
 SimulatedJob simulated_job_in(const std::string& text) {
   const Json json = Json::parse(text);
-  return {.run = {.job = job_in(json.at("job")),
-                  .readings = json.at("readings"),
-                  .failure = json.at("failure")},
-          .wall_s = json.at("wall_s")};
+  std::optional<SimulatedRun> run = run_in(json.at("run").get<std::string>());
+  if (!run) throw std::runtime_error("another process sent a run that cannot be read");
+  return {.job = job_in(json.at("job")), .run = *std::move(run)};
 }
 
 }  // namespace repose::calibrate

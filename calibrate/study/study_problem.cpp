@@ -1,7 +1,7 @@
 #include "calibrate/study/study_problem.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -9,39 +9,38 @@
 #include "calibrate/fit/budget.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/coefficients.h"
-#include "calibrate/study/run_cost.h"
-#include "calibrate/study/study_simulator.h"
+#include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
 
-constexpr std::array kExperiments = {dem::Experiment::drop, dem::Experiment::tilt,
-                                     dem::Experiment::roll, dem::Experiment::heap};
-
-const char* unit_of(dem::Experiment experiment) {
-  const bool is_angle = experiment == dem::Experiment::tilt || experiment == dem::Experiment::heap;
-  return is_angle ? "deg" : "mm";
+/// What a bench could measure: the experiment's own number, and others beside it.
+std::vector<std::string> measurable(const dem::ExperimentEntry& entry) {
+  std::vector<std::string> names = {"value"};
+  for (const dem::Reading& reading : entry.readings) {
+    if (reading.is_measurable) names.emplace_back(reading.name);
+  }
+  return names;
 }
 
-/// What a bench could measure beside the experiment's own number.
-std::vector<std::string> measurable(dem::Experiment experiment) {
-  switch (experiment) {
-    case dem::Experiment::drop:
-      return {"value", "lowest_point_rise_mm"};
-    case dem::Experiment::tilt:
-    case dem::Experiment::roll:
-      return {"value"};
-    case dem::Experiment::heap:
-      break;
+std::string unit_of(const dem::ExperimentEntry& entry, const std::string& reading) {
+  for (const dem::Reading& known : entry.readings) {
+    if (known.name == reading) return std::string(known.unit);
   }
-  return {"value", "base_radius_mm", "height_mm", "grains_off_plate"};
+  return std::string(entry.unit);
 }
 
-bool has_effect(const std::string& coefficient, dem::Experiment experiment) {
-  if (experiment == dem::Experiment::tilt) {
-    return coefficient == "contact.particle_wall.sliding_friction";
+/// About how long a run takes, s. Coefficients still open do not matter much to it.
+double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
+                  const dem::ExperimentEntry& entry) {
+  dem::Model model = dem::model_for(study, entry.experiment);
+  model.grain = grain;
+  for (dem::PairCoefficients* pair : {&model.grain_wall, &model.grain_grain}) {
+    for (double* value : {&pair->restitution, &pair->sliding_friction, &pair->rolling_friction}) {
+      if (std::isnan(*value)) *value = .3;
+    }
   }
-  return experiment == dem::Experiment::heap || coefficient.starts_with("contact.particle_wall.");
+  return entry.cost_s(model, study.experiments.at(entry.experiment).protocol);
 }
 
 std::vector<Parameter> open_parameters(const dem::Study& study) {
@@ -88,7 +87,7 @@ class Maker {
           "seek, as in restitution = {{ min = 0.1, max = 0.6 }}.",
           study_.file.string()));
     }
-    for (const dem::Experiment experiment : kExperiments) add(experiment);
+    for (const dem::ExperimentEntry& entry : dem::all_experiments()) add(entry);
     if (made_.problem.observables.empty()) {
       throw std::invalid_argument(fmt::format(
           "{}: nothing was measured in an experiment that depends on what is to be found. Fix: "
@@ -102,14 +101,15 @@ class Maker {
   }
 
  private:
-  void add(dem::Experiment experiment) {
-    if (!dem::has_protocol(study_, experiment)) return;
-    const std::string name = name_of(experiment);
+  void add(const dem::ExperimentEntry& entry) {
+    const auto described = study_.experiments.find(entry.experiment);
+    if (described == study_.experiments.end()) return;
+    const std::string name(entry.name);
     std::vector<std::size_t> with_effect;
     for (std::size_t k = 0; k < made_.problem.parameters.size(); ++k) {
-      if (has_effect(made_.problem.parameters[k].name, experiment)) with_effect.push_back(k);
+      if (dem::depends_on(entry, made_.problem.parameters[k].name)) with_effect.push_back(k);
     }
-    const dem::Measured& measured = dem::measured_in(study_, experiment);
+    const dem::Measured& measured = described->second.measured;
     const bool is_measured = measured.mean || !measured.values.empty();
     if (with_effect.empty()) {
       if (is_measured) {
@@ -122,16 +122,16 @@ class Maker {
     }
     made_.problem.experiments.push_back({.name = name,
                                          .parameters = with_effect,
-                                         .run_s = run_cost_s(study_, grain_.shape, experiment),
-                                         .is_stochastic = experiment != dem::Experiment::tilt,
-                                         .measurable = measurable(experiment)});
-    if (is_measured) add(observable_of(measured), experiment, "value");
+                                         .run_s = run_cost_s(study_, grain_.shape, entry),
+                                         .is_stochastic = entry.is_stochastic,
+                                         .measurable = measurable(entry)});
+    if (is_measured) add(observable_of(measured), entry, "value");
     for (const dem::MeasuredReading& reading : measured.also) {
       Observable observable;
       observable.mean = reading.mean;
       observable.sd = reading.sd;
       observable.n = reading.count.value_or(1);
-      add(observable, experiment, reading.name);
+      add(observable, entry, reading.name);
     }
   }
 
@@ -150,14 +150,12 @@ class Maker {
     settings.budget_s = enough_s;
   }
 
-  void add(Observable observable, dem::Experiment experiment, const std::string& reading) {
-    const std::string name = name_of(experiment);
+  void add(Observable observable, const dem::ExperimentEntry& entry, const std::string& reading) {
+    const std::string name(entry.name);
     observable.name = reading == "value" ? name : name + '.' + reading;
     observable.experiment = name;
     observable.reading = reading;
-    observable.unit = reading == "value"         ? unit_of(experiment)
-                      : reading.ends_with("_mm") ? "mm"
-                                                 : "";
+    observable.unit = unit_of(entry, reading);
     if (!observable.sd || observable.n < 2) {
       observable.sd.reset();
       observable.assumed_sd_fraction = kAssumedSdFraction;

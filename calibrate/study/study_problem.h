@@ -35,9 +35,6 @@ struct StudyProblem {
 
 /// Unknowns are the coefficients with bounds; observables what each experiment measured. Pictures
 /// must have been measured before: `measured.values` then holds their angles.
-///
-/// A tilting plate depends on the sliding friction alone: rolling friction from .04 to .3 moved the
-/// angle by .03 degrees, restitution by less than .001.
 /// @throws std::invalid_argument  nothing is to be found, nothing was measured, or the problem is
 /// not sound: every error.
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain, const Budget& budget);

@@ -9,6 +9,7 @@
 
 #include "base/version.h"
 #include "base/whole_file.h"
+#include "calibrate/experiment/picture_angles.h"
 
 namespace repose::calibrate {
 namespace {
@@ -64,9 +65,12 @@ Json record_json(const StudyRecord& record) {
 
 dem::Study as_simulated(dem::Study study, const Budget& budget,
                         const std::vector<PictureReading>& pictures) {
-  study.heap_stiffness *= budget.heap_softening;
+  const auto heap = study.experiments.find(dem::Experiment::heap);
+  if (heap == study.experiments.end()) return study;
+  heap->second.stiffness_factor *= budget.heap_softening;
   for (const PictureReading& picture : pictures) {
-    if (picture.status == "ok") study.heap_measured.values.push_back(picture.angle_deg.value());
+    if (!picture.angle_deg || !counts_in_mean(picture.status)) continue;
+    heap->second.measured.values.push_back(*picture.angle_deg);
   }
   return study;
 }

@@ -14,7 +14,7 @@ namespace repose::calibrate {
 /// What a picture of a bench's heap gave.
 struct PictureReading {
   std::filesystem::path file;
-  std::string status;  ///< "ok", "flagged" or "refused": only the first count
+  std::string status;  ///< "ok", "flagged" or "refused"; see counts_in_mean
   std::optional<double> angle_deg;
   std::string reason;  ///< why there is none
 };

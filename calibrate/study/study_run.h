@@ -9,7 +9,6 @@
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/job_runner.h"
-#include "calibrate/study/run_folder.h"
 #include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate {

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "base/whole_file.h"
+#include "calibrate/experiment/run_folder.h"
 #include "calibrate/study/rank_executor.h"
-#include "calibrate/study/run_folder.h"
 #include "calibrate/study/study_run.h"
 #include "calibrate/study/thread_executor.h"
 #include "cli/calibrate/calibrate_json.h"
@@ -24,8 +24,6 @@
 
 namespace repose::cli {
 namespace {
-
-constexpr int kHeapViews = 9;
 
 std::vector<std::string> parameter_names(const CalibratePlan& plan) {
   std::vector<std::string> names;
@@ -61,7 +59,7 @@ void save_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
   constexpr const char* kHeap = "heap.vtp";
   for (const calibrate::Run& run : checks) {
     const bool is_heap = run.job.experiment == "heap" && run.failure.empty();
-    if (is_heap && folder.copy_state(simulator, run.job, kHeap)) return;
+    if (is_heap && folder.copy_state(simulator.spec(run.job), run.job.seed, kHeap)) return;
   }
   // That of other coefficients must not stand for these.
   std::error_code ignored;
@@ -69,9 +67,8 @@ void save_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
 }
 
 calibrate::StudySimulator bench_of(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
-  calibrate::StudySimulator simulator(plan.record.study, plan.record.grain, parameter_names(plan),
-                                      kHeapViews);
-  simulator.save_states_in(folder.runs());
+  calibrate::StudySimulator simulator(plan.record.study, plan.record.grain, parameter_names(plan));
+  simulator.store_in(folder);
   return simulator;
 }
 

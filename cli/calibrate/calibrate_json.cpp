@@ -201,7 +201,7 @@ Json provenance_json(const CalibratePlan& plan, const std::vector<calibrate::Run
   Json stiffness = Json::object();
   for (const calibrate::Experiment& experiment : plan.problem.problem.experiments) {
     stiffness[experiment.name] =
-        dem::model_for(study, calibrate::experiment_named(experiment.name)).stiffness_factor;
+        dem::model_for(study, dem::experiment_named(experiment.name).experiment).stiffness_factor;
   }
   return {{"program", base::kProgram},
           {"study",

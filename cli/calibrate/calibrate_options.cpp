@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/whole_file.h"
+#include "calibrate/experiment/picture_angles.h"
 #include "cli/common/degrees.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
@@ -46,10 +47,10 @@ calibrate::PictureReading reading_of(const std::filesystem::path& file) {
   return reading;
 }
 
-/// What keeps a picture from counting; flagged ones do not, as in the mean of repose measure.
+/// What to know about a picture that is not quite as it should be.
 std::string note_on(const calibrate::PictureReading& picture) {
-  return picture.angle_deg
-             ? fmt::format("{}: flagged, left out. Look at it with repose measure --overlay.",
+  return calibrate::counts_in_mean(picture.status)
+             ? fmt::format("{}: flagged. It counts; look at it with repose measure --overlay.",
                            picture.file.string())
              : fmt::format("{}: refused, left out: {}", picture.file.string(), picture.reason);
 }
@@ -67,7 +68,7 @@ void measure_pictures(const std::vector<std::filesystem::path>& pictures, Calibr
     attempt(plan.errors, [&] {
       const calibrate::PictureReading& reading =
           plan.record.pictures.emplace_back(reading_of(file));
-      if (reading.status == "ok") any = true;
+      if (calibrate::counts_in_mean(reading.status)) any = true;
       if (reading.status != "ok") plan.notes.push_back(note_on(reading));
     });
   }
@@ -120,7 +121,7 @@ CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
   read_jobs(arguments, plan);
   if (!is_read) return plan;
   check_places(plan);
-  measure_pictures(plan.record.study.heap_measured.pictures, plan);
+  measure_pictures(dem::measured_in(plan.record.study, dem::Experiment::heap).pictures, plan);
   if (!plan.errors.empty()) return plan;
   plan.record.study =
       calibrate::as_simulated(plan.record.study, plan.record.budget, plan.record.pictures);

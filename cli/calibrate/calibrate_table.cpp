@@ -100,7 +100,7 @@ std::string belongs_to_text(const CalibratePlan& plan, std::size_t width) {
   std::string stiffness;
   for (const calibrate::Experiment& experiment : plan.problem.problem.experiments) {
     const double factor =
-        dem::model_for(plan.record.study, calibrate::experiment_named(experiment.name))
+        dem::model_for(plan.record.study, dem::experiment_named(experiment.name).experiment)
             .stiffness_factor;
     stiffness += fmt::format("{}{} {:g}", stiffness.empty() ? "" : ", ", experiment.name, factor);
   }

@@ -1,72 +1,76 @@
 #include "cli/measure/summary.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common/degrees.h"
-
 namespace repose::cli {
 namespace {
 
-std::string left_out_text(const Summary& summary) {
-  std::vector<std::string> parts;
-  if (summary.flagged > 0) parts.push_back(fmt::format("{} flagged", summary.flagged));
-  if (summary.refused > 0) parts.push_back(fmt::format("{} refused", summary.refused));
-  if (summary.not_read > 0) parts.push_back(fmt::format("{} not read", summary.not_read));
-  if (parts.empty()) return {};
-  return fmt::format("\nleft out of the mean: {}", fmt::join(parts, ", "));
+/// More digits than any camera resolves, without the noise of the conversion.
+double rounded(double angle_deg) { return std::round(angle_deg * 1e6) / 1e6; }
+
+std::string remarks_on(const Summary& summary) {
+  std::string text;
+  if (summary.pictures.flagged > 0) {
+    text += fmt::format("\n{} of these flagged: look at them", summary.pictures.flagged);
+  }
+  std::vector<std::string> left_out;
+  if (summary.pictures.refused > 0) {
+    left_out.push_back(fmt::format("{} refused", summary.pictures.refused));
+  }
+  if (summary.not_read > 0) left_out.push_back(fmt::format("{} not read", summary.not_read));
+  if (!left_out.empty()) {
+    text += fmt::format("\nleft out of the mean: {}", fmt::join(left_out, ", "));
+  }
+  return text;
 }
 
 }  // namespace
 
 Summary summarise(const std::vector<MeasuredPicture>& pictures) {
   Summary summary;
-  std::vector<double> angles_rad;
+  std::vector<calibrate::PictureAngle> angles;
   for (const MeasuredPicture& picture : pictures) {
-    if (picture.outcome != Outcome::measured) {
+    if (picture.outcome == Outcome::measured) {
+      angles.push_back({picture.angle.status, picture.angle.angle_rad});
+    } else {
       ++summary.not_read;
-    } else if (picture.angle.status == vision::MeasureStatus::refused) {
-      ++summary.refused;
-    } else if (picture.angle.status == vision::MeasureStatus::flagged) {
-      ++summary.flagged;
-    } else if (picture.angle.angle_rad) {
-      angles_rad.push_back(*picture.angle.angle_rad);
     }
   }
-  if (!angles_rad.empty()) summary.angle_rad = calibrate::summarise(angles_rad);
+  summary.pictures = calibrate::mean_of_pictures(angles);
   return summary;
 }
 
 std::string summary_text(const Summary& summary) {
-  const std::string left_out = left_out_text(summary);
-  if (!summary.angle_rad) return "no mean: no picture has status ok" + left_out;
-  const auto& [n, mean, sd, uncertainty] = *summary.angle_rad;
+  const std::string remarks = remarks_on(summary);
+  if (!summary.pictures.angle_deg) return "no mean: no picture could be measured" + remarks;
+  const auto& [n, mean, sd, uncertainty] = *summary.pictures.angle_deg;
   if (!sd || !uncertainty) {
-    return fmt::format("mean {:.2f}° n = 1, which has no scatter{}", to_degrees(mean), left_out);
+    return fmt::format("mean {:.2f}° n = 1, which has no scatter{}", mean, remarks);
   }
   return fmt::format(
       "mean {:.2f}° sd {:.2f}° n = {}, 95 % interval of the mean {:.2f} … {:.2f}° "
       "(Student){}",
-      to_degrees(mean), to_degrees(*sd), n, to_degrees(mean - *uncertainty),
-      to_degrees(mean + *uncertainty), left_out);
+      mean, *sd, n, mean - *uncertainty, mean + *uncertainty, remarks);
 }
 
 std::string summary_json(const Summary& summary) {
   nlohmann::ordered_json json{
       {"n", 0}, {"mean_deg", nullptr}, {"sd_deg", nullptr}, {"interval_deg", nullptr}};
-  if (summary.angle_rad) {
-    const auto& [n, mean, sd, uncertainty] = *summary.angle_rad;
+  if (summary.pictures.angle_deg) {
+    const auto& [n, mean, sd, uncertainty] = *summary.pictures.angle_deg;
     json["n"] = n;
-    json["mean_deg"] = rounded_degrees(mean);
-    if (sd) json["sd_deg"] = rounded_degrees(*sd);
+    json["mean_deg"] = rounded(mean);
+    if (sd) json["sd_deg"] = rounded(*sd);
     if (uncertainty) {
-      json["interval_deg"] = {rounded_degrees(mean - *uncertainty),
-                              rounded_degrees(mean + *uncertainty)};
+      json["interval_deg"] = {rounded(mean - *uncertainty), rounded(mean + *uncertainty)};
     }
   }
-  json["flagged"] = summary.flagged;
-  json["refused"] = summary.refused;
+  json["flagged"] = summary.pictures.flagged;
+  json["refused"] = summary.pictures.refused;
   json["not_read"] = summary.not_read;
   return json.dump(2) + '\n';
 }

@@ -1,25 +1,22 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "calibrate/statistics/summary.h"
+#include "calibrate/experiment/picture_angles.h"
 #include "cli/measure/measure_batch.h"
 
 namespace repose::cli {
 
-/// Pictures taken as repeats of one experiment. Only those with status ok count.
+/// Pictures taken as repeats of one experiment.
 struct Summary {
-  std::optional<calibrate::Summary> angle_rad;  ///< empty when none counts
-  int flagged = 0;
-  int refused = 0;
+  calibrate::PictureMean pictures;
   int not_read = 0;
 };
 
 Summary summarise(const std::vector<MeasuredPicture>& pictures);
 
-/// "mean 23.38° sd 0.72° n = 10, ..." and what was left out.
+/// "mean 23.38° sd 0.72° n = 10, ..." and what was flagged or left out.
 std::string summary_text(const Summary& summary);
 
 /// The same as a JSON object.

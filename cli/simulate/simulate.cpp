@@ -9,9 +9,9 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
+#include "cli/simulate/simulate_folder.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/simulate/simulate_options.h"
-#include "cli/simulate/simulate_pictures.h"
 #include "cli/simulate/simulate_runs.h"
 #include "cli/simulate/simulate_table.h"
 #include "cli/simulate/simulate_values.h"
@@ -36,7 +36,7 @@ std::string finished_text(const SimulatePlan& plan, const std::vector<Run>& runs
 
 /// How an interrupted batch goes on.
 std::string continue_text(const SimulatePlan& plan) {
-  return plan.out_folder.empty() ? "With --out FOLDER it could be gone on with."
+  return plan.out_folder.empty() ? "Add --out FOLDER to make it resumable."
                                  : "The same command again goes on from here.";
 }
 
@@ -59,7 +59,7 @@ ExitCode fail(const SimulatePlan& plan, const std::vector<Run>& runs) {
 
 void write_results(const SimulatePlan& plan, const std::vector<Run>& runs) {
   const std::string json = simulate_json(plan, runs);
-  if (!plan.out_folder.empty()) write_output((plan.out_folder / "result.json").string(), json);
+  if (!plan.out_folder.empty()) write_output(result_file(plan).string(), json);
   if (!plan.json_file.empty()) write_output(plan.json_file, json);
   if (plan.json_file == kStandardOutput) return;
   write_output(std::string(kStandardOutput), simulate_table(plan, runs, columns_of(stdout)));
@@ -74,11 +74,9 @@ ExitCode run_simulate(const SimulateArguments& arguments) {
   print_lines(plan.notes);
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
-  std::vector<Run> runs = run_repeats(plan, is_interrupted);
-  const std::size_t done = count(runs, RunOutcome::done);
-  const bool is_all_done = done == runs.size();
-  if (is_all_done) take_pictures(plan, runs, is_interrupted);
-  if (is_interrupted && (!is_all_done || plan.views > 0)) {
+  const std::vector<Run> runs = run_repeats(plan, is_interrupted);
+  const bool is_all_done = count(runs, RunOutcome::done) == runs.size();
+  if (is_interrupted && !is_all_done) {
     fmt::print(stderr, "repose: interrupted, no result was written; {}. {}\n",
                finished_text(plan, runs), continue_text(plan));
     return ExitCode::interrupted;

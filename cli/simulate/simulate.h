@@ -27,7 +27,7 @@ struct SimulateArguments {
 /// unstable or gave no reading: there is no result, and the mean of the other repeats would not be
 /// one; 130 when interrupted. States of repeats that were finished are whole then, result.json and
 /// --json are not written. With an --out folder the same call then goes on where it was
-/// interrupted, to the same bytes (simulate_saved.h).
+/// interrupted, to the same bytes (simulate_folder.h).
 ExitCode run_simulate(const SimulateArguments& arguments);
 
 }  // namespace repose::cli

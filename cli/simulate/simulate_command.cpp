@@ -14,9 +14,9 @@ is a study file: samples/hazelnut/study.toml explains all of its keys.
 
 A heap's final state is rendered as silhouettes from --views directions,
 equally spaced over half a turn, each measured as repose measure does: 1 is the
-XZ view alone, 0 renders none. If at least half of the views of every repeat
-could be measured, their mean is the value, else the angle from the grains'
-positions; both are reported.
+XZ view alone, 0 renders none. If at least half of the views of a repeat could
+be measured, their mean is its value, else the angle from the grains' positions;
+both are reported.
 
 Each repeat has its own seed: --seed, and those that follow. The same seed
 gives the same result with any number of threads. With --out, the same command
@@ -43,7 +43,7 @@ Command simulate_command() {
            {"--threads", "N", "At a time (all cores)", &given->threads},
            {"--out", "FOLDER", "States, result.json; resumable", &given->out_folder},
            {"--trajectory-s", "DT", "A frame each DT of simulated time, s", &given->trajectory_s},
-           {"--views", "N", "Views of each heap that are measured (18)", &given->views},
+           {"--views", "N", "Views of each heap that are measured (9)", &given->views},
            {"--json", "FILE|-", "All results, for programs", &given->json_file}},
       .notes = kNotes,
       .missing = "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml.",

@@ -7,7 +7,6 @@
 
 #include "base/version.h"
 #include "cli/common/degrees.h"
-#include "cli/simulate/simulate_names.h"
 #include "cli/simulate/simulate_values.h"
 #include "cli/simulate/simulate_warnings.h"
 #include "dem/contact/rolling_name.h"
@@ -50,14 +49,14 @@ Json clump_json(const SimulatePlan& plan) {
   return {{"source", plan.grain.source},
           {"spheres", shape.spheres.size()},
           {"smallest_radius_mm", smallest->radius * kMillimetres},
-          {"mass_g", shape.volume_m3 * plan.model.grain_material.density_kg_m3 * 1e3},
+          {"mass_g", shape.volume_m3 * plan.spec.model.grain_material.density_kg_m3 * 1e3},
           {"volume_error", plan.grain.errors.volume_error},
           {"inertia_error", plan.grain.errors.inertia_error}};
 }
 
 /// All that a value belongs to but its seed and time step.
 void add_context(const SimulatePlan& plan, Json& json) {
-  const dem::Model& model = plan.model;
+  const dem::Model& model = plan.spec.model;
   json["contact_model"] = contact_model_text();
   json["rolling_model"] = dem::name_of(model.rolling);
   json["rolling_definition"] = rolling_definition(model.rolling);
@@ -67,7 +66,7 @@ void add_context(const SimulatePlan& plan, Json& json) {
   json["materials"] = {{"particle", material_json(model.grain_material)},
                        {"wall", material_json(model.wall_material)}};
   json["contact"] = {{"particle_wall", pair_json(model.grain_wall)}};
-  if (plan.experiment == dem::Experiment::heap) {
+  if (dem::has_grain_contacts(plan.experiment)) {
     json["contact"]["particle_particle"] = pair_json(model.grain_grain);
   }
   json["study"] = {
@@ -81,18 +80,19 @@ Json optional_number(const std::optional<double>& value) {
 
 /// A heap's angle from both sources, and each view of it.
 void add_pictures(const Run& run, Json& json) {
-  const HeapPictures& pictures = *run.pictures;
-  const auto seen = calibrate::angle_deg(pictures.views);
+  const calibrate::SimulatedRun& result = run.result;
+  const auto seen = calibrate::mean_of_views(result.views).angle_deg;
+  json["source"] = calibrate::is_from_pictures(result) ? "pictures" : "positions";
   json["angle_from_pictures_deg"] = seen ? number(seen->mean) : Json(nullptr);
   json["sd_between_views_deg"] = seen ? optional_number(seen->sd) : Json(nullptr);
-  json["angle_from_positions_deg"] = number(run.repeat.value);
-  json["overlay"] = pictures.overlay_file.empty() ? Json(nullptr) : Json(pictures.overlay_file);
+  json["angle_from_positions_deg"] = number(result.value);
+  json["overlay"] = run.overlay_file.empty() ? Json(nullptr) : Json(run.overlay_file);
   json["views"] = Json::array();
-  for (const calibrate::HeapView& view : pictures.views) {
-    json["views"].push_back(
-        {{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
-         {"status", name_of(view.status)},
-         {"angle_deg", view.angle_rad ? Json(rounded_degrees(*view.angle_rad)) : Json(nullptr)}});
+  for (const calibrate::HeapView& view : result.views) {
+    const auto& angle = view.picture.angle_rad;
+    json["views"].push_back({{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
+                             {"status", name_of(view.picture.status)},
+                             {"angle_deg", angle ? Json(rounded_degrees(*angle)) : Json(nullptr)}});
   }
 }
 
@@ -100,7 +100,7 @@ void add_pictures(const Run& run, Json& json) {
 void add_sources(const std::vector<Run>& runs, Json& json) {
   const auto angles = heap_angles(runs);
   if (!angles) return;
-  json["source"] = is_from_pictures(runs) ? "pictures" : "positions";
+  json["source"] = source_of(runs);
   const auto& pictures = angles->pictures;
   json["angle_from_pictures_deg"] = pictures ? Json(pictures->mean) : Json(nullptr);
   json["angle_from_positions_deg"] = number(angles->positions.mean);
@@ -112,19 +112,19 @@ void add_sources(const std::vector<Run>& runs, Json& json) {
   json["views_flagged"] = angles->flagged;
 }
 
-Json run_json(const Run& run, double angle_or_length) {
-  const dem::Repeat& repeat = run.repeat;
+Json run_json(const Run& run) {
+  const calibrate::SimulatedRun& result = run.result;
   Json readings = Json::object();
-  for (const auto& [name, value] : repeat.readings) readings[name] = number(value);
-  Json json{{"seed", repeat.seed},
-            {"value", number(angle_or_length)},
-            {"wall_s", run.wall_s},
-            {"steps", repeat.steps},
-            {"clump_steps_per_s", number(repeat.clump_steps / run.wall_s)},
-            {"timestep_s", repeat.timestep_s},
+  for (const auto& [name, value] : result.readings) readings[name] = number(value);
+  Json json{{"seed", result.seed},
+            {"value", number(calibrate::value_of(result))},
+            {"wall_s", result.wall_s},
+            {"steps", result.steps},
+            {"clump_steps_per_s", number(result.clump_steps / result.wall_s)},
+            {"timestep_s", result.timestep_s},
             {"state", run.state_file.empty() ? Json(nullptr) : Json(run.state_file)},
             {"readings", readings}};
-  if (run.pictures) add_pictures(run, json);
+  if (!result.views.empty()) add_pictures(run, json);
   return json;
 }
 
@@ -160,16 +160,10 @@ std::string rolling_definition(dem::RollingModel model) {
   return "rolling spring with a plastic limit of mu_r F_n times the reduced radius";
 }
 
-std::string provenance_json(const SimulatePlan& plan, std::uint64_t seed) {
-  Json json{{"experiment", names_of(plan.experiment).name}, {"seed", seed}};
-  add_context(plan, json);
-  return text_of(json);
-}
-
 std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs) {
-  const ExperimentName& names = names_of(plan.experiment);
+  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
   const auto summary = summarise(runs);
-  Json json{{"experiment", names.name}, {"unit", names.unit}, {"value", nullptr},
+  Json json{{"experiment", entry.name}, {"unit", entry.unit}, {"value", nullptr},
             {"interval", nullptr},      {"sd", nullptr},      {"repeats", Json::array()}};
   if (summary) {
     json["value"] = summary->mean;
@@ -180,10 +174,7 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
     }
   }
   add_sources(runs, json);
-  const std::vector<double> values = values_of(runs);
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    json["repeats"].push_back(run_json(runs[k], values[k]));
-  }
+  for (const Run& run : runs) json["repeats"].push_back(run_json(run));
   json["warnings"] = Json::array();
   for (const RunWarning& warning : warnings_of(plan, runs)) {
     json["warnings"].push_back({{"code", warning.code},

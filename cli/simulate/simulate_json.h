@@ -7,9 +7,6 @@
 
 namespace repose::cli {
 
-/// What a state belongs to: experiment, seed, study, contact model, clump, time step, program.
-std::string provenance_json(const SimulatePlan& plan, std::uint64_t seed);
-
 /// The result, as a JSON object.
 std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs);
 

@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 
 #include "base/whole_file.h"
+#include "calibrate/experiment/heap_views.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/output.h"
-#include "cli/simulate/simulate_names.h"
-#include "cli/simulate/simulate_saved.h"
+#include "cli/simulate/simulate_folder.h"
 
 namespace repose::cli {
 namespace {
@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxRepeats = 100'000;
 constexpr int kMaxThreads = 1024;
-constexpr int kUsualViews = 18;
 constexpr std::array kNames{OptionName{.value = "setting", .option = "--set"}};
 constexpr int kMaxViews = 360;
 
@@ -64,10 +63,10 @@ void read_numbers(const SimulateArguments& arguments, SimulatePlan& plan) {
 }
 
 void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
-  if (plan.experiment == dem::Experiment::heap) {
+  if (dem::entry_of(plan.experiment).is_pictured) {
     plan.views = number_of("--views", arguments.views, 0, kMaxViews,
-                           "--views 18, or 1 for the XZ view alone", plan)
-                     .value_or(kUsualViews);
+                           "--views 9, or 1 for the XZ view alone", plan)
+                     .value_or(calibrate::kHeapViews);
   } else if (!arguments.views.empty()) {
     plan.errors.emplace_back("--views: only heaps are measured in pictures. Fix: leave it out.");
   }
@@ -76,7 +75,8 @@ void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
 /// The experiment must be described, and what it needs must have a value.
 void check_study(SimulatePlan& plan) {
   const std::string file = plan.study.file.string();
-  const std::string_view name = names_of(plan.experiment).name;
+  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
+  const std::string_view name = entry.name;
   if (!dem::has_protocol(plan.study, plan.experiment)) {
     plan.errors.push_back(fmt::format(
         "{}: section [experiment.{}] is missing. Fix: add it to the study, or for this run "
@@ -89,11 +89,11 @@ void check_study(SimulatePlan& plan) {
         "repose calibrate.",
         file, key, key));
   }
-  if (plan.experiment == dem::Experiment::drop && plan.study.drop_stiffness != 1) {
+  const double stiffness = dem::model_for(plan.study, plan.experiment).stiffness_factor;
+  if (stiffness != 1 && !entry.softening_effect.empty()) {
     plan.notes.push_back(fmt::format(
-        "{}: a drop with stiffness_factor = {:g} rebounds less than one with the real stiffness. "
-        "Fix: take it out of [experiment.drop].",
-        file, plan.study.drop_stiffness));
+        "{}: a {} with stiffness_factor = {:g} {}. Fix: take it out of [experiment.{}].", file,
+        name, stiffness, entry.softening_effect, name));
   }
 }
 
@@ -115,18 +115,13 @@ void check_places(SimulatePlan& plan) {
         plan.out_folder.string(), error.message()));
     return;
   }
-  check("--out", plan.out_folder / "result.json");
+  check("--out", result_file(plan));
 }
 
 /// What the folder holds may be gone on with, if it is of the same run.
 void check_saved(SimulatePlan& plan) {
   const std::string error = error_of_saved(plan);
-  if (!error.empty()) {
-    plan.errors.push_back(error);
-    return;
-  }
-  const std::string saved = saved_text(plan);
-  if (!saved.empty()) plan.notes.push_back(saved);
+  if (!error.empty()) plan.errors.push_back(error);
 }
 
 void build_bench(SimulatePlan& plan) {
@@ -139,8 +134,10 @@ void build_bench(SimulatePlan& plan) {
   for (const std::string& repair : plan.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.grain.source, repair));
   }
-  plan.model = dem::model_for(plan.study, plan.experiment);
-  plan.model.grain = plan.grain.shape;
+  plan.spec = calibrate::spec_of(plan.study, plan.experiment, calibrate::NamedGrain(plan.grain),
+                                 plan.views);
+  const std::string saved = saved_text(plan);
+  if (!saved.empty()) plan.notes.push_back(saved);
 }
 
 }  // namespace
@@ -150,13 +147,13 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   plan.settings = arguments.settings;
   plan.out_folder = arguments.out_folder;
   plan.json_file = arguments.json_file;
-  const auto experiment = experiment_named(arguments.experiment);
-  if (!experiment) {
-    plan.errors.push_back(
-        fmt::format("simulate {}: there is no such experiment. Fix: drop, tilt, roll or heap.",
-                    arguments.experiment));
+  const dem::ExperimentEntry* experiment = dem::find_experiment(arguments.experiment);
+  if (experiment == nullptr) {
+    plan.errors.push_back(fmt::format("simulate {}: there is no such experiment. Fix: {}.",
+                                      arguments.experiment, dem::experiment_names()));
+  } else {
+    plan.experiment = experiment->experiment;
   }
-  plan.experiment = experiment.value_or(plan.experiment);
   bool is_read = false;
   try {
     plan.study = dem::read_study(arguments.study, arguments.settings);
@@ -165,10 +162,10 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
     add_lines(naming_options(error.what(), kNames), plan.errors);
   }
   read_numbers(arguments, plan);
-  if (experiment) read_views(arguments, plan);
-  if (is_read && experiment) check_study(plan);
+  if (experiment != nullptr) read_views(arguments, plan);
+  if (is_read && experiment != nullptr) check_study(plan);
   check_places(plan);
-  if (is_read && experiment) check_saved(plan);
+  if (is_read && experiment != nullptr) check_saved(plan);
   if (plan.errors.empty()) build_bench(plan);
   return plan;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/experiment/run_spec.h"
 #include "cli/simulate/simulate.h"
 #include "dem/study/study.h"
 
@@ -17,7 +18,7 @@ struct SimulatePlan {
   dem::Study study;
   std::vector<std::string> settings;
   dem::ClumpFile grain;
-  dem::Model model;  ///< with the grain, for this experiment
+  calibrate::RunSpec spec;  ///< of each repeat
   std::vector<std::uint64_t> seeds;
   int threads = 1;
   std::filesystem::path out_folder;  ///< empty: none

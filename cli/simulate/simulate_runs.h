@@ -1,11 +1,10 @@
 #pragma once
 
 #include <atomic>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/simulate/heap_pictures.h"
+#include "calibrate/experiment/simulated_run.h"
 #include "cli/simulate/simulate_options.h"
 
 namespace repose::cli {
@@ -21,15 +20,15 @@ enum class RunOutcome {
 /// One repeat, done or not.
 struct Run {
   RunOutcome outcome = RunOutcome::not_run;
-  dem::Repeat repeat;      ///< counts when done; has its state only as long as pictures need it
-  std::string state_file;  ///< empty: none was asked for
-  double wall_s = 0;       ///< of all calls that worked on it
-  std::string error;       ///< why it is not done
-  std::optional<HeapPictures> pictures;  ///< none: none were asked for
+  calibrate::SimulatedRun result;  ///< counts when done
+  std::string state_file;          ///< empty: none was asked for
+  std::string overlay_file;        ///< of a heap's first view; empty: none was asked for
+  std::string error;               ///< why it is not done
 };
 
-/// Runs all repeats that the --out folder does not hold already, several at a time, and writes each
-/// one's state when it is done. The first that fails, or an interruption, breaks the others off.
+/// Runs all repeats that the --out folder does not hold already, several at a time, and puts each
+/// one's state and overlay there under the name of its seed. The first that fails, or an
+/// interruption, stops the others.
 std::vector<Run> run_repeats(const SimulatePlan& plan, const std::atomic<bool>& is_interrupted);
 
 }  // namespace repose::cli

@@ -8,7 +8,6 @@
 
 #include "cli/common/terminal.h"
 #include "cli/simulate/simulate_json.h"
-#include "cli/simulate/simulate_names.h"
 #include "cli/simulate/simulate_values.h"
 #include "dem/contact/rolling_name.h"
 
@@ -16,25 +15,28 @@ namespace repose::cli {
 namespace {
 
 std::string unit_sign(const SimulatePlan& plan) {
-  const std::string_view unit = names_of(plan.experiment).unit;
+  const std::string_view unit = dem::entry_of(plan.experiment).unit;
   return unit == "deg" ? "°" : fmt::format(" {}", unit);
 }
 
 std::string repeats_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
   constexpr double kMicroseconds = 1e6, kMillion = 1e6;
-  const ExperimentName& names = names_of(plan.experiment);
+  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
+  const bool is_mixed = source_of(runs) == "mixed";
   std::size_t width = 4;
-  for (const Run& run : runs) width = std::max(width, std::to_string(run.repeat.seed).size());
-  std::string text = fmt::format("{}: {}\n", names.name, names.value);
+  for (const Run& run : runs) width = std::max(width, std::to_string(run.result.seed).size());
+  std::string text = fmt::format("{}: {}\n", entry.name, entry.value_name);
   text += fmt::format("{:>{}}{:>14}{:>12}{:>10}{:>10}{:>12}\n", "seed", width,
-                      fmt::format("value [{}]", names.unit), "steps", "step [us]", "time [s]",
+                      fmt::format("value [{}]", entry.unit), "steps", "step [us]", "time [s]",
                       "Mclump-st/s");
-  const std::vector<double> values = values_of(runs);
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    const Run& run = runs[k];
-    text += fmt::format("{:>{}}{:>14.3f}{:>12}{:>10.3f}{:>10.1f}{:>12.3f}\n", run.repeat.seed,
-                        width, values[k], run.repeat.steps, run.repeat.timestep_s * kMicroseconds,
-                        run.wall_s, run.repeat.clump_steps / run.wall_s / kMillion);
+  for (const Run& run : runs) {
+    const calibrate::SimulatedRun& result = run.result;
+    text +=
+        fmt::format("{:>{}}{:>14.3f}{:>12}{:>10.3f}{:>10.1f}{:>12.3f}", result.seed, width,
+                    calibrate::value_of(result), result.steps, result.timestep_s * kMicroseconds,
+                    result.wall_s, result.clump_steps / result.wall_s / kMillion);
+    if (is_mixed && !calibrate::is_from_pictures(result)) text += "  from positions";
+    text += '\n';
   }
   return text;
 }
@@ -67,18 +69,22 @@ std::string sources_text(const std::vector<Run>& runs) {
   const auto angles = heap_angles(runs);
   if (!angles) return {};
   const auto row = [](const char* source, const std::optional<calibrate::Summary>& repeats,
-                      const std::optional<double>& between_views, bool is_value) {
+                      const std::optional<double>& between_views, const std::string& use) {
     const auto mean = repeats ? std::optional(repeats->mean) : std::nullopt;
     const auto sd = repeats ? repeats->sd : std::nullopt;
     return fmt::format("  {}{:>9}{:>15}{:>15}{}\n", padded(source, 14), number_or_dash(mean),
-                       number_or_dash(sd), number_or_dash(between_views),
-                       is_value ? "   the value" : "");
+                       number_or_dash(sd), number_or_dash(between_views), use);
   };
-  const bool is_pictured = is_from_pictures(runs);
+  const auto used = [&](int count) {
+    if (count == 0) return std::string();
+    if (count == static_cast<int>(runs.size())) return std::string("   the value");
+    return fmt::format("   the value of {}", count);
+  };
   return fmt::format("\n  {}{:>9}{:>15}{:>15}\n", padded("angle [deg]", 14), "mean",
                      "sd of repeats", "sd of views") +
-         row("pictures", angles->pictures, angles->between_views_pictures, is_pictured) +
-         row("positions", angles->positions, angles->between_views_positions, !is_pictured) +
+         row("pictures", angles->pictures, angles->between_views_pictures, used(angles->pictured)) +
+         row("positions", angles->positions, angles->between_views_positions,
+             used(static_cast<int>(runs.size()) - angles->pictured)) +
          fmt::format("  {} {}: {} refused, {} flagged\n", angles->views,
                      angles->views == 1 ? "picture" : "pictures", angles->refused, angles->flagged);
 }
@@ -120,7 +126,7 @@ std::string readings_text(const std::vector<Run>& runs) {
   std::map<std::string, Spread> spreads;
   std::size_t width = 0;
   for (const Run& run : runs) {
-    for (const auto& [name, value] : run.repeat.readings) {
+    for (const auto& [name, value] : run.result.readings) {
       Spread& spread = spreads[name];
       spread.sum += value;
       spread.least = std::min(spread.least, value);
@@ -145,7 +151,7 @@ std::string coefficients_text(const dem::PairCoefficients& pair) {
 
 /// Coefficients mean nothing without these.
 std::string belongs_to_text(const SimulatePlan& plan, std::size_t width) {
-  const dem::Model& model = plan.model;
+  const dem::Model& model = plan.spec.model;
   const std::string step =
       model.timestep_s ? fmt::format("{:g} s, as asked for", *model.timestep_s)
                        : fmt::format("{:g} of the longest accurate one", model.timestep_fraction);
@@ -158,7 +164,7 @@ std::string belongs_to_text(const SimulatePlan& plan, std::size_t width) {
       {"stiffness factor", fmt::format("{:g}", model.stiffness_factor)},
       {"time step", step},
       {"with the wall", coefficients_text(model.grain_wall)}};
-  if (plan.experiment == dem::Experiment::heap) {
+  if (dem::has_grain_contacts(plan.experiment)) {
     facts.emplace_back("between grains", coefficients_text(model.grain_grain));
   }
   constexpr std::size_t kNames = 20;

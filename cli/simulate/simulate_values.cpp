@@ -4,27 +4,18 @@
 #include <cmath>
 
 namespace repose::cli {
-namespace {
-
-bool is_well_pictured(const Run& run) {
-  return run.outcome == RunOutcome::done && run.pictures &&
-         calibrate::is_well_pictured(run.pictures->views);
-}
-
-}  // namespace
-
-bool is_from_pictures(const std::vector<Run>& runs) {
-  return !runs.empty() && std::all_of(runs.begin(), runs.end(), is_well_pictured);
+std::string source_of(const std::vector<Run>& runs) {
+  const auto pictured = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
+    return calibrate::is_from_pictures(run.result);
+  });
+  if (pictured == 0) return "positions";
+  return pictured == static_cast<std::ptrdiff_t>(runs.size()) ? "pictures" : "mixed";
 }
 
 std::vector<double> values_of(const std::vector<Run>& runs) {
-  const bool is_pictured = is_from_pictures(runs);
   std::vector<double> values;
   values.reserve(runs.size());
-  for (const Run& run : runs) {
-    values.push_back(is_pictured ? calibrate::angle_deg(run.pictures->views)->mean
-                                 : run.repeat.value);
-  }
+  for (const Run& run : runs) values.push_back(calibrate::value_of(run.result));
   return values;
 }
 
@@ -48,16 +39,18 @@ std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs) {
   HeapAngles angles;
   std::vector<double> positions, pictures, scatters;
   for (const Run& run : runs) {
-    if (!run.pictures || run.pictures->views.empty()) return std::nullopt;
-    positions.push_back(run.repeat.value);
-    const auto scatter = run.repeat.readings.find("between_views_deg");
-    if (scatter != run.repeat.readings.end()) angles.between_views_positions += scatter->second;
-    angles.views += static_cast<int>(run.pictures->views.size());
-    angles.refused += count(run.pictures->views, vision::MeasureStatus::refused);
-    angles.flagged += count(run.pictures->views, vision::MeasureStatus::flagged);
-    const auto seen = calibrate::angle_deg(run.pictures->views);
-    if (seen) pictures.push_back(seen->mean);
-    if (seen && seen->sd) scatters.push_back(*seen->sd);
+    const calibrate::SimulatedRun& result = run.result;
+    if (result.views.empty()) return std::nullopt;
+    positions.push_back(result.value);
+    const auto scatter = result.readings.find("between_views_deg");
+    if (scatter != result.readings.end()) angles.between_views_positions += scatter->second;
+    const calibrate::PictureMean seen = calibrate::mean_of_views(result.views);
+    angles.views += static_cast<int>(result.views.size());
+    angles.refused += seen.refused;
+    angles.flagged += seen.flagged;
+    angles.pictured += calibrate::is_from_pictures(result) ? 1 : 0;
+    if (seen.angle_deg) pictures.push_back(seen.angle_deg->mean);
+    if (seen.angle_deg && seen.angle_deg->sd) scatters.push_back(*seen.angle_deg->sd);
   }
   if (positions.empty()) return std::nullopt;
   angles.positions = calibrate::summarise(positions);

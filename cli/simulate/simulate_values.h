@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calibrate/statistics/summary.h"
@@ -9,11 +10,11 @@
 /// Which number of a repeat is its value.
 namespace repose::cli {
 
-/// A heap's angle is that of its pictures when at least half of the views of every repeat gave one:
-/// it is what a photograph is compared with. Else it is that of the grains' positions.
-bool is_from_pictures(const std::vector<Run>& runs);
+/// Where the repeats' values are from: "pictures", "positions", or "mixed" (see
+/// calibrate::is_from_pictures, which each repeat decides on its own).
+std::string source_of(const std::vector<Run>& runs);
 
-/// The repeats' values, in their order: of all from the same source.
+/// The repeats' values, in their order.
 std::vector<double> values_of(const std::vector<Run>& runs);
 
 /// Mean and scatter of the repeats' values; none when one of them is no number. Values that are all
@@ -31,6 +32,7 @@ struct HeapAngles {
   int views = 0;                                 ///< of all repeats together
   int refused = 0;
   int flagged = 0;
+  int pictured = 0;  ///< repeats whose value is from pictures
 };
 
 /// None when no pictures were taken.

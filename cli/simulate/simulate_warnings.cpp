@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -11,8 +12,8 @@ namespace repose::cli {
 namespace {
 
 double reading_of(const Run& run, const std::string& name, double otherwise) {
-  const auto found = run.repeat.readings.find(name);
-  return found == run.repeat.readings.end() ? otherwise : found->second;
+  const auto found = run.result.readings.find(name);
+  return found == run.result.readings.end() ? otherwise : found->second;
 }
 
 RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
@@ -20,7 +21,7 @@ RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
       "all {} repeats gave the same value: they tell nothing about scatter, and there is no "
       "interval.",
       repeats);
-  if (plan.experiment == dem::Experiment::tilt) {
+  if (!dem::entry_of(plan.experiment).is_stochastic) {
     message +=
         " Nothing in this experiment is left to chance: its seed has no effect. Fix: one repeat; "
         "what scatters on the bench is the sliding friction, so vary that: --set "
@@ -37,8 +38,8 @@ std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
   for (const Run& run : runs) {
     if (reading_of(run, "no_heap", 0) != 0) return std::nullopt;  // a warning that says more
     const auto count = static_cast<double>(runs.size());
-    usual += run.repeat.value / count;
-    inner += reading_of(run, "inner_window_deg", run.repeat.value) / count;
+    usual += run.result.value / count;
+    inner += reading_of(run, "inner_window_deg", run.result.value) / count;
     between_views += reading_of(run, "between_views_deg", 0) / count;
   }
   const double yardstick = summary.mean_uncertainty.value_or(between_views);
@@ -55,33 +56,70 @@ std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
                   yardstick)};
 }
 
-/// What keeps the pictures from being the value, or should be looked at in them.
-std::optional<RunWarning> pictures_tell(const std::vector<Run>& runs) {
-  if (runs.empty() || !runs.front().pictures) return std::nullopt;
-  const std::string& error = runs.front().pictures->error;
-  if (!error.empty()) {
-    return RunWarning{"no_pictures",
-                      {},
-                      fmt::format("no pictures could be drawn: {}. The value is the angle from the "
-                                  "grains' positions.",
-                                  error)};
+/// Repeats whose value is not the angle in their pictures.
+void add_picture_warnings(const std::vector<Run>& runs, std::vector<RunWarning>& warnings) {
+  if (!runs.empty() && !runs.front().result.picture_error.empty()) {
+    warnings.push_back({"no_pictures",
+                        {},
+                        fmt::format("no pictures could be drawn: {}. The value is the angle from "
+                                    "the grains' positions.",
+                                    runs.front().result.picture_error)});
+    return;
   }
-  if (is_from_pictures(runs)) return std::nullopt;
-  std::size_t most = 0, views = 0;
-  std::uint64_t seed = 0;
   for (const Run& run : runs) {
-    const auto refused =
-        static_cast<std::size_t>(count(run.pictures->views, vision::MeasureStatus::refused));
-    if (refused < most) continue;
-    most = refused;
-    views = run.pictures->views.size();
-    seed = run.repeat.seed;
+    const calibrate::SimulatedRun& result = run.result;
+    if (result.views.empty() || calibrate::is_from_pictures(result)) continue;
+    warnings.push_back(
+        {"pictures_refused", result.seed,
+         fmt::format("{} of {} pictures could not be measured: its value is the "
+                     "angle from the grains' positions.",
+                     calibrate::mean_of_views(result.views).refused, result.views.size())});
   }
-  return RunWarning{"pictures_refused",
-                    {},
-                    fmt::format("{} of {} pictures of seed {} could not be measured: the value is "
-                                "the angle from the grains' positions.",
-                                most, views, seed)};
+  const auto angles = heap_angles(runs);
+  if (!angles || source_of(runs) != "mixed") return;
+  warnings.push_back(
+      {"mixed_sources",
+       {},
+       fmt::format(
+           "the mean is of {} angles from pictures and {} from positions, which differ: "
+           "heaps this low are hard to see. Fix: leave the latter out, or compare positions "
+           "with positions ({:.2f} degrees in the mean).",
+           angles->pictured, runs.size() - static_cast<std::size_t>(angles->pictured),
+           angles->positions.mean)});
+}
+
+/// Heaps of fewer grains than the study asks for, since no more fit into the tube.
+void add_grain_warning(const SimulatePlan& plan, const Run& run,
+                       std::vector<RunWarning>& warnings) {
+  const auto* heap = std::get_if<dem::HeapProtocol>(&plan.spec.protocol);
+  if (heap == nullptr || !heap->grains) return;
+  const double grains = reading_of(run, "grains", *heap->grains);
+  if (grains >= *heap->grains) return;
+  warnings.push_back({"fewer_grains", run.result.seed,
+                      fmt::format("of {} grains only {:g} fit into the tube. Fix: fewer grains, or "
+                                  "a taller or wider tube.",
+                                  *heap->grains, grains)});
+}
+
+/// What single repeats tell against their values.
+void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
+  const std::uint64_t seed = run.result.seed;
+  if (reading_of(run, "no_heap", 0) != 0) {
+    warnings.push_back(
+        {"no_heap", seed, "the grains spread in a layer; its angle is no angle of repose."});
+  }
+  if (reading_of(run, "at_rest", 1) == 0) {
+    warnings.push_back({"not_at_rest", seed, "grains were still moving when the time was up."});
+  }
+  const double never_rose = reading_of(run, "never_rose", 0);
+  const auto* drop = std::get_if<dem::DropProtocol>(&plan.spec.protocol);
+  if (drop != nullptr && never_rose > 0) {
+    warnings.push_back(
+        {"never_rose", seed,
+         fmt::format("{:g} of {} grains did not rise again; they count as 0 in the mean.",
+                     never_rose, drop->grains)});
+  }
+  add_grain_warning(plan, run, warnings);
 }
 
 }  // namespace
@@ -90,29 +128,11 @@ std::vector<RunWarning> warnings_of(const SimulatePlan& plan, const std::vector<
   std::vector<RunWarning> warnings;
   const auto summary = summarise(runs);
   if (summary && summary->n > 1 && !summary->sd) warnings.push_back(no_scatter(plan, runs.size()));
-  if (summary && plan.experiment == dem::Experiment::heap) {
+  if (summary && plan.spec.entry().is_pictured) {
     if (auto warning = window_matters(*summary, runs)) warnings.push_back(*std::move(warning));
-    if (auto warning = pictures_tell(runs)) warnings.push_back(*std::move(warning));
+    add_picture_warnings(runs, warnings);
   }
-  for (const Run& run : runs) {
-    const std::uint64_t seed = run.repeat.seed;
-    if (plan.experiment == dem::Experiment::heap) {
-      if (reading_of(run, "no_heap", 0) != 0) {
-        warnings.push_back(
-            {"no_heap", seed, "the grains spread in a layer; its angle is no angle of repose."});
-      }
-      if (reading_of(run, "at_rest", 1) == 0) {
-        warnings.push_back({"not_at_rest", seed, "grains were still moving when the time was up."});
-      }
-    }
-    const double never_rose = reading_of(run, "never_rose", 0);
-    if (plan.experiment == dem::Experiment::drop && never_rose > 0) {
-      warnings.push_back(
-          {"never_rose", seed,
-           fmt::format("{:g} of {} grains did not rise again; they count as 0 in the mean.",
-                       never_rose, plan.study.drop->grains)});
-    }
-  }
+  for (const Run& run : runs) add_run_warnings(plan, run, warnings);
   return warnings;
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+#include <variant>
 
 #include "dem/contact/material.h"
 #include "dem/engine/simulation.h"
@@ -102,6 +103,12 @@ struct HeapProtocol {
   /// they are refused.
   bool may_be_fewer = false;
 };
+
+/// Every experiment there is, in the order in which they are listed.
+enum class Experiment { drop, tilt, roll, heap };
+
+/// How an experiment is done; its alternatives are in the order of Experiment.
+using Protocol = std::variant<DropProtocol, TiltProtocol, RollProtocol, HeapProtocol>;
 
 /// One repeat of an experiment.
 struct Repeat {

@@ -1,6 +1,5 @@
 #include "dem/study/study.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 
 #include "base/fingerprint.h"
 #include "base/whole_file.h"
+#include "dem/study/experiment_table.h"
 #include "dem/study/read_contact.h"
 #include "dem/study/read_experiments.h"
 #include "dem/study/read_particle.h"
@@ -111,20 +111,6 @@ void add_open(const CoefficientSet& set, const std::string& pair, std::vector<st
   }
 }
 
-double stiffness_of(const Study& study, Experiment experiment) {
-  switch (experiment) {
-    case Experiment::drop:
-      return study.drop_stiffness;
-    case Experiment::tilt:
-      return study.tilt_stiffness;
-    case Experiment::roll:
-      return study.roll_stiffness;
-    case Experiment::heap:
-      break;
-  }
-  return study.heap_stiffness;
-}
-
 }  // namespace
 
 Study read_study(const fs::path& file, const std::vector<std::string>& settings) {
@@ -145,26 +131,30 @@ Study read_study_copy(const fs::path& file, const std::vector<std::string>& sett
 }
 
 bool has_protocol(const Study& study, Experiment experiment) {
-  return std::array{study.drop.has_value(), study.tilt.has_value(), study.roll.has_value(),
-                    study.heap.has_value()}[static_cast<std::size_t>(experiment)];
+  return study.experiments.contains(experiment);
 }
 
-const Measured& measured_in(const Study& study, Experiment experiment) {
-  return *std::array{&study.drop_measured, &study.tilt_measured, &study.roll_measured,
-                     &study.heap_measured}[static_cast<std::size_t>(experiment)];
+Measured measured_in(const Study& study, Experiment experiment) {
+  const auto found = study.experiments.find(experiment);
+  return found == study.experiments.end() ? Measured{} : found->second.measured;
 }
 
 std::vector<std::string> open_coefficients(const Study& study, Experiment experiment) {
   std::vector<std::string> names;
   add_open(study.particle_wall, "particle_wall", names);
-  if (experiment == Experiment::heap) add_open(study.particle_particle, "particle_particle", names);
+  if (has_grain_contacts(experiment)) {
+    add_open(study.particle_particle, "particle_particle", names);
+  }
   return names;
 }
 
 Model model_for(const Study& study, Experiment experiment) {
   Model model = study.model;
-  model.stiffness_factor = stiffness_of(study, experiment);
-  if (experiment != Experiment::heap) {
+  const auto described = study.experiments.find(experiment);
+  if (described != study.experiments.end()) {
+    model.stiffness_factor = described->second.stiffness_factor;
+  }
+  if (!has_grain_contacts(experiment)) {
     const auto close = [](double& open, double value) {
       if (std::isnan(open)) open = value;
     };

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "dem/experiment/experiment.h"
@@ -49,7 +52,12 @@ struct Measured {
   std::vector<MeasuredReading> also;
 };
 
-enum class Experiment { drop, tilt, roll, heap };
+/// An experiment as a study describes it.
+struct StudyExperiment {
+  Protocol protocol;
+  Measured measured;
+  double stiffness_factor = 1;  ///< of the grains and walls in it; 1 is the real material
+};
 
 /// A study file: the particle, the walls, what is known and what is sought, the experiments.
 struct Study {
@@ -63,16 +71,23 @@ struct Study {
   GrainSource grain;
   CoefficientSet particle_wall;
   CoefficientSet particle_particle;
-  std::optional<DropProtocol> drop;
-  std::optional<TiltProtocol> tilt;
-  std::optional<RollProtocol> roll;
-  std::optional<HeapProtocol> heap;
-  Measured drop_measured, tilt_measured, roll_measured, heap_measured;
-  /// Stiffness factor of each experiment; 1 unless the file says otherwise.
-  double drop_stiffness = 1, tilt_stiffness = 1, roll_stiffness = 1, heap_stiffness = 1;
+  std::map<Experiment, StudyExperiment> experiments;  ///< those that it describes
   int replicates = 1;
   std::uint64_t seed = 1;
   std::optional<int> threads;  ///< when the file says how many
+
+  /// How the experiment is done that has this kind of protocol.
+  /// @throws std::out_of_range  the study does not describe it.
+  template <typename Kind>
+  const Kind& protocol() const {
+    return std::get<Kind>(experiments.at(experiment_of<Kind>()).protocol);
+  }
+
+  /// The experiment that has this kind of protocol.
+  template <typename Kind>
+  static Experiment experiment_of() {
+    return static_cast<Experiment>(Protocol(std::in_place_type<Kind>).index());
+  }
 };
 
 /// Reads a study file (TOML). `settings` are "key.path=value" pairs that replace or add values, the
@@ -87,12 +102,13 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 Study read_study_copy(const std::filesystem::path& file,
                       const std::vector<std::string>& settings = {});
 
-/// Whether the study describes the experiment, and what the bench gave for it.
+/// Whether the study describes the experiment, and what the bench gave for it: nothing where it
+/// does not.
 bool has_protocol(const Study& study, Experiment experiment);
-const Measured& measured_in(const Study& study, Experiment experiment);
+Measured measured_in(const Study& study, Experiment experiment);
 
 /// Names ("contact.particle_wall.restitution") of the coefficients that an experiment needs and the
-/// study leaves to be found. Grains touch each other only in a heap; the others need no
+/// study leaves to be found. Grains touch each other only in some experiments; the others need no
 /// coefficients between grains.
 std::vector<std::string> open_coefficients(const Study& study, Experiment experiment);
 

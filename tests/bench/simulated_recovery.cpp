@@ -20,7 +20,6 @@ namespace {
 using calibrate::Random;
 
 constexpr int kReadings = 8;
-constexpr int kViews = 9;
 constexpr double kReading_deg = .5, kReadingFraction = .03;
 constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
 
@@ -33,10 +32,7 @@ std::vector<std::string> names_of(const std::vector<calibrate::Parameter>& param
 /// With something measured everywhere, a study says what is sought.
 std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFile& grain,
                                             const calibrate::Budget& budget) {
-  for (dem::Measured* measured :
-       {&study.drop_measured, &study.tilt_measured, &study.roll_measured, &study.heap_measured}) {
-    measured->mean = 1;
-  }
+  for (auto& [experiment, described] : study.experiments) described.measured.mean = 1;
   return calibrate::problem_of(study, grain, budget).problem.parameters;
 }
 
@@ -47,16 +43,17 @@ class Material {
       : study_(study),
         grain_(grain),
         folder_(folder),
-        bench_(study, grain, std::move(names), kViews),
+        bench_(study, grain, std::move(names)),
         truth_(std::move(truth)),
         number_(number),
-        random_(number) {}
+        random_(number) {
+    bench_.store_in(folder_);
+  }
 
   calibrate::StudyOutcome calibrated(const calibrate::Budget& budget) {
-    study_.drop_measured.values = readings("drop");
-    study_.tilt_measured.values = readings("tilt");
-    study_.roll_measured.values = readings("roll");
-    study_.heap_measured.values = readings("heap");
+    for (auto& [experiment, described] : study_.experiments) {
+      described.measured.values = readings(dem::entry_of(experiment));
+    }
     const calibrate::Problem problem = calibrate::problem_of(study_, grain_, budget).problem;
     calibrate::ThreadExecutor executor(bench_,
                                        static_cast<int>(std::thread::hardware_concurrency()));
@@ -67,15 +64,16 @@ class Material {
 
  private:
   /// What a bench would read, less the readings that failed.
-  std::vector<double> readings(const std::string& experiment) {
+  std::vector<double> readings(const dem::ExperimentEntry& experiment) {
     std::vector<double> values;
     for (int i = 0; i < kReadings; ++i) {
-      const calibrate::Run run = simulated(
-          {experiment, truth_, kBenchSeeds * (number_ + 1) + static_cast<std::uint64_t>(i)});
+      const calibrate::Run run =
+          simulated({std::string(experiment.name), truth_,
+                     kBenchSeeds * (number_ + 1) + static_cast<std::uint64_t>(i)});
       const double noise = random_.normal();
       if (!run.failure.empty()) continue;
       const double value = run.readings.at("value");
-      const bool is_angle = experiment == "tilt" || experiment == "heap";
+      const bool is_angle = experiment.unit == "deg";
       values.push_back(std::max(
           0., is_angle ? value + kReading_deg * noise : value * (1 + kReadingFraction * noise)));
     }
@@ -83,10 +81,7 @@ class Material {
   }
 
   calibrate::Run simulated(const calibrate::Job& job) {
-    if (const auto saved = folder_.find(bench_, job)) return *saved;
-    const calibrate::SimulatedJob done = bench_.simulate(job, never_);
-    folder_.keep(bench_, done);
-    return done.run;
+    return run_of(bench_.simulate(job, never_));
   }
 
   dem::Study study_;

@@ -16,9 +16,9 @@ using ::testing::Not;
 dem::Study hazelnuts() {
   dem::Study study;
   study.model = dem::test::clump_bench();
-  study.drop = dem::DropProtocol{};
-  study.tilt = dem::TiltProtocol{};
-  study.roll = dem::RollProtocol{};
+  study.experiments[dem::Experiment::drop].protocol = dem::DropProtocol{};
+  study.experiments[dem::Experiment::tilt].protocol = dem::TiltProtocol{};
+  study.experiments[dem::Experiment::roll].protocol = dem::RollProtocol{};
   study.particle_wall.restitution.min = .1;
   study.particle_wall.restitution.max = .9;
   return study;
@@ -45,7 +45,7 @@ TEST(ExportFacts, RefuseACoefficientWithoutAValue) {
   study.particle_particle.sliding_friction.max = .9;
   const std::vector<FittedValue> fitted = {{.name = kRestitution, .value = .42}};
   EXPECT_EQ(errors_of(study, fitted), "") << "grains touch each other in heaps only";
-  study.heap = dem::HeapProtocol{};
+  study.experiments[dem::Experiment::heap].protocol = dem::HeapProtocol{};
   EXPECT_THAT(errors_of(study, fitted),
               AllOf(HasSubstr("particle_particle.sliding_friction"), Not(HasSubstr(kRestitution))));
 }

@@ -26,11 +26,11 @@ dem::Study hazelnuts(dem::RollingModel rolling = dem::RollingModel::relative_con
   dem::Study study;
   study.model = dem::test::clump_bench();
   study.model.rolling = rolling;
-  study.drop = dem::DropProtocol{};
-  study.tilt = dem::TiltProtocol{};
-  study.roll = dem::RollProtocol{};
-  study.heap = dem::HeapProtocol{};
-  study.heap_stiffness = .01;
+  study.experiments[dem::Experiment::drop].protocol = dem::DropProtocol{};
+  study.experiments[dem::Experiment::tilt].protocol = dem::TiltProtocol{};
+  study.experiments[dem::Experiment::roll].protocol = dem::RollProtocol{};
+  study.experiments[dem::Experiment::heap].protocol = dem::HeapProtocol{};
+  study.experiments[dem::Experiment::heap].stiffness_factor = .01;
   return study;
 }
 
@@ -76,8 +76,8 @@ TEST(ExportStudy, EachProgramHasItsDecksAndAReadme) {
 
 TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
   dem::Study study = hazelnuts();
-  study.heap = {};
-  study.roll = {};
+  study.experiments.erase(dem::Experiment::heap);
+  study.experiments.erase(dem::Experiment::roll);
   const StudyExport made = exported(study, ExportTarget::liggghts);
   EXPECT_THAT(names_of(made), AllOf(Contains("drop.lig"), Not(Contains("heap.lig")),
                                     Not(Contains("roll.lig")), Not(Contains("tube.stl"))));

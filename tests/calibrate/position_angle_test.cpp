@@ -1,4 +1,4 @@
-#include "calibrate/study/position_angle.h"
+#include "calibrate/experiment/position_angle.h"
 
 #include <cmath>
 #include <numbers>

@@ -46,7 +46,8 @@ class FormulaExecutor : public Executor {
   void run(const std::vector<Job>& jobs, const JobDone& done,
            const std::atomic<bool>& is_interrupted) override {
     for (std::size_t k = 0; k < jobs.size() && !is_interrupted; ++k) {
-      SimulatedJob result{.run = {.job = jobs[k], .readings = {}, .failure = {}}, .wall_s = 0};
+      SimulatedJob result{.job = jobs[k], .run = {}};
+      result.run.seed = jobs[k].seed;
       const std::vector<double>& x = jobs[k].values;
       const double value = jobs[k].experiment == "drop"   ? 500 * x[0] * x[0]
                            : jobs[k].experiment == "tilt" ? std::atan(x[1]) * 180 / 3.14159265358979
@@ -57,7 +58,7 @@ class FormulaExecutor : public Executor {
       if (is_empty) {
         result.run.failure = "nothing was seen";
       } else {
-        result.run.readings["value"] = value;
+        result.run.value = value;
       }
       done(k, result);
     }

@@ -62,8 +62,9 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
   EXPECT_EQ(read.study.hash, written.study.hash);
   EXPECT_EQ(read.study.file, "study.toml");
   EXPECT_EQ(read.study.model.grain_material.density_kg_m3, 700);
-  EXPECT_EQ(read.study.heap_stiffness, written.study.heap_stiffness);
-  EXPECT_THAT(read.study.heap_measured.values, ElementsAre(24.125));
+  EXPECT_EQ(dem::model_for(read.study, dem::Experiment::heap).stiffness_factor,
+            dem::model_for(written.study, dem::Experiment::heap).stiffness_factor);
+  EXPECT_THAT(dem::measured_in(read.study, dem::Experiment::heap).values, ElementsAre(24.125));
   EXPECT_EQ(read.budget.name, "quick");
   EXPECT_THAT(read.grain.shape.spheres, SizeIs(1));
   ASSERT_THAT(read.pictures, SizeIs(2));

@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/study/run_folder.h"
+#include "calibrate/experiment/run_folder.h"
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/thread_executor.h"
 #include "tests/calibrate/sphere_study.h"
@@ -53,8 +53,9 @@ class StudyRun : public ::testing::Test {
   /// The fitted values of a study run in a folder; breaks it off before job number `stop`.
   std::optional<StudyOutcome> run(const std::string& folder, int threads, int stop = -1) const {
     const dem::Study study = read();
-    const StudySimulator bench = bench_of(study);
+    StudySimulator bench = bench_of(study);
     const RunFolder runs(folder_.path() / folder);
+    bench.store_in(runs);
     ThreadExecutor executor(bench, threads);
     std::atomic<bool> is_interrupted = false;
     int told = 0;
@@ -120,25 +121,40 @@ TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
 TEST_F(StudyRun, KeysNameWhatIsSimulatedAndNotWhatForWhichStudy) {
   const dem::Study study = read();
   const Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
-  const std::string key = bench_of(study).key(job);
+  const auto key_in = [](const dem::Study& studied, const Job& asked) {
+    return key_of(bench_of(studied).spec(asked), asked.seed);
+  };
+  const std::string key = key_in(study, job);
   EXPECT_THAT(key, HasSubstr("drop-"));
-  EXPECT_EQ(bench_of(read({"experiment.drop.measured = { mean = 9, n = 3 }",
-                           "contact.particle_wall.restitution = { min = 0.1, max = 0.95 }"}))
-                .key(job),
+  EXPECT_EQ(key_in(read({"experiment.drop.measured = { mean = 9, n = 3 }",
+                         "contact.particle_wall.restitution = { min = 0.1, max = 0.95 }"}),
+                   job),
             key)
       << "bounds and measurements do not matter";
   for (const char* setting :
        {"experiment.drop.height_mm=90", "particle.density_kg_m3=999", "particle.size_mm=[20,20,19]",
         "wall.poisson_ratio=0.31", "simulation.timestep_fraction=0.9",
         "contact.particle_wall.rolling_friction=0.02"}) {
-    EXPECT_NE(bench_of(read({setting})).key(job), key) << setting;
+    EXPECT_NE(key_in(read({setting}), job), key) << setting;
   }
   Job other = job;
   other.seed = 4;
-  EXPECT_NE(bench_of(study).key(other), key);
+  EXPECT_NE(key_in(study, other), key);
   other = job;
   other.values[0] = .51;
-  EXPECT_NE(bench_of(study).key(other), key);
+  EXPECT_NE(key_in(study, other), key);
+}
+
+TEST_F(StudyRun, AStudyAsksForTheRunsThatASingleExperimentMakes) {
+  const dem::Study single = read(
+      {"contact.particle_wall.restitution = 0.5", "contact.particle_wall.sliding_friction = 0.4"});
+  const RunSpec alone =
+      spec_of(single, dem::Experiment::drop, NamedGrain(grain_of(single)), kHeapViews);
+  const Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
+  EXPECT_EQ(key_of(alone, job.seed), key_of(bench_of(read()).spec(job), job.seed));
+  const RunFolder folder(folder_.path() / "single");
+  simulate_experiment(alone, job.seed, {.folder = &folder, .trajectory = {}, .report = {}});
+  EXPECT_TRUE(folder.find_whole(bench_of(read()).spec(job), job.seed));
 }
 
 TEST_F(StudyRun, FindsTheCoefficientsOfTheBench) {
@@ -183,8 +199,8 @@ TEST_F(StudyRun, AnExperimentWithoutAReadingIsAFailedRunNotAnError) {
   const std::atomic<bool> is_interrupted = false;
   const SimulatedJob done = bench_of(study).simulate(
       {.experiment = "tilt", .values = {.5, 90.}, .seed = 1}, is_interrupted);
-  EXPECT_THAT(done.run.readings, IsEmpty());
-  EXPECT_THAT(done.run.failure, HasSubstr("instead of sliding"));
+  EXPECT_THAT(run_of(done).readings, IsEmpty());
+  EXPECT_THAT(run_of(done).failure, HasSubstr("instead of sliding"));
 }
 
 TEST_F(StudyRun, AFolderThatCannotBeMadeIsRefused) {

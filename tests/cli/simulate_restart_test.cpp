@@ -18,6 +18,8 @@ namespace {
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 using Words = std::vector<std::string>;
 
 /// A heap of a second's work.
@@ -55,12 +57,12 @@ class SimulateRestart : public ::testing::Test {
     return run_repose(folder_, words);
   }
 
-  /// Presses Ctrl-C when `frame` of the first repeat is there; the exit code.
-  int run_until(const std::string& frame, Words words) const {
+  /// Presses Ctrl-C when `frame` of a repeat is there; the exit code.
+  int run_until(const std::string& frame, Words words, int seed = 1) const {
     words.insert(words.begin(), "simulate");
     const pid_t program = start_repose(folder_, words);
     int status = 0;
-    while (!std::filesystem::exists(path("runs/heap_seed_1/" + frame))) {
+    while (!std::filesystem::exists(path("runs/heap_seed_" + std::to_string(seed) + "/" + frame))) {
       if (::waitpid(program, &status, WNOHANG) != 0) return -1;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
@@ -70,6 +72,15 @@ class SimulateRestart : public ::testing::Test {
   }
 
   std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+  /// The files of the store whose names end so.
+  std::vector<std::filesystem::path> stored(const std::string& ending) const {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(path("runs/runs"))) {
+      if (entry.path().string().ends_with(ending)) files.push_back(entry.path());
+    }
+    return files;
+  }
 
   /// The texts of all files in a folder but those that tell what a clock measured.
   std::map<std::string, std::string> texts_in(const std::string& name) const {
@@ -102,7 +113,7 @@ TEST_F(SimulateRestart, AnInterruptedHeapGoesOnToTheSameBytes) {
   // Some frames are of the filling, later ones of the lift.
   for (const char* frame : {"frame_00010.vtp", "frame_00030.vtp", "frame_00050.vtp"}) {
     ASSERT_EQ(run_until(frame, kHeap), 130);
-    EXPECT_TRUE(std::filesystem::exists(path("runs/heap_seed_1.restart.vtp")));
+    EXPECT_THAT(stored(".restart.vtp"), SizeIs(1));
     EXPECT_FALSE(std::filesystem::exists(path("runs/result.json")));
   }
   const Finished last = run(kHeap);
@@ -114,18 +125,20 @@ TEST_F(SimulateRestart, AnInterruptedHeapGoesOnToTheSameBytes) {
   ASSERT_EQ(run(whole).exit_code, 0);
   const auto runs = texts_in("runs");
   EXPECT_TRUE(runs == texts_in("whole")) << "compared as a whole: the files are large";
-  EXPECT_FALSE(runs.contains("heap_seed_1.restart.vtp")) << "done with";
+  EXPECT_THAT(stored(".restart.vtp"), IsEmpty()) << "done with";
 }
 
 TEST_F(SimulateRestart, FinishedRepeatsAreNotSimulatedAgain) {
   const Words one = {"drop", "study.toml", "--out", "runs"};
   ASSERT_EQ(run(one).exit_code, 0);
-  const std::string first = text_of(path("runs/drop_seed_1.json"));
+  ASSERT_THAT(stored(".json"), SizeIs(1));
+  const std::filesystem::path file = stored(".json").front();
+  const std::string first = text_of(file);
   Words three = one;
   three.insert(three.end(), {"--repeats", "3"});
   const Finished more = run(three);
   EXPECT_THAT(more.err, HasSubstr("of 3 repeats 1 finished already"));
-  EXPECT_EQ(text_of(path("runs/drop_seed_1.json")), first) << "the time it took is the first's";
+  EXPECT_EQ(text_of(file), first) << "the time it took is the first's";
   three[3] = "whole";
   ASSERT_EQ(run(three).exit_code, 0);
   EXPECT_EQ(texts_in("runs"), texts_in("whole"));
@@ -150,33 +163,58 @@ TEST_F(SimulateRestart, AnotherRunInTheSameFolderIsRefused) {
   EXPECT_EQ(texts_in("runs"), before);
 }
 
-TEST_F(SimulateRestart, FilesThatWereChangedAreRefused) {
+TEST_F(SimulateRestart, RunsWhoseFilesWereDamagedAreSimulatedAgain) {
   const Words one = {"drop", "study.toml", "--out", "runs"};
   ASSERT_EQ(run(one).exit_code, 0);
-  for (const char* text : {"", "[]", "{\"identity\": 1}", "{\"identity\": {\"seed\": 2}}"}) {
-    folder_.write("runs/drop_seed_1.json", std::string(text));
-    const Finished refused = run(one);
-    EXPECT_EQ(refused.exit_code, 2) << text;
-    EXPECT_THAT(refused.err,
-                AllOf(HasSubstr("drop_seed_1.json: it "), HasSubstr("Fix: delete it")));
+  const auto whole = texts_in("runs");
+  const std::string file = stored(".json").front().lexically_relative(folder_.path());
+  for (const char* text : {"", "[]", "{\"simulated\": 1}", "{\"simulated\": {\"seed\": 2}}"}) {
+    folder_.write(file, std::string(text));
+    ASSERT_EQ(run(one).exit_code, 0) << text;
+    EXPECT_EQ(texts_in("runs"), whole) << text;
   }
-  std::filesystem::remove(path("runs/drop_seed_1.json"));
-  EXPECT_EQ(run(one).exit_code, 0);
+  std::filesystem::remove(stored(".vtp").front());
+  ASSERT_EQ(run(one).exit_code, 0);
+  EXPECT_EQ(texts_in("runs"), whole);
   folder_.write("runs/run.json", std::string("{"));
   EXPECT_THAT(run(one).err, HasSubstr("run.json was changed"));
 }
 
 TEST_F(SimulateRestart, ARestartPointOfAnotherSeedIsRefused) {
-  Words words = kHeap;
+  const Words words = kHeap;
   ASSERT_EQ(run_until("frame_00010.vtp", words), 130);
-  std::filesystem::rename(path("runs/heap_seed_1.restart.vtp"),
-                          path("runs/heap_seed_2.restart.vtp"));
-  words.insert(words.end(), {"--seed", "2"});
-  const Finished refused = run(words);
+  const std::filesystem::path first = stored(".restart.vtp").front();
+  // Seed 2 is interrupted too, and its restart point replaced by that of seed 1.
+  Words second = words;
+  second[3] = "1";
+  second.insert(second.end(), {"--seed", "2"});
+  ASSERT_EQ(run_until("frame_00010.vtp", second, 2), 130);
+  std::filesystem::path other;
+  for (const auto& file : stored(".restart.vtp")) {
+    if (file != first) other = file;
+  }
+  ASSERT_FALSE(other.empty());
+  std::filesystem::copy_file(first, other, std::filesystem::copy_options::overwrite_existing);
+  const Finished refused = run(second);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("it belongs to another run"));
-  folder_.write("runs/heap_seed_2.restart.vtp", std::string("<VTKFile"));
-  EXPECT_THAT(run(words).err, HasSubstr("it is cut short or was changed. Fix: delete it"));
+  folder_.write(other.lexically_relative(folder_.path()), std::string("<VTKFile"));
+  EXPECT_THAT(run(second).err, HasSubstr("it is cut short or was changed. Fix: delete it"));
+}
+
+TEST_F(SimulateRestart, RunsAreFoundAgainInAnotherStudy) {
+  Words one = {"drop", "study.toml", "--repeats", "2", "--out", "runs"};
+  ASSERT_EQ(run(one).exit_code, 0);
+  const std::size_t before = stored(".json").size();
+  ASSERT_EQ(before, 2U);
+  // Another file, and with it another study, but the same drops.
+  folder_.write("other.toml", std::string(kStudy) + "[simulation]\nseed = 1\n");
+  one[1] = "other.toml";
+  std::filesystem::remove(path("runs/run.json"));
+  const Finished again = run(one);
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, HasSubstr("of 2 repeats 2 finished already"));
+  EXPECT_EQ(stored(".json").size(), before);
 }
 
 }  // namespace

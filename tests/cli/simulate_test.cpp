@@ -164,8 +164,8 @@ TEST_F(Simulate, OutHoldsStatesAndTheResult) {
   for (const auto& entry : std::filesystem::directory_iterator(runs)) {
     names.push_back(entry.path().filename());
   }
-  EXPECT_THAT(names, UnorderedElementsAre("drop_seed_1.vtp", "drop_seed_2.vtp", "drop_seed_1.json",
-                                          "drop_seed_2.json", "run.json", "result.json"));
+  EXPECT_THAT(names, UnorderedElementsAre("drop_seed_1.vtp", "drop_seed_2.vtp", "runs", "run.json",
+                                          "result.json"));
   EXPECT_EQ(json::parse(text_of(runs / "result.json"))["value"], printed["value"]);
   EXPECT_EQ(printed["repeats"][0]["state"], "new/runs/drop_seed_1.vtp");
   EXPECT_THAT(text_of(runs / "drop_seed_1.vtp"), HasSubstr("type=\"PolyData\""));

@@ -81,9 +81,10 @@ TEST_F(StudyFile, TheSmallestStudyHasTheUsualValues) {
   EXPECT_EQ(study.model.rolling, RollingModel::constant_torque);
   EXPECT_EQ(study.model.grain_wall.restitution, .31);
   EXPECT_EQ(study.model.grain_grain.sliding_friction, .21);
-  EXPECT_DOUBLE_EQ(study.drop->height_m, .5);
-  EXPECT_FALSE(study.heap);
-  EXPECT_TRUE(study.drop_measured.values.empty() && !study.drop_measured.mean);
+  EXPECT_DOUBLE_EQ(study.protocol<DropProtocol>().height_m, .5);
+  EXPECT_FALSE(has_protocol(study, Experiment::heap));
+  EXPECT_TRUE(measured_in(study, Experiment::drop).values.empty() &&
+              !measured_in(study, Experiment::drop).mean);
   EXPECT_EQ(study.replicates, 1);
   EXPECT_EQ(study.seed, 1U);
   EXPECT_FALSE(study.threads);
@@ -135,19 +136,20 @@ threads = 3
   EXPECT_EQ(study.model.rolling, RollingModel::elastic_plastic);
   EXPECT_EQ(study.particle_wall.rolling_friction.max, .2);
   EXPECT_TRUE(std::isnan(study.model.grain_wall.rolling_friction)) << "to be found";
-  EXPECT_DOUBLE_EQ(study.drop->height_m, .25);
-  EXPECT_EQ(study.drop->grains, 3);
-  EXPECT_EQ(study.drop_stiffness, .5);
-  EXPECT_THAT(study.drop_measured.values, ElementsAre(9, 9.5));
-  EXPECT_EQ(study.tilt->bonded, 3);
-  EXPECT_EQ(study.tilt->start_deg, 5);
-  EXPECT_EQ(study.tilt_measured.count, 10);
-  EXPECT_DOUBLE_EQ(study.roll->release_m, .1);
-  EXPECT_DOUBLE_EQ(study.heap->tube_diameter_m, .08);
-  EXPECT_DOUBLE_EQ(study.heap->lift_speed_m_s, .02);
-  EXPECT_DOUBLE_EQ(study.heap->plate_thickness_m, .004);
-  EXPECT_EQ(study.heap->grains, 50);
-  EXPECT_THAT(study.heap_measured.pictures, ElementsAre(folder_.path() / "nut.stl"));
+  EXPECT_DOUBLE_EQ(study.protocol<DropProtocol>().height_m, .25);
+  EXPECT_EQ(study.protocol<DropProtocol>().grains, 3);
+  EXPECT_EQ(model_for(study, Experiment::drop).stiffness_factor, .5);
+  EXPECT_THAT(measured_in(study, Experiment::drop).values, ElementsAre(9, 9.5));
+  EXPECT_EQ(study.protocol<TiltProtocol>().bonded, 3);
+  EXPECT_EQ(study.protocol<TiltProtocol>().start_deg, 5);
+  EXPECT_EQ(measured_in(study, Experiment::tilt).count, 10);
+  EXPECT_DOUBLE_EQ(study.protocol<RollProtocol>().release_m, .1);
+  EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().tube_diameter_m, .08);
+  EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().lift_speed_m_s, .02);
+  EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().plate_thickness_m, .004);
+  EXPECT_EQ(study.protocol<HeapProtocol>().grains, 50);
+  EXPECT_THAT(measured_in(study, Experiment::heap).pictures,
+              ElementsAre(folder_.path() / "nut.stl"));
   EXPECT_EQ(study.model.timestep_s, 1e-6);
   EXPECT_EQ(study.replicates, 4);
   EXPECT_EQ(study.threads, 3);
@@ -247,8 +249,8 @@ TEST_F(StudyFile, FilesThatAreNotThereAreSaid) {
 TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
   const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
   const Study study = read(heap + "base_radius_mm = { mean = 120, sd = 4, n = 10 }\n");
-  ASSERT_EQ(study.heap_measured.also.size(), 1U);
-  const MeasuredReading& reading = study.heap_measured.also.front();
+  ASSERT_EQ(measured_in(study, Experiment::heap).also.size(), 1U);
+  const MeasuredReading reading = measured_in(study, Experiment::heap).also.front();
   EXPECT_EQ(reading.name, "base_radius_mm");
   EXPECT_EQ(reading.mean, 120);
   EXPECT_EQ(reading.sd, 4);
@@ -310,8 +312,8 @@ TEST_F(StudyFile, SettingsReplaceAndAddValues) {
   EXPECT_FALSE(study.particle_wall.restitution.value);
   EXPECT_EQ(study.particle_wall.restitution.min, .2);
   EXPECT_EQ(study.particle_wall.restitution.max, .5);
-  EXPECT_EQ(study.heap->grains, 30);
-  EXPECT_TRUE(study.drop) << "the file's own sections stay";
+  EXPECT_EQ(study.protocol<HeapProtocol>().grains, 30);
+  EXPECT_TRUE(has_protocol(study, Experiment::drop)) << "the file's own sections stay";
   EXPECT_EQ(study.model.rolling, RollingModel::none);
   EXPECT_EQ(study.seed, 7U) << "the last one counts";
 }
@@ -352,11 +354,11 @@ TEST(HazelnutStudy, IsThePublishedOne) {
   EXPECT_EQ(study.model.grain_material.density_kg_m3, 851);
   EXPECT_EQ(study.model.grain_wall.restitution, .31);
   EXPECT_EQ(study.model.grain_grain.restitution, .11);
-  EXPECT_EQ(study.drop_measured.mean, 9.42);
-  EXPECT_EQ(study.tilt_measured.mean, 22.70);
-  EXPECT_EQ(study.roll_measured.mean, 322.81);
-  EXPECT_EQ(study.heap_measured.sd, .72);
-  EXPECT_EQ(study.heap->grains, 455);
+  EXPECT_EQ(measured_in(study, Experiment::drop).mean, 9.42);
+  EXPECT_EQ(measured_in(study, Experiment::tilt).mean, 22.70);
+  EXPECT_EQ(measured_in(study, Experiment::roll).mean, 322.81);
+  EXPECT_EQ(measured_in(study, Experiment::heap).sd, .72);
+  EXPECT_EQ(study.protocol<HeapProtocol>().grains, 455);
   for (const Experiment experiment :
        {Experiment::drop, Experiment::tilt, Experiment::roll, Experiment::heap}) {
     EXPECT_THAT(open_coefficients(study, experiment), IsEmpty());

@@ -100,9 +100,12 @@ dem::Study short_study(dem::RollingModel rolling, double restitution) {
   study.model.wall_material = {"wall", 1000, 1e9, .25};
   study.model.grain_wall = {restitution, .4, .1};
   study.model.rolling = rolling;
-  study.drop = {.height_m = .05, .grains = 3};
-  study.tilt = {.bonded = 2, .rate_deg_s = 10};
-  study.roll = {.incline_deg = 10, .release_m = .08};
+  study.experiments[dem::Experiment::drop].protocol =
+      dem::DropProtocol{.height_m = .05, .grains = 3};
+  study.experiments[dem::Experiment::tilt].protocol =
+      dem::TiltProtocol{.bonded = 2, .rate_deg_s = 10};
+  study.experiments[dem::Experiment::roll].protocol =
+      dem::RollProtocol{.incline_deg = 10, .release_m = .08};
   return study;
 }
 
@@ -110,9 +113,10 @@ Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain) {
   dem::Model model = study.model;
   model.grain = grain;
   model.grain_grain = model.grain_wall;  // of no effect
-  return {.drop_mm = run_drop(model, *study.drop, study.seed).value,
-          .tilt_deg = run_tilt(model, *study.tilt, study.seed).readings.at("half_mm_slip_deg"),
-          .roll_mm = run_roll(model, *study.roll, study.seed).value};
+  return {.drop_mm = run_drop(model, study.protocol<dem::DropProtocol>(), study.seed).value,
+          .tilt_deg = run_tilt(model, study.protocol<dem::TiltProtocol>(), study.seed)
+                          .readings.at("half_mm_slip_deg"),
+          .roll_mm = run_roll(model, study.protocol<dem::RollProtocol>(), study.seed).value};
 }
 
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target) {
@@ -123,8 +127,9 @@ Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, Expo
           .files);
   Readings readings;
   const std::string dropped = run_deck(folder, target, "drop");
-  readings.drop_mm = target == ExportTarget::yade ? reading_in(dropped, "drop_mm")
-                                                  : mean_rise_mm(folder, study.drop->grains);
+  readings.drop_mm = target == ExportTarget::yade
+                         ? reading_in(dropped, "drop_mm")
+                         : mean_rise_mm(folder, study.protocol<dem::DropProtocol>().grains);
   readings.tilt_deg = reading_in(run_deck(folder, target, "tilt"), "half_mm_slip_deg");
   readings.roll_mm = reading_in(run_deck(folder, target, "roll"), "roll_mm");
   return readings;

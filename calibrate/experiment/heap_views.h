@@ -1,31 +1,34 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <functional>
 #include <span>
 #include <vector>
 
-#include "calibrate/statistics/summary.h"
+#include "calibrate/experiment/picture_angles.h"
 #include "render/renderer.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
-#include "vision/measure/repose_angle.h"
 
 /// The angle of a simulated heap as a camera would give it: silhouettes from all around, each
 /// measured like a photograph.
 namespace repose::calibrate {
 
+/// Sides from which a heap is drawn, unless asked otherwise.
+/// With more, neighbouring views show the same grains: the scatter between heaps is what remains.
+inline constexpr int kHeapViews = 9;
+
 /// A heap seen from one side.
 struct HeapView {
   double azimuth_rad = 0;  ///< as in render/scene/camera.h
-  vision::MeasureStatus status = vision::MeasureStatus::refused;
-  std::optional<double> angle_rad;
+  PictureAngle picture;
 };
 
 /// A heap, and how all pictures of it are taken: at one scale, with bare ground beside the grains.
 class HeapViewSession {
  public:
-  /// @param views  sides, equally spaced over half a turn; the first is the XZ view
+  /// @param views  sides, equally spaced over half a turn (the other half shows the same,
+  /// mirrored); the first is the XZ view
   /// @throws std::invalid_argument  the scene has no grains.
   HeapViewSession(render::Scene scene, int views);
 
@@ -43,13 +46,17 @@ class HeapViewSession {
   render::PictureSize size_;
 };
 
-int count(std::span<const HeapView> views, vision::MeasureStatus status);
+/// All views of a heap, the same at any number of threads.
+/// @param report  is told the fraction done, from any thread; false interrupts it
+/// @throws dem::Interrupted  `report` asked for it.
+/// @throws std::runtime_error  this machine cannot draw.
+std::vector<HeapView> measure_views(const HeapViewSession& session, int threads,
+                                    const std::function<bool(double fraction)>& report);
+
+/// Mean of the views as of any pictures.
+PictureMean mean_of_views(std::span<const HeapView> views);
 
 /// At least half of the views gave a number: it is what a photograph is compared with.
 bool is_well_pictured(std::span<const HeapView> views);
-
-/// Mean and scatter of the views that gave a number, flagged ones too: to leave out just the views
-/// from which a heap looks hollow or low would move the mean. In degrees; none without a number.
-std::optional<calibrate::Summary> angle_deg(std::span<const HeapView> views);
 
 }  // namespace repose::calibrate

@@ -1,0 +1,83 @@
+#include "calibrate/experiment/heap_views.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "dem/experiment/experiment.h"
+#include "dem/experiment/placing.h"
+#include "vision/drawing/overlay.h"
+#include "vision/picture/picture.h"
+
+namespace repose::calibrate {
+
+HeapViewSession::HeapViewSession(render::Scene scene, int views)
+    : scene_(std::move(scene)), views_(views) {
+  // More pixels to a grain than these are not looked at by what measures, and take time to draw.
+  constexpr double kGrain_px = 40;
+  constexpr render::PictureSize kLargest{.width = 1920, .height = 1080};
+  camera_ = render::fitted_all_around({}, scene_, kLargest);
+  const double fitting = *camera_.mm_per_px;
+  const double grain_mm = 1e3 * dem::diameter_m(scene_.shapes.front());
+  const double mm_per_px = std::max(fitting, grain_mm / kGrain_px);
+  const auto reduced = [&](int pixels) {
+    return static_cast<int>(std::ceil(pixels * fitting / mm_per_px));
+  };
+  camera_.mm_per_px = mm_per_px;
+  size_ = {.width = reduced(kLargest.width), .height = reduced(kLargest.height)};
+}
+
+HeapView HeapViewSession::measure(render::Renderer& renderer, int view,
+                                  const std::filesystem::path& overlay_file) const {
+  render::OrthographicCamera camera = camera_;
+  camera.azimuth_rad = std::numbers::pi * view / views_;
+  const vision::Picture picture =
+      renderer.draw(scene_, camera, size_, render::SilhouetteStyle{}).picture;
+  const vision::ReposeAngle angle = vision::measure_repose_angle(picture);
+  if (!overlay_file.empty()) {
+    const vision::OverlayNotes notes{.title = overlay_file.filename().string(), .excluded = {}};
+    vision::write_picture(overlay_file, vision::draw_overlay(picture, angle, notes));
+  }
+  return {.azimuth_rad = camera.azimuth_rad,
+          .picture = {.status = angle.status, .angle_rad = angle.angle_rad}};
+}
+
+// Why kHeapViews is 9: over six small heaps the mean of 9 views was .1 degrees (sd .3, worst .4)
+// from that of 18, where these heaps scatter by 4 degrees.
+std::vector<HeapView> measure_views(const HeapViewSession& session, int threads,
+                                    const std::function<bool(double fraction)>& report) {
+  std::vector<HeapView> views(static_cast<std::size_t>(session.views()));
+  // Contexts are costly to make, and each belongs to one thread.
+  tbb::enumerable_thread_specific<render::Renderer> renderers;
+  std::atomic<int> done = 0;
+  std::atomic<bool> is_interrupted = false;
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(0, session.views(), [&](int view) {
+      if (is_interrupted) return;
+      views[static_cast<std::size_t>(view)] = session.measure(renderers.local(), view);
+      if (!report(static_cast<double>(++done) / session.views())) is_interrupted = true;
+    });
+  });
+  if (is_interrupted) throw dem::Interrupted("interrupted while pictures were measured");
+  return views;
+}
+
+PictureMean mean_of_views(std::span<const HeapView> views) {
+  std::vector<PictureAngle> pictures;
+  pictures.reserve(views.size());
+  for (const HeapView& view : views) pictures.push_back(view.picture);
+  return mean_of_pictures(pictures);
+}
+
+bool is_well_pictured(std::span<const HeapView> views) {
+  return !views.empty() && 2 * mean_of_views(views).refused <= static_cast<int>(views.size());
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "calibrate/experiment/run_spec.h"
+#include "calibrate/experiment/simulated_run.h"
+#include "dem/experiment/heap_progress.h"
+#include "dem/state/trajectory.h"
+
+namespace repose::calibrate {
+
+/// Where an unfinished run stood, but for the state of its simulation.
+struct RestartRecord {
+  dem::HeapProgress progress;
+  dem::Film film;
+  std::optional<double> trajectory_s;  ///< between the film's frames; none: it has no film
+  double wall_s = 0;                   ///< spent so far
+};
+
+struct SavedRestart {
+  dem::HeapRestart from;
+  RestartRecord record;
+};
+
+/// Runs on disk, files each: FOLDER/runs/KEY.json is what it gave, KEY.vtp its final state,
+/// KEY.restart.vtp where an unfinished one stood. Each is there whole or not at all, so that a kill
+/// loses no more than what is being simulated. Keys say what was simulated, not for which study:
+/// runs are found again by any command and study that asks for the same.
+class RunFolder {
+ public:
+  /// @throws std::invalid_argument  the folder cannot be made or written.
+  explicit RunFolder(std::filesystem::path folder);
+
+  std::filesystem::path runs() const { return folder_ / "runs"; }
+
+  /// None when it was not saved; a file that is damaged or of something else counts as not saved,
+  /// and is overwritten when the run has been made again. Its views may be of another number than
+  /// asked for.
+  std::optional<SimulatedRun> find(const RunSpec& spec, std::uint64_t seed) const;
+
+  /// The same, but none when something is missing that was asked for: its pictures.
+  std::optional<SimulatedRun> find_whole(const RunSpec& spec, std::uint64_t seed) const;
+
+  /// @throws std::invalid_argument  it cannot be written; what was saved before stays.
+  void save(const RunSpec& spec, const SimulatedRun& run) const;
+
+  std::filesystem::path state_file(const RunSpec& spec, std::uint64_t seed) const;
+  bool has_state(const RunSpec& spec, std::uint64_t seed) const;
+  /// Copies the final state of a run to FOLDER/NAME, over an older one; false when it is not there.
+  bool copy_state(const RunSpec& spec, std::uint64_t seed, const std::string& name) const;
+
+  bool has_restart(const RunSpec& spec, std::uint64_t seed) const;
+  /// None when the run was not begun.
+  /// @throws std::invalid_argument  the file was changed, or belongs to another run.
+  std::optional<SavedRestart> find_restart(const RunSpec& spec, std::uint64_t seed) const;
+  void save_restart(const RunSpec& spec, std::uint64_t seed, const dem::Simulation& simulation,
+                    const RestartRecord& record) const;
+  void remove_restart(const RunSpec& spec, std::uint64_t seed) const;
+
+ private:
+  std::filesystem::path file(const RunSpec& spec, std::uint64_t seed, const char* ending) const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace repose::calibrate

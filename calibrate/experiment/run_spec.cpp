@@ -1,0 +1,77 @@
+#include "calibrate/experiment/run_spec.h"
+
+#include <utility>
+#include <variant>
+
+#include <nlohmann/json.hpp>
+
+#include "base/fingerprint.h"
+#include "calibrate/experiment/simulator_version.h"
+#include "dem/contact/rolling_name.h"
+
+namespace repose::calibrate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const dem::Material& material) {
+  return {{"density_kg_m3", material.density_kg_m3},
+          {"young_modulus_pa", material.young_modulus_pa},
+          {"poisson_ratio", material.poisson_ratio}};
+}
+
+Json json_of(const dem::PairCoefficients& pair) {
+  return {{"restitution", pair.restitution},
+          {"sliding_friction", pair.sliding_friction},
+          {"rolling_friction", pair.rolling_friction}};
+}
+
+Json protocol_json(dem::Protocol protocol) {
+  Json json = Json::object();
+  for (const dem::ProtocolKey& key : dem::entry_of(protocol).keys(protocol)) {
+    const auto value = dem::value_of(key);
+    json[key.name] = value ? Json(*value) : Json(nullptr);
+  }
+  return json;
+}
+
+}  // namespace
+
+NamedGrain::NamedGrain(dem::ClumpFile file)
+    : fingerprint(base::fingerprint({dem::clump_json(file)})) {
+  shape = std::move(file.shape);
+}
+
+RunSpec spec_of(const dem::Study& study, dem::Experiment experiment, const NamedGrain& grain,
+                int views) {
+  RunSpec spec{.protocol = study.experiments.at(experiment).protocol,
+               .model = dem::model_for(study, experiment),
+               .grain_fingerprint = grain.fingerprint,
+               .views = dem::entry_of(experiment).is_pictured ? views : 0};
+  spec.model.grain = grain.shape;
+  if (auto* heap = std::get_if<dem::HeapProtocol>(&spec.protocol)) heap->may_be_fewer = true;
+  return spec;
+}
+
+std::string description_of(const RunSpec& spec, std::uint64_t seed) {
+  const dem::Model& model = spec.model;
+  Json json{{"experiment", spec.entry().name},      {"protocol", protocol_json(spec.protocol)},
+            {"grain", spec.grain_fingerprint},      {"particle", json_of(model.grain_material)},
+            {"wall", json_of(model.wall_material)}, {"particle_wall", json_of(model.grain_wall)}};
+  if (dem::has_grain_contacts(spec.entry().experiment)) {
+    json["particle_particle"] = json_of(model.grain_grain);
+  }
+  json["rolling_model"] = dem::name_of(model.rolling);
+  json["stiffness_factor"] = model.stiffness_factor;
+  json["timestep_fraction"] = model.timestep_fraction;
+  json["timestep_s"] = model.timestep_s ? Json(*model.timestep_s) : Json(nullptr);
+  json["seed"] = seed;
+  json["simulator_version"] = kSimulatorVersion;
+  return json.dump();
+}
+
+std::string key_of(const RunSpec& spec, std::uint64_t seed) {
+  return std::string(spec.entry().name) + '-' + base::fingerprint({description_of(spec, seed)});
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,179 @@
+#include "calibrate/experiment/simulate_experiment.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "calibrate/experiment/position_angle.h"
+#include "dem/engine/unstable_run.h"
+#include "dem/state/state_file.h"
+
+namespace repose::calibrate {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What a kill at any moment costs at most, but for the time to the next look.
+constexpr std::chrono::seconds kBetweenRestarts{60};
+/// Of the whole work, where there are pictures to be measured.
+constexpr double kSimulationFraction = .95;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class ExperimentRunner {
+ public:
+  ExperimentRunner(const RunSpec& spec, std::uint64_t seed, const SimulateOptions& options)
+      : spec_(spec), seed_(seed), options_(options) {}
+
+  SimulatedRun run() {
+    std::optional<SimulatedRun> saved = reusable();
+    SimulatedRun run = saved ? *std::move(saved) : simulated();
+    if (!run.failure.empty()) return run;
+    if (spec_.views == 0) {
+      run.views.clear();
+    } else if (run.views.size() != static_cast<std::size_t>(spec_.views)) {
+      take_pictures(run);
+    }
+    return run;
+  }
+
+ private:
+  /// From the folder, if nothing of it would have to be simulated again.
+  std::optional<SimulatedRun> reusable() const {
+    if (options_.folder == nullptr) return std::nullopt;
+    std::optional<SimulatedRun> run = options_.folder->find(spec_, seed_);
+    if (!run || !run->failure.empty()) return run;
+    const bool has_film =
+        !options_.trajectory || run->trajectory_s == options_.trajectory->interval_s;
+    const bool has_views = run->views.size() == static_cast<std::size_t>(spec_.views);
+    const bool needs_state = options_.saves_state || !has_views;
+    if (!has_film || (needs_state && !options_.folder->has_state(spec_, seed_))) {
+      return std::nullopt;
+    }
+    return run;
+  }
+
+  SimulatedRun simulated() {
+    SimulatedRun run;
+    run.seed = seed_;
+    if (options_.trajectory) run.trajectory_s = options_.trajectory->interval_s;
+    const std::optional<SavedRestart> restart = usable_restart();
+    const double spent_s = restart ? restart->record.wall_s : 0;
+    start_ = Clock::now();
+    try {
+      dem::Repeat repeat = repeated(restart, spent_s);
+      if (!repeat.envelopes.empty()) add_position_angle(repeat);
+      run.value = repeat.value;
+      run.readings = repeat.readings;
+      run.steps = repeat.steps;
+      run.timestep_s = repeat.timestep_s;
+      run.clump_steps = repeat.clump_steps;
+      state_ = repeat.state;
+    } catch (const dem::NoReading& error) {
+      run.failure = error.what();
+    } catch (const dem::UnstableRun& error) {
+      run.failure = error.what();
+    }
+    run.wall_s = spent_s + seconds_since(start_);
+    save(run);
+    return run;
+  }
+
+  /// One that has no film, where one is asked for, is of no use.
+  std::optional<SavedRestart> usable_restart() const {
+    if (options_.folder == nullptr || spec_.entry().resume == nullptr) return std::nullopt;
+    std::optional<SavedRestart> restart = options_.folder->find_restart(spec_, seed_);
+    if (restart && options_.trajectory &&
+        restart->record.trajectory_s != options_.trajectory->interval_s) {
+      restart.reset();
+    }
+    return restart;
+  }
+
+  dem::Repeat repeated(const std::optional<SavedRestart>& restart, double spent_s) {
+    std::optional<dem::TrajectoryWriter> film;
+    dem::RunRecord record;
+    if (options_.trajectory) {
+      film.emplace(options_.trajectory->folder, options_.trajectory->interval_s,
+                   description_of(spec_, seed_), restart ? restart->record.film : dem::Film{});
+      record.frame_interval_s = options_.trajectory->interval_s;
+      record.frame = [&](const dem::Simulation& simulation) { film->add(simulation); };
+    }
+    Clock::time_point saved_at = start_;
+    if (options_.folder != nullptr) {
+      record.is_restart_due = [&] { return Clock::now() - saved_at >= kBetweenRestarts; };
+      record.save_restart = [&](const dem::Simulation& simulation,
+                                const dem::HeapProgress& progress) {
+        RestartRecord now{.progress = progress, .film = {}, .trajectory_s = {}};
+        if (film) {
+          now.film = film->film();
+          now.trajectory_s = options_.trajectory->interval_s;
+        }
+        now.wall_s = spent_s + seconds_since(start_);
+        options_.folder->save_restart(spec_, seed_, simulation, now);
+        saved_at = Clock::now();
+      };
+    }
+    const double whole = spec_.views > 0 ? kSimulationFraction : 1;
+    const auto report = [&](double fraction, const dem::Simulation&) {
+      return goes_on(whole * fraction);
+    };
+    const dem::ExperimentEntry& entry = spec_.entry();
+    return restart ? entry.resume(spec_.model, spec_.protocol, seed_, restart->from, report, record)
+                   : entry.run(spec_.model, spec_.protocol, seed_, report, record);
+  }
+
+  bool goes_on(double fraction) const { return !options_.report || options_.report(fraction); }
+
+  /// The state first: a run is there only when all of it is.
+  void save(const SimulatedRun& run) const {
+    if (options_.folder == nullptr) return;
+    if (state_ && (options_.saves_state || spec_.entry().is_pictured)) {
+      dem::write_state(options_.folder->state_file(spec_, seed_), *state_,
+                       description_of(spec_, seed_));
+    }
+    options_.folder->save(spec_, run);
+    options_.folder->remove_restart(spec_, seed_);
+  }
+
+  render::Scene scene() const {
+    if (state_) return render::scene_of(*state_);
+    return render::scene_of(dem::read_state(options_.folder->state_file(spec_, seed_)));
+  }
+
+  /// Pictures that could not be drawn are not saved: another machine may draw them.
+  void take_pictures(SimulatedRun& run) const {
+    run.views.clear();
+    try {
+      run.views = measure_views(
+          HeapViewSession(scene(), spec_.views), spec_.model.threads, [&](double fraction) {
+            return goes_on(kSimulationFraction + (1 - kSimulationFraction) * fraction);
+          });
+    } catch (const dem::Interrupted&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      run.picture_error = error.what();
+      return;
+    }
+    if (options_.folder != nullptr) options_.folder->save(spec_, run);
+  }
+
+  const RunSpec& spec_;
+  std::uint64_t seed_;
+  const SimulateOptions& options_;
+  Clock::time_point start_ = Clock::now();
+  std::shared_ptr<const dem::Simulation> state_;  ///< of a run just simulated
+};
+
+}  // namespace
+
+SimulatedRun simulate_experiment(const RunSpec& spec, std::uint64_t seed,
+                                 const SimulateOptions& options) {
+  return ExperimentRunner(spec, seed, options).run();
+}
+
+}  // namespace repose::calibrate

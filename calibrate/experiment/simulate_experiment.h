@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "calibrate/experiment/run_folder.h"
+
+namespace repose::calibrate {
+
+/// A film of a run.
+struct TrajectoryPlan {
+  std::filesystem::path folder;  ///< of its frames; see dem::TrajectoryWriter
+  double interval_s = 0;
+};
+
+struct SimulateOptions {
+  /// Where runs are found and saved, also half-way; null: nowhere, all is simulated.
+  const RunFolder* folder = nullptr;
+  /// The folder is to hold the final state; that of a pictured experiment is saved anyway.
+  bool saves_state = false;
+  std::optional<TrajectoryPlan> trajectory;
+  /// Called periodically with the completed fraction, from any thread; false interrupts it.
+  std::function<bool(double fraction)> report;
+};
+
+/// Makes one run: from the folder where it is there, else by simulating it, from the start or from
+/// where it was interrupted; and measures the pictures of a heap where those are not there. The one
+/// way in which all commands do it: the same spec and seed give the same bytes.
+///
+/// An experiment in which nothing can be read, or that becomes unstable, is a run with a failure.
+/// A machine that cannot draw gives runs without views and with a picture_error.
+/// @throws dem::Interrupted  `report` asked for it.
+/// @throws std::invalid_argument  the protocol cannot be run, a file cannot be written, or a
+/// restart file is damaged.
+SimulatedRun simulate_experiment(const RunSpec& spec, std::uint64_t seed,
+                                 const SimulateOptions& options = {});
+
+}  // namespace repose::calibrate

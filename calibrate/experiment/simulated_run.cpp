@@ -1,0 +1,114 @@
+#include "calibrate/experiment/simulated_run.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "vision/measure/status_name.h"
+
+namespace repose::calibrate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(std::optional<double> number) {
+  return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
+}
+
+std::optional<double> number_in(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional<double>(json.get<double>());
+}
+
+double number_or_nan(const Json& json) {
+  return number_in(json).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+vision::MeasureStatus status_named(const std::string& name) {
+  for (const auto status : {vision::MeasureStatus::ok, vision::MeasureStatus::flagged}) {
+    if (name == name_of(status)) return status;
+  }
+  return vision::MeasureStatus::refused;
+}
+
+SimulatedRun run_in(const Json& json) {
+  SimulatedRun run;
+  run.seed = json.at("seed");
+  run.value = number_or_nan(json.at("value"));
+  for (const auto& [name, value] : json.at("readings").items()) {
+    run.readings[name] = number_or_nan(value);
+  }
+  run.steps = json.at("steps");
+  run.timestep_s = json.at("timestep_s");
+  run.clump_steps = json.at("clump_steps");
+  for (const Json& view : json.at("views")) {
+    run.views.push_back({.azimuth_rad = view.at("azimuth_rad"),
+                         .picture = {.status = status_named(view.at("status")),
+                                     .angle_rad = number_in(view.at("angle_rad"))}});
+  }
+  run.failure = json.at("failure");
+  run.picture_error = json.at("picture_error");
+  run.wall_s = json.at("wall_s");
+  run.trajectory_s = number_in(json.at("trajectory_s"));
+  return run;
+}
+
+}  // namespace
+
+bool is_from_pictures(const SimulatedRun& run) { return is_well_pictured(run.views); }
+
+double value_of(const SimulatedRun& run) {
+  return is_from_pictures(run) ? mean_of_views(run.views).angle_deg.value().mean : run.value;
+}
+
+std::map<std::string, double> readings_of(const SimulatedRun& run) {
+  if (!run.failure.empty()) return {};
+  std::map<std::string, double> readings = run.readings;
+  readings["value"] = value_of(run);
+  readings["timestep_s"] = run.timestep_s;
+  if (!run.views.empty()) {
+    const PictureMean seen = mean_of_views(run.views);
+    readings["angle_from_positions_deg"] = run.value;
+    readings["views_measured"] = static_cast<double>(run.views.size()) - seen.refused;
+    readings["views_flagged"] = seen.flagged;
+    readings["from_pictures"] = is_from_pictures(run) ? 1 : 0;
+    if (seen.angle_deg) {
+      readings["angle_from_pictures_deg"] = seen.angle_deg->mean;
+      if (seen.angle_deg->sd) readings["sd_between_views_deg"] = *seen.angle_deg->sd;
+    }
+  }
+  std::erase_if(readings, [](const auto& reading) { return !std::isfinite(reading.second); });
+  return readings;
+}
+
+std::string run_text(const SimulatedRun& run) {
+  Json readings = Json::object();
+  for (const auto& [name, value] : run.readings) readings[name] = json_of(value);
+  Json views = Json::array();
+  for (const HeapView& view : run.views) {
+    views.push_back({{"azimuth_rad", view.azimuth_rad},
+                     {"status", name_of(view.picture.status)},
+                     {"angle_rad", json_of(view.picture.angle_rad)}});
+  }
+  return Json{{"seed", run.seed},
+              {"value", json_of(run.value)},
+              {"readings", readings},
+              {"steps", run.steps},
+              {"timestep_s", run.timestep_s},
+              {"clump_steps", run.clump_steps},
+              {"views", views},
+              {"failure", run.failure},
+              {"picture_error", run.picture_error},
+              {"wall_s", run.wall_s},
+              {"trajectory_s", json_of(run.trajectory_s)}}
+      .dump();
+}
+
+std::optional<SimulatedRun> run_in(const std::string& text) {
+  try {
+    return run_in(Json::parse(text));
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace repose::calibrate

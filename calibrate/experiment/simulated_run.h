@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/experiment/heap_views.h"
+
+namespace repose::calibrate {
+
+/// What a run gave.
+struct SimulatedRun {
+  std::uint64_t seed = 0;
+  /// As the engine gives it: of a heap, its angle from where the grains lie. NaN: there is none.
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::map<std::string, double> readings;  ///< as dem::Repeat::readings
+  std::int64_t steps = 0;
+  double timestep_s = 0;
+  double clump_steps = 0;
+  std::vector<HeapView>
+      views;                  ///< pictures of a heap; empty: none were asked for, or could be drawn
+  std::string failure;        ///< why there is nothing to read ("the grains stay in the tube")
+  std::string picture_error;  ///< why this machine could not draw
+  double wall_s = 0;          ///< of the simulation, in all calls that worked on it
+  std::optional<double> trajectory_s;  ///< between the frames of its film; none: there is no film
+};
+
+/// A heap's value is its angle in pictures where at least half of the views could be measured: it
+/// is what a photograph of the bench is compared with. Else, and of all other experiments, it is
+/// what the engine gives.
+///
+/// Each run decides for itself. A rule over all repeats, that one bad heap turns the others to
+/// positions too, would make a run's value depend on which others were asked for with it: the same
+/// run would count with one number in a mean of five, with another in a mean of ten, and with a
+/// third in a fit. The price is that a mean may be of both kinds, which differ by a degree or so:
+/// each run says which it is ("from_pictures"), and a mean of both is warned of.
+bool is_from_pictures(const SimulatedRun& run);
+double value_of(const SimulatedRun& run);
+
+/// All readings as a fit or a table has them, those that do not exist left out: the engine's,
+/// "value", "timestep_s", and of a pictured run "angle_from_positions_deg", "views_measured",
+/// "views_flagged", "from_pictures" (0 or 1), "angle_from_pictures_deg" and
+/// "sd_between_views_deg".
+std::map<std::string, double> readings_of(const SimulatedRun& run);
+
+/// As JSON, to be stored or sent to another process: every number comes back to the last bit.
+std::string run_text(const SimulatedRun& run);
+/// None for a text that is not one of run_text.
+std::optional<SimulatedRun> run_in(const std::string& text);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace repose::calibrate {
+
+/// Which simulator made a run: the engine, the experiments, how a heap is drawn and how the picture
+/// is measured. Runs of another version are not taken for those of this one. To be raised whenever
+/// what a simulation gives has changed; a test (SimulatorVersion) sees to it.
+inline constexpr int kSimulatorVersion = 1;
+
+/// What that version gives for the small runs of the test: a fingerprint of all their readings.
+inline constexpr std::string_view kSimulatorReadings = "280ba615-1b40-57cc-aa41-b075e02dd610";
+
+}  // namespace repose::calibrate

@@ -1,0 +1,103 @@
+#include "cli/simulate/simulate_folder.h"
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/simulator_version.h"
+#include "cli/common/output.h"
+
+namespace repose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+fs::path identity_file(const SimulatePlan& plan) { return plan.out_folder / "run.json"; }
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+/// All that decides over a repeat's bytes but its seed. The study's hash covers the settings.
+Json identity_of(const SimulatePlan& plan) {
+  return {{"experiment", dem::name_of(plan.experiment)},
+          {"study_hash", plan.study.hash},
+          {"trajectory_s", plan.trajectory_s ? Json(*plan.trajectory_s) : Json(nullptr)},
+          {"simulator_version", calibrate::kSimulatorVersion}};
+}
+
+/// What of two runs differs, for people.
+std::string difference(const Json& saved, const Json& asked) {
+  const auto differs = [&](const char* key) {
+    return saved.value(key, Json()) != asked.value(key, Json());
+  };
+  const auto text = [](const Json& json, const char* key) {
+    return json.value(key, Json()).dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  for (const char* key : {"experiment", "simulator_version", "trajectory_s"}) {
+    if (differs(key))
+      return fmt::format("its {} is {}, not {}", key, text(saved, key), text(asked, key));
+  }
+  return "the study, its scan or the --set settings were other ones";
+}
+
+}  // namespace
+
+fs::path place_of(const SimulatePlan& plan, std::uint64_t seed) {
+  return plan.out_folder / fmt::format("{}_seed_{}", dem::name_of(plan.experiment), seed);
+}
+
+fs::path result_file(const SimulatePlan& plan) {
+  const bool is_of_study = is_there(plan.out_folder / "study.json");
+  return plan.out_folder /
+         (is_of_study ? dem::name_of(plan.experiment) + ".json" : std::string("result.json"));
+}
+
+std::string error_of_saved(const SimulatePlan& plan) {
+  const fs::path file = identity_file(plan);
+  if (plan.out_folder.empty() || !is_there(file)) return {};
+  const Json saved = Json::parse(read_text(file), nullptr, false);
+  const Json asked = identity_of(plan);
+  if (saved == asked) return {};
+  return fmt::format(
+      "--out {}: it holds another run: {}. Fix: another folder, or delete this one to start anew.",
+      plan.out_folder.string(),
+      saved.is_object() ? difference(saved, asked) : "run.json was changed");
+}
+
+std::string saved_text(const SimulatePlan& plan) {
+  if (plan.out_folder.empty()) return {};
+  const calibrate::RunFolder folder(plan.out_folder);
+  std::size_t finished = 0, begun = 0;
+  for (const std::uint64_t seed : plan.seeds) {
+    if (folder.find(plan.spec, seed) && folder.has_state(plan.spec, seed)) {
+      ++finished;
+    } else if (folder.has_restart(plan.spec, seed)) {
+      ++begun;
+    }
+  }
+  if (finished + begun == 0) return {};
+  return fmt::format(
+      "{}: goes on with an earlier run: of {} {} {} finished already, {} under way. (To start "
+      "anew, delete the folder.)",
+      plan.out_folder.string(), plan.seeds.size(), plan.seeds.size() == 1 ? "repeat" : "repeats",
+      finished, begun);
+}
+
+void save_identity(const SimulatePlan& plan) {
+  if (plan.out_folder.empty()) return;
+  write_output(identity_file(plan).string(), identity_of(plan).dump(2) + '\n');
+}
+
+}  // namespace repose::cli

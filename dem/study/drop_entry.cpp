@@ -1,0 +1,41 @@
+#include "dem/study/entries.h"
+
+namespace repose::dem {
+namespace {
+
+std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+  auto& drop = std::get<DropProtocol>(protocol);
+  return {length_key("height_mm", "500", drop.height_m),
+          count_key("grains", "10", kMaxGrains, drop.grains)};
+}
+
+double cost_s(const Model& model, const Protocol& protocol) {
+  constexpr double kSpeed_m_s = 3, kBounce_s = .01;
+  return kAloneStep_s * std::get<DropProtocol>(protocol).grains * kBounce_s /
+         timestep_on_plane_s(model, kSpeed_m_s);
+}
+
+}  // namespace
+
+ExperimentEntry drop_entry() {
+  return {.experiment = Experiment::drop,
+          .name = "drop",
+          .unit = "mm",
+          .value_name = "rebound height",
+          .readings = {{"lowest_point_rise_mm", "mm", true},
+                       {"above_first_touch_mm", "mm"},
+                       {"sd_mm", "mm"},
+                       {"never_rose", ""}},
+          .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+          .softening_effect = "rebounds less than one with the real stiffness",
+          .usual = DropProtocol{},
+          .keys = keys_of,
+          .run =
+              [](const Model& model, const Protocol& protocol, std::uint64_t seed,
+                 const ProgressReport& report, const RunRecord& record) {
+                return run_drop(model, std::get<DropProtocol>(protocol), seed, report, record);
+              },
+          .cost_s = cost_s};
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "dem/study/experiment_table.h"
+
+/// The rows of the table of experiments, each in a file of its own.
+namespace repose::dem {
+
+ExperimentEntry drop_entry();
+ExperimentEntry tilt_entry();
+ExperimentEntry roll_entry();
+ExperimentEntry heap_entry();
+
+inline constexpr std::string_view kWallRestitution = "contact.particle_wall.restitution";
+inline constexpr std::string_view kWallSliding = "contact.particle_wall.sliding_friction";
+inline constexpr std::string_view kWallRolling = "contact.particle_wall.rolling_friction";
+inline constexpr std::string_view kGrainRestitution = "contact.particle_particle.restitution";
+inline constexpr std::string_view kGrainSliding = "contact.particle_particle.sliding_friction";
+inline constexpr std::string_view kGrainRolling = "contact.particle_particle.rolling_friction";
+
+/// One step of a grain that touches walls alone, on a core of 2020 or so.
+inline constexpr double kAloneStep_s = 1.5e-6;
+
+/// Time step of the model's grains on a plane that they meet this fast, s.
+double timestep_on_plane_s(const Model& model, double speed_m_s);
+
+}  // namespace repose::dem

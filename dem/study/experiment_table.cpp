@@ -1,0 +1,71 @@
+#include "dem/study/experiment_table.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "dem/experiment/model_setup.h"
+#include "dem/study/entries.h"
+
+namespace repose::dem {
+
+std::span<const ExperimentEntry> all_experiments() {
+  static const std::array<ExperimentEntry, std::variant_size_v<Protocol>> kEntries = {
+      drop_entry(), tilt_entry(), roll_entry(), heap_entry()};
+  return kEntries;
+}
+
+const ExperimentEntry& entry_of(Experiment experiment) {
+  return all_experiments()[static_cast<std::size_t>(experiment)];
+}
+
+const ExperimentEntry& entry_of(const Protocol& protocol) {
+  return all_experiments()[protocol.index()];
+}
+
+const ExperimentEntry* find_experiment(std::string_view name) {
+  const auto entries = all_experiments();
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [name](const auto& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+const ExperimentEntry& experiment_named(std::string_view name) {
+  const ExperimentEntry* found = find_experiment(name);
+  if (found != nullptr) return *found;
+  throw std::invalid_argument(fmt::format("experiment {}: there is no such experiment. Fix: {}.",
+                                          name, experiment_names()));
+}
+
+std::string experiment_names() {
+  std::string names;
+  const auto entries = all_experiments();
+  for (const ExperimentEntry& entry : entries) {
+    const bool is_last = &entry == &entries.back();
+    if (!names.empty()) names += is_last ? " or " : ", ";
+    names += entry.name;
+  }
+  return names;
+}
+
+std::string name_of(Experiment experiment) { return std::string(entry_of(experiment).name); }
+
+bool depends_on(const ExperimentEntry& entry, std::string_view coefficient) {
+  return std::find(entry.coefficients.begin(), entry.coefficients.end(), coefficient) !=
+         entry.coefficients.end();
+}
+
+bool has_grain_contacts(Experiment experiment) {
+  const ExperimentEntry& entry = entry_of(experiment);
+  return std::any_of(
+      entry.coefficients.begin(), entry.coefficients.end(),
+      [](std::string_view name) { return name.starts_with("contact.particle_particle."); });
+}
+
+double timestep_on_plane_s(const Model& model, double speed_m_s) {
+  return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s).timestep_s;
+}
+
+}  // namespace repose::dem

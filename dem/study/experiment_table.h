@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "dem/experiment/experiment.h"
+#include "dem/study/protocol_key.h"
+
+/// What there is to know about each experiment, an entry each. Study files, reports, the fit and
+/// the store of runs ask here; none of them knows an experiment by name.
+namespace repose::dem {
+
+/// A number that a run gives beside its value.
+struct Reading {
+  std::string_view name;  ///< with its unit, as in Repeat::readings
+  std::string_view unit;  ///< "mm", "deg", "s"; empty: a count
+  /// A bench can measure it too: a key of [experiment.NAME.also_measured].
+  bool is_measurable = false;
+};
+
+struct ExperimentEntry {
+  Experiment experiment = Experiment::drop;
+  std::string_view name;        ///< in study files, jobs and results: "drop"
+  std::string_view unit;        ///< of its value: "mm" or "deg"
+  std::string_view value_name;  ///< what its value is, for people: "rebound height"
+  std::vector<Reading> readings;
+  /// Names in the study of the coefficients that move its readings.
+  std::vector<std::string_view> coefficients;
+  bool is_stochastic = true;  ///< false: the seed changes nothing
+  bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
+  /// What softened grains do to its value, to follow "a drop with stiffness_factor = 0.1"; empty:
+  /// nothing that would matter.
+  std::string_view softening_effect = "";
+
+  Protocol usual;  ///< with the usual values of all keys
+  std::vector<ProtocolKey> (*keys)(Protocol& protocol) = nullptr;
+  Repeat (*run)(const Model& model, const Protocol& protocol, std::uint64_t seed,
+                const ProgressReport& report, const RunRecord& record) = nullptr;
+  /// Goes on with an interrupted run; null: it takes seconds, and starts again.
+  Repeat (*resume)(const Model& model, const Protocol& protocol, std::uint64_t seed,
+                   const HeapRestart& from, const ProgressReport& report,
+                   const RunRecord& record) = nullptr;
+  /// About how long a run takes on a core of 2020 or so, s: from the model (all coefficients with a
+  /// value) and the protocol alone, the same on every machine. Only ratios matter much.
+  double (*cost_s)(const Model& model, const Protocol& protocol) = nullptr;
+};
+
+/// All of them, in the order of Experiment.
+std::span<const ExperimentEntry> all_experiments();
+
+const ExperimentEntry& entry_of(Experiment experiment);
+const ExperimentEntry& entry_of(const Protocol& protocol);
+
+/// Null for a name that there is not.
+const ExperimentEntry* find_experiment(std::string_view name);
+/// @throws std::invalid_argument  there is no such experiment.
+const ExperimentEntry& experiment_named(std::string_view name);
+/// "drop, tilt, roll or heap".
+std::string experiment_names();
+
+std::string name_of(Experiment experiment);
+
+/// Whether a coefficient of the study moves the experiment's readings.
+bool depends_on(const ExperimentEntry& entry, std::string_view coefficient);
+
+/// Grains touch each other in it: it needs the coefficients between them.
+bool has_grain_contacts(Experiment experiment);
+
+}  // namespace repose::dem

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <numbers>
+
+#include "dem/study/entries.h"
+
+namespace repose::dem {
+namespace {
+
+std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+  auto& heap = std::get<HeapProtocol>(protocol);
+  return {length_key("tube_diameter_mm", "100", heap.tube_diameter_m),
+          length_key("tube_height_mm", "400", heap.tube_height_m),
+          length_key("tube_thickness_mm", "2", heap.tube_thickness_m),
+          length_key("lift_speed_mm_s", "30", heap.lift_speed_m_s),
+          length_key("plate_mm", "400", heap.plate_m),
+          length_key("plate_thickness_mm", "2", heap.plate_thickness_m),
+          count_key("grains", "455", kMaxGrains, heap.grains)};
+}
+
+double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {
+  constexpr double kPacked = .6;
+  const double radius = heap.tube_diameter_m / 2;
+  const double tube_m3 = std::numbers::pi * radius * radius * heap.tube_height_m;
+  const double full = kPacked * tube_m3 / grain.volume_m3;
+  return heap.grains ? std::min<double>(*heap.grains, full) : full;
+}
+
+double cost_s(const Model& model, const Protocol& protocol) {
+  constexpr double kStep_s = 2.4e-8;  // per grain, per sphere of it
+  // Once the tube is a diameter up, what is left in it falls out.
+  constexpr double kFillAndSettle_s = 1.5, kFallSpeed_m_s = 2;
+  const auto& heap = std::get<HeapProtocol>(protocol);
+  const double simulated_s = heap.tube_diameter_m / heap.lift_speed_m_s + kFillAndSettle_s;
+  return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains_in(heap, model.grain) *
+         simulated_s / timestep_on_plane_s(model, kFallSpeed_m_s);
+}
+
+}  // namespace
+
+ExperimentEntry heap_entry() {
+  return {.experiment = Experiment::heap,
+          .name = "heap",
+          .unit = "deg",
+          .value_name = "angle of repose",
+          .readings = {{"base_radius_mm", "mm", true},
+                       {"height_mm", "mm", true},
+                       {"grains_off_plate", "", true},
+                       {"grains", ""},
+                       {"grains_on_plate", ""},
+                       {"between_views_deg", "deg"},
+                       {"angle_xz_deg", "deg"},
+                       {"inner_window_deg", "deg"},
+                       {"no_heap", ""},
+                       {"at_rest", ""},
+                       {"time_s", "s"}},
+          .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
+                           kGrainSliding, kGrainRolling},
+          .is_pictured = true,
+          .usual = HeapProtocol{},
+          .keys = keys_of,
+          .run =
+              [](const Model& model, const Protocol& protocol, std::uint64_t seed,
+                 const ProgressReport& report, const RunRecord& record) {
+                return run_heap(model, std::get<HeapProtocol>(protocol), seed, report, record);
+              },
+          .resume =
+              [](const Model& model, const Protocol& protocol, std::uint64_t seed,
+                 const HeapRestart& from, const ProgressReport& report, const RunRecord& record) {
+                return resume_heap(model, std::get<HeapProtocol>(protocol), seed, from, report,
+                                   record);
+              },
+          .cost_s = cost_s};
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,45 @@
+#include "dem/study/protocol_key.h"
+
+namespace repose::dem {
+
+ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m) {
+  constexpr double kMetres_mm = 1e-3, kLongest_mm = 1e5;
+  return {.name = std::move(name_mm),
+          .example = std::move(example_mm),
+          .range = above(0, kLongest_mm),
+          .unit = kMetres_mm,
+          .value = &value_m};
+}
+
+ProtocolKey number_key(std::string name, std::string example, const Range& range, double& value) {
+  return {.name = std::move(name),
+          .example = std::move(example),
+          .range = range,
+          .unit = 1,
+          .value = &value};
+}
+
+ProtocolKey count_key(std::string name, std::string example, int max, int& value) {
+  return {.name = std::move(name),
+          .example = std::move(example),
+          .range = from_to(1, max),
+          .unit = 1,
+          .value = &value};
+}
+
+ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value) {
+  return {.name = std::move(name),
+          .example = std::move(example),
+          .range = from_to(1, max),
+          .unit = 1,
+          .value = &value};
+}
+
+std::optional<double> value_of(const ProtocolKey& key) {
+  if (double* const* number = std::get_if<double*>(&key.value)) return **number / key.unit;
+  if (int* const* whole = std::get_if<int*>(&key.value)) return **whole;
+  const std::optional<int>& count = *std::get<std::optional<int>*>(key.value);
+  return count ? std::optional<double>(*count) : std::nullopt;
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "dem/study/range.h"
+
+namespace repose::dem {
+
+/// A number of a protocol: its key in a study file, and where the protocol has it.
+struct ProtocolKey {
+  std::string name;     ///< with its unit: "height_mm"
+  std::string example;  ///< a usual value: "500"
+  Range range;
+  double unit = 1;  ///< of the key, in that of the protocol: .001 for mm in m
+  std::variant<double*, int*, std::optional<int>*> value;
+};
+
+ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m);
+ProtocolKey number_key(std::string name, std::string example, const Range& range, double& value);
+/// 1 to `max`.
+ProtocolKey count_key(std::string name, std::string example, int max, int& value);
+ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value);
+
+/// As many grains as a study may ask for.
+inline constexpr int kMaxGrains = 10'000'000;
+
+/// The value in the key's unit; none for a number that was left out.
+std::optional<double> value_of(const ProtocolKey& key);
+
+}  // namespace repose::dem

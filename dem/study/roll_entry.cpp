@@ -1,0 +1,37 @@
+#include "dem/study/entries.h"
+
+namespace repose::dem {
+namespace {
+
+std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+  constexpr Range kSlope{.from = 0, .to = 90, .excludes_from = true, .excludes_to = true};
+  auto& roll = std::get<RollProtocol>(protocol);
+  return {number_key("incline_deg", "20", kSlope, roll.incline_deg),
+          length_key("release_mm", "150", roll.release_m)};
+}
+
+double cost_s(const Model& model, const Protocol& /*protocol*/) {
+  constexpr double kSpeed_m_s = 1, kRun_s = 3;
+  return kAloneStep_s * kRun_s / timestep_on_plane_s(model, kSpeed_m_s);
+}
+
+}  // namespace
+
+ExperimentEntry roll_entry() {
+  return {.experiment = Experiment::roll,
+          .name = "roll",
+          .unit = "mm",
+          .value_name = "rolling distance",
+          .readings = {{"lateral_mm", "mm"}, {"stopped_on_incline", ""}, {"time_s", "s"}},
+          .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+          .usual = RollProtocol{},
+          .keys = keys_of,
+          .run =
+              [](const Model& model, const Protocol& protocol, std::uint64_t seed,
+                 const ProgressReport& report, const RunRecord& record) {
+                return run_roll(model, std::get<RollProtocol>(protocol), seed, report, record);
+              },
+          .cost_s = cost_s};
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,85 @@
+#include "calibrate/experiment/simulator_version.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "base/fingerprint.h"
+#include "calibrate/experiment/simulate_experiment.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using repose::testing::TemporaryFolder;
+
+/// Soft grains of two spheres, rough enough for a heap of 240 that can be seen: some seconds.
+constexpr const char* kStudy = R"([particle]
+size_mm = [22.5, 18.2, 17.5]
+spheres = 2
+density_kg_m3 = 850
+young_modulus_pa = 1e6
+poisson_ratio = 0.38
+[wall]
+young_modulus_pa = 1e9
+poisson_ratio = 0.3
+[contact.particle_wall]
+restitution = 0.3
+sliding_friction = 0.8
+rolling_friction = 0.3
+[contact.particle_particle]
+restitution = 0.2
+sliding_friction = 0.5
+rolling_friction = 0.1
+[experiment.drop]
+height_mm = 50
+grains = 2
+[experiment.tilt]
+rate_deg_s = 10
+[experiment.roll]
+release_mm = 20
+[experiment.heap]
+grains = 240
+lift_speed_mm_s = 150
+)";
+
+/// Ten digits, none beyond the ninth decimal: there the libraries of two machines may differ.
+std::string rounded(double value) {
+  return fmt::format("{:.9e}", std::abs(value) < 1e-9 ? 0 : value);
+}
+
+std::string line_of(const SimulatedRun& run) {
+  std::string line = "value " + rounded(run.value);
+  for (const auto& [name, value] : run.readings) line += ' ' + name + ' ' + rounded(value);
+  // Drawing and measuring differ in edge pixels from one kind of processor to the next.
+  if (!run.views.empty()) line += fmt::format(" seen {:.2f}", value_of(run));
+  return line;
+}
+
+TEST(SimulatorVersion, IsRaisedWhenWhatASimulationGivesHasChanged) {
+  const TemporaryFolder folder;
+  const dem::Study study = dem::read_study(folder.write("study.toml", std::string(kStudy)));
+  const NamedGrain grain(dem::build_grain(study.grain));
+  std::vector<std::string> lines;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    const SimulatedRun run =
+        simulate_experiment(spec_of(study, entry.experiment, grain, kHeapViews), 1);
+    EXPECT_TRUE(run.failure.empty()) << entry.name << ": " << run.failure;
+    EXPECT_EQ(is_from_pictures(run), entry.is_pictured) << entry.name;
+    std::vector<std::string> given, known;
+    for (const auto& [name, value] : run.readings) given.push_back(name);
+    for (const dem::Reading& reading : entry.readings) known.emplace_back(reading.name);
+    EXPECT_THAT(given, ::testing::UnorderedElementsAreArray(known)) << "as its entry says";
+    lines.push_back(std::string(entry.name) + ' ' + line_of(run));
+  }
+  EXPECT_EQ(base::fingerprint(lines), kSimulatorReadings)
+      << "what a simulation gives has changed: raise kSimulatorVersion and store the new hash in "
+         "calibrate/experiment/simulator_version.h\n"
+      << ::testing::PrintToString(lines);
+}
+
+}  // namespace
+}  // namespace repose::calibrate

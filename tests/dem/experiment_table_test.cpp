@@ -1,0 +1,64 @@
+#include "dem/study/experiment_table.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "tests/dem/experiment_model.h"
+
+namespace repose::dem {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ExperimentTable, HasEachExperimentInItsPlace) {
+  ASSERT_EQ(all_experiments().size(), std::variant_size_v<Protocol>);
+  for (const ExperimentEntry& entry : all_experiments()) {
+    EXPECT_EQ(&entry_of(entry.experiment), &entry) << entry.name;
+    EXPECT_EQ(&entry_of(entry.usual), &entry) << entry.name;
+    EXPECT_EQ(&experiment_named(entry.name), &entry);
+    EXPECT_EQ(name_of(entry.experiment), entry.name);
+    EXPECT_TRUE(entry.unit == "mm" || entry.unit == "deg") << entry.name;
+  }
+  EXPECT_EQ(experiment_names(), "drop, tilt, roll or heap");
+  EXPECT_THAT(test::message_of<std::invalid_argument>([] { experiment_named("spin"); }),
+              HasSubstr("experiment spin: there is no such experiment. Fix: drop,"));
+}
+
+TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {
+  Protocol protocol = DropProtocol{.height_m = .25, .grains = 3};
+  const auto keys = entry_of(protocol).keys(protocol);
+  ASSERT_EQ(keys.size(), 2U);
+  EXPECT_EQ(keys[0].name, "height_mm");
+  EXPECT_DOUBLE_EQ(value_of(keys[0]).value(), 250);
+  EXPECT_EQ(value_of(keys[1]), 3);
+  Protocol heap = HeapProtocol{};
+  EXPECT_FALSE(value_of(entry_of(heap).keys(heap).back())) << "as many grains as fit";
+}
+
+TEST(ExperimentTable, ATiltDependsOnSlidingFrictionAlone) {
+  const ExperimentEntry& tilt = entry_of(Experiment::tilt);
+  EXPECT_TRUE(depends_on(tilt, "contact.particle_wall.sliding_friction"));
+  EXPECT_FALSE(depends_on(tilt, "contact.particle_wall.restitution"));
+  EXPECT_FALSE(tilt.is_stochastic);
+  EXPECT_FALSE(has_grain_contacts(Experiment::roll));
+  EXPECT_TRUE(has_grain_contacts(Experiment::heap));
+}
+
+TEST(ExperimentTable, CostsGrowWithStiffnessAndGrains) {
+  Model model = test::sphere_bench();
+  for (const ExperimentEntry& entry : all_experiments()) {
+    const double cost_s = entry.cost_s(model, entry.usual);
+    EXPECT_GT(cost_s, 0) << entry.name;
+    Model soft = model;
+    soft.stiffness_factor = .01;
+    // Impacts, and with them time steps, last as E^(-2/5) (Hertz).
+    EXPECT_NEAR(entry.cost_s(soft, entry.usual) / cost_s, std::pow(.01, .4), 1e-6) << entry.name;
+  }
+  const ExperimentEntry& heap = entry_of(Experiment::heap);
+  EXPECT_DOUBLE_EQ(heap.cost_s(model, HeapProtocol{.grains = 100}),
+                   2 * heap.cost_s(model, HeapProtocol{.grains = 50}));
+}
+
+}  // namespace
+}  // namespace repose::dem
