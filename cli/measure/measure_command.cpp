@@ -28,8 +28,9 @@ tangent at half height, whole flank, other windows) are listed by
 --definitions and in the JSON.
 
 Uncertainties are half-widths of 95 % intervals. The mean of several pictures
-is over those with status ok. A flagged picture has an angle and a warning to
-be checked by a person; a refused one has a reason instead of an angle.
+is over all that could be measured. A flagged picture counts in it, and has a
+warning to be checked by a person; a refused one has a reason instead of an
+angle.
 )";
 
 }  // namespace
