@@ -1,7 +1,6 @@
 #include "calibrate/experiment/run_folder.h"
 
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -18,11 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 bool is_there(const fs::path& file) {
   std::error_code ignored;
@@ -53,14 +47,14 @@ fs::path RunFolder::file(const RunSpec& spec, std::uint64_t seed, const char* en
 
 std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t seed) const {
   const fs::path place = file(spec, seed, ".json");
-  if (!is_there(place)) return std::nullopt;
-  const std::string text = text_of(place);
-  const Json json = Json::parse(text, nullptr, false);
+  const std::optional<std::string> text = base::read_file_if_there(place);
+  if (!text) return std::nullopt;
+  const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object() ||
       json.value("simulated", Json()) != Json::parse(description_of(spec, seed))) {
     return std::nullopt;
   }
-  return run_in(text);
+  return run_in(*text);
 }
 
 std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint64_t seed) const {

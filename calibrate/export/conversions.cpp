@@ -37,9 +37,6 @@ RestitutionLaw restitution_law(ExportTarget target) {
       return {"betan",
               "damper 2 betan sqrt(S_n m*), which never pulls: betan is half of our factor c(e)",
               "A clump's spheres are given the clump's mass, which YADE damps them by."};
-    case ExportTarget::mercurydpm:
-      return {"restitution coefficient", "speed after per speed before a central impact",
-              "Whether the damper may pull depends on the version of MercuryDPM."};
     case ExportTarget::edem:
       break;
   }
@@ -90,9 +87,7 @@ Conversion restitution(ExportTarget target, const std::string& pair, double valu
                            "damper never pulls",
                        .theirs = law.law,
                        .limits = law.limits};
-  if (target == ExportTarget::mercurydpm || target == ExportTarget::edem) {
-    converted.fidelity = Fidelity::close;
-  }
+  if (target == ExportTarget::edem) converted.fidelity = Fidelity::close;
   if (target == ExportTarget::liggghts && converted.exported > value) {
     converted.fidelity = Fidelity::approximate;
     converted.limits = "LIGGGHTS takes values above .05 only.";
@@ -108,8 +103,6 @@ std::string friction_name(ExportTarget target) {
       return "tangential mindlin_rescale, last value";
     case ExportTarget::yade:
       return "frictAngle, its tangent";
-    case ExportTarget::mercurydpm:
-      return "sliding friction coefficient";
     case ExportTarget::edem:
       break;
   }
@@ -139,8 +132,6 @@ std::string rolling_name(ExportTarget target) {
       return "rolling sds, last value";
     case ExportTarget::yade:
       return "eta";
-    case ExportTarget::mercurydpm:
-      return "rolling friction coefficient";
     case ExportTarget::edem:
       break;
   }

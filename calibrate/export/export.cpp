@@ -24,8 +24,6 @@ std::vector<ExportedFile> files_for(ExportTarget target, const ExportFacts& fact
       return lammps_files(facts, conversions);
     case ExportTarget::yade:
       return yade_files(facts, conversions);
-    case ExportTarget::mercurydpm:
-      return mercurydpm_files(facts, conversions);
     case ExportTarget::edem:
       break;
   }

@@ -14,14 +14,15 @@
 /// A calibrated study as input of other discrete element programs, in their own definitions.
 namespace repose::calibrate {
 
-enum class ExportTarget { liggghts, lammps, yade, mercurydpm, edem };
+struct StudyResult;
+
+enum class ExportTarget { liggghts, lammps, yade, edem };
 
 /// What the command line and the folders call them.
-inline constexpr std::array<std::pair<ExportTarget, std::string_view>, 5> kExportTargets = {{
+inline constexpr std::array<std::pair<ExportTarget, std::string_view>, 4> kExportTargets = {{
     {ExportTarget::liggghts, "liggghts"},
     {ExportTarget::lammps, "lammps"},
     {ExportTarget::yade, "yade"},
-    {ExportTarget::mercurydpm, "mercurydpm"},
     {ExportTarget::edem, "edem"},
 }};
 
@@ -37,9 +38,8 @@ struct FittedValue {
   std::string verdict = {};  ///< "determined", "one-sided", "undetermined"; empty: nothing was said
 };
 
-/// Reads them from the text of a result.json; `name` is what errors call it.
-/// @throws std::invalid_argument  it is none.
-std::vector<FittedValue> parse_fitted_values(const std::string& json, const std::string& name);
+/// The published method's are single points without intervals.
+std::vector<FittedValue> fitted_values(const StudyResult& result);
 
 /// How well the target's law stands for ours.
 enum class Fidelity {

@@ -16,8 +16,6 @@ const char* program_of(ExportTarget target) {
       return "LAMMPS of 29 September 2021, with the packages GRANULAR and RIGID";
     case ExportTarget::yade:
       return "YADE 2023.02";
-    case ExportTarget::mercurydpm:
-      return "MercuryDPM 1.0 (a driver in C++)";
     case ExportTarget::edem:
       break;
   }

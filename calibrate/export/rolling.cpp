@@ -54,8 +54,6 @@ double lever(ExportTarget target, Partner partner) {
   switch (target) {
     case ExportTarget::yade:  // the mean of both radii
       return partner == Partner::wall ? 1 : 2;
-    case ExportTarget::mercurydpm:  // twice the reduced radius
-      return 2;
     case ExportTarget::edem:  // each body's own arm
       return partner == Partner::wall ? 1 : 2;
     case ExportTarget::liggghts:
@@ -101,8 +99,7 @@ RollingConversion to_own_spin(Partner partner, const dem::ClumpShape& grain) {
 }
 
 bool has_rolling_spring(ExportTarget target) {
-  return target == ExportTarget::lammps || target == ExportTarget::yade ||
-         target == ExportTarget::mercurydpm;
+  return target == ExportTarget::lammps || target == ExportTarget::yade;
 }
 
 /// Against the relative spin here and there: levers may differ.
@@ -197,8 +194,6 @@ std::string rolling_law(ExportTarget target, RollingModel model) {
     case ExportTarget::yade:
       return "includeMoment: bending spring krot, up to eta F (R1 + R2) / 2, against the relative "
              "rotation; a wall counts with the sphere's radius";
-    case ExportTarget::mercurydpm:
-      return "rolling spring, up to mu_r F 2 R*, against the relative rotation";
     case ExportTarget::edem:
       break;
   }

@@ -13,8 +13,6 @@ using Conversions = std::vector<Conversion>;
 std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Conversions& conversions);
 std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversions& conversions);
 std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions& conversions);
-std::vector<ExportedFile> mercurydpm_files(const ExportFacts& facts,
-                                           const Conversions& conversions);
 std::vector<ExportedFile> edem_files(const ExportFacts& facts, const Conversions& conversions);
 
 }  // namespace repose::calibrate

@@ -90,20 +90,19 @@ class PublishedMethod {
                          .observable = observable.name,
                          .measured = observable.mean,
                          .levels = {},
-                         .results = {},
-                         .parabola = {}};
+                         .results = {}};
     for (const Run& run : *runs) {
       if (!run.failure.empty()) continue;
       swept.levels.push_back(run.job.values[place]);
       swept.results.push_back(run.readings.at("value"));
     }
-    swept.parabola = regress({.name = "sweep of " + parameter.name,
-                              .factors = {factor},
-                              .levels = {swept.levels},
-                              .response_name = observable.name,
-                              .responses = swept.results},
-                             SurfaceModel::quadratic);
-    solve(swept);
+    solve(regress({.name = "sweep of " + parameter.name,
+                   .factors = {factor},
+                   .levels = {swept.levels},
+                   .response_name = observable.name,
+                   .responses = swept.results},
+                  SurfaceModel::quadratic),
+          swept);
     set_[place] = swept.value;
     outcome_.sweeps.push_back(std::move(swept));
     return true;
@@ -111,9 +110,10 @@ class PublishedMethod {
 
   /// The crossing nearest to the middle of the levels; where there is none, the end or vertex that
   /// comes nearest.
-  static void solve(PublishedSweep& swept) {
-    const TargetSet solved = solve_target(swept.parabola, swept.measured);
-    const Factor& factor = swept.parabola.factors.front();
+  static void solve(const Regression& parabola, PublishedSweep& swept) {
+    swept.r2 = parabola.r2;
+    const TargetSet solved = solve_target(parabola, swept.measured);
+    const Factor& factor = parabola.factors.front();
     const auto nearer = [&](const Crossing& a, const Crossing& b) {
       return std::abs(a.point.coded.front()) < std::abs(b.point.coded.front());
     };
@@ -124,7 +124,7 @@ class PublishedMethod {
       swept.value = factor.natural(crossing->point.coded.front());
       return;
     }
-    const BoxExtremes extremes = extremes_in_box(swept.parabola);
+    const BoxExtremes extremes = extremes_in_box(parabola);
     const bool is_above = swept.measured > extremes.greatest.value;
     swept.value = (is_above ? extremes.greatest : extremes.least).natural.front();
   }
@@ -204,16 +204,13 @@ class PublishedMethod {
       }
       table.responses.push_back(*heap.error_percent);
     }
-    outcome_.surface = regress(table, SurfaceModel::quadratic);
-    outcome_.form = canonical_form(outcome_.surface).value();
-    const BoxExtremes extremes = extremes_in_box(outcome_.surface);
-    outcome_.optimum = extremes.least;
-    outcome_.diagnostics = diagnostics_of(outcome_.surface, outcome_.form, extremes, std::nullopt);
+    outcome_.surface = report_on(regress(table, SurfaceModel::quadratic), std::nullopt);
     return true;
   }
 
   bool check() {
-    const std::vector<std::vector<double>> sets(kVerificationRuns, outcome_.optimum.natural);
+    const std::vector<std::vector<double>> sets(kVerificationRuns,
+                                                outcome_.surface.extremes.least.natural);
     auto verification = heaps("ten heaps with the optimum", sets, &outcome_.checks);
     if (!verification) return false;
     outcome_.verification = *std::move(verification);

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "calibrate/fit/problem.h"
-#include "calibrate/statistics/regress/regression.h"
-#include "calibrate/statistics/regress/surface.h"
+#include "calibrate/statistics/regress/surface_report.h"
 #include "calibrate/study/job_runner.h"
 
 /// The way a published study of hazelnuts was calibrated, step by step, to be compared with: one
@@ -21,9 +20,9 @@ struct PublishedSweep {
   double measured = 0;
   std::vector<double> levels;
   std::vector<double> results;  ///< of one run each; levels whose run gave no reading are left out
-  Regression parabola;
-  double value = 0;        ///< where the parabola takes the measured value
-  bool is_reached = true;  ///< false: it does not, and `value` is where it is nearest
+  double value = 0;             ///< where a parabola through them takes the measured value
+  bool is_reached = true;       ///< false: it does not, and `value` is where it is nearest
+  double r2 = 0;                ///< of the parabola
 };
 
 /// A heap with one set of coefficients between the grains.
@@ -38,10 +37,7 @@ struct PublishedOutcome {
   std::vector<PublishedHeap> ascent;     ///< steps along a straight line
   std::size_t best_step = 0;             ///< of them
   std::vector<PublishedHeap> composite;  ///< of the central composite design around the best
-  Regression surface;                    ///< of the error
-  CanonicalForm form;
-  SurfacePoint optimum;  ///< least of the surface in the design's box
-  std::vector<SurfaceDiagnostic> diagnostics;
+  SurfaceReport surface;       ///< of the error; its least in the design's box is the answer
   std::vector<double> values;  ///< all six, as in Problem::parameters
   std::vector<PublishedHeap> verification;
   std::vector<Run> checks;  ///< the runs of these

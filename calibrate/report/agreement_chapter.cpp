@@ -1,12 +1,10 @@
-#include <cmath>
-
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 
 namespace repose::calibrate::report {
 namespace {
 
-Table agreement_table(const StudyFolder& study) {
+Table agreement_table(const JointResult& joint) {
   Table table{.name = "agreement",
               .title = "± is the standard uncertainty of the mean",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
@@ -20,25 +18,22 @@ Table agreement_table(const StudyFolder& study) {
                                    {.name = "within reach from", .unit = {}},
                                    {.name = "to", .unit = {}}},
                        .rows = {}}};
-  for (const JsonView& observable : study.result["observables"].items()) {
-    const JsonView checked = observable["verification"];
-    std::vector<double> reach = observable["reachable"].numbers();
-    reach.resize(2, std::nan(""));
-    table.data.add(
-        {axis_of_observable(observable["name"].text(), observable["unit"].text()),
-         cell(observable["measured"].number()), cell(observable["measured_uncertainty"].number()),
-         cell(observable["simulated"].number()), cell(observable["simulated_uncertainty"].number()),
-         cell(checked["simulated"].number()), cell(checked["uncertainty"].number()),
-         cell(checked["difference_sigma"].number()), cell(reach[0]), cell(reach[1])});
+  for (const ResultObservable& observable : joint.observables) {
+    const ObservableCheck& checked = observable.verification;
+    table.data.add({axis_of_observable(observable.name, observable.unit), cell(observable.measured),
+                    cell(observable.measured_uncertainty), cell(observable.simulated),
+                    cell(observable.simulated_uncertainty), cell(checked.simulated),
+                    cell(checked.uncertainty), cell(checked.difference_sigma),
+                    cell(observable.reachable.low), cell(observable.reachable.high)});
   }
   return table;
 }
 
 }  // namespace
 
-Chapter agreement_chapter(const StudyFolder& study) {
+Chapter agreement_chapter(const JointResult& joint) {
   Chapter chapter{.id = "agreement", .title = "Bench and simulation", .blocks = {}};
-  chapter.blocks.push_back(agreement_table(study));
+  chapter.blocks.push_back(agreement_table(joint));
   chapter.blocks.push_back(Paragraph{
       "The fit was made from runs all over the bounds; then the coefficients found were simulated "
       "again with seeds that it had not seen. σ is the uncertainty of the difference: beyond 2 to "

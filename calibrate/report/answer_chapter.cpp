@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -9,37 +8,33 @@
 namespace repose::calibrate::report {
 namespace {
 
-std::string verdicts_text(const StudyFolder& study) {
-  const auto parameters = study.result["parameters"].items();
-  const auto with = [&](const char* verdict) {
-    return std::count_if(parameters.begin(), parameters.end(), [&](const JsonView& parameter) {
-      return parameter["verdict"].text() == verdict;
-    });
+std::string verdicts_text(const JointResult& joint) {
+  const auto with = [&](Verdict verdict) {
+    return std::count_if(
+        joint.parameters.begin(), joint.parameters.end(),
+        [&](const ResultParameter& parameter) { return parameter.verdict == verdict; });
   };
-  const auto determined = with("determined");
-  const auto all = static_cast<long>(parameters.size());
+  const auto determined = with(Verdict::determined);
+  const auto all = static_cast<long>(joint.parameters.size());
   std::string text =
       determined == all
           ? fmt::format("All {} coefficients are determined by these measurements.", all)
           : fmt::format("{} of {} coefficients are determined by these measurements.", determined,
                         all);
-  if (const auto one_sided = with("one-sided"); one_sided > 0) {
+  if (const auto one_sided = with(Verdict::one_sided); one_sided > 0) {
     text += fmt::format(" For {} only one end is known.", one_sided);
   }
-  if (const auto open = with("undetermined"); open > 0) {
+  if (const auto open = with(Verdict::undetermined); open > 0) {
     text +=
         fmt::format(" {} cannot be told from these data: any value of the interval fits.", open);
   }
-  if (study.result["verified"].exists()) {
-    text += study.result["verified"].is_true()
-                ? " Simulated again with fresh seeds, they agree with the bench."
-                : " Simulated again with fresh seeds, they do not agree with the bench: do not use "
-                  "them before you know why.";
-  }
-  return text;
+  return text + (joint.verified
+                     ? " Simulated again with fresh seeds, they agree with the bench."
+                     : " Simulated again with fresh seeds, they do not agree with the bench: do "
+                       "not use them before you know why.");
 }
 
-Table coefficients_table(const StudyFolder& study) {
+Table coefficients_table(const JointResult& joint) {
   Table table{.name = "coefficients",
               .title = "Coefficients of contact, with 95 % intervals",
               .data = {.columns = {{.name = "coefficient", .unit = {}},
@@ -51,25 +46,20 @@ Table coefficients_table(const StudyFolder& study) {
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}},
               .strip = {{1, 2, 3, 4, 5}}};
-  for (const JsonView& parameter : study.result["parameters"].items()) {
-    std::vector<double> interval = parameter["interval"].numbers();
-    std::vector<double> bounds = parameter["bounds"].numbers();
-    interval.resize(2, std::nan(""));
-    bounds.resize(2, std::nan(""));
-    table.data.add({label_of(parameter["name"].text()), cell(parameter["value"].number()),
-                    cell(interval[0]), cell(interval[1]), cell(bounds[0]), cell(bounds[1]),
-                    parameter["verdict"].text()});
+  for (const ResultParameter& parameter : joint.parameters) {
+    table.data.add({label_of(parameter.name), cell(parameter.value), cell(parameter.interval.low),
+                    cell(parameter.interval.high), cell(parameter.bounds.low),
+                    cell(parameter.bounds.high), name_of(parameter.verdict)});
   }
   return table;
 }
 
 /// Sentences of the advice, each once.
-std::vector<std::string> advice_of(const StudyFolder& study) {
+std::vector<std::string> advice_of(const JointResult& joint) {
   std::vector<std::string> advice;
-  for (const JsonView& parameter : study.result["parameters"].items()) {
-    const std::string text = parameter["advice"].text();
-    if (text.empty()) continue;
-    advice.push_back(titled(label_of(parameter["name"].text())) + ": " + shortened(text, 1000));
+  for (const ResultParameter& parameter : joint.parameters) {
+    if (parameter.advice.empty()) continue;
+    advice.push_back(titled(label_of(parameter.name)) + ": " + shortened(parameter.advice, 1000));
   }
   return advice;
 }
@@ -88,13 +78,13 @@ PictureRow heaps_side_by_side(const HeapPictures& pictures) {
   return row;
 }
 
-Chapter answer_chapter(const StudyFolder& study, const HeapPictures& pictures) {
+Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   Chapter chapter{.id = "answer", .title = "The answer", .blocks = {}};
-  chapter.blocks.push_back(Paragraph{verdicts_text(study)});
-  chapter.blocks.push_back(coefficients_table(study));
+  chapter.blocks.push_back(Paragraph{verdicts_text(joint)});
+  chapter.blocks.push_back(coefficients_table(joint));
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
-  if (study.pictures.empty()) {
+  if (!pictures.has_photographs) {
     chapter.blocks.push_back(Paragraph{
         "The study names no photographs of heaps: nothing can be held beside the simulated one."});
   }
@@ -102,7 +92,7 @@ Chapter answer_chapter(const StudyFolder& study, const HeapPictures& pictures) {
       "A coefficient belongs to its clump, contact model, stiffness and time step; all are under "
       "“Where the numbers come from”. In another program the same number may mean something "
       "else."});
-  const std::vector<std::string> advice = advice_of(study);
+  const std::vector<std::string> advice = advice_of(joint);
   if (!advice.empty()) {
     chapter.blocks.push_back(Heading{"What would tell the open ones"});
     for (const std::string& text : advice) chapter.blocks.push_back(Remark{text});

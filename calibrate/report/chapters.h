@@ -4,43 +4,43 @@
 
 #include "calibrate/report/document.h"
 #include "calibrate/report/heap_chapter.h"
-#include "calibrate/report/study_folder.h"
+#include "calibrate/report/reported_study.h"
 
-/// The chapters of a study's report. Each shows what the folder has of its subject; one with
-/// nothing to show has no blocks.
+/// The chapters of a study's report. One with nothing to show has no blocks.
 namespace repose::calibrate::report {
 
 /// Coefficients, intervals, verdicts, and both heaps.
-Chapter answer_chapter(const StudyFolder& study, const HeapPictures& pictures);
+Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures);
 /// What bench and simulation gave.
-Chapter agreement_chapter(const StudyFolder& study);
+Chapter agreement_chapter(const JointResult& joint);
 /// Each observable along each coefficient.
-Chapter curves_chapter(const StudyFolder& study);
+Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint);
 /// Each observable over pairs of coefficients, with the line on which it has the measured value.
-Chapter surfaces_chapter(const StudyFolder& study);
+Chapter surfaces_chapter(const ReportedStudy& study, const JointResult& joint);
 /// Profile likelihoods, sets that fit as well, correlations.
-Chapter knowledge_chapter(const StudyFolder& study);
+Chapter knowledge_chapter(const JointResult& joint);
 /// Polynomials through the runs, with their analysis of variance.
-Chapter statistics_chapter(const StudyFolder& study);
-/// The blocks of one regression, as `repose regress --json` has it.
-void add_regression(const JsonView& regression, const std::string& of, std::vector<Block>& blocks);
+Chapter statistics_chapter(const JointResult& joint);
+/// The blocks of one regression.
+void add_regression(const SurfaceSummary& regression, const std::string& of,
+                    std::vector<Block>& blocks);
 /// How the fit went, round by round, and how well its surrogates know the simulation.
-Chapter convergence_chapter(const StudyFolder& study);
-Chapter methods_chapter(const StudyFolder& study);
+Chapter convergence_chapter(const JointResult& joint);
+Chapter methods_chapter(const StudyResult& result);
 /// What the numbers do not say.
-Chapter limits_chapter(const StudyFolder& study);
-Chapter provenance_chapter(const StudyFolder& study);
+Chapter limits_chapter(const StudyResult& result);
+Chapter provenance_chapter(const ReportedStudy& study);
 
 /// A photograph beside the simulated heap, as far as there are any.
 PictureRow heaps_side_by_side(const HeapPictures& pictures);
 
 /// Of a study made the published way: answer, sweeps, heaps, surface.
-std::vector<Chapter> paper_chapters(const StudyFolder& study, const HeapPictures& pictures);
+std::vector<Chapter> paper_chapters(const PublishedResult& published, const HeapPictures& pictures);
 
 /// Of a study that has no result yet: what there is, and how to go on.
-std::vector<Chapter> unfinished_chapters(const StudyFolder& study);
+std::vector<Chapter> unfinished_chapters(const ReportedStudy& study);
 
 /// The runs of an observable's experiment over each coefficient that differs between them.
-std::vector<Chart> run_charts(const StudyFolder& study, const MeasuredNumber& measured);
+std::vector<Chart> run_charts(const ReportedStudy& study, const MeasuredNumber& measured);
 
 }  // namespace repose::calibrate::report

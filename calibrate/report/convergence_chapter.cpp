@@ -1,7 +1,3 @@
-#include <cmath>
-
-#include <fmt/format.h>
-
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/wording.h"
@@ -9,7 +5,7 @@
 namespace repose::calibrate::report {
 namespace {
 
-Chart rounds_chart(const StudyFolder& study) {
+Chart rounds_chart(const JointResult& joint) {
   Chart chart = plane_chart("rounds", "Coefficients round by round", {.name = "round", .unit = {}},
                             {.name = "place between the bounds, 0 … 1", .unit = {}});
   chart.y_range = {{-0.05, 1.05}};
@@ -17,37 +13,34 @@ Chart rounds_chart(const StudyFolder& study) {
   chart.caption =
       "Middle and standard deviation of what was plausible after each round of simulations. What "
       "the measurements tell settles and narrows.";
-  for (const JsonView& parameter : study.result["parameters"].items()) {
-    const std::string name = parameter["name"].text();
-    const std::vector<double> bounds = parameter["bounds"].numbers();
-    if (bounds.size() != 2 || !(bounds[1] > bounds[0])) continue;
-    for (const JsonView& round : study.result["rounds"].items()) {
-      const auto value = round["values"][name].number();
-      if (!value) continue;
-      const double fraction = (*value - bounds[0]) / (bounds[1] - bounds[0]);
-      const double half = round["sd"][name].number().value_or(0) / (bounds[1] - bounds[0]);
-      add_point(chart, label_of(name), Look::line, cell(round["round"].number()), fraction,
-                fraction - half, fraction + half);
+  for (std::size_t k = 0; k < joint.parameters.size(); ++k) {
+    const ResultParameter& parameter = joint.parameters[k];
+    const double span = parameter.bounds.high - parameter.bounds.low;
+    for (const RoundSummary& round : joint.rounds) {
+      const double fraction = (round.values[k] - parameter.bounds.low) / span;
+      const double half = round.sd[k] / span;
+      add_point(chart, label_of(parameter.name), Look::line, static_cast<double>(round.round),
+                cell(fraction), cell(fraction - half), cell(fraction + half));
     }
   }
   return chart;
 }
 
-Table rounds_table(const StudyFolder& study) {
+Table rounds_table(const JointResult& joint) {
   Table table{.name = "round_work",
               .title = "Work",
               .data = {.columns = {{.name = "round", .unit = {}, .decimals = 0},
                                    {.name = "simulations", .unit = {}, .decimals = 0},
                                    {.name = "estimated work", .unit = "core s", .decimals = 0}},
                        .rows = {}}};
-  for (const JsonView& round : study.result["rounds"].items()) {
-    table.data.add({cell(round["round"].number()), cell(round["jobs"].number()),
-                    cell(round["estimated_core_s"].number())});
+  for (const RoundSummary& round : joint.rounds) {
+    table.data.add(
+        {static_cast<double>(round.round), static_cast<double>(round.jobs), cell(round.seconds)});
   }
   return table;
 }
 
-Table surrogates_table(const StudyFolder& study) {
+Table surrogates_table(const JointResult& joint) {
   Table table{.name = "surrogates",
               .title = "How well the fitted curves know the simulation",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
@@ -57,25 +50,25 @@ Table surrogates_table(const StudyFolder& study) {
                                    {.name = "the same in σ", .unit = {}, .decimals = 2},
                                    {.name = "σ widened by", .unit = {}, .decimals = 2}},
                        .rows = {}}};
-  for (const JsonView& surrogate : study.result["surrogates"].items()) {
-    table.data.add(
-        {axis_of_observable(surrogate["observable"].text(), ""), cell(surrogate["runs"].number()),
-         cell(surrogate["failed_runs"].number()), cell(surrogate["leave_one_out_error"].number()),
-         cell(surrogate["leave_one_out_sigma"].number()), cell(surrogate["inflation"].number())});
+  for (const SurrogateQuality& surrogate : joint.surrogates) {
+    table.data.add({axis_of_observable(surrogate.observable, ""),
+                    static_cast<double>(surrogate.runs), static_cast<double>(surrogate.failed_runs),
+                    cell(surrogate.leave_one_out_error), cell(surrogate.leave_one_out_sigma),
+                    cell(surrogate.inflation)});
   }
   return table;
 }
 
 }  // namespace
 
-Chapter convergence_chapter(const StudyFolder& study) {
+Chapter convergence_chapter(const JointResult& joint) {
   Chapter chapter{.id = "convergence", .title = "How the fit went", .blocks = {}};
-  if (!study.result["rounds"].items().empty()) {
-    chapter.blocks.push_back(ChartRow{{rounds_chart(study)}});
-    chapter.blocks.push_back(rounds_table(study));
+  if (!joint.rounds.empty()) {
+    chapter.blocks.push_back(ChartRow{{rounds_chart(joint)}});
+    chapter.blocks.push_back(rounds_table(joint));
   }
-  if (!study.result["surrogates"].items().empty()) {
-    chapter.blocks.push_back(surrogates_table(study));
+  if (!joint.surrogates.empty()) {
+    chapter.blocks.push_back(surrogates_table(joint));
     chapter.blocks.push_back(
         Paragraph{"Each run is predicted from all others; errors should be about 1 σ. Where they "
                   "are larger, σ was widened by that."});

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -53,7 +52,7 @@ ShownPicture with_overlay(const MeasuredHeap& heap, int side_px, const std::stri
       fmt::format("{} {}: {}{}", what, heap.title, measured, measured.ends_with('.') ? "" : "."));
 }
 
-std::optional<MeasuredHeap> measured_photograph(const BenchPicture& picture,
+std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
                                                 std::vector<std::string>& remarks) {
   const std::string name = shortened(picture.file.filename().string());
   try {
@@ -76,10 +75,10 @@ std::optional<MeasuredHeap> measured_photograph(const BenchPicture& picture,
 }
 
 /// The photographs; returns the first that gave an angle.
-std::optional<MeasuredHeap> show_photographs(const StudyFolder& study, HeapPictures& shown) {
+std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPictures& shown) {
   const int side_px = longest_side_px(study.pictures.size());
   std::optional<MeasuredHeap> best;
-  for (const BenchPicture& picture : study.pictures) {
+  for (const PictureReading& picture : study.pictures) {
     std::optional<MeasuredHeap> heap = measured_photograph(picture, shown.remarks);
     if (!heap) continue;
     if (!best && heap->angle.angle_rad) shown.best_photograph = shown.photographs.size();
@@ -182,18 +181,17 @@ void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, Heap
 
 }  // namespace
 
-HeapPictures heap_pictures(const StudyFolder& study) {
+HeapPictures heap_pictures(const ReportedStudy& study) {
   HeapPictures shown;
+  shown.has_photographs = !study.pictures.empty();
   const std::optional<MeasuredHeap> photograph = show_photographs(study, shown);
-  const std::filesystem::path file = study.folder / "heap.vtp";
-  std::error_code ignored;
-  if (!study.is_finished()) return shown;
-  if (!std::filesystem::exists(file, ignored)) {
+  if (!study.result) return shown;
+  if (study.heap.empty()) {
     shown.remarks.emplace_back("There is no simulated heap (heap.vtp) to be shown.");
     return shown;
   }
   try {
-    const render::Scene scene = render::scene_of(dem::read_state(file));
+    const render::Scene scene = render::scene_of(dem::read_state(study.heap));
     shown.heap_model = heap_model(scene);
     constexpr int kRenderSide_px = 900;
     std::optional<MeasuredHeap> compared;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibrate/report/document.h"
-#include "calibrate/report/study_folder.h"
+#include "calibrate/report/reported_study.h"
 
 namespace repose::calibrate::report {
 
@@ -12,6 +12,7 @@ namespace repose::calibrate::report {
 /// measured in the same way, and both outlines.
 struct HeapPictures {
   std::vector<ShownPicture> photographs;       ///< with what was measured
+  bool has_photographs = false;                ///< the study names some, to be shown or not
   std::optional<std::size_t> best_photograph;  ///< the first that gave an angle
   std::vector<ShownPicture> renders;           ///< silhouettes, with what was measured
   std::size_t best_render = 0;                 ///< the first that gave an angle
@@ -23,7 +24,7 @@ struct HeapPictures {
   std::vector<std::string> remarks;  ///< what is not there, and why
 };
 
-HeapPictures heap_pictures(const StudyFolder& study);
+HeapPictures heap_pictures(const ReportedStudy& study);
 
 Chapter heap_chapter(const HeapPictures& pictures);
 

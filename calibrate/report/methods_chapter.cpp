@@ -72,27 +72,25 @@ std::string latex_text(const std::string& text) {
   return escaped;
 }
 
-std::string stiffness_text(const JsonView& provenance) {
+std::string stiffness_text(const Provenance& provenance) {
   std::string text;
-  for (const auto& [experiment, factor] : provenance["stiffness_factor"].members()) {
+  for (const auto& [experiment, factor] : provenance.stiffness_factor) {
     if (!text.empty()) text += ", ";
-    text += shortened(experiment) + ' ' + shown(factor.number());
+    text += shortened(experiment) + ' ' + shown(factor);
   }
   return text;
 }
 
-void add_simulation(const JsonView& provenance, std::vector<Piece>& pieces) {
-  const JsonView clump = provenance["clump"];
+void add_simulation(const Provenance& provenance, std::vector<Piece>& pieces) {
+  const ClumpFacts& clump = provenance.clump;
   pieces.push_back(
       {fmt::format("Grains were simulated with the discrete element method ({}) as clumps of {} "
                    "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
                    "and inertia are those of the surface. Contacts follow {}: with overlap d of "
                    "two surfaces,",
-                   provenance["program"].shown(), clump["spheres"].shown(),
-                   shortened(clump["source"].shown(), 300),
-                   shown(100 * clump["volume_error"].number().value_or(0), 2),
-                   shown(100 * clump["inertia_error"].number().value_or(0), 2),
-                   provenance["contact_model"].shown()),
+                   provenance.study.program, clump.spheres, shortened(clump.source, 300),
+                   shown(100 * clump.volume_error, 2), shown(100 * clump.inertia_error, 2),
+                   provenance.contact_model),
        ""});
   pieces.push_back(
       {"Fₙ = (4/3) E* √R* d^(3/2),   1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂,   1/R* = 1/R₁ + "
@@ -105,7 +103,7 @@ void add_simulation(const JsonView& provenance, std::vector<Piece>& pieces) {
       {fmt::format("with damping that gives the stated coefficient of restitution, and sliding "
                    "friction μₛ. Rolling friction μᵣ: {}. Young's moduli were multiplied by these "
                    "factors: {}.",
-                   shortened(rolling_text(provenance["rolling_definition"].shown()), 400),
+                   shortened(rolling_text(provenance.rolling_definition), 400),
                    stiffness_text(provenance)),
        ""});
 }
@@ -121,14 +119,14 @@ void add_angle(std::vector<Piece>& pieces) {
                     "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})"});
 }
 
-void add_joint_fit(const StudyFolder& study, std::vector<Piece>& pieces) {
+void add_joint_fit(const JointResult& joint, std::vector<Piece>& pieces) {
   pieces.push_back(
       {fmt::format(
            "All {} coefficients were fitted to all {} measured means at once. {} simulations "
            "were spread over the bounds; each measured quantity was described by a Gaussian "
            "process with expectation fᵢ and variance vᵢ (Matérn 5/2, seed noise included), and "
            "the coefficients x minimise",
-           study.result["parameters"].items().size(), study.measured.size(), study.runs.size()),
+           joint.parameters.size(), joint.observables.size(), joint.runs.size()),
        ""});
   pieces.push_back(
       {"χ²(x) = Σᵢ (fᵢ(x) − mᵢ)² / (uᵢ² + vᵢ(x)),  uᵢ = (sᵢ/√nᵢ) · t(0.975; nᵢ−1)/1.960",
@@ -164,15 +162,15 @@ void add_paper_way(std::vector<Piece>& pieces) {
 
 }  // namespace
 
-Chapter methods_chapter(const StudyFolder& study) {
+Chapter methods_chapter(const StudyResult& result) {
   Chapter chapter{.id = "methods", .title = "Methods, to be cited", .blocks = {}};
   std::vector<Piece> pieces;
-  add_simulation(study.result["provenance"], pieces);
+  add_simulation(result.provenance, pieces);
   add_angle(pieces);
-  if (study.is_paper_way()) {
-    add_paper_way(pieces);
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    add_joint_fit(*joint, pieces);
   } else {
-    add_joint_fit(study, pieces);
+    add_paper_way(pieces);
   }
   std::string latex;
   for (const Piece& piece : pieces) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,88 +12,92 @@ void add(DataTable& data, const std::string& what, const std::string& value) {
   data.add({what, shortened(value, 280)});
 }
 
-std::string percent(const JsonView& fraction) {
-  const auto value = fraction.number();
-  return value ? shown(100 * *value, 2) + " %" : "–";
-}
+std::string percent(double fraction) { return shown(100 * fraction, 2) + " %"; }
 
-std::string by_experiment(const JsonView& object, const char* unit) {
+std::string by_experiment(const NamedValues& values, const char* unit) {
   std::string text;
-  for (const auto& [experiment, value] : object.members()) {
+  for (const auto& [experiment, value] : values) {
     if (!text.empty()) text += ", ";
-    text += fmt::format("{} {}{}", shortened(experiment), shown(value.number()), unit);
+    text += fmt::format("{} {}{}", shortened(experiment), shown(value), unit);
   }
   return text.empty() ? "–" : text;
 }
 
 /// "1 … 188"
-std::string seeds_text(const JsonView& runs) {
-  std::optional<double> least, greatest;
-  for (const JsonView& run : runs.items()) {
-    const auto seed = run["seed"].number();
-    if (!seed) continue;
-    least = std::min(least.value_or(*seed), *seed);
-    greatest = std::max(greatest.value_or(*seed), *seed);
-  }
-  if (!least) return "–";
-  return fmt::format("{:.0f} … {:.0f}, one for each simulation of an experiment", *least,
-                     *greatest);
+std::string seeds_text(const std::vector<Run>& runs) {
+  if (runs.empty()) return "–";
+  const auto [least, greatest] = std::minmax_element(
+      runs.begin(), runs.end(),
+      [](const Run& one, const Run& other) { return one.job.seed < other.job.seed; });
+  return fmt::format("{} … {}, one for each simulation of an experiment", least->job.seed,
+                     greatest->job.seed);
 }
 
-std::string settings_text(const JsonView& settings) {
+std::string settings_text(const std::vector<std::string>& settings) {
   std::string text;
-  for (const JsonView& setting : settings.items()) text += "--set " + setting.text() + ' ';
+  for (const std::string& setting : settings) text += "--set " + setting + ' ';
   return text.empty() ? "none" : text;
+}
+
+void add_study(const StudyIdentity& study, DataTable& data) {
+  add(data, "program", study.program);
+  add(data, "study file", study.file);
+  add(data, "hash of the study", study.hash);
+  add(data, "settings laid over it", settings_text(study.settings));
+  add(data, "method", study.method);
+  add(data, "budget", study.budget + ": " + study.budget_description);
+}
+
+void add_model(const StudyResult& result, DataTable& data) {
+  const Provenance& from = result.provenance;
+  add(data, "first seed", fmt::format("{}", from.first_seed));
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    add(data, "seeds", seeds_text(joint->runs));
+  }
+  add(data, "contact model", from.contact_model);
+  add(data, "rolling friction", from.rolling_model + ": " + from.rolling_definition);
+  add(data, "clump", fmt::format("{}, {} spheres", from.clump.source, from.clump.spheres));
+  add(data, "clump's error of volume", percent(from.clump.volume_error));
+  add(data, "clump's error of inertia", percent(from.clump.inertia_error));
+  add(data, "share of the real stiffness", by_experiment(from.stiffness_factor, ""));
+  add(data, "shortest time step", by_experiment(from.shortest_timestep_s, " s"));
+}
+
+std::vector<std::string> warnings_of(const StudyResult& result) {
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) return joint->warnings;
+  std::vector<std::string> warnings;
+  for (const SurfaceDiagnostic& warning : std::get<PublishedResult>(result.found).warnings) {
+    warnings.push_back(warning.message);
+  }
+  return warnings;
 }
 
 }  // namespace
 
-Chapter provenance_chapter(const StudyFolder& study) {
+Chapter provenance_chapter(const ReportedStudy& study) {
   Chapter chapter{.id = "provenance", .title = "Where the numbers come from", .blocks = {}};
   Table table{.name = "provenance",
               .title = {},
               .data = {.columns = {{.name = "what", .unit = {}}, {.name = "value", .unit = {}}},
                        .rows = {}}};
-  DataTable& data = table.data;
-  const JsonView from = study.is_finished() ? study.result["provenance"] : study.study;
-  add(data, "program", from["program"].shown());
-  add(data, "study file", from["study"]["file"].shown());
-  add(data, "hash of the study", from["study"]["hash"].shown());
-  add(data, "settings laid over it", settings_text(from["study"]["settings"]));
-  add(data, "method", study.is_paper_way() ? "paper" : "joint");
-  add(data, "budget",
-      from["budget"]["name"].shown() + ": " + from["budget"]["description"].shown());
-  if (study.is_finished()) {
-    add(data, "first seed", from["first_seed"].shown());
-    if (study.result["runs"].exists()) add(data, "seeds", seeds_text(study.result["runs"]));
-    add(data, "contact model", from["contact_model"].shown());
-    add(data, "rolling friction",
-        from["rolling_model"].shown() + ": " + from["rolling_definition"].shown());
-    const JsonView clump = from["clump"];
-    add(data, "clump", clump["source"].shown() + ", " + clump["spheres"].shown() + " spheres");
-    add(data, "clump's error of volume", percent(clump["volume_error"]));
-    add(data, "clump's error of inertia", percent(clump["inertia_error"]));
-    add(data, "share of the real stiffness", by_experiment(from["stiffness_factor"], ""));
-    add(data, "shortest time step", by_experiment(from["shortest_timestep_s"], " s"));
-  }
-  std::size_t failed = 0;
-  for (const SavedRun& run : study.runs) failed += run.failure.empty() ? 0 : 1;
+  if (study.study) add_study(*study.study, table.data);
+  if (study.result) add_model(*study.result, table.data);
+  const auto failed = std::count_if(study.runs.begin(), study.runs.end(),
+                                    [](const SavedRun& run) { return !run.failure.empty(); });
   if (!study.runs.empty()) {
-    add(data, "simulations", fmt::format("{}, {} of them failed", study.runs.size(), failed));
+    add(table.data, "simulations", fmt::format("{}, {} of them failed", study.runs.size(), failed));
   }
   chapter.blocks.push_back(std::move(table));
   return chapter;
 }
 
-Chapter limits_chapter(const StudyFolder& study) {
+Chapter limits_chapter(const StudyResult& result) {
   Chapter chapter{.id = "limits", .title = "Limits and warnings", .blocks = {}};
-  for (const JsonView& warning : study.result["warnings"].items()) {
-    const std::string text =
-        warning["message"].exists() ? warning["message"].text() : warning.text();
-    if (!text.empty()) chapter.blocks.push_back(Remark{shortened(text, 1500)});
+  for (const std::string& warning : warnings_of(result)) {
+    chapter.blocks.push_back(Remark{shortened(warning, 1500)});
   }
-  const std::string budget = study.result["provenance"]["budget"]["description"].text();
-  if (!budget.empty()) chapter.blocks.push_back(Remark{"Budget: " + shortened(budget, 1000) + "."});
+  chapter.blocks.push_back(
+      Remark{"Budget: " + shortened(result.provenance.study.budget_description, 1000) + "."});
   for (const char* text :
        {"An interval says what these measurements allow if the simulation can be right at all: "
         "errors of the contact model, of the clump's shape and of the protocol on the bench are "

@@ -18,21 +18,6 @@ constexpr const char* kBest = "best fit";
 
 std::string unit_shown(const std::string& unit) { return unit == "deg" ? "°" : unit; }
 
-JsonView fitted_parameter(const StudyFolder& study, const std::string& name) {
-  for (const JsonView& parameter : study.result["parameters"].items()) {
-    if (parameter["name"].text() == name) return parameter;
-  }
-  return {};
-}
-
-/// What the fit gives for an observable at the best coefficients.
-std::optional<double> best_value(const StudyFolder& study, const std::string& observable) {
-  for (const JsonView& fitted : study.result["observables"].items()) {
-    if (fitted["name"].text() == observable) return fitted["simulated"].number();
-  }
-  return std::nullopt;
-}
-
 void add_measured(Chart& chart, const MeasuredNumber& measured, std::array<double, 2> x_range) {
   if (!measured.measured) return;
   const double half = kNormal95 * measured.uncertainty.value_or(0);
@@ -41,7 +26,7 @@ void add_measured(Chart& chart, const MeasuredNumber& measured, std::array<doubl
 }
 
 /// Returns what the coefficient spans.
-std::array<double, 2> add_runs(Chart& chart, const StudyFolder& study,
+std::array<double, 2> add_runs(Chart& chart, const ReportedStudy& study,
                                const MeasuredNumber& measured, const std::string& parameter) {
   std::array<double, 2> span = {std::numeric_limits<double>::infinity(),
                                 -std::numeric_limits<double>::infinity()};
@@ -65,43 +50,41 @@ Chart response_chart(const MeasuredNumber& measured, const std::string& paramete
       {.name = axis_of_observable(measured.name, ""), .unit = unit_shown(measured.unit)});
 }
 
-Chart curve_chart(const StudyFolder& study, const MeasuredNumber& measured, const JsonView& curve) {
-  const std::string parameter = curve["parameter"].text();
-  Chart chart = response_chart(measured, parameter);
-  const std::vector<double> x = curve["values"].numbers(), fit = curve["simulated"].numbers(),
-                            sure = curve["uncertainty"].numbers(),
-                            scatter = curve["scatter"].numbers();
-  const std::size_t points = std::min({x.size(), fit.size(), sure.size(), scatter.size()});
-  if (points == 0) return chart;
-  for (std::size_t k = 0; k < points; ++k) {
-    const double half = kNormal95 * sure[k];
+Chart curve_chart(const ReportedStudy& study, const JointResult& joint,
+                  const ResponseCurve& curve) {
+  const MeasuredNumber& measured = study.measured[curve.observable];
+  const ResultParameter& parameter = joint.parameters[curve.parameter];
+  Chart chart = response_chart(measured, parameter.name);
+  const std::vector<double>&x = curve.values, &fit = curve.simulated;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double half = kNormal95 * curve.uncertainty[k];
     add_point(chart, "95 % of the fit", Look::band, x[k], {}, cell(fit[k] - half),
               cell(fit[k] + half));
   }
-  for (std::size_t k = 0; k < points; ++k) {
+  for (std::size_t k = 0; k < x.size(); ++k) {
     add_point(chart, "scatter of single runs (± sd)", Look::scatter, x[k], {},
-              cell(fit[k] - scatter[k]), cell(fit[k] + scatter[k]));
+              cell(fit[k] - curve.scatter[k]), cell(fit[k] + curve.scatter[k]));
   }
-  add_runs(chart, study, measured, parameter);
-  for (std::size_t k = 0; k < points; ++k) {
+  add_runs(chart, study, measured, parameter.name);
+  for (std::size_t k = 0; k < x.size(); ++k) {
     add_point(chart, "fit", Look::fit, x[k], cell(fit[k]));
   }
-  add_measured(chart, measured, {x.front(), x[points - 1]});
-  const JsonView fitted = fitted_parameter(study, parameter);
-  const std::vector<double> interval = fitted["interval"].numbers();
-  if (const auto best = best_value(study, measured.name); best && interval.size() == 2) {
-    add_point(chart, kBest, Look::best, cell(fitted["value"].number()), *best, cell(interval[0]),
-              cell(interval[1]));
-    chart.caption =
-        fmt::format("Best at {}, 95 % interval {} … {}.", shown(fitted["value"].number(), 3),
-                    shown(interval[0], 3), shown(interval[1], 3));
-  }
+  add_measured(chart, measured, {x.front(), x.back()});
+  const Interval& interval = parameter.interval;
+  add_point(chart, kBest, Look::best, cell(parameter.value),
+            cell(joint.observables[curve.observable].simulated), cell(interval.low),
+            cell(interval.high));
+  chart.caption = fmt::format("Best at {}, 95 % interval {} … {}.", shown(parameter.value, 3),
+                              shown(interval.low, 3), shown(interval.high, 3));
   return chart;
 }
 
-Chart surface_chart(const StudyFolder& study, const MeasuredNumber& measured,
-                    const JsonView& surface) {
-  const std::string x_name = surface["x_parameter"].text(), y_name = surface["y_parameter"].text();
+Chart surface_chart(const ReportedStudy& study, const JointResult& joint,
+                    const ResponseSurface& surface) {
+  const MeasuredNumber& measured = study.measured[surface.observable];
+  const ResultParameter& along_x = joint.parameters[surface.x_parameter];
+  const ResultParameter& along_y = joint.parameters[surface.y_parameter];
+  const std::string &x_name = along_x.name, &y_name = along_y.name;
   const std::string what = axis_of_observable(measured.name, measured.unit);
   Chart chart{
       .name = file_stem("surface_" + measured.name + '_' + x_name + '_' + y_name),
@@ -117,18 +100,12 @@ Chart surface_chart(const StudyFolder& study, const MeasuredNumber& measured,
       {.name = label_of(x_name), .unit = {}},
       {.name = label_of(y_name), .unit = {}},
       {.name = axis_of_observable(measured.name, ""), .unit = unit_shown(measured.unit)}};
-  const std::vector<double> x = surface["x"].numbers(), y = surface["y"].numbers();
-  std::vector<std::vector<double>> heights;
-  for (const JsonView& row : surface["simulated"].items()) {
-    heights.push_back(row.numbers());
-    heights.back().resize(x.size(), std::numeric_limits<double>::quiet_NaN());
-  }
-  heights.resize(y.size(), std::vector<double>(x.size(), std::nan("")));
+  const std::vector<double>&x = surface.x, &y = surface.y;
   chart.layers.push_back({.series = "fit", .look = Look::grid});
   for (std::size_t row = 0; row < y.size(); ++row) {
     for (std::size_t column = 0; column < x.size(); ++column) {
-      chart.data.add(
-          {std::string("fit"), cell(x[column]), cell(y[row]), cell(heights[row][column])});
+      chart.data.add({std::string("fit"), cell(x[column]), cell(y[row]),
+                      cell(surface.simulated[row][column])});
     }
   }
   const auto add = [&](const std::string& series, Look look, const Cell& at_x, const Cell& at_y,
@@ -139,7 +116,7 @@ Chart surface_chart(const StudyFolder& study, const MeasuredNumber& measured,
     chart.data.add({series, at_x, at_y, z});
   };
   if (measured.measured) {
-    const auto ridge = ridge_of(x, y, heights, *measured.measured);
+    const auto ridge = ridge_of(x, y, surface.simulated, *measured.measured);
     for (const auto& [at_x, at_y] : ridge) {
       add(fmt::format("as measured: {} {}", shown(measured.measured), unit_shown(measured.unit)),
           Look::ridge, at_x, at_y, *measured.measured);
@@ -147,17 +124,14 @@ Chart surface_chart(const StudyFolder& study, const MeasuredNumber& measured,
     chart.caption += ridge.empty() ? " The measured value is not on this surface."
                                    : " On the thick one the measured value is met.";
   }
-  const auto best_x = fitted_parameter(study, x_name)["value"].number();
-  const auto best_y = fitted_parameter(study, y_name)["value"].number();
-  if (best_x && best_y) {
-    add(kBest, Look::best, *best_x, *best_y, cell(best_value(study, measured.name)));
-  }
+  add(kBest, Look::best, cell(along_x.value), cell(along_y.value),
+      cell(joint.observables[surface.observable].simulated));
   return chart;
 }
 
 }  // namespace
 
-std::vector<Chart> run_charts(const StudyFolder& study, const MeasuredNumber& measured) {
+std::vector<Chart> run_charts(const ReportedStudy& study, const MeasuredNumber& measured) {
   std::vector<std::string> parameters;
   for (const SavedRun& run : study.runs) {
     if (run.experiment != measured.experiment) continue;
@@ -176,18 +150,15 @@ std::vector<Chart> run_charts(const StudyFolder& study, const MeasuredNumber& me
   return charts;
 }
 
-Chapter curves_chapter(const StudyFolder& study) {
+Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint) {
   Chapter chapter{.id = "curves", .title = "What moves what", .blocks = {}};
-  for (const MeasuredNumber& measured : study.measured) {
+  for (std::size_t k = 0; k < joint.observables.size(); ++k) {
     ChartRow row;
-    for (const JsonView& curve : study.result["responses"].items()) {
-      if (curve["observable"].text() == measured.name) {
-        row.charts.push_back(curve_chart(study, measured, curve));
-      }
+    for (const ResponseCurve& curve : joint.responses) {
+      if (curve.observable == k) row.charts.push_back(curve_chart(study, joint, curve));
     }
-    if (row.charts.empty()) row.charts = run_charts(study, measured);
     if (row.charts.empty()) continue;
-    chapter.blocks.push_back(Heading{titled(axis_of_observable(measured.name, ""))});
+    chapter.blocks.push_back(Heading{titled(axis_of_observable(joint.observables[k].name, ""))});
     chapter.blocks.push_back(std::move(row));
   }
   if (chapter.blocks.empty()) return chapter;
@@ -200,17 +171,15 @@ Chapter curves_chapter(const StudyFolder& study) {
   return chapter;
 }
 
-Chapter surfaces_chapter(const StudyFolder& study) {
+Chapter surfaces_chapter(const ReportedStudy& study, const JointResult& joint) {
   Chapter chapter{.id = "surfaces", .title = "Response surfaces", .blocks = {}};
-  for (const MeasuredNumber& measured : study.measured) {
+  for (std::size_t k = 0; k < joint.observables.size(); ++k) {
     ChartRow row;
-    for (const JsonView& surface : study.result["surfaces"].items()) {
-      if (surface["observable"].text() == measured.name) {
-        row.charts.push_back(surface_chart(study, measured, surface));
-      }
+    for (const ResponseSurface& surface : joint.surfaces) {
+      if (surface.observable == k) row.charts.push_back(surface_chart(study, joint, surface));
     }
     if (row.charts.empty()) continue;
-    chapter.blocks.push_back(Heading{titled(axis_of_observable(measured.name, ""))});
+    chapter.blocks.push_back(Heading{titled(axis_of_observable(joint.observables[k].name, ""))});
     chapter.blocks.push_back(std::move(row));
   }
   if (chapter.blocks.empty()) return chapter;

@@ -6,14 +6,16 @@
 namespace repose::calibrate::report {
 namespace {
 
-void add_variance(DataTable& data, const std::string& source, const JsonView& variance) {
-  if (!variance.exists()) return;
-  data.add({source, cell(variance["sum_of_squares"].number()), cell(variance["df"].number()),
-            cell(variance["mean_square"].number()), cell(variance["f"].number()),
-            cell(variance["p"].number())});
+void add_variance(DataTable& data, const std::string& source,
+                  const std::optional<Variance>& variance) {
+  if (!variance) return;
+  std::optional<double> mean_square;
+  if (variance->df > 0) mean_square = variance->mean_square();
+  data.add({source, cell(variance->sum_of_squares), static_cast<double>(variance->df),
+            cell(mean_square), cell(variance->f), cell(variance->p)});
 }
 
-Table anova_table(const JsonView& regression, const std::string& of) {
+Table anova_table(const SurfaceSummary& regression, const std::string& of) {
   Table table{.name = file_stem("anova_" + of),
               .title = "Analysis of variance",
               .data = {.columns = {{.name = "source", .unit = {}},
@@ -23,23 +25,22 @@ Table anova_table(const JsonView& regression, const std::string& of) {
                                    {.name = "F", .unit = {}},
                                    {.name = "p", .unit = {}}},
                        .rows = {}}};
-  const JsonView anova = regression["anova"];
-  add_variance(table.data, "model", anova["model"]);
-  for (const JsonView& factor : regression["factors"].items()) {
-    add_variance(table.data, "all terms of " + label_of(factor["name"].text()),
-                 factor["all_terms"]);
+  const SurfaceVariances& anova = regression.anova;
+  add_variance(table.data, "model", anova.model);
+  for (const SurfaceFactor& factor : regression.factors) {
+    add_variance(table.data, "all terms of " + label_of(factor.name), factor.all_terms);
   }
-  add_variance(table.data, "residual", anova["residual"]);
-  add_variance(table.data, "lack of fit", anova["lack_of_fit"]);
-  add_variance(table.data, "pure error", anova["pure_error"]);
-  add_variance(table.data, "total", anova["total"]);
+  add_variance(table.data, "residual", anova.residual);
+  add_variance(table.data, "lack of fit", anova.lack_of_fit);
+  add_variance(table.data, "pure error", anova.pure_error);
+  add_variance(table.data, "total", anova.total);
   return table;
 }
 
 /// "1", "restitution, particle–wall²" for terms made of the factors' names.
-std::string term_shown(std::string term, const JsonView& regression) {
-  for (const JsonView& factor : regression["factors"].items()) {
-    const std::string name = factor["name"].text();
+std::string term_shown(std::string term, const SurfaceSummary& regression) {
+  for (const SurfaceFactor& factor : regression.factors) {
+    const std::string& name = factor.name;
     if (name.empty()) continue;
     for (std::size_t at = term.find(name); at != std::string::npos;) {
       const std::string label = fmt::format("({})", label_of(name));
@@ -50,7 +51,7 @@ std::string term_shown(std::string term, const JsonView& regression) {
   return shortened(term, 160);
 }
 
-Table coefficient_table(const JsonView& regression, const std::string& of) {
+Table coefficient_table(const SurfaceSummary& regression, const std::string& of) {
   Table table{.name = file_stem("terms_" + of),
               .title = "Terms, for factors coded −1 … 1",
               .data = {.columns = {{.name = "term", .unit = {}},
@@ -60,39 +61,37 @@ Table coefficient_table(const JsonView& regression, const std::string& of) {
                                    {.name = "p", .unit = {}},
                                    {.name = "in natural units", .unit = {}}},
                        .rows = {}}};
-  for (const JsonView& term : regression["coefficients"].items()) {
-    table.data.add({term_shown(term["term"].text(), regression), cell(term["value"].number()),
-                    cell(term["standard_error"].number()), cell(term["t"].number()),
-                    cell(term["p"].number()), cell(term["natural"].number())});
+  for (const SurfaceTerm& term : regression.coefficients) {
+    table.data.add({term_shown(term.term, regression), cell(term.value), cell(term.standard_error),
+                    cell(term.t), cell(term.p), cell(term.natural)});
   }
   return table;
 }
 
 }  // namespace
 
-void add_regression(const JsonView& regression, const std::string& of, std::vector<Block>& blocks) {
+void add_regression(const SurfaceSummary& regression, const std::string& of,
+                    std::vector<Block>& blocks) {
   blocks.push_back(anova_table(regression, of));
-  blocks.push_back(Paragraph{fmt::format(
-      "R² {}, adjusted {}, predicted {}; residual standard deviation {}.",
-      shown(regression["r2"].number(), 3), shown(regression["r2_adjusted"].number(), 3),
-      shown(regression["r2_predicted"].number(), 3), shown(regression["residual_sd"].number()))});
-  for (const JsonView& warning : regression["warnings"].items()) {
-    blocks.push_back(Remark{shortened(warning["message"].text(), 1000)});
+  blocks.push_back(
+      Paragraph{fmt::format("R² {}, adjusted {}, predicted {}; residual standard deviation {}.",
+                            shown(regression.r2, 3), shown(regression.r2_adjusted, 3),
+                            shown(regression.r2_predicted, 3), shown(regression.residual_sd))});
+  for (const SurfaceDiagnostic& warning : regression.warnings) {
+    blocks.push_back(Remark{shortened(warning.message, 1000)});
   }
   blocks.push_back(coefficient_table(regression, of));
 }
 
-Chapter statistics_chapter(const StudyFolder& study) {
+Chapter statistics_chapter(const JointResult& joint) {
   Chapter chapter{.id = "statistics", .title = "Analysis of variance", .blocks = {}};
-  for (const JsonView& item : study.result["regressions"].items()) {
-    const std::string observable = item["observable"].text();
-    const JsonView regression = item["regression"];
+  for (const auto& [observable, regression] : joint.regressions) {
     chapter.blocks.push_back(Heading{titled(axis_of_observable(observable, ""))});
-    if (!regression.exists()) {
+    if (regression) {
+      add_regression(*regression, observable, chapter.blocks);
+    } else {
       chapter.blocks.push_back(Paragraph{"Too few runs for a polynomial."});
-      continue;
     }
-    add_regression(regression, observable, chapter.blocks);
   }
   if (chapter.blocks.empty()) return chapter;
   const Block lead = Paragraph{

@@ -15,38 +15,38 @@
 namespace repose::calibrate::report {
 namespace {
 
-std::vector<Chapter> finished_chapters(const StudyFolder& study) {
+std::vector<Chapter> finished_chapters(const ReportedStudy& study, const StudyResult& result) {
   const HeapPictures pictures = heap_pictures(study);
   std::vector<Chapter> chapters;
-  if (study.is_paper_way()) {
-    chapters = paper_chapters(study, pictures);
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    chapters = {answer_chapter(*joint, pictures), heap_chapter(pictures),
+                agreement_chapter(*joint),        curves_chapter(study, *joint),
+                surfaces_chapter(study, *joint),  knowledge_chapter(*joint),
+                statistics_chapter(*joint),       convergence_chapter(*joint)};
   } else {
-    chapters = {answer_chapter(study, pictures), heap_chapter(pictures),
-                agreement_chapter(study),        curves_chapter(study),
-                surfaces_chapter(study),         knowledge_chapter(study),
-                statistics_chapter(study),       convergence_chapter(study)};
+    chapters = paper_chapters(std::get<PublishedResult>(result.found), pictures);
   }
-  chapters.push_back(limits_chapter(study));
-  chapters.push_back(methods_chapter(study));
+  chapters.push_back(limits_chapter(result));
+  chapters.push_back(methods_chapter(result));
   chapters.push_back(provenance_chapter(study));
   return chapters;
 }
 
-Document document_of(const StudyFolder& study) {
-  Document document{.title = shortened(study.named_study()["file"].text()),
-                    .kind = "Calibration of contact coefficients",
-                    .state = {},
-                    .chapters = {},
-                    .program = base::kProgram};
-  if (document.title.empty()) document.title = shortened(study.folder.filename().string());
+Document document_of(const ReportedStudy& study) {
+  Document document{
+      .title = shortened(study.study ? study.study->file : study.folder.filename().string()),
+      .kind = "Calibration of contact coefficients",
+      .state = {},
+      .chapters = {},
+      .program = base::kProgram};
   std::vector<Chapter> chapters;
-  if (study.is_finished()) {
-    chapters = finished_chapters(study);
+  if (study.result) {
+    chapters = finished_chapters(study, *study.result);
   } else {
     document.state = "Unfinished: this study has no result yet.";
     chapters = unfinished_chapters(study);
     if (!study.pictures.empty()) chapters.push_back(heap_chapter(heap_pictures(study)));
-    if (study.study.exists()) chapters.push_back(provenance_chapter(study));
+    if (study.study) chapters.push_back(provenance_chapter(study));
   }
   for (Chapter& chapter : chapters) {
     if (!chapter.blocks.empty()) document.chapters.push_back(std::move(chapter));
@@ -83,8 +83,13 @@ Report report_of(Document document) {
   return report;
 }
 
+Report study_report(const StudyResult& result, const std::vector<PictureReading>& pictures,
+                    const std::filesystem::path& heap) {
+  return report_of(document_of(reported(result, pictures, heap)));
+}
+
 Report study_report(const std::filesystem::path& folder) {
-  return report_of(document_of(read_study_folder(folder)));
+  return report_of(document_of(read_reported_study(folder)));
 }
 
 }  // namespace repose::calibrate::report

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/result/result.h"
+
 /// A study as a page to be read, sent and printed.
 namespace repose::calibrate::report {
 
@@ -17,6 +19,12 @@ struct Report {
   std::string html;             ///< one file that needs no other and no network
   std::vector<CsvFile> tables;  ///< what its charts and tables are drawn from
 };
+
+/// What a finished study found, with what else there is to be shown.
+/// @param pictures  of the bench's heaps, as in StudyRecord; measured again
+/// @param heap      state of the simulated one, as RunFolder::copy_state() writes it; empty: none
+Report study_report(const StudyResult& result, const std::vector<PictureReading>& pictures = {},
+                    const std::filesystem::path& heap = {});
 
 /// What the folder of `repose calibrate --out` has to say, half-finished or not. Photographs that
 /// the study names are measured again, and those that are gone are said. The same folder and

@@ -20,21 +20,22 @@ std::string quoted_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::string command_to_go_on(const StudyFolder& study) {
-  const std::string file = study.study["study"]["file"].text();
-  std::string command =
-      "repose calibrate " + (file.empty() ? std::string("STUDY.toml") : quoted_word(file));
-  const std::string method = study.study["method"].text();
-  const std::string budget = study.study["budget"]["name"].text();
-  if (!method.empty() && method != "joint") command += " --method " + quoted_word(method);
-  if (!budget.empty() && budget != "quick") command += " --budget " + quoted_word(budget);
-  for (const JsonView& setting : study.study["study"]["settings"].items()) {
-    command += " --set " + quoted_word(setting.text());
+std::string command_to_go_on(const ReportedStudy& study) {
+  std::string command = "repose calibrate ";
+  if (study.study) {
+    command += quoted_word(study.study->file);
+    if (study.study->method != "joint") command += " --method " + quoted_word(study.study->method);
+    if (study.study->budget != "quick") command += " --budget " + quoted_word(study.study->budget);
+    for (const std::string& setting : study.study->settings) {
+      command += " --set " + quoted_word(setting);
+    }
+  } else {
+    command += "STUDY.toml";
   }
   return command + " --out " + quoted_word(study.folder.string());
 }
 
-Table counts_table(const StudyFolder& study) {
+Table counts_table(const ReportedStudy& study) {
   std::map<std::string, std::array<double, 2>> counts;
   for (const SavedRun& run : study.runs) {
     auto& [done, failed] = counts[run.experiment];
@@ -54,7 +55,7 @@ Table counts_table(const StudyFolder& study) {
 }
 
 /// Of a folder that does not say what was measured: the experiments themselves.
-std::vector<MeasuredNumber> shown_numbers(const StudyFolder& study) {
+std::vector<MeasuredNumber> shown_numbers(const ReportedStudy& study) {
   if (!study.measured.empty()) return study.measured;
   std::vector<MeasuredNumber> numbers;
   for (const SavedRun& run : study.runs) {
@@ -74,7 +75,7 @@ std::vector<MeasuredNumber> shown_numbers(const StudyFolder& study) {
 
 }  // namespace
 
-std::vector<Chapter> unfinished_chapters(const StudyFolder& study) {
+std::vector<Chapter> unfinished_chapters(const ReportedStudy& study) {
   Chapter state{.id = "answer", .title = "How far it is", .blocks = {}};
   state.blocks.push_back(Paragraph{
       fmt::format("{} simulations are there, and no result yet. Nothing of them is lost: the same "

@@ -50,18 +50,44 @@ std::vector<PictureReading> pictures_in(const Json& json) {
   return pictures;
 }
 
-Json record_json(const StudyRecord& record) {
-  return {{"program", base::kProgram},
-          {"study",
-           {{"file", record.study.file.filename().string()},
-            {"hash", record.study.hash},
-            {"settings", record.settings}}},
-          {"method", record.method},
-          {"budget", {{"name", record.budget.name}, {"description", record.budget.description}}},
-          {"pictures", pictures_json(record.pictures)}};
+Json notes_json(const StudyNotes& notes) {
+  const StudyIdentity& study = notes.study;
+  return {{"program", study.program},
+          {"study", {{"file", study.file}, {"hash", study.hash}, {"settings", study.settings}}},
+          {"method", study.method},
+          {"budget", {{"name", study.budget}, {"description", study.budget_description}}},
+          {"pictures", pictures_json(notes.pictures)}};
+}
+
+StudyNotes notes_in(const Json& json) {
+  const Json& study = json.at("study");
+  const Json& budget = json.at("budget");
+  return {.study = {.program = json.at("program"),
+                    .file = study.at("file"),
+                    .hash = study.at("hash"),
+                    .settings = study.at("settings"),
+                    .method = json.at("method"),
+                    .budget = budget.at("name"),
+                    .budget_description = budget.at("description")},
+          .pictures = pictures_in(json.at("pictures"))};
 }
 
 }  // namespace
+
+bool is_same_study(const StudyIdentity& one, const StudyIdentity& other) {
+  return one.hash == other.hash && one.settings == other.settings && one.method == other.method &&
+         one.budget == other.budget;
+}
+
+StudyIdentity identity_of(const StudyRecord& record) {
+  return {.program = base::kProgram,
+          .file = record.study.file.filename().string(),
+          .hash = record.study.hash,
+          .settings = record.settings,
+          .method = record.method,
+          .budget = record.budget.name,
+          .budget_description = record.budget.description};
+}
 
 dem::Study as_simulated(dem::Study study, const Budget& budget,
                         const std::vector<PictureReading>& pictures) {
@@ -87,39 +113,40 @@ void keep(const fs::path& file, const std::string& text) {
 void write_study_record(const fs::path& folder, const StudyRecord& record) {
   keep(folder / kStudy, base::read_whole_file(record.study.file));
   keep(folder / kClump, dem::clump_json(record.grain));
-  keep(folder / kRecord, json_text(record_json(record)));
+  keep(folder / kRecord, json_text(notes_json({identity_of(record), record.pictures})));
 }
 
-StudyRecord read_study_record(const fs::path& folder) {
+std::optional<StudyNotes> read_study_notes(const fs::path& folder) {
   const fs::path file = folder / kRecord;
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
-    throw std::invalid_argument(
-        fmt::format("{}: is no folder of a study, there is no {} in it. Fix: name the output "
-                    "folder of repose calibrate.",
-                    folder.string(), kRecord));
-  }
-  StudyRecord record;
-  std::string name;
-  std::string hash;
+  if (!fs::exists(file, ignored)) return std::nullopt;
   try {
-    const Json json = Json::parse(base::read_whole_file(file));
-    name = json.at("study").at("file");
-    hash = json.at("study").at("hash");
-    record.settings = json.at("study").at("settings");
-    record.method = json.at("method");
-    record.budget = budget_named(json.at("budget").at("name"));
-    record.pictures = pictures_in(json.at("pictures"));
+    return notes_in(Json::parse(base::read_whole_file(file)));
   } catch (const nlohmann::json::exception& error) {
     throw std::invalid_argument(
         fmt::format("{}: damaged ({}). Fix: the same repose calibrate again writes it anew; what "
                     "was simulated is kept.",
                     file.string(), error.what()));
   }
+}
+
+StudyRecord read_study_record(const fs::path& folder) {
+  const std::optional<StudyNotes> notes = read_study_notes(folder);
+  if (!notes) {
+    throw std::invalid_argument(
+        fmt::format("{}: is no folder of a study, there is no {} in it. Fix: name the output "
+                    "folder of repose calibrate.",
+                    folder.string(), kRecord));
+  }
+  StudyRecord record;
+  record.settings = notes->study.settings;
+  record.method = notes->study.method;
+  record.budget = budget_named(notes->study.budget);
+  record.pictures = notes->pictures;
   record.study = as_simulated(dem::read_study_copy(folder / kStudy, record.settings), record.budget,
                               record.pictures);
-  record.study.file = name;
-  record.study.hash = hash;
+  record.study.file = notes->study.file;
+  record.study.hash = notes->study.hash;
   record.grain = dem::read_clump_file(folder / kClump);
   return record;
 }

@@ -19,6 +19,26 @@ struct PictureReading {
   std::string reason;  ///< why there is none
 };
 
+/// Which study it is, and how it is calibrated.
+struct StudyIdentity {
+  std::string program;                ///< that wrote it
+  std::string file;                   ///< of the study, without its folder
+  std::string hash;                   ///< of its text and settings
+  std::vector<std::string> settings;  ///< laid over the study file
+  std::string method;                 ///< "joint" or "paper"
+  std::string budget;
+  std::string budget_description;
+};
+
+/// The same study, settings, method and budget, whichever version of the program wrote it.
+bool is_same_study(const StudyIdentity& one, const StudyIdentity& other);
+
+/// What FOLDER/study.json holds.
+struct StudyNotes {
+  StudyIdentity study;
+  std::vector<PictureReading> pictures;
+};
+
 /// What a study folder is about: enough to know, from the folder alone, what was sought, of what,
 /// and how.
 struct StudyRecord {
@@ -30,6 +50,8 @@ struct StudyRecord {
   std::vector<PictureReading> pictures;
 };
 
+StudyIdentity identity_of(const StudyRecord& record);
+
 /// The study as simulated, from the study as read: the pictures' angles are its measured values,
 /// and its heaps as soft as the budget says.
 dem::Study as_simulated(dem::Study study, const Budget& budget,
@@ -38,6 +60,10 @@ dem::Study as_simulated(dem::Study study, const Budget& budget,
 /// Writes FOLDER/study.toml (a copy), clump.json and study.json. The study's file must be there.
 /// @throws std::invalid_argument  they cannot be written.
 void write_study_record(const std::filesystem::path& folder, const StudyRecord& record);
+
+/// FOLDER/study.json alone. None where there is no such file.
+/// @throws std::invalid_argument  it is damaged.
+std::optional<StudyNotes> read_study_notes(const std::filesystem::path& folder);
 
 /// Reads them back. Scans and pictures that the study names need not be there any more.
 /// @throws std::invalid_argument  the folder is none of a study, or a file is damaged.

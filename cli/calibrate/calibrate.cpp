@@ -10,14 +10,14 @@
 
 #include "base/whole_file.h"
 #include "calibrate/experiment/run_folder.h"
+#include "calibrate/result/result.h"
 #include "calibrate/study/rank_executor.h"
 #include "calibrate/study/study_run.h"
 #include "calibrate/study/thread_executor.h"
-#include "cli/calibrate/calibrate_json.h"
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/calibrate/calibrate_progress.h"
 #include "cli/calibrate/calibrate_table.h"
-#include "cli/calibrate/paper_report.h"
+#include "cli/calibrate/paper_table.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
@@ -33,18 +33,22 @@ std::vector<std::string> parameter_names(const CalibratePlan& plan) {
   return names;
 }
 
-/// The result of another study or budget is kept, under another name.
+/// The result of another study, method or budget stays, as "result_quick_1b9d6bcd.json".
 void set_aside_old_result(const CalibratePlan& plan) {
   const std::filesystem::path file = plan.out_folder / "result.json";
-  const std::string old = base::read_file_if_there(file).value_or("");
-  const std::string name = name_when_set_aside(old, plan);
-  if (name.empty()) return;
+  const auto old = calibrate::study_in_result(base::read_file_if_there(file).value_or(""));
+  if (!old || is_same_study(*old, identity_of(plan.record))) return;
+  const std::string name =
+      fmt::format("result_{}{}_{}.json", old->method == "joint" ? std::string() : old->method + '_',
+                  old->budget, old->hash.substr(0, old->hash.find('-')));
   std::filesystem::rename(file, plan.out_folder / name);
   print_lines({fmt::format("{}: was of another study, its settings or budget; it is now {}",
                            file.string(), name)});
 }
 
-void write_results(const CalibratePlan& plan, const std::string& json, const std::string& table) {
+void write_results(const CalibratePlan& plan, const calibrate::StudyResult& result,
+                   const std::string& table) {
+  const std::string json = to_json(result);
   set_aside_old_result(plan);
   write_output((plan.out_folder / "result.json").string(), json);
   if (!plan.json_file.empty()) write_output(plan.json_file, json);
@@ -92,7 +96,10 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder&
   }();
   if (!outcome) return interrupted(folder);
   save_heap(plan, folder, simulator, outcome->checks);
-  write_results(plan, paper_json(plan, *outcome), paper_table(plan, *outcome, columns_of(stdout)));
+  const calibrate::StudyResult result = result_of(plan.record, plan.problem, *outcome);
+  write_results(plan, result,
+                paper_table(std::get<calibrate::PublishedResult>(result.found), plan.record.study,
+                            columns_of(stdout)));
   return ExitCode::done;
 }
 
@@ -117,8 +124,10 @@ ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& f
   print_lines(outcome->notes);
   print_lines(outcome->fit.warnings);
   save_heap(plan, folder, simulator, outcome->checks);
-  write_results(plan, calibrate_json(plan, *outcome),
-                calibrate_table(plan, *outcome, columns_of(stdout)));
+  const calibrate::StudyResult result = result_of(plan.record, plan.problem, *outcome);
+  write_results(plan, result,
+                joint_table(std::get<calibrate::JointResult>(result.found), result.provenance,
+                            columns_of(stdout)));
   return ExitCode::done;
 }
 

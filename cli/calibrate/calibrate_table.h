@@ -2,8 +2,7 @@
 
 #include <string>
 
-#include "calibrate/study/study_run.h"
-#include "cli/calibrate/calibrate_options.h"
+#include "calibrate/result/result.h"
 
 namespace repose::cli {
 
@@ -12,7 +11,7 @@ std::string short_name(const std::string& coefficient);
 
 /// For people: coefficients with intervals and verdicts, what was measured and simulated, sets that
 /// fit as well, what would determine the rest, and what the values belong to.
-std::string calibrate_table(const CalibratePlan& plan, const calibrate::StudyOutcome& outcome,
-                            int columns);
+std::string joint_table(const calibrate::JointResult& joint,
+                        const calibrate::Provenance& provenance, int columns);
 
 }  // namespace repose::cli

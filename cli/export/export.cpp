@@ -3,14 +3,13 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/whole_file.h"
 #include "calibrate/export/export.h"
+#include "calibrate/result/result.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/output.h"
@@ -41,24 +40,17 @@ std::string known_targets() {
   return names;
 }
 
-/// The text of result.json, which a study has once it has ended.
-std::string result_text(const fs::path& folder) {
-  const fs::path file = folder / "result.json";
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& request) {
+  const calibrate::StudyRecord record = calibrate::read_study_record(folder);
+  const auto result = calibrate::read_result(folder);
+  if (!result) {
     throw std::invalid_argument(
         fmt::format("{}: there is no result.json in it: the study has not ended. Fix: the same "
                     "repose calibrate again goes on with it.",
                     folder.string()));
   }
-  return base::read_whole_file(file);
-}
-
-StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& request) {
-  const calibrate::StudyRecord record = calibrate::read_study_record(folder);
-  const auto fitted =
-      calibrate::parse_fitted_values(result_text(folder), (folder / "result.json").string());
-  return calibrate::export_study(record.study, record.grain.shape, fitted, request);
+  return calibrate::export_study(record.study, record.grain.shape,
+                                 calibrate::fitted_values(*result), request);
 }
 
 ExportPlan plan_export(const ExportArguments& arguments) {

@@ -16,7 +16,6 @@ Programs:
   liggghts    decks for drop, tilt, roll and heap
   yade        the same, as scripts
   lammps      decks for drop, tilt and roll
-  mercurydpm  a driver for the drop, not run by us
   edem        tables to type in
 
 Rolling friction means something different in each. A coefficient that has an

@@ -57,9 +57,9 @@ Json clump_json(const SimulatePlan& plan) {
 /// All that a value belongs to but its seed and time step.
 void add_context(const SimulatePlan& plan, Json& json) {
   const dem::Model& model = plan.spec.model;
-  json["contact_model"] = contact_model_text();
+  json["contact_model"] = dem::kContactModel;
   json["rolling_model"] = dem::name_of(model.rolling);
-  json["rolling_definition"] = rolling_definition(model.rolling);
+  json["rolling_definition"] = dem::rolling_definition(model.rolling);
   json["stiffness_factor"] = model.stiffness_factor;
   json["timestep_fraction"] = model.timestep_s ? Json(nullptr) : Json(model.timestep_fraction);
   json["clump"] = clump_json(plan);
@@ -142,23 +142,6 @@ Json measured_json(const dem::Measured& measured) {
 }
 
 }  // namespace
-
-std::string contact_model_text() { return "Hertz-Mindlin (no slip)"; }
-
-std::string rolling_definition(dem::RollingModel model) {
-  switch (model) {
-    case dem::RollingModel::none:
-      return "no rolling friction";
-    case dem::RollingModel::constant_torque:
-      return "on each body mu_r F_n times its own distance from centre of mass to contact, against "
-             "its own spin";
-    case dem::RollingModel::relative_constant_torque:
-      return "mu_r F_n times the reduced radius, against the relative spin";
-    case dem::RollingModel::elastic_plastic:
-      break;
-  }
-  return "rolling spring with a plastic limit of mu_r F_n times the reduced radius";
-}
 
 std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs) {
   const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);

@@ -156,9 +156,9 @@ std::string belongs_to_text(const SimulatePlan& plan, std::size_t width) {
       model.timestep_s ? fmt::format("{:g} s, as asked for", *model.timestep_s)
                        : fmt::format("{:g} of the longest accurate one", model.timestep_fraction);
   std::vector<std::pair<std::string, std::string>> facts = {
-      {"contact model", contact_model_text()},
+      {"contact model", std::string(dem::kContactModel)},
       {"rolling model",
-       fmt::format("{}: {}", dem::name_of(model.rolling), rolling_definition(model.rolling))},
+       fmt::format("{}: {}", dem::name_of(model.rolling), dem::rolling_definition(model.rolling))},
       {"clump", fmt::format("{} spheres, volume error {:.1f} % ({})", model.grain.spheres.size(),
                             100 * plan.grain.errors.volume_error, plan.grain.source)},
       {"stiffness factor", fmt::format("{:g}", model.stiffness_factor)},

@@ -1,8 +1,8 @@
 #include "cli/statistics/regress.h"
 
+#include "calibrate/result/surface_summary.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
-#include "cli/statistics/regress_json.h"
 #include "cli/statistics/regress_options.h"
 #include "cli/statistics/regress_table.h"
 
@@ -16,7 +16,7 @@ ExitCode run_regress(const RegressArguments& arguments) {
   if (plan.json_file != kStandardOutput) {
     write_output(std::string(kStandardOutput), regress_table(plan.report, columns_of(stdout)));
   }
-  if (!plan.json_file.empty()) write_output(plan.json_file, regress_json(plan.report));
+  if (!plan.json_file.empty()) write_output(plan.json_file, to_json(summary_of(plan.report)));
   return ExitCode::done;
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/statistics/regress/surface_report.h"
 #include "cli/statistics/regress.h"
-#include "cli/statistics/surface_report.h"
 
 namespace repose::cli {
 
@@ -14,7 +14,7 @@ struct RegressPlan {
   calibrate::SurfaceModel model = calibrate::SurfaceModel::quadratic;
   std::optional<double> target;
   std::string json_file;
-  SurfaceReport report;
+  calibrate::SurfaceReport report;
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
 };

@@ -141,7 +141,7 @@ std::string point_text(const calibrate::Regression& fit, const calibrate::Surfac
                      levels_text(fit, point.natural));
 }
 
-void add_shape(const SurfaceReport& report, Page& page) {
+void add_shape(const calibrate::SurfaceReport& report, Page& page) {
   const calibrate::Regression& fit = report.fit;
   page.add_gap();
   if (report.form) {
@@ -153,7 +153,7 @@ void add_shape(const SurfaceReport& report, Page& page) {
     }
     if (report.form->stationary) {
       page.add(
-          padded(std::string(name_of(report.form->shape)), kNameWidth),
+          padded(name_of(report.form->shape), kNameWidth),
           fmt::format("{}, {} the range of the runs", point_text(fit, *report.form->stationary),
                       report.form->is_inside ? "inside" : "outside"));
     }
@@ -173,7 +173,7 @@ std::string range_text(const calibrate::Factor& factor,
   return fmt::format("{}{}", fmt::join(parts, " and "), is_all ? ", all of the box" : "");
 }
 
-void add_target(const SurfaceReport& report, Page& page) {
+void add_target(const calibrate::SurfaceReport& report, Page& page) {
   if (!report.target || !report.target->is_reached) return;
   const calibrate::Regression& fit = report.fit;
   page.add_gap();
@@ -198,7 +198,7 @@ void add_target(const SurfaceReport& report, Page& page) {
 
 }  // namespace
 
-std::string regress_table(const SurfaceReport& report, int columns) {
+std::string regress_table(const calibrate::SurfaceReport& report, int columns) {
   Page page(columns);
   add_heading(report.fit, page);
   add_coefficients(report.fit, page);

@@ -25,6 +25,25 @@ inline std::string name_of(RollingModel model) {
   return {};
 }
 
+/// The contact model in a few words.
+inline constexpr std::string_view kContactModel = "Hertz-Mindlin (no slip)";
+
+/// How the torque of rolling friction is defined.
+inline std::string rolling_definition(RollingModel model) {
+  switch (model) {
+    case RollingModel::none:
+      return "no rolling friction";
+    case RollingModel::constant_torque:
+      return "on each body mu_r F_n times its own distance from centre of mass to contact, against "
+             "its own spin";
+    case RollingModel::relative_constant_torque:
+      return "mu_r F_n times the reduced radius, against the relative spin";
+    case RollingModel::elastic_plastic:
+      break;
+  }
+  return "rolling spring with a plastic limit of mu_r F_n times the reduced radius";
+}
+
 inline std::optional<RollingModel> rolling_model_named(std::string_view name) {
   for (const auto& [model, known] : kRollingNames) {
     if (known == name) return model;

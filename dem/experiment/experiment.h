@@ -7,8 +7,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 #include <variant>
+#include <vector>
 
 #include "dem/contact/material.h"
 #include "dem/engine/simulation.h"

@@ -89,16 +89,13 @@ TEST(ConvertRolling, EdemHasConstantTorqueAndTheInverseOfTheOthers) {
             Fidelity::approximate);
 }
 
-// Their lever of mu_r F: YADE (R1 + R2) / 2, MercuryDPM 2 R*; ours R* = R on a wall, R / 2 between
-// equal spheres.
+// YADE's lever of mu_r F is (R1 + R2) / 2; ours R* = R on a wall, R / 2 between equal spheres.
 TEST(ConvertRolling, LeversOfOtherProgramsAreTakenOut) {
   const auto factor = [](ExportTarget target, Partner partner) {
     return sphere(target, RollingModel::elastic_plastic, partner).factor;
   };
   EXPECT_NEAR(factor(ExportTarget::yade, Partner::wall), 1, 1e-12);
   EXPECT_NEAR(factor(ExportTarget::yade, Partner::grain), .5, 1e-12);
-  EXPECT_NEAR(factor(ExportTarget::mercurydpm, Partner::wall), .5, 1e-12);
-  EXPECT_NEAR(factor(ExportTarget::mercurydpm, Partner::grain), .5, 1e-12);
   EXPECT_NEAR(factor(ExportTarget::lammps, Partner::grain), 1, 1e-12);
 }
 

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/contact/restitution.h"
+#include "tests/calibrate/made_up_result.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/temporary_folder.h"
 
@@ -58,7 +59,6 @@ TEST(ExportStudy, EachProgramHasItsDecksAndAReadme) {
        {"drop.lig", "tilt.lig", "roll.lig", "heap.lig", "clump.txt", "tube.stl"}},
       {ExportTarget::lammps, {"drop.lmp", "tilt.lmp", "roll.lmp", "tilt_body.txt"}},
       {ExportTarget::yade, {"drop.py", "tilt.py", "roll.py", "heap.py", "grain.py"}},
-      {ExportTarget::mercurydpm, {"drop.cpp", "clump.csv"}},
       {ExportTarget::edem, {"values.csv", "values.txt", "clump.csv"}}};
   for (const auto& [target, names] : expected) {
     const StudyExport made = exported(hazelnuts(), target);
@@ -107,8 +107,7 @@ TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
   };
   for (const auto& [target, file] : {std::pair(ExportTarget::liggghts, "drop.lig"),
                                      {ExportTarget::yade, "grain.py"},
-                                     {ExportTarget::edem, "values.csv"},
-                                     {ExportTarget::mercurydpm, "clump.csv"}}) {
+                                     {ExportTarget::edem, "values.csv"}}) {
     const std::string text = text_of(exported(study, target), file);
     EXPECT_THAT(text, AllOf(HasSubstr(digits(mass)), HasSubstr(digits(inertia.x())),
                             HasSubstr(digits(inertia.z()))))
@@ -214,30 +213,16 @@ TEST(WriteExport, MakesTheFolderAndRefusesAFileInItsPlace) {
               AllOf(HasSubstr("taken"), HasSubstr("Fix: ")));
 }
 
-TEST(FittedValues, AreReadFromBothMethodsResults) {
-  const auto joint = parse_fitted_values(
-      R"({"parameters": [{"name": "contact.particle_wall.restitution", "value": 0.3,
-          "interval": [0.2, 0.4], "verdict": "determined"},
-          {"name": "contact.particle_wall.rolling_friction", "value": 0.1,
-          "interval": [null, null], "verdict": "undetermined"}]})",
-      "result.json");
+TEST(FittedValues, AreThoseOfBothMethods) {
+  const auto joint = fitted_values(test::joint_result());
   ASSERT_THAT(joint, SizeIs(2));
-  EXPECT_EQ(joint[0].high, .4);
-  EXPECT_EQ(joint[1].high, 0);
-  const auto paper = parse_fitted_values(R"({"method": "paper", "values": {"a": 1.5}})", "r");
-  ASSERT_THAT(paper, SizeIs(1));
-  EXPECT_EQ(paper[0].value, 1.5);
-  EXPECT_EQ(paper[0].verdict, "");
-}
-
-TEST(FittedValues, DamagedResultsAreRefused) {
-  for (const char* text : {"", "{", "[]", "{}", R"({"parameters": [{"name": "a"}]})",
-                           R"({"parameters": [{"name": "a", "value": null}]})"}) {
-    EXPECT_THAT(dem::test::message_of<std::invalid_argument>(
-                    [&] { parse_fitted_values(text, "result.json"); }),
-                AllOf(HasSubstr("result.json"), HasSubstr("Fix: ")))
-        << text;
-  }
+  EXPECT_EQ(joint[0].name, "contact.particle_wall.restitution");
+  EXPECT_EQ(joint[0].high, .45);
+  EXPECT_EQ(joint[1].verdict, "undetermined");
+  const auto published = fitted_values(test::published_result());
+  ASSERT_THAT(published, SizeIs(2));
+  EXPECT_EQ(published[0].value, .31);
+  EXPECT_EQ(published[0].verdict, "");
 }
 
 }  // namespace

@@ -107,10 +107,10 @@ TEST_F(PublishedMethod, ClimbsToTheBestStepAndFitsTheErrorAroundIt) {
   // 10 + 3 k + 2 k = 21: between the second and the third step, nearer to the second.
   EXPECT_EQ(outcome->best_step, 1U);
   EXPECT_THAT(outcome->composite, SizeIs(20));
-  EXPECT_THAT(outcome->surface.coefficients, SizeIs(10));
+  EXPECT_THAT(outcome->surface.fit.coefficients, SizeIs(10));
   EXPECT_THAT(outcome->verification, SizeIs(10));
   EXPECT_THAT(outcome->checks, SizeIs(10));
-  EXPECT_FALSE(outcome->diagnostics.empty()) << "an absolute error has a kink";
+  EXPECT_FALSE(outcome->surface.diagnostics.empty()) << "an absolute error has a kink";
 }
 
 TEST_F(PublishedMethod, LeavesOutRunsWithoutAReading) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/calibrate/made_up_result.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/run_program.h"
 
@@ -29,14 +30,10 @@ class Export : public ::testing::Test {
     std::filesystem::create_directory(study);
     std::filesystem::copy(folder_.path() / "study.toml", study / "study.toml");
     std::filesystem::copy(folder_.path() / "ball.json", study / "clump.json");
-    folder_.write("study/study.json",
-                  std::string(R"({"study": {"file": "study.toml", "hash": "h", "settings": []},
-                      "method": "joint", "budget": {"name": "standard"}, "pictures": []})"));
-    folder_.write("study/result.json", std::string(R"({"parameters": [
-        {"name": "contact.particle_wall.restitution", "value": 0.5, "interval": [0.4, 0.6],
-         "verdict": "determined"},
-        {"name": "contact.particle_wall.sliding_friction", "value": 0.3, "interval": [0.1, 0.8],
-         "verdict": "undetermined"}]})"));
+    folder_.write("study/study.json", std::string(R"({"program": "repose 0", "method": "joint",
+                      "study": {"file": "study.toml", "hash": "h", "settings": []},
+                      "budget": {"name": "standard", "description": ""}, "pictures": []})"));
+    folder_.write("study/result.json", to_json(calibrate::test::joint_result()));
   }
 
   Finished run(Words words) const {
@@ -54,7 +51,7 @@ TEST_F(Export, WritesDecksAndSaysWhatBecameOfEachCoefficient) {
   EXPECT_THAT(done.out, AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("exact"),
                               HasSubstr("study/export/liggghts")));
   EXPECT_THAT(done.err, HasSubstr("sliding_friction = 0.3 is undetermined"));
-  EXPECT_THAT(text("study/export/liggghts/material.lig"), HasSubstr("peratomtypepair 2 0.5"));
+  EXPECT_THAT(text("study/export/liggghts/material.lig"), HasSubstr("peratomtypepair 2 0.4"));
   EXPECT_THAT(text("study/export/liggghts/README.txt"), HasSubstr("undetermined"));
   EXPECT_THAT(text("study/export/liggghts/drop.lig"), HasSubstr("jump drop.lig next_grain"));
 }
@@ -67,7 +64,7 @@ TEST_F(Export, JsonListsFilesAndConversions) {
   EXPECT_EQ(made["folder"], "tables");
   EXPECT_THAT(made["files"].get<Words>(), AllOf(Contains("values.csv"), Contains("README.txt")));
   EXPECT_EQ(made["conversions"][0]["coefficient"], "contact.particle_wall.restitution");
-  EXPECT_EQ(made["conversions"][0]["exported"], .5);
+  EXPECT_EQ(made["conversions"][0]["exported"], .4);
   EXPECT_EQ(made["conversions"][2]["standing"], "exact");
   EXPECT_FALSE(made["warnings"].empty());
   EXPECT_THAT(text("tables/clump.csv"), HasSubstr("radius_m"));

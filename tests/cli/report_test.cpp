@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/calibrate/made_up_result.h"
 #include "tests/cli/run_program.h"
 #include "tests/support/heap_picture.h"
 #include "vision/picture/picture.h"
@@ -22,9 +23,7 @@ class ReportCommand : public ::testing::Test {
  protected:
   ReportCommand() {
     std::filesystem::create_directory(folder_.path() / "study");
-    folder_.write("study/result.json", std::string(R"({"method": "joint", "parameters": [
-      {"name": "contact.particle_wall.restitution", "value": 0.4, "interval": [0.3, 0.5],
-       "verdict": "determined", "bounds": [0.1, 0.9], "advice": "", "profile": []}]})"));
+    folder_.write("study/result.json", to_json(calibrate::test::joint_result()));
   }
 
   Finished run(std::vector<std::string> words) const {
@@ -46,7 +45,7 @@ TEST_F(ReportCommand, LeavesPageAndTablesInTheFolder) {
   EXPECT_THAT(done.err, IsEmpty());
   EXPECT_THAT(text("study/report.html"), StartsWith("<!doctype html>"));
   EXPECT_THAT(text("study/report.html"), EndsWith("</html>\n"));
-  EXPECT_THAT(text("study/tables/coefficients.csv"), HasSubstr("0.4,0.3,0.5"));
+  EXPECT_THAT(text("study/tables/coefficients.csv"), HasSubstr("0.4,0.35,0.45"));
 }
 
 TEST_F(ReportCommand, PlacesCanBeChosen) {
@@ -76,7 +75,7 @@ TEST_F(ReportCommand, DamagedResultsLeaveTheEarlierPage) {
   folder_.write("study/result.json", std::string("{\"method\""));
   const Finished done = run({"study"});
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_THAT(done.err, HasSubstr("result.json: is damaged"));
+  EXPECT_THAT(done.err, HasSubstr("result.json: is no result"));
   EXPECT_EQ(text("study/report.html"), "earlier");
 }
 

@@ -115,7 +115,8 @@ TEST(ReadScan, TakesMetresWhenToldSoAndSuggestsTheOtherUnit) {
   EXPECT_THAT([&] { dem::read_scan(in_m, ScanUnit::millimetre); },
               refuses(AllOf(HasSubstr("is 0.04 mm long"), HasSubstr("unit is probably m."))));
   const auto in_mm = folder.write("mm.stl", binary_stl(box_surface(20, 30, 40)));
-  EXPECT_THAT([&] { dem::read_scan(in_mm, ScanUnit::metre); }, refuses(HasSubstr("unit is probably mm.")));
+  EXPECT_THAT([&] { dem::read_scan(in_mm, ScanUnit::metre); },
+              refuses(HasSubstr("unit is probably mm.")));
 }
 
 TEST(ReadScan, SaysWhatIsWrongWithAFile) {

@@ -27,7 +27,6 @@ Program program_of(ExportTarget target) {
       return {"lmp", ".lmp"};
     case ExportTarget::yade:
       return {"yade", ".py"};
-    case ExportTarget::mercurydpm:
     case ExportTarget::edem:
       break;
   }

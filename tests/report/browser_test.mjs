@@ -1,9 +1,11 @@
-// Opens reports in Chromium, as a reader would: node browser_test.mjs REPOSE CHROMIUM PHOTOGRAPH HEAP
+// Opens reports in Chromium, as a reader would:
+// node browser_test.mjs REPOSE CHROMIUM PHOTOGRAPH HEAP MADE_UP_RESULT
 //
 //   REPOSE      the program
 //   CHROMIUM    the browser
 //   PHOTOGRAPH  a picture of a heap
 //   HEAP        a study file whose heap is quickly simulated
+//   MADE_UP_RESULT  the program that writes a result
 //
 // What must hold: nothing is fetched, no error is told, no name becomes markup, every chart is drawn
 // with its titles inside it, on a desk and on a telephone, and what can be clicked reacts. Load times
@@ -17,13 +19,14 @@ import {pathToFileURL} from 'node:url';
 import puppeteer from 'puppeteer-core';
 import {writeStudyFolder} from './study_folder.mjs';
 
-const [repose, chromium, photograph, heapStudy] = process.argv.slice(2);
+const [repose, chromium, photograph, heapStudy, madeUpResult] = process.argv.slice(2);
 const kMegabyte = 1e6, kPatience_ms = 240_000;
 
-const run = (...words) => {
-  const {status, stderr} = spawnSync(repose, words, {encoding: 'utf8'});
-  assert.equal(status, 0, `repose ${words.join(' ')}: ${stderr}`);
+const runProgram = (program, ...words) => {
+  const {status, stderr} = spawnSync(program, words, {encoding: 'utf8'});
+  assert.equal(status, 0, `${program} ${words.join(' ')}: ${stderr}`);
 };
+const run = (...words) => runProgram(repose, ...words);
 
 const makeReports = (folder) => {
   const study = join(folder, 'study'), heaps = join(folder, 'heaps');
@@ -31,10 +34,11 @@ const makeReports = (folder) => {
   writeStudyFolder(study, {pictures: [
     {file: photograph, status: 'ok', angle_deg: null, reason: ''},
     {file: '/nowhere/<b>gone.jpg', status: 'ok', angle_deg: 20, reason: ''}]});
+  runProgram(madeUpResult, join(study, 'result.json'));
   copyFileSync(join(heaps, 'heap_seed_1.vtp'), join(study, 'heap.vtp'));
   run('report', study);
   const half = join(folder, 'half');
-  writeStudyFolder(half, {finished: false});
+  writeStudyFolder(half, {runs: true});
   run('report', half, '--tables', 'none');
   const measured = join(folder, 'measured.html');
   run('measure', photograph, '--report', measured);

@@ -1,0 +1,163 @@
+#include "calibrate/report/reported_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/study/study_problem.h"
+
+namespace repose::calibrate::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<SavedRun> runs_of(const JointResult& joint) {
+  std::vector<SavedRun> runs;
+  for (const Run& run : joint.runs) {
+    SavedRun& saved = runs.emplace_back();
+    saved.experiment = run.job.experiment;
+    saved.readings = run.readings;
+    saved.failure = run.failure;
+    for (std::size_t k = 0; k < run.job.values.size(); ++k) {
+      saved.values[joint.parameters[k].name] = run.job.values[k];
+    }
+  }
+  return runs;
+}
+
+std::optional<double> if_finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// "heap.base_radius_mm" is a reading of the heap.
+std::vector<MeasuredNumber> measured_in(const JointResult& joint) {
+  std::vector<MeasuredNumber> numbers;
+  for (const ResultObservable& observable : joint.observables) {
+    const std::size_t dot = observable.name.find('.');
+    numbers.push_back(
+        {.name = observable.name,
+         .experiment = observable.name.substr(0, dot),
+         .reading = dot == std::string::npos ? "value" : observable.name.substr(dot + 1),
+         .unit = observable.unit,
+         .measured = if_finite(observable.measured),
+         .uncertainty = if_finite(observable.measured_uncertainty)});
+  }
+  return numbers;
+}
+
+/// A run as RunFolder saves it; none where the file is damaged.
+std::optional<SavedRun> run_in(const fs::path& file) {
+  try {
+    std::ifstream in(file, std::ios::binary);
+    const auto json = nlohmann::json::parse(in);
+    const auto& simulated = json.at("simulated");
+    SavedRun run{.experiment = simulated.at("experiment"),
+                 .values = {},
+                 .readings = json.at("readings"),
+                 .failure = json.at("failure")};
+    for (const char* pair : {"particle_wall", "particle_particle"}) {
+      const auto contact = simulated.value(pair, nlohmann::json::object());
+      for (const auto& [name, value] : contact.items()) {
+        run.values[fmt::format("contact.{}.{}", pair, name)] = value;
+      }
+    }
+    return run;
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// In the order of their names: folders have none.
+std::vector<SavedRun> runs_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<SavedRun> runs;
+  for (const fs::path& file : files) {
+    if (auto run = run_in(file)) runs.push_back(*std::move(run));
+  }
+  return runs;
+}
+
+/// What a study without a result is to be fitted to, as far as it can be read.
+std::vector<MeasuredNumber> measured_of_record(const fs::path& folder) {
+  std::vector<MeasuredNumber> numbers;
+  try {
+    const StudyRecord record = read_study_record(folder);
+    for (const Observable& observable :
+         problem_of(record.study, record.grain, record.budget).problem.observables) {
+      numbers.push_back({.name = observable.name,
+                         .experiment = observable.experiment,
+                         .reading = observable.reading,
+                         .unit = observable.unit,
+                         .measured = observable.mean,
+                         .uncertainty = std::nullopt});
+      if (observable.sd) numbers.back().uncertainty = standard_uncertainty(observable);
+    }
+  } catch (const std::invalid_argument&) {
+    // A page about the runs is worth having without it.
+    numbers.clear();
+  }
+  return numbers;
+}
+
+}  // namespace
+
+ReportedStudy reported(const StudyResult& result, const std::vector<PictureReading>& pictures,
+                       const fs::path& heap) {
+  ReportedStudy study{.folder = {},
+                      .study = result.provenance.study,
+                      .result = result,
+                      .runs = {},
+                      .measured = {},
+                      .pictures = pictures,
+                      .heap = heap};
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    study.runs = runs_of(*joint);
+    study.measured = measured_in(*joint);
+  }
+  return study;
+}
+
+ReportedStudy read_reported_study(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: there is no such folder. Fix: name the folder that repose calibrate --out wrote.",
+        folder.string()));
+  }
+  const std::optional<StudyNotes> notes = read_study_notes(folder);
+  const std::optional<StudyResult> result = read_result(folder);
+  if (!notes && !result && !fs::is_directory(folder / "runs", ignored)) {
+    throw std::invalid_argument(
+        fmt::format("{}: there is no study in it (no study.json, result.json or runs). Fix: name "
+                    "the folder that repose calibrate --out wrote.",
+                    folder.string()));
+  }
+  const std::vector<PictureReading> pictures =
+      notes ? notes->pictures : decltype(notes->pictures){};
+  ReportedStudy study;
+  if (result && (!notes || is_same_study(result->provenance.study, notes->study))) {
+    const fs::path heap = folder / "heap.vtp";
+    study = reported(*result, pictures, fs::exists(heap, ignored) ? heap : fs::path());
+  } else {
+    study.has_other_result = result.has_value();
+    if (notes) study.study = notes->study;
+    study.runs = runs_in(folder / "runs");
+    study.measured = measured_of_record(folder);
+    study.pictures = pictures;
+  }
+  study.folder = folder;
+  return study;
+}
+
+}  // namespace repose::calibrate::report

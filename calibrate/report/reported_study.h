@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/result/result.h"
+#include "calibrate/study/study_record.h"
+
+namespace repose::calibrate::report {
+
+/// A simulation that was saved.
+struct SavedRun {
+  std::string experiment;
+  std::map<std::string, double> values;  ///< of the coefficients, by full name
+  std::map<std::string, double> readings;
+  std::string failure;  ///< empty: there are readings
+};
+
+/// A number that the bench measured.
+struct MeasuredNumber {
+  std::string name;        ///< "heap", "heap.base_radius_mm"
+  std::string experiment;  ///< "heap"
+  std::string reading;     ///< "value", "base_radius_mm"
+  std::string unit;
+  std::optional<double> measured;
+  std::optional<double> uncertainty;  ///< standard uncertainty of the mean
+};
+
+/// All that a report is made of: a result, or the runs of a study that has none yet.
+struct ReportedStudy {
+  std::filesystem::path folder;        ///< of repose calibrate --out; empty: there is none
+  std::optional<StudyIdentity> study;  ///< none: an unfinished one whose study.json is gone
+  std::optional<StudyResult> result;   ///< none: unfinished
+  bool has_other_result = false;       ///< the folder has a result of other settings
+  std::vector<SavedRun> runs;          ///< of the result, else all that were saved
+  std::vector<MeasuredNumber> measured;
+  std::vector<PictureReading> pictures;  ///< of the bench's heaps
+  std::filesystem::path heap;            ///< state of the simulated one; empty: none
+};
+
+ReportedStudy reported(const StudyResult& result, const std::vector<PictureReading>& pictures,
+                       const std::filesystem::path& heap);
+
+/// @throws std::invalid_argument  no such folder, no study in it, or a damaged file.
+ReportedStudy read_reported_study(const std::filesystem::path& folder);
+
+}  // namespace repose::calibrate::report

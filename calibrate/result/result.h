@@ -1,0 +1,149 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/problem.h"
+#include "calibrate/published/published_method.h"
+#include "calibrate/result/surface_summary.h"
+#include "calibrate/study/study_record.h"
+#include "calibrate/study/study_run.h"
+
+/// What a finished study found: everything that result.json holds, and what reports and exports are
+/// made from. Numbers that do not exist are NaN here and null there.
+namespace repose::calibrate {
+
+/// Numbers by name, in an order of their own.
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+/// What files and tables call verdicts.
+inline constexpr std::array<std::pair<Verdict, std::string_view>, 3> kVerdictNames = {
+    {{Verdict::determined, "determined"},
+     {Verdict::one_sided, "one-sided"},
+     {Verdict::undetermined, "undetermined"}}};
+
+std::string name_of(Verdict verdict);
+
+struct ClumpFacts {
+  std::string source;  ///< the scan, or the sizes it was made from
+  std::size_t spheres = 0;
+  double volume_error = 0;   ///< relative
+  double inertia_error = 0;  ///< relative
+};
+
+/// What coefficients belong to: they mean nothing without it.
+struct Provenance {
+  StudyIdentity study;
+  std::uint64_t first_seed = 0;
+  std::string contact_model;
+  std::string rolling_model;
+  std::string rolling_definition;
+  ClumpFacts clump;
+  NamedValues stiffness_factor;     ///< of each experiment
+  NamedValues shortest_timestep_s;  ///< of each experiment's runs
+};
+
+struct ResultParameter : FittedParameter {
+  Interval bounds;
+  std::optional<Prior> known_before;
+};
+
+/// An observable in simulations of the fitted parameters with fresh seeds.
+struct ObservableCheck {
+  double simulated = 0;         ///< mean of the runs
+  double uncertainty = 0;       ///< standard uncertainty of that
+  double difference_sigma = 0;  ///< (simulated - measured) / both uncertainties
+  int runs = 0;                 ///< with a reading
+  int failed_runs = 0;
+};
+
+struct ResultObservable : FittedObservable {
+  ObservableCheck verification;
+};
+
+/// A set of parameters that fits as well as the best one.
+struct EquivalentSet : ParameterSet {
+  std::optional<bool> verified;   ///< by simulation; none: not simulated
+  std::vector<double> simulated;  ///< each observable there; empty: not simulated
+};
+
+/// A polynomial through the runs of an observable; none where there are too few for one.
+struct ObservableSurface {
+  std::string observable;
+  std::optional<SurfaceSummary> regression;
+};
+
+/// Of fit_jointly(). Vectors of values are in the order of `parameters`, those of observables in
+/// the order of `observables`.
+struct JointResult {
+  std::vector<ResultParameter> parameters;
+  std::vector<ResultObservable> observables;
+  bool verified = false;  ///< the fitted parameters, simulated with fresh seeds, agree
+  double chi2 = 0;
+  std::vector<std::vector<double>> correlation;
+  std::vector<EquivalentSet> equivalence_family;
+  std::vector<std::string> warnings;
+  std::vector<SurrogateQuality> surrogates;  ///< without warp and length scales
+  std::vector<RoundSummary> rounds;
+  std::vector<ResponseCurve> responses;   ///< simulated values to six digits
+  std::vector<ResponseSurface> surfaces;  ///< simulated values to six digits
+  std::vector<ObservableSurface> regressions;
+  std::vector<Run> runs;
+};
+
+struct PublishedVerification {
+  std::vector<PublishedHeap> heaps;
+  std::optional<double> mean_deg;
+  std::optional<double> sd_deg;
+  double measured_deg = 0;
+};
+
+/// Of calibrate_as_published().
+struct PublishedResult {
+  NamedValues values;
+  std::vector<PublishedSweep> sweeps;
+  std::vector<PublishedHeap> steepest_ascent;
+  std::vector<PublishedHeap> composite;
+  SurfaceSummary error_surface;
+  double least_error_percent = 0;
+  PublishedVerification verification;
+  std::vector<SurfaceDiagnostic> warnings;
+};
+
+struct StudyResult {
+  Provenance provenance;
+  std::variant<JointResult, PublishedResult> found;
+};
+
+StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
+                      const StudyOutcome& outcome);
+StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
+                      const PublishedOutcome& outcome);
+
+/// The same text; numbers that do not exist are equal.
+bool operator==(const StudyResult& one, const StudyResult& other);
+
+/// The text of result.json. The same result gives the same bytes.
+std::string to_json(const StudyResult& result);
+
+/// @param name  what errors call the text
+/// @throws std::invalid_argument  it is no result: which part, and why.
+StudyResult result_from_json(const std::string& json, const std::string& name);
+
+/// FOLDER/result.json. None where there is no such file.
+/// @throws std::invalid_argument  it is no result: which part, and why.
+std::optional<StudyResult> read_result(const std::filesystem::path& folder);
+
+/// Of which study a result is, whatever else is in it. None where the text does not say.
+std::optional<StudyIdentity> study_in_result(const std::string& json);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,227 @@
+#pragma once
+
+#include "calibrate/result/json_fields.h"
+#include "calibrate/result/result.h"
+#include "calibrate/result/surface_fields.h"
+
+/// How result.json names the fields of a result.
+namespace repose::calibrate {
+
+template <>
+inline constexpr bool kIsPair<Interval> = true;
+template <>
+inline constexpr bool kIsPair<ProfilePoint> = true;
+
+inline constexpr const auto& names_for(Verdict) { return kVerdictNames; }
+
+template <typename Io>
+void fields(Io& io, Held<Io, StudyIdentity>& study) {
+  io("program", study.program);
+  io.object("study", [&](Io& inner) {
+    inner("file", study.file);
+    inner("hash", study.hash);
+    inner("settings", study.settings);
+  });
+  io.object("budget", [&](Io& inner) {
+    inner("name", study.budget);
+    inner("description", study.budget_description);
+  });
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ClumpFacts>& clump) {
+  io("source", clump.source);
+  io("spheres", clump.spheres);
+  io("volume_error", clump.volume_error);
+  io("inertia_error", clump.inertia_error);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, Provenance>& provenance) {
+  fields(io, provenance.study);
+  io("first_seed", provenance.first_seed);
+  io("contact_model", provenance.contact_model);
+  io("rolling_model", provenance.rolling_model);
+  io("rolling_definition", provenance.rolling_definition);
+  io("clump", provenance.clump);
+  io("stiffness_factor", provenance.stiffness_factor);
+  io("shortest_timestep_s", provenance.shortest_timestep_s);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, Prior>& prior) {
+  io("mean", prior.mean);
+  io("sd", prior.sd);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ResultParameter>& parameter) {
+  io("name", parameter.name);
+  io("value", parameter.value);
+  io("interval", parameter.interval);
+  io("verdict", parameter.verdict);
+  io("bounds", parameter.bounds);
+  io("advice", parameter.advice);
+  io("profile", parameter.profile);
+  if (io.has("known_before", parameter.known_before.has_value())) {
+    io("known_before", parameter.known_before);
+  }
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ObservableCheck>& check) {
+  io("simulated", check.simulated);
+  io("uncertainty", check.uncertainty);
+  io("difference_sigma", check.difference_sigma);
+  io("runs", check.runs);
+  io("failed_runs", check.failed_runs);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ResultObservable>& observable) {
+  io("name", observable.name);
+  io("unit", observable.unit);
+  io("measured", observable.measured);
+  io("sd", observable.measured_sd);
+  io("sd_assumed", observable.sd_assumed);
+  io("measured_uncertainty", observable.measured_uncertainty);
+  io("simulated", observable.simulated);
+  io("simulated_uncertainty", observable.simulated_uncertainty);
+  io("simulated_sd", observable.simulated_sd);
+  io("difference_sigma", observable.difference_sigma);
+  io("reachable", observable.reachable);
+  io("verification", observable.verification);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, EquivalentSet>& set) {
+  by_name(io, "parameters", io.names().parameters, set.values);
+  io("chi2_above_best", set.chi2);
+  io("verified", set.verified);
+  if (io.has("simulated", !set.simulated.empty())) {
+    by_name(io, "simulated", io.names().observables, set.simulated);
+  }
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurrogateQuality>& surrogate) {
+  io("observable", surrogate.observable);
+  io("runs", surrogate.runs);
+  io("failed_runs", surrogate.failed_runs);
+  io("leave_one_out_error", surrogate.leave_one_out_error);
+  io("leave_one_out_sigma", surrogate.leave_one_out_sigma);
+  io("inflation", surrogate.inflation);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, RoundSummary>& round) {
+  io("round", round.round);
+  io("jobs", round.jobs);
+  io("estimated_core_s", round.seconds);
+  by_name(io, "values", io.names().parameters, round.values);
+  by_name(io, "sd", io.names().parameters, round.sd);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ResponseCurve>& curve) {
+  io.place("observable", io.names().observables, curve.observable);
+  io.place("parameter", io.names().parameters, curve.parameter);
+  io("values", curve.values);
+  io("simulated", curve.simulated);
+  io("uncertainty", curve.uncertainty);
+  io("scatter", curve.scatter);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ResponseSurface>& surface) {
+  io.place("observable", io.names().observables, surface.observable);
+  io.place("x_parameter", io.names().parameters, surface.x_parameter);
+  io.place("y_parameter", io.names().parameters, surface.y_parameter);
+  io("x", surface.x);
+  io("y", surface.y);
+  io("simulated", surface.simulated);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ObservableSurface>& surface) {
+  io("observable", surface.observable);
+  io("regression", surface.regression);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, Run>& run) {
+  io("experiment", run.job.experiment);
+  io("seed", run.job.seed);
+  by_name(io, "values", io.names().parameters, run.job.values);
+  io("readings", run.readings);
+  io.text_or_null("failure", run.failure);
+}
+
+template <typename Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+template <typename Io>
+void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& provenance) {
+  io("parameters", joint.parameters);
+  io("observables", joint.observables);
+  io.names() = {names_of(joint.parameters), names_of(joint.observables), {}};
+  io("verified", joint.verified);
+  io("chi2", joint.chi2);
+  io("correlation", joint.correlation);
+  io("equivalence_family", joint.equivalence_family);
+  io("warnings", joint.warnings);
+  io("surrogates", joint.surrogates);
+  io("rounds", joint.rounds);
+  io("responses", joint.responses);
+  io("surfaces", joint.surfaces);
+  io("provenance", provenance);
+  io("regressions", joint.regressions);
+  io("runs", joint.runs);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, PublishedSweep>& sweep) {
+  io("parameter", sweep.parameter);
+  io("observable", sweep.observable);
+  io("measured", sweep.measured);
+  io("levels", sweep.levels);
+  io("results", sweep.results);
+  io("value", sweep.value);
+  io("reached", sweep.is_reached);
+  io("r2", sweep.r2);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, PublishedHeap>& heap) {
+  spread(io, {"restitution", "sliding_friction", "rolling_friction"}, heap.coefficients);
+  io("angle_deg", heap.angle_deg);
+  io("error_percent", heap.error_percent);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, PublishedVerification>& verification) {
+  io("heaps", verification.heaps);
+  io("mean_deg", verification.mean_deg);
+  io("sd_deg", verification.sd_deg);
+  io("measured_deg", verification.measured_deg);
+}
+
+template <typename Io>
+void published_fields(Io& io, Held<Io, PublishedResult>& published,
+                      Held<Io, Provenance>& provenance) {
+  io("values", published.values);
+  io("sweeps", published.sweeps);
+  io("steepest_ascent", published.steepest_ascent);
+  io("composite", published.composite);
+  io("error_surface", published.error_surface);
+  io("least_error_percent", published.least_error_percent);
+  io("verification", published.verification);
+  io("warnings", published.warnings);
+  io("provenance", provenance);
+}
+
+}  // namespace repose::calibrate

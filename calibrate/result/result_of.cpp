@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "calibrate/result/result.h"
+#include "calibrate/result/runs_surface.h"
+#include "calibrate/statistics/summary.h"
+#include "calibrate/study/study_simulator.h"
+#include "dem/contact/rolling_name.h"
+#include "dem/study/experiment_table.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// Curves and surfaces are there to be drawn: six digits.
+void round_for_drawing(std::vector<double>& values) {
+  for (double& value : values) value = std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+std::vector<ResultParameter> parameters_of(const Problem& problem, const JointFit& fit) {
+  std::vector<ResultParameter> parameters;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const Parameter& sought = problem.parameters[k];
+    parameters.push_back({fit.parameters[k], {sought.min, sought.max}, sought.prior});
+  }
+  return parameters;
+}
+
+std::vector<ResultObservable> observables_of(const StudyOutcome& outcome) {
+  std::vector<ResultObservable> observables;
+  for (std::size_t k = 0; k < outcome.fit.observables.size(); ++k) {
+    const Agreement& checked = outcome.best.observables[k];
+    observables.push_back({outcome.fit.observables[k],
+                           {.simulated = checked.simulated,
+                            .uncertainty = checked.simulated_uncertainty,
+                            .difference_sigma = checked.difference_sigma,
+                            .runs = checked.runs,
+                            .failed_runs = checked.failed_runs}});
+  }
+  return observables;
+}
+
+std::vector<EquivalentSet> family_of(const StudyOutcome& outcome) {
+  std::vector<EquivalentSet> family;
+  for (const ParameterSet& set : outcome.fit.equivalence_family) {
+    family.push_back({set, std::nullopt, {}});
+  }
+  for (std::size_t k = 0; k < outcome.family.size(); ++k) {
+    family[k].verified = outcome.family[k].agrees;
+    for (const Agreement& agreement : outcome.family[k].observables) {
+      family[k].simulated.push_back(agreement.simulated);
+    }
+  }
+  return family;
+}
+
+std::vector<ObservableSurface> regressions_of(const Problem& problem,
+                                              const std::vector<Run>& runs) {
+  std::vector<ObservableSurface> regressions;
+  for (const Observable& observable : problem.observables) {
+    ObservableSurface& surface = regressions.emplace_back();
+    surface.observable = observable.name;
+    const auto report = surface_of_runs(problem, observable, runs);
+    if (!report) continue;
+    surface.regression = summary_of(*report);
+    surface.regression->runs.clear();
+  }
+  return regressions;
+}
+
+/// Of the runs of each experiment, in the order of its name.
+NamedValues shortest_timesteps(const std::vector<Run>& runs) {
+  std::map<std::string, double> shortest;
+  for (const Run& run : runs) {
+    const auto step = run.readings.find("timestep_s");
+    if (step == run.readings.end()) continue;
+    const auto [place, is_new] = shortest.try_emplace(run.job.experiment, step->second);
+    if (!is_new) place->second = std::min(place->second, step->second);
+  }
+  return {shortest.begin(), shortest.end()};
+}
+
+Provenance provenance_of(const StudyRecord& record, const Problem& problem,
+                         const std::vector<Run>& runs) {
+  const dem::Study& study = record.study;
+  NamedValues stiffness;
+  for (const Experiment& experiment : problem.experiments) {
+    const dem::Experiment simulated = dem::experiment_named(experiment.name).experiment;
+    stiffness.emplace_back(experiment.name, dem::model_for(study, simulated).stiffness_factor);
+  }
+  return {.study = identity_of(record),
+          .first_seed = study.seed,
+          .contact_model = std::string(dem::kContactModel),
+          .rolling_model = dem::name_of(study.model.rolling),
+          .rolling_definition = dem::rolling_definition(study.model.rolling),
+          .clump = {.source = record.grain.source,
+                    .spheres = record.grain.shape.spheres.size(),
+                    .volume_error = record.grain.errors.volume_error,
+                    .inertia_error = record.grain.errors.inertia_error},
+          .stiffness_factor = stiffness,
+          .shortest_timestep_s = shortest_timesteps(runs)};
+}
+
+PublishedVerification verification_of(const PublishedOutcome& outcome) {
+  PublishedVerification verification{.heaps = outcome.verification,
+                                     .mean_deg = {},
+                                     .sd_deg = {},
+                                     .measured_deg = outcome.measured_angle_deg};
+  std::vector<double> angles;
+  for (const PublishedHeap& heap : outcome.verification) {
+    if (heap.angle_deg) angles.push_back(*heap.angle_deg);
+  }
+  if (angles.empty()) return verification;
+  const Summary summary = summarise(angles);
+  verification.mean_deg = summary.mean;
+  verification.sd_deg = summary.sd;
+  return verification;
+}
+
+}  // namespace
+
+StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
+                      const StudyOutcome& outcome) {
+  const JointFit& fit = outcome.fit;
+  JointResult joint{.parameters = parameters_of(problem.problem, fit),
+                    .observables = observables_of(outcome),
+                    .verified = outcome.best.agrees,
+                    .chi2 = fit.chi2,
+                    .correlation = fit.correlation,
+                    .equivalence_family = family_of(outcome),
+                    .warnings = problem.notes,
+                    .surrogates = fit.surrogates,
+                    .rounds = fit.rounds,
+                    .responses = fit.curves,
+                    .surfaces = fit.surfaces,
+                    .regressions = regressions_of(problem.problem, outcome.runs),
+                    .runs = outcome.runs};
+  for (const auto* more : {&outcome.notes, &fit.warnings}) {
+    joint.warnings.insert(joint.warnings.end(), more->begin(), more->end());
+  }
+  for (SurrogateQuality& surrogate : joint.surrogates) {
+    surrogate.warp = 0;
+    surrogate.length_scales.clear();
+  }
+  for (ResponseCurve& curve : joint.responses) {
+    for (auto* values : {&curve.simulated, &curve.uncertainty, &curve.scatter}) {
+      round_for_drawing(*values);
+    }
+  }
+  for (ResponseSurface& surface : joint.surfaces) {
+    for (std::vector<double>& row : surface.simulated) round_for_drawing(row);
+  }
+  return {.provenance = provenance_of(record, problem.problem, outcome.runs),
+          .found = std::move(joint)};
+}
+
+StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
+                      const PublishedOutcome& outcome) {
+  PublishedResult published{.values = {},
+                            .sweeps = outcome.sweeps,
+                            .steepest_ascent = outcome.ascent,
+                            .composite = outcome.composite,
+                            .error_surface = summary_of(outcome.surface),
+                            .least_error_percent = outcome.surface.extremes.least.value,
+                            .verification = verification_of(outcome),
+                            .warnings = outcome.surface.diagnostics};
+  for (std::size_t k = 0; k < outcome.values.size(); ++k) {
+    published.values.emplace_back(problem.problem.parameters[k].name, outcome.values[k]);
+  }
+  published.error_surface.runs.clear();  // they are the composite design
+  return {.provenance = provenance_of(record, problem.problem, {}), .found = std::move(published)};
+}
+
+}  // namespace repose::calibrate

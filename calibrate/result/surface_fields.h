@@ -1,0 +1,127 @@
+#pragma once
+
+#include "calibrate/result/json_fields.h"
+#include "calibrate/result/surface_summary.h"
+
+/// How files name the fields of a fitted surface.
+namespace repose::calibrate {
+
+inline constexpr const auto& names_for(SurfaceModel) { return kSurfaceModelNames; }
+inline constexpr const auto& names_for(SurfaceShape) { return kSurfaceShapeNames; }
+
+template <typename Io>
+void fields(Io& io, Held<Io, Variance>& variance) {
+  io("sum_of_squares", variance.sum_of_squares);
+  io("df", variance.df);
+  io.derived("mean_square", variance.df > 0 ? std::optional(variance.mean_square()) : std::nullopt);
+  io("f", variance.f);
+  io("p", variance.p);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceFactor>& factor) {
+  io("name", factor.name);
+  io("coded_minus_1", factor.low);
+  io("coded_plus_1", factor.high);
+  io("box", factor.box);
+  io("all_terms", factor.all_terms);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceTerm>& term) {
+  io("term", term.term);
+  io("value", term.value);
+  io("standard_error", term.standard_error);
+  io("t", term.t);
+  io("p", term.p);
+  io("interval", term.interval);
+  io("partial_sum_of_squares", term.partial_sum_of_squares);
+  io("natural", term.natural);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceVariances>& anova) {
+  io("model", anova.model);
+  io("residual", anova.residual);
+  io("lack_of_fit", anova.lack_of_fit);
+  io("pure_error", anova.pure_error);
+  io("total", anova.total);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfacePoint>& point) {
+  by_name(io, "levels", io.names().factors, point.natural);
+  by_name(io, "coded", io.names().factors, point.coded);
+  io("value", point.value);
+  io("uncertainty", point.uncertainty);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, CanonicalAxis>& axis) {
+  io("curvature", axis.curvature);
+  io("uncertainty", axis.uncertainty);
+  by_name(io, "direction", io.names().factors, axis.direction);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, CanonicalForm>& form) {
+  io("shape", form.shape);
+  io("stationary_point", form.stationary);
+  io("inside_box", form.is_inside);
+  io("axes", form.axes);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceCrossing>& crossing) {
+  io.place("along", io.names().factors, crossing.factor);
+  by_name(io, "levels", io.names().factors, crossing.levels);
+  io("uncertainty", crossing.uncertainty);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceTarget>& target) {
+  io("value", target.value);
+  io("reached", target.is_reached);
+  by_name(io, "ranges", io.names().factors, target.ranges);
+  io("through_centre", target.through_centre);
+  io("points", target.points);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, FittedRun>& run) {
+  io("coded", run.coded);
+  io("response", run.response);
+  io("fitted", run.fitted);
+  io.derived("residual", run.response - run.fitted);
+  io("leverage", run.leverage);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceDiagnostic>& diagnostic) {
+  io("code", diagnostic.code);
+  io("message", diagnostic.message);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceSummary>& surface) {
+  io("response", surface.response);
+  io("model", surface.model);
+  io("factors", surface.factors);
+  io.names().factors.clear();
+  for (const SurfaceFactor& factor : surface.factors) io.names().factors.push_back(factor.name);
+  io("coefficients", surface.coefficients);
+  io("anova", surface.anova);
+  io("residual_sd", surface.residual_sd);
+  io("r2", surface.r2);
+  io("r2_adjusted", surface.r2_adjusted);
+  io("r2_predicted", surface.r2_predicted);
+  io("press", surface.press);
+  io("canonical", surface.canonical);
+  io("lowest_in_box", surface.extremes.least);
+  io("highest_in_box", surface.extremes.greatest);
+  io("target", surface.target);
+  if (io.has("runs", !surface.runs.empty())) io("runs", surface.runs);
+  io("warnings", surface.warnings);
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/statistics/regress/surface_report.h"
+
+namespace repose::calibrate {
+
+/// A factor of a fitted surface: the levels of its runs, and what all of its terms explain.
+struct SurfaceFactor : Factor {
+  std::array<double, 2> box{};  ///< lowest and highest level, natural
+  Variance all_terms;
+};
+
+struct SurfaceTerm {
+  std::string term;                  ///< "1", "e", "e*mu", "e^2"
+  double value = 0;                  ///< of the coded factors
+  double standard_error = 0;         ///< of that
+  std::optional<double> t, p;        ///< of that
+  std::array<double, 2> interval{};  ///< 95 %, of that
+  double partial_sum_of_squares = 0;
+  double natural = 0;  ///< of the factors in their own units
+};
+
+struct SurfaceVariances {
+  Variance model;  ///< all terms but the constant
+  Variance residual;
+  std::optional<Variance> lack_of_fit;
+  std::optional<Variance> pure_error;
+  Variance total;
+};
+
+/// A point of the surface that has the wanted value.
+struct SurfaceCrossing {
+  std::size_t factor = 0;             ///< along whose line it was found
+  std::vector<double> levels;         ///< natural
+  std::optional<double> uncertainty;  ///< half-width of the level's 95 % interval, natural
+};
+
+struct SurfaceTarget {
+  double value = 0;
+  bool is_reached = false;
+  std::vector<std::vector<std::array<double, 2>>> ranges;  ///< natural intervals of each factor
+  std::vector<SurfaceCrossing> through_centre;
+  std::vector<SurfaceCrossing> points;
+};
+
+/// A fitted surface as files hold it. Vectors of levels are in the order of `factors`.
+struct SurfaceSummary {
+  std::string response;
+  SurfaceModel model = SurfaceModel::quadratic;
+  std::vector<SurfaceFactor> factors;
+  std::vector<SurfaceTerm> coefficients;
+  SurfaceVariances anova;
+  double residual_sd = 0;
+  double r2 = 0;
+  double r2_adjusted = 0;
+  std::optional<double> r2_predicted;
+  std::optional<double> press;
+  std::optional<CanonicalForm> canonical;
+  BoxExtremes extremes;
+  std::optional<SurfaceTarget> target;
+  std::vector<FittedRun> runs;  ///< empty in a study's result, which has all runs itself
+  std::vector<SurfaceDiagnostic> warnings;
+};
+
+SurfaceSummary summary_of(const SurfaceReport& report);
+
+/// As an object; numbers that do not exist are null.
+std::string to_json(const SurfaceSummary& summary);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calibrate/statistics/regress/surface.h"
+
+namespace repose::calibrate {
+
+/// A fitted surface and all that follows from it.
+struct SurfaceReport {
+  Regression fit;
+  std::optional<CanonicalForm> form;
+  BoxExtremes extremes;
+  std::optional<TargetSet> target;
+  std::vector<SurfaceDiagnostic> diagnostics;
+};
+
+/// @param target  a response that is wanted
+SurfaceReport report_on(Regression fit, std::optional<double> target);
+
+/// What files and tables call models and shapes.
+inline constexpr std::array<std::pair<SurfaceModel, std::string_view>, 3> kSurfaceModelNames = {
+    {{SurfaceModel::linear, "linear"},
+     {SurfaceModel::interaction, "interaction"},
+     {SurfaceModel::quadratic, "quadratic"}}};
+inline constexpr std::array<std::pair<SurfaceShape, std::string_view>, 3> kSurfaceShapeNames = {
+    {{SurfaceShape::minimum, "minimum"},
+     {SurfaceShape::maximum, "maximum"},
+     {SurfaceShape::saddle, "saddle"}}};
+
+std::string name_of(SurfaceModel model);
+std::string name_of(SurfaceShape shape);
+
+}  // namespace repose::calibrate

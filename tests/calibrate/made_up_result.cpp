@@ -1,0 +1,177 @@
+#include "tests/calibrate/made_up_result.h"
+
+namespace repose::calibrate::test {
+namespace {
+
+constexpr const char* kRestitution = "contact.particle_wall.restitution";
+constexpr const char* kSliding = "contact.particle_wall.sliding_friction";
+
+Provenance provenance(const std::string& method) {
+  return {.study = {.program = "repose 0",
+                    .file = "nuts.toml",
+                    .hash = "abc-1",
+                    .settings = {"a.b=1"},
+                    .method = method,
+                    .budget = "standard",
+                    .budget_description = "long"},
+          .first_seed = 7,
+          .contact_model = "Hertz-Mindlin (no slip)",
+          .rolling_model = "constant_torque",
+          .rolling_definition = "mu_r F_n times x",
+          .clump = {.source = "nut.stl", .spheres = 11, .volume_error = .01, .inertia_error = .02},
+          .stiffness_factor = {{"drop", 1}, {"heap", .01}},
+          .shortest_timestep_s = {{"drop", 1e-6}}};
+}
+
+FittedParameter restitution() {
+  return {.name = kRestitution,
+          .value = .4,
+          .interval = {.35, .45},
+          .verdict = Verdict::determined,
+          .advice = "",
+          .profile = {{.3, 5}, {.4, 0}, {.5, 6}}};
+}
+
+FittedParameter sliding() {
+  return {.name = kSliding,
+          .value = .3,
+          .interval = {.1, .8},
+          .verdict = Verdict::undetermined,
+          .advice = "tilt a plate",
+          .profile = {}};
+}
+
+FittedObservable drop() {
+  return {.name = "drop",
+          .unit = "mm",
+          .measured = 25,
+          .measured_sd = 1,
+          .sd_assumed = false,
+          .measured_uncertainty = .5,
+          .simulated = 25.1,
+          .simulated_uncertainty = .2,
+          .simulated_sd = .4,
+          .difference_sigma = .1,
+          .reachable = {1, 80}};
+}
+
+SurfacePoint point(double x, double y) {
+  return {.coded = {x, y}, .natural = {.5 + x / 2, .4 + y / 4}, .value = 3, .uncertainty = .5};
+}
+
+/// Over both coefficients.
+SurfaceSummary surface() {
+  const Variance variance{.sum_of_squares = 12.5, .df = 3, .f = 9.25, .p = .001};
+  SurfaceFactor first{{.name = kRestitution, .low = 0, .high = 1}, {0, 1}, variance};
+  SurfaceFactor second{{.name = kSliding, .low = .15, .high = .65}, {.15, .65}, variance};
+  return {
+      .response = "drop",
+      .model = SurfaceModel::quadratic,
+      .factors = {first, second},
+      .coefficients = {{.term = std::string(kRestitution) + "^2",
+                        .value = 20,
+                        .standard_error = 1,
+                        .t = 20,
+                        .p = {},
+                        .interval = {18, 22},
+                        .partial_sum_of_squares = 4,
+                        .natural = 40}},
+      .anova = {.model = variance,
+                .residual = {.sum_of_squares = 1, .df = 0, .f = {}, .p = {}},
+                .lack_of_fit = variance,
+                .pure_error = {},
+                .total = variance},
+      .residual_sd = .5,
+      .r2 = .9,
+      .r2_adjusted = .8,
+      .r2_predicted = {},
+      .press = 3,
+      .canonical = CanonicalForm{.axes = {{.curvature = 2, .uncertainty = 1, .direction = {0, 1}}},
+                                 .stationary = point(.5, .5),
+                                 .is_inside = true,
+                                 .shape = SurfaceShape::saddle},
+      .extremes = {.least = point(-1, 0), .greatest = point(1, 1)},
+      .target =
+          SurfaceTarget{.value = 25,
+                        .is_reached = true,
+                        .ranges = {{{.2, .3}, {.5, .6}}, {}},
+                        .through_centre = {{.factor = 1, .levels = {.5, .4}, .uncertainty = {}}},
+                        .points = {{.factor = 0, .levels = {.2, .3}, .uncertainty = .1}}},
+      .runs = {},
+      .warnings = {{.code = "ridge", .message = "a ridge"}}};
+}
+
+}  // namespace
+
+StudyResult joint_result() {
+  JointResult joint{
+      .parameters = {{restitution(), {.1, .9}, Prior{.mean = .5, .sd = .2}},
+                     {sliding(), {.1, .8}, {}}},
+      .observables = {{drop(),
+                       {.simulated = 25.4,
+                        .uncertainty = .3,
+                        .difference_sigma = .6,
+                        .runs = 3,
+                        .failed_runs = 1}}},
+      .verified = true,
+      .chi2 = .5,
+      .correlation = {{1, .25}, {.25, 1}},
+      .equivalence_family = {{{{.41, .5}, 1.5}, false, {26}}, {{{.39, .7}, 2.5}, {}, {}}},
+      .warnings = {"a <b>bold</b> warning"},
+      .surrogates = {{.observable = "drop",
+                      .runs = 12,
+                      .failed_runs = 1,
+                      .warp = 0,
+                      .length_scales = {},
+                      .leave_one_out_sigma = 1.25,
+                      .leave_one_out_error = .75,
+                      .inflation = 1.5}},
+      .rounds = {{.round = 1, .jobs = 12, .seconds = 30, .values = {.45, .4}, .sd = {.1, .2}}},
+      .responses = {{.observable = 0,
+                     .parameter = 0,
+                     .values = {.1, .9},
+                     .simulated = {1, 80},
+                     .uncertainty = {.1, .2},
+                     .scatter = {.5, .5}}},
+      .surfaces = {{.observable = 0,
+                    .x_parameter = 0,
+                    .y_parameter = 1,
+                    .x = {.1, .9},
+                    .y = {.1, .8},
+                    .simulated = {{1, 80}, {2, 81}}}},
+      .regressions = {{"drop", surface()}, {"tilt", {}}},
+      .runs = {{.job = {.experiment = "drop", .values = {.2, .3}, .seed = 1},
+                .readings = {{"value", 7}},
+                .failure = ""},
+               {.job = {.experiment = "drop", .values = {.9, .3}, .seed = 2},
+                .readings = {},
+                .failure = "nothing was seen"}}};
+  return {.provenance = provenance("joint"), .found = joint};
+}
+
+StudyResult published_result() {
+  PublishedResult published{
+      .values = {{kRestitution, .31}, {kSliding, .25}},
+      .sweeps = {{.parameter = kRestitution,
+                  .observable = "drop",
+                  .measured = 4,
+                  .levels = {0, 1, 2, 3},
+                  .results = {0, 1, 4, 9},
+                  .value = 2,
+                  .is_reached = true,
+                  .r2 = 1}},
+      .steepest_ascent = {{.coefficients = {.1, .1, .01}, .angle_deg = 20, .error_percent = 14},
+                          {.coefficients = {.2, .2, .02}, .angle_deg = {}, .error_percent = {}}},
+      .composite = {{.coefficients = {.1, .2, .01}, .angle_deg = 22, .error_percent = 6}},
+      .error_surface = surface(),
+      .least_error_percent = 1.5,
+      .verification =
+          {.heaps = {{.coefficients = {.1, .2, .02}, .angle_deg = 23, .error_percent = 1.7}},
+           .mean_deg = 23,
+           .sd_deg = {},
+           .measured_deg = 23.4},
+      .warnings = {{.code = "ridge", .message = "a ridge"}}};
+  return {.provenance = provenance("paper"), .found = published};
+}
+
+}  // namespace repose::calibrate::test

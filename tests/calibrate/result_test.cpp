@@ -1,0 +1,182 @@
+#include "calibrate/result/result.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/fit/propose.h"
+#include "tests/calibrate/made_up_result.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::ThrowsMessage;
+
+const std::string kName = "FOLDER/result.json";
+
+std::vector<StudyResult> both() { return {test::joint_result(), test::published_result()}; }
+
+JointResult& joint_in(StudyResult& result) { return std::get<JointResult>(result.found); }
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Result, OfBothMethodsComesBackFromItsText) {
+  for (const StudyResult& result : both()) {
+    const std::string text = to_json(result);
+    EXPECT_TRUE(result_from_json(text, kName) == result);
+    EXPECT_EQ(to_json(result_from_json(text, kName)), text);
+  }
+}
+
+TEST(Result, NumbersThatDoNotExistAreNull) {
+  StudyResult result = test::joint_result();
+  joint_in(result).observables[0].verification.simulated = std::nan("");
+  joint_in(result).parameters[0].interval.high = std::numeric_limits<double>::infinity();
+  const std::string text = to_json(result);
+  EXPECT_THAT(text, AllOf(HasSubstr("\"simulated\": null"), HasSubstr("0.35,\n        null")));
+  StudyResult read = result_from_json(text, kName);
+  EXPECT_TRUE(std::isnan(joint_in(read).observables[0].verification.simulated));
+  EXPECT_TRUE(std::isnan(joint_in(read).parameters[0].interval.high));
+  EXPECT_EQ(to_json(read), text);
+}
+
+TEST(Result, NamesNeedNotBeUtf8) {
+  StudyResult result = test::joint_result();
+  result.provenance.study.file = "n\xFCsse.toml";
+  EXPECT_EQ(result_from_json(to_json(result), kName).provenance.study.file,
+            "n\xEF\xBF\xBDsse.toml");
+}
+
+TEST(Result, ErrorsSayWhatIsWrongAndWhere) {
+  const std::string joint = to_json(test::joint_result());
+  const std::string published = to_json(test::published_result());
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"", "parse error"},
+      {"[1]", "all of it: must be an object"},
+      {"{}", "method: is missing"},
+      {with(joint, "\"joint\"", "\"best\""), "method: \"best\" must be joint or paper"},
+      {with(joint, "\"determined\"", "\"sure\""),
+       "parameters[0].verdict: \"sure\" must be one of determined, one-sided, undetermined"},
+      {with(joint, "\"value\": 0.4", "\"value\": \"0.4\""),
+       "parameters[0].value: must be a number or null"},
+      {with(joint, "\"first_seed\": 7", "\"first_seed\": 7.5"),
+       "provenance.first_seed: must be a whole number"},
+      {with(joint, "\"observable\": \"drop\",\n      \"parameter\"",
+            "\"observable\": \"roll\",\n      \"parameter\""),
+       "responses[0].observable: \"roll\" is not known here"},
+      {with(joint, "\"scatter\": [\n        0.5,\n", "\"scatter\": [\n"),
+       "responses[0]: its lists"},
+      {with(published, "\"levels\": [\n        0.0,\n", "\"levels\": [\n"), "sweeps: levels and"},
+      {with(published, "\"r2\": 1.0", "\"r3\": 1.0"), "sweeps[0].r2: is missing"}};
+  for (const auto& [text, message] : wrong) {
+    EXPECT_THAT([&text = text] { result_from_json(text, kName); },
+                ThrowsMessage<std::invalid_argument>(
+                    AllOf(HasSubstr(kName), HasSubstr(message), HasSubstr("Fix: "))));
+  }
+}
+
+// Whatever becomes of the text, it is read or refused.
+TEST(Result, DamagedTextIsNeverMoreThanRefused) {
+  for (const StudyResult& result : both()) {
+    const std::string text = to_json(result);
+    for (std::size_t k = 0; k < text.size(); k += 7) {
+      for (const char* instead : {"", "[", "\"", "9"}) {
+        std::string damaged = text;
+        damaged.replace(k, 1, instead);
+        try {
+          result_from_json(damaged, kName);
+        } catch (const std::invalid_argument& refused) {
+          EXPECT_THAT(refused.what(), HasSubstr("Fix: "));
+        }
+      }
+    }
+  }
+}
+
+TEST(Result, IsReadFromItsFolder) {
+  const repose::testing::TemporaryFolder folder;
+  EXPECT_FALSE(read_result(folder.path()));
+  folder.write("result.json", to_json(test::joint_result()));
+  EXPECT_TRUE(read_result(folder.path()) == test::joint_result());
+}
+
+TEST(Result, SaysOfWhichStudyItIsEvenWhenTheRestIsUnknown) {
+  const std::string text = to_json(test::published_result());
+  for (const std::string& each : {text, with(text, "\"sweeps\"", "\"of another version\"")}) {
+    EXPECT_EQ(study_in_result(each)->hash, "abc-1");
+    EXPECT_EQ(study_in_result(each)->method, "paper");
+  }
+  EXPECT_FALSE(study_in_result("{}"));
+  EXPECT_FALSE(study_in_result("no JSON"));
+}
+
+/// A tilting plate that slides at 50 degrees per unit of friction, fitted and checked.
+struct MadeUpStudy {
+  StudyRecord record;
+  StudyProblem problem;
+  StudyOutcome outcome;
+};
+
+MadeUpStudy plate() {
+  MadeUpStudy made;
+  made.record.method = "joint";
+  made.record.budget = budget_named("quick");
+  made.record.study.file = "folder/plate.toml";
+  made.problem.notes = {"a note"};
+  Problem& problem = made.problem.problem;
+  problem.parameters = {{"friction", .1, .8, Prior{.4, .3}}};
+  problem.experiments = {{"tilt", {0}, .5, false, {"value"}}};
+  problem.observables = {{"tilt", "tilt", "value", "deg", 20, .9, 10, {}}};
+  const auto run = [](const std::vector<Job>& jobs) {
+    std::vector<Run> runs;
+    for (const Job& job : jobs) {
+      runs.push_back({job, {{"value", 50 * job.values[0]}, {"timestep_s", 1e-5}}, ""});
+    }
+    return runs;
+  };
+  StudyOutcome& outcome = made.outcome;
+  outcome.runs = run(propose(problem, {}));
+  outcome.fit = fit_jointly(problem, outcome.runs);
+  const std::vector<double> best = {outcome.fit.parameters[0].value};
+  outcome.best = verify(problem, best, run(verification_jobs(problem, best, 2, 0)), &outcome.fit);
+  outcome.notes = {"another note"};
+  return made;
+}
+
+TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
+  const MadeUpStudy made = plate();
+  StudyResult result = result_of(made.record, made.problem, made.outcome);
+  const JointResult& joint = joint_in(result);
+  ASSERT_THAT(joint.parameters, SizeIs(1));
+  EXPECT_EQ(joint.parameters[0].value, made.outcome.fit.parameters[0].value);
+  EXPECT_EQ(joint.parameters[0].bounds.high, .8);
+  EXPECT_EQ(joint.parameters[0].known_before->mean, .4);
+  EXPECT_EQ(joint.observables[0].verification.runs, 1) << "there is no chance in it";
+  EXPECT_TRUE(joint.verified);
+  EXPECT_EQ(joint.warnings[0], "a note");
+  EXPECT_EQ(joint.warnings[1], "another note");
+  EXPECT_EQ(joint.runs.size(), made.outcome.runs.size());
+  ASSERT_TRUE(joint.regressions[0].regression);
+  EXPECT_NEAR(joint.regressions[0].regression->r2, 1, 1e-9);
+  EXPECT_THAT(joint.regressions[0].regression->runs, IsEmpty());
+  EXPECT_EQ(result.provenance.study.file, "plate.toml");
+  EXPECT_EQ(result.provenance.study.budget, "quick");
+  EXPECT_EQ(result.provenance.shortest_timestep_s, (NamedValues{{"tilt", 1e-5}}));
+  EXPECT_TRUE(result_from_json(to_json(result), kName) == result);
+}
+
+}  // namespace
+}  // namespace repose::calibrate
