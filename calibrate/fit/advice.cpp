@@ -124,8 +124,8 @@ std::string Advisor::advice(std::size_t parameter) const {
                         text.empty() ? "" : "; or ");
   }
   if (text.empty()) {
-    return "no reading known here tells it apart: give it a value from elsewhere, and expect that "
-           "it hardly matters for these experiments";
+    return "not identifiable from these experiments: fix it to a literature value, and expect that "
+           "it hardly matters for them";
   }
   return text;
 }

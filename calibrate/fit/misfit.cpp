@@ -127,15 +127,15 @@ void Misfit::add_observable(std::size_t i, const Point& point, bool with_jacobia
   const double z = (w.mean - target.value) / sigma;
   const auto [value, slope] = robust_ ? robust_residual(z) : std::pair{z, 1.};
   all.values[i] = value;
-  const std::size_t diagnostic = all.values.size() - surrogates_.size() - parameters_.size() + i;
-  const double doubted = std::sqrt(w.variance / sigma2);
-  all.values[diagnostic] = kDistrust * doubted;
+  const std::size_t penalty = all.values.size() - surrogates_.size() - parameters_.size() + i;
+  const double distrust = std::sqrt(w.variance / sigma2);
+  all.values[penalty] = kDistrust * distrust;
   for (std::size_t j = 0; with_jacobian && j < point.size(); ++j) {
     all.jacobian[i][j] =
         slope * (w.mean_gradient[j] / sigma - z * w.variance_gradient[j] / (2 * sigma2));
-    if (doubted > 0) {
-      all.jacobian[diagnostic][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
-                                    (2 * doubted * sigma2 * sigma2);
+    if (distrust > 0) {
+      all.jacobian[penalty][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
+                                 (2 * distrust * sigma2 * sigma2);
     }
   }
 }

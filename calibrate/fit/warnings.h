@@ -8,7 +8,8 @@
 
 namespace repose::calibrate {
 
-/// What a reader of the fit has to know: assumptions, targets out of reach, doubtful surrogates.
+/// What a reader of the fit has to know: assumptions, targets out of reach, surrogates that are
+/// little to be trusted.
 std::vector<std::string> warnings_for(const Problem& problem, const Solution& solution,
                                       const JointFit& fit);
 

@@ -41,8 +41,8 @@ Table coefficients_table(const JointResult& joint) {
                                    {.name = "value", .unit = {}, .decimals = 3},
                                    {.name = "from", .unit = {}, .decimals = 3},
                                    {.name = "to", .unit = {}, .decimals = 3},
-                                   {.name = "sought from", .unit = {}},
-                                   {.name = "sought to", .unit = {}},
+                                   {.name = "lower bound", .unit = {}},
+                                   {.name = "upper bound", .unit = {}},
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}},
               .strip = {{1, 2, 3, 4, 5}}};

@@ -17,7 +17,7 @@ Chapter agreement_chapter(const JointResult& joint);
 Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint);
 /// Each observable over pairs of coefficients, with the line on which it has the measured value.
 Chapter surfaces_chapter(const ReportedStudy& study, const JointResult& joint);
-/// Profile likelihoods, sets that fit as well, correlations.
+/// Profile likelihoods, equally good parameter sets, correlations.
 Chapter knowledge_chapter(const JointResult& joint);
 /// Polynomials through the runs, with their analysis of variance.
 Chapter statistics_chapter(const JointResult& joint);

@@ -236,7 +236,7 @@ Chapter heap_chapter(const HeapPictures& pictures) {
         "the coefficients fit."});
   }
   if (pictures.heap_model) {
-    chapter.blocks.push_back(Heading{"The heap, to be turned"});
+    chapter.blocks.push_back(Heading{"3-D view"});
     chapter.blocks.push_back(ChartRow{{*pictures.heap_model}});
   }
   return chapter;

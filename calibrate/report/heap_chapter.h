@@ -20,7 +20,7 @@ struct HeapPictures {
   std::optional<ShownPicture> outlines;
   std::optional<Chart> outline_chart;
   std::optional<Table> comparison;
-  std::optional<Chart> heap_model;   ///< to be turned
+  std::optional<Chart> heap_model;   ///< the 3-D view
   std::vector<std::string> remarks;  ///< what is not there, and why
 };
 

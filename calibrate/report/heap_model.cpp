@@ -124,8 +124,8 @@ Chart heap_model(const render::Scene& scene) {
     chart.data.add({std::string("grain"), static_cast<double>(grain.shape), mm(place.x()),
                     mm(place.y()), mm(place.z()), turn.w(), turn.x(), turn.y(), turn.z()});
   }
-  chart.caption = fmt::format(
-      "{} grains, to be turned by hand; grains are drawn with few triangles.", scene.grains.size());
+  chart.caption = fmt::format("{} grains; drag to rotate. Each is drawn with few triangles.",
+                              scene.grains.size());
   if (grains.size() < scene.grains.size()) {
     chart.caption += fmt::format(" The {} that lie topmost are shown.", grains.size());
   }

@@ -40,7 +40,7 @@ Chart profile_chart(const ResultParameter& parameter) {
 }
 
 Chart family_chart(const JointResult& joint) {
-  Chart chart = plane_chart("equivalence_family", "Sets that fit as well",
+  Chart chart = plane_chart("equivalence_family", "Equally good parameter sets",
                             {.name = "coefficient", .unit = {}},
                             {.name = "place between the bounds, 0 … 1", .unit = {}});
   chart.x_title = "";
@@ -66,7 +66,7 @@ Chart family_chart(const JointResult& joint) {
 }
 
 Table family_table(const JointResult& joint) {
-  Table table{.name = "equivalence_sets", .title = "Sets that fit as well", .data = {}};
+  Table table{.name = "equivalence_sets", .title = "Equally good parameter sets", .data = {}};
   table.data.columns = {{.name = "set", .unit = {}}};
   for (const ResultParameter& parameter : joint.parameters) {
     table.data.columns.push_back({.name = label_of(parameter.name), .unit = {}});
@@ -105,7 +105,7 @@ Table correlation_table(const JointResult& joint) {
 }  // namespace
 
 Chapter knowledge_chapter(const JointResult& joint) {
-  Chapter chapter{.id = "knowledge", .title = "How well it is known", .blocks = {}};
+  Chapter chapter{.id = "knowledge", .title = "Uncertainty", .blocks = {}};
   ChartRow profiles;
   for (const ResultParameter& parameter : joint.parameters) {
     Chart chart = profile_chart(parameter);

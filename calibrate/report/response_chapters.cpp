@@ -151,7 +151,7 @@ std::vector<Chart> run_charts(const ReportedStudy& study, const MeasuredNumber& 
 }
 
 Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint) {
-  Chapter chapter{.id = "curves", .title = "What moves what", .blocks = {}};
+  Chapter chapter{.id = "curves", .title = "Response curves", .blocks = {}};
   for (std::size_t k = 0; k < joint.observables.size(); ++k) {
     ChartRow row;
     for (const ResponseCurve& curve : joint.responses) {
@@ -189,7 +189,7 @@ Chapter surfaces_chapter(const ReportedStudy& study, const JointResult& joint) {
           "values. The thick black line is the ridge of solutions: every pair on it meets the "
           "measured value, so one experiment alone does not tell the two apart. Where ridges "
           "of several experiments cross, the coefficients are determined."},
-      SurfaceViewer{"One of the surfaces below, to be turned by hand. The black dots are where "
+      SurfaceViewer{"One of the surfaces below; drag to rotate. The black dots are where "
                     "the measured value is met."}};
   chapter.blocks.insert(chapter.blocks.begin(), lead.begin(), lead.end());
   return chapter;

@@ -65,7 +65,7 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
   return true;
 }
 
-/// Simulates some of the sets that fit as well. False when interrupted.
+/// Simulates some of the equally good sets. False when interrupted.
 bool check_family(const Problem& problem, const Budget& budget, JobRunner& runner,
                   StudyOutcome& outcome) {
   const std::vector<ParameterSet>& family = outcome.fit.equivalence_family;
@@ -76,7 +76,7 @@ bool check_family(const Problem& problem, const Budget& budget, JobRunner& runne
                                           kMaxFits + static_cast<int>(k));
     jobs.insert(jobs.end(), of_set.begin(), of_set.end());
   }
-  const auto checks = runner.get("checking sets that fit as well", jobs);
+  const auto checks = runner.get("checking equally good sets", jobs);
   if (!checks) return false;
   for (std::size_t k = 0; k < count; ++k) {
     outcome.family.push_back(verify(problem, family[k].values, *checks, &outcome.fit));

@@ -17,7 +17,7 @@ namespace repose::calibrate {
 struct StudyOutcome {
   JointFit fit;
   Verification best;                 ///< the fitted parameters, simulated with fresh seeds
-  std::vector<Verification> family;  ///< sets that fit as well, simulated
+  std::vector<Verification> family;  ///< equally good parameter sets, simulated
   std::vector<Run> runs;             ///< those that the fit was made from
   std::vector<Run> checks;           ///< those of the fitted parameters with fresh seeds
   std::vector<std::string> notes;    ///< what a reader of the fit must know of its runs

@@ -39,8 +39,8 @@ std::string parameters_text(const calibrate::JointResult& joint) {
 
 std::string observables_text(const calibrate::JointResult& joint) {
   std::string text =
-      fmt::format("\n{}{}{}{:>12}\n", padded("observable", 22), right_aligned("measured", 18),
-                  right_aligned("simulated", 20), "off [sigma]");
+      fmt::format("\n{}{}{}{:>16}\n", padded("observable", 22), right_aligned("measured", 18),
+                  right_aligned("simulated", 20), "difference / σ");
   for (const calibrate::ResultObservable& observable : joint.observables) {
     const calibrate::ObservableCheck& checked = observable.verification;
     const std::string name = observable.unit.empty()
@@ -50,7 +50,7 @@ std::string observables_text(const calibrate::JointResult& joint) {
       return fmt::format("{} ± {}", number(value), number(uncertainty));
     };
     text += fmt::format(
-        "{}{}{}{:>12}\n", padded(name, 22),
+        "{}{}{}{:>16}\n", padded(name, 22),
         right_aligned(pair(observable.measured, observable.measured_uncertainty), 18),
         right_aligned(pair(checked.simulated, checked.uncertainty), 20),
         std::isfinite(checked.difference_sigma) ? fmt::format("{:+.1f}", checked.difference_sigma)
@@ -63,7 +63,7 @@ std::string observables_text(const calibrate::JointResult& joint) {
 
 std::string family_text(const calibrate::JointResult& joint) {
   if (joint.equivalence_family.empty()) return {};
-  std::string text = "\nsets that fit as well, in the order of the coefficients above\n";
+  std::string text = "\nequally good parameter sets, in the order of the coefficients above\n";
   for (const calibrate::EquivalentSet& set : joint.equivalence_family) {
     std::string line = " ";
     for (const double value : set.values) line += fmt::format("{:>8}", number(value));

@@ -45,8 +45,8 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
   const auto result = calibrate::read_result(folder);
   if (!result) {
     throw std::invalid_argument(
-        fmt::format("{}: there is no result.json in it: the study has not ended. Fix: the same "
-                    "repose calibrate again goes on with it.",
+        fmt::format("{}: there is no result.json in it: the study is not finished. Fix: run "
+                    "the same repose calibrate command again; it resumes.",
                     folder.string()));
   }
   return calibrate::export_study(record.study, record.grain.shape,

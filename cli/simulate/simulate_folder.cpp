@@ -89,7 +89,7 @@ std::string saved_text(const SimulatePlan& plan) {
   }
   if (finished + begun == 0) return {};
   return fmt::format(
-      "{}: goes on with an earlier run: of {} {} {} finished already, {} under way. (To start "
+      "{}: resumes an earlier run: of {} {} {} finished already, {} under way. (To start "
       "anew, delete the folder.)",
       plan.out_folder.string(), plan.seeds.size(), plan.seeds.size() == 1 ? "repeat" : "repeats",
       finished, begun);

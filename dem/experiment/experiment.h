@@ -124,7 +124,7 @@ struct Repeat {
   std::shared_ptr<const Simulation> state;
 };
 
-/// Hears now and then how far a run is (0 ... 1); returns false to break it off.
+/// Called periodically with the completed fraction (0 ... 1); returns false to cancel the run.
 using ProgressReport = std::function<bool(double fraction, const Simulation&)>;
 
 /// What a run hands out on its way, beside its reports; each may be left out.

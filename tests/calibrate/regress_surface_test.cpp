@@ -219,7 +219,7 @@ TEST(Target, OutOfReachIsSaid) {
   EXPECT_THAT(codes_of(regression, 500), Contains("target_not_reached"));
 }
 
-TEST(Doubts, HazelnutStudysAnalysisIsDoubted) {
+TEST(SurfaceDiagnostics, HazelnutStudysAnalysisIsDoubted) {
   const std::vector<std::string> codes = codes_of(fit(hazelnut_runs()), 5);
   for (const char* code :
        {"absolute_error", "impossible_values", "no_effect", "ridge", "saddle", "not_determined"}) {
@@ -228,14 +228,14 @@ TEST(Doubts, HazelnutStudysAnalysisIsDoubted) {
   EXPECT_THAT(codes, Not(Contains("lack_of_fit")));
 }
 
-TEST(Doubts, AGoodSurfaceIsNotDoubted) {
+TEST(SurfaceDiagnostics, AGoodSurfaceIsNotDoubted) {
   const auto bowl = [](const std::vector<double>& u) {
     return 20 + 2 * u[0] + 3 * std::pow(u[0] - .1, 2) + 4 * std::pow(u[1] - .2, 2);
   };
   EXPECT_THAT(codes_of(fit(runs_on(kTwo, bowl, .1))), IsEmpty());
 }
 
-TEST(Doubts, ASmoothResponseThatTouchesZeroIsNoAbsoluteError) {
+TEST(SurfaceDiagnostics, ASmoothResponseThatTouchesZeroIsNoAbsoluteError) {
   const auto bowl = [](const std::vector<double>& u) {
     return 10 * (u[0] * u[0] + u[1] * u[1]) + .06;
   };
@@ -247,7 +247,7 @@ TEST(Doubts, ASmoothResponseThatTouchesZeroIsNoAbsoluteError) {
   EXPECT_THAT(codes_of(fit(runs_on(kTwo, plane, .1))), Not(Contains("absolute_error")));
 }
 
-TEST(Doubts, AModelThatIsTooLowDoesNotFit) {
+TEST(SurfaceDiagnostics, AModelThatIsTooLowDoesNotFit) {
   const auto bowl = [](const std::vector<double>& u) { return 9 + u[0] * u[0]; };
   const Regression regression = regress(runs_on(kTwo, bowl, .01), SurfaceModel::linear);
   EXPECT_THAT(codes_of(regression), Contains("lack_of_fit"));

@@ -176,7 +176,9 @@ TEST_F(Calibrate, PicturesWithoutAHeapAreNoMeasurement) {
 TEST_F(Calibrate, ThePapersWayNeedsWhatItsStepsNeed) {
   const Finished refused = run({"study.toml", "--method", "paper"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("--method paper: finds restitution, sliding and rolling"));
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr("the published method: finds restitution, sliding and rolling"),
+                    HasSubstr("--method joint")));
 }
 
 TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {

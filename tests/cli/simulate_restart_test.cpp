@@ -118,7 +118,7 @@ TEST_F(SimulateRestart, AnInterruptedHeapGoesOnToTheSameBytes) {
   }
   const Finished last = run(kHeap);
   EXPECT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_THAT(last.err, HasSubstr("runs: goes on with an earlier run: of 2 repeats 0 finished "
+  EXPECT_THAT(last.err, HasSubstr("runs: resumes an earlier run: of 2 repeats 0 finished "
                                   "already, 1 under way."));
   Words whole = kHeap;
   whole.back() = "whole";

@@ -146,7 +146,7 @@ TEST(Silhouette, PicturesThatCannotBeDrawnAreRefusedInOneLine) {
   for (const PictureSize size : {PictureSize{0, 10}, PictureSize{10, 0}, PictureSize{-1, 10},
                                  PictureSize{16385, 10}, PictureSize{16384, 16384}}) {
     const std::string text = error(size);
-    EXPECT_THAT(text, AllOf(HasSubstr("picture of"), HasSubstr("Rule: "), HasSubstr("Fix: ")));
+    EXPECT_THAT(text, AllOf(HasSubstr("picture size = "), HasSubstr("Rule: "), HasSubstr("Fix: ")));
     EXPECT_EQ(text.find('\n'), std::string::npos);
   }
   EXPECT_EQ(error({1, 1}), "");
