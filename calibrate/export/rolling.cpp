@@ -53,7 +53,6 @@ bool has_equal_radii(const dem::ClumpShape& grain) {
 double lever(ExportTarget target, Partner partner) {
   switch (target) {
     case ExportTarget::yade:  // the mean of both radii
-      return partner == Partner::wall ? 1 : 2;
     case ExportTarget::edem:  // each body's own arm
       return partner == Partner::wall ? 1 : 2;
     case ExportTarget::liggghts:

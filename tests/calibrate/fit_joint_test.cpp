@@ -60,7 +60,7 @@ TEST_F(JointFitOfTheBench, DeterminesTheWallAndHoldsTheTruth) {
 TEST_F(JointFitOfTheBench, SaysThatTheHeapCannotSeeRestitution) {
   const FittedParameter& restitution = fit_->parameters[3];
   EXPECT_EQ(restitution.verdict, Verdict::undetermined);
-  EXPECT_THAT(restitution.advice, HasSubstr("no reading known here"));
+  EXPECT_THAT(restitution.advice, HasSubstr("not identifiable"));
 }
 
 TEST_F(JointFitOfTheBench, NamesTheReadingThatWouldCutTheValley) {

@@ -75,7 +75,7 @@ TEST_F(Export, AnUnfinishedStudyIsRefused) {
   const Finished refused = run({"study", "--to", "yade"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.out, IsEmpty());
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("has not ended"), HasSubstr("Fix: ")));
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("is not finished"), HasSubstr("Fix: ")));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "study/export"));
 }
 
