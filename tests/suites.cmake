@@ -14,6 +14,10 @@ include([[${CMAKE_CURRENT_FUNCTION_LIST_FILE}]])
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
 endfunction()
 
+# Suites that run much of the code hundreds of times, to count how often it is right: they have the
+# label `statistics` too, and are left out where each run takes ten times as long.
+set(statistics "^(vision/Conditions/.*|vision/ComparePictures|calibrate/JointFit|calibrate/Propose)$")
+
 if(PROGRAM)
   execute_process(COMMAND ${PROGRAM} --gtest_list_tests
     OUTPUT_VARIABLE listing RESULT_VARIABLE result TIMEOUT 120)
@@ -26,10 +30,14 @@ if(PROGRAM)
     string(STRIP "${suite}" suite)
     string(REGEX REPLACE "\\.$" "" name "${suite}")
     add_test("${LABEL}/${name}" "${PROGRAM}" "--gtest_filter=${suite}*")
+    set(labels "${LABEL}")
+    if("${LABEL}/${name}" MATCHES "${statistics}")
+      list(APPEND labels statistics)
+    endif()
     # Skipped as a whole: no test passed, and the list of those skipped ends what is said. Where one
     # failed a list of those would follow.
     set_tests_properties("${LABEL}/${name}" PROPERTIES
-      LABELS "${LABEL}"
+      LABELS "${labels}"
       SKIP_REGULAR_EXPRESSION "PASSED  \\] 0 tests\\.\n(\\[  SKIPPED \\][^\n]*\n)+$")
   endforeach()
 endif()
