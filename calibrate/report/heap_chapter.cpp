@@ -16,6 +16,7 @@
 #include "vision/compare/heap_comparison.h"
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/drawing/overlay.h"
+#include "vision/hints/hint_file.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -57,7 +58,8 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
   const std::string name = shortened(picture.file.filename().string());
   try {
     MeasuredHeap heap{.title = name, .picture = vision::read_picture(picture.file), .angle = {}};
-    heap.angle = vision::measure_repose_angle(heap.picture);
+    heap.angle =
+        vision::measure_repose_angle(heap.picture, vision::with_saved_hints({}, picture.file));
     constexpr double kSame_deg = 0.01;
     const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;
     if (picture.angle_deg && std::abs(now_deg - *picture.angle_deg) > kSame_deg) {

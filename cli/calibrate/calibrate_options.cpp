@@ -14,6 +14,7 @@
 #include "cli/common/option_names.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
+#include "vision/hints/hint_file.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/measure/status_name.h"
 #include "vision/picture/picture.h"
@@ -38,7 +39,8 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
 }
 
 calibrate::PictureReading reading_of(const std::filesystem::path& file) {
-  const vision::ReposeAngle angle = vision::measure_repose_angle(vision::read_picture(file));
+  const vision::ReposeAngle angle =
+      vision::measure_repose_angle(vision::read_picture(file), vision::with_saved_hints({}, file));
   calibrate::PictureReading reading{.file = std::filesystem::absolute(file),
                                     .status = name_of(angle.status),
                                     .angle_deg = {},

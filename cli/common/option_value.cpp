@@ -111,10 +111,21 @@ std::optional<std::array<double, 2>> read_range(const Typed& typed, std::string_
   return read_list<double, 2>(typed, "two numbers with a comma between them", fix);
 }
 
+std::optional<std::array<double, 4>> read_line(const Typed& typed) {
+  return read_list<double, 4>(typed, "four numbers X1,Y1,X2,Y2 in pixels",
+                              fmt::format("{} 0,540,1000,545 goes nearly level", typed.option));
+}
+
+std::optional<std::array<double, 2>> read_point(const Typed& typed) {
+  return read_list<double, 2>(typed, "two numbers X,Y in pixels",
+                              fmt::format("{} 320,240", typed.option));
+}
+
 std::optional<std::array<int, 4>> read_box(const Typed& typed) {
   return read_list<int, 4>(
       typed, "four whole numbers X,Y,W,H in pixels",
-      fmt::format("{} 0,0,200,80 leaves out 200 x 80 pixels in the top left corner", typed.option));
+      fmt::format("{} 0,0,200,80 is a box of 200 x 80 pixels in the top left corner",
+                  typed.option));
 }
 
 std::optional<std::array<int, 2>> read_size(const Typed& typed) {

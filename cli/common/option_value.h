@@ -50,6 +50,10 @@ std::optional<std::vector<double>> numbers_in(std::string_view text);
 /// "FROM,TO".
 std::optional<std::array<double, 2>> read_range(const Typed& typed, std::string_view fix);
 
+/// "X1,Y1,X2,Y2" or "X,Y": points of a picture in pixels.
+std::optional<std::array<double, 4>> read_line(const Typed& typed);
+std::optional<std::array<double, 2>> read_point(const Typed& typed);
+
 /// "X,Y,W,H" or "W,H" in pixels.
 std::optional<std::array<int, 4>> read_box(const Typed& typed);
 std::optional<std::array<int, 2>> read_size(const Typed& typed);

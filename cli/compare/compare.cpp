@@ -16,12 +16,14 @@
 #include "cli/compare/compare_options.h"
 #include "cli/compare/compare_table.h"
 #include "vision/drawing/heap_comparison_overlay.h"
+#include "vision/hints/hint_file.h"
 
 namespace repose::cli {
 namespace {
 
 struct MeasuredHeap {
   vision::Picture picture;
+  vision::MeasureOptions used;  ///< with the picture's own hints
   vision::ReposeAngle angle;
   std::string error;
 };
@@ -32,7 +34,8 @@ std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
     const auto names = measuring_names(kExcludeOptions[i]);
     try {
       heaps[i].picture = vision::read_picture(plan.pictures[i]);
-      heaps[i].angle = vision::measure_repose_angle(heaps[i].picture, plan.measuring[i]);
+      heaps[i].used = vision::with_saved_hints(plan.measuring[i], plan.pictures[i]);
+      heaps[i].angle = vision::measure_repose_angle(heaps[i].picture, heaps[i].used);
       name_options(heaps[i].angle, names);
     } catch (const std::invalid_argument& error) {
       heaps[i].error = naming_options(naming_file(plan.pictures[i].string(), error.what()), names);
@@ -41,13 +44,15 @@ std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
   return heaps;
 }
 
-bool is_same_measurement(const ComparePlan& plan, const std::array<MeasuredHeap, 2>& heaps) {
-  const auto& [a, b] = plan.measuring;
+bool is_same_measurement(const std::array<MeasuredHeap, 2>& heaps) {
+  const vision::MeasureOptions& a = heaps[0].used;
+  const vision::MeasureOptions& b = heaps[1].used;
   const auto same_box = [](const vision::Box& p, const vision::Box& q) {
     return p.x == q.x && p.y == q.y && p.width == q.width && p.height == q.height;
   };
   return heaps[0].picture.width == heaps[1].picture.width &&
          heaps[0].picture.bgr == heaps[1].picture.bgr && a.camera_pitch_rad == b.camera_pitch_rad &&
+         a.hints.empty() && b.hints.empty() &&
          std::equal(a.excluded.begin(), a.excluded.end(), b.excluded.begin(), b.excluded.end(),
                     same_box);
 }
@@ -94,7 +99,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
   print_lines(errors);
   if (!errors.empty()) return ExitCode::bad_input;
 
-  plan.comparing.same_measurement = is_same_measurement(plan, heaps);
+  plan.comparing.same_measurement = is_same_measurement(heaps);
   const vision::HeapComparison comparison =
       vision::compare_heaps(heaps[0].angle, heaps[1].angle, plan.comparing);
   write_overlay(plan, heaps[0], comparison);

@@ -13,6 +13,11 @@ struct MeasureArguments {
   std::string method;
   std::string window;
   std::vector<std::string> exclude;
+  std::string heap;
+  std::string ground;
+  std::vector<std::string> keep;
+  std::vector<std::string> drop;
+  std::string mask_file;
   std::string pitch_deg;
   std::string threads;
   std::string overlay_folder;
@@ -21,6 +26,7 @@ struct MeasureArguments {
   std::string summary_file;
   std::string report_file;
   bool shows_definitions = false;
+  bool saves_hints = false;
 };
 
 /// Carries out `repose measure`.

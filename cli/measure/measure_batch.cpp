@@ -12,19 +12,23 @@
 #include "cli/common/picture_options.h"
 #include "cli/common/progress.h"
 #include "vision/drawing/overlay.h"
+#include "vision/hints/hint_file.h"
 #include "vision/picture/picture.h"
 
 namespace repose::cli {
 namespace {
 
-vision::OverlayNotes notes_for(const MeasurePlan& plan, std::size_t index) {
-  return {.title = plan.pictures[index].filename().string(), .excluded = plan.options.excluded};
+vision::OverlayNotes notes_for(const MeasurePlan& plan, std::size_t index,
+                               const vision::MeasureOptions& used) {
+  return {.title = plan.pictures[index].filename().string(),
+          .excluded = used.excluded,
+          .hints = used.hints};
 }
 
 void draw(const vision::Picture& picture, const MeasurePlan& plan, std::size_t index,
           MeasuredPicture& measured) {
   try {
-    const vision::OverlayNotes notes = notes_for(plan, index);
+    const vision::OverlayNotes notes = notes_for(plan, index, measured.used);
     vision::write_picture(plan.overlays[index],
                           vision::draw_overlay(picture, measured.angle, notes));
   } catch (const std::invalid_argument& error) {
@@ -32,20 +36,36 @@ void draw(const vision::Picture& picture, const MeasurePlan& plan, std::size_t i
   }
 }
 
-const auto kNames = measuring_names("--exclude X,Y,W,H");
+const std::vector<OptionName> kNames = [] {
+  const auto common = measuring_names("--exclude X,Y,W,H");
+  std::vector<OptionName> names(common.begin(), common.end());
+  names.push_back({.value = "heap box", .option = "--heap"});
+  names.push_back({.value = "ground points", .option = "--ground"});
+  names.push_back({.value = "place to keep", .option = "--keep"});
+  names.push_back({.value = "place to drop", .option = "--drop"});
+  return names;
+}();
 
 MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
   MeasuredPicture measured;
   measured.file = plan.pictures[index].string();
   try {
     const vision::Picture picture = vision::read_picture(plan.pictures[index]);
-    measured.angle = vision::measure_repose_angle(picture, plan.options);
+    measured.used = vision::with_saved_hints(plan.options, plan.pictures[index]);
+    measured.angle = vision::measure_repose_angle(picture, measured.used);
+    if (measured.angle.status == vision::MeasureStatus::refused) {
+      measured.proposal = vision::propose_hint(picture, measured.used);
+    }
     name_options(measured.angle, kNames);
+    if (plan.saves_hints) {
+      vision::save_hints(measured.used, plan.pictures[index], plan.mask_file);
+    }
     if (!plan.overlays.empty()) draw(picture, plan, index, measured);
     if (plan.keeps_overlays) {
       measured.overlay = calibrate::report::overlay_for_page(
-          picture, measured.angle, notes_for(plan, index), plan.pictures.size());
+          picture, measured.angle, notes_for(plan, index, measured.used), plan.pictures.size());
     }
+    measured.used.hints.mask.bgr = {};
     measured.angle.outline = {};
     measured.angle.upper_edge = {};
     measured.angle.left.edge = {};

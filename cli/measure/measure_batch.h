@@ -2,11 +2,13 @@
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibrate/report/measure_report.h"
 #include "cli/measure/measure_options.h"
+#include "vision/hints/proposal.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
@@ -21,9 +23,11 @@ struct MeasuredPicture {
   std::string file;
   Outcome outcome = Outcome::measured;
   std::string error;
-  vision::ReposeAngle angle;            ///< without the outline and edge points, which are large
-  std::string overlay_error;            ///< why there is no overlay
-  calibrate::report::PageJpeg overlay;  ///< where the plan keeps them
+  vision::ReposeAngle angle;    ///< without the outline and edge points, which are large
+  vision::MeasureOptions used;  ///< with the picture's own hints, without the mask's pixels
+  std::optional<vision::Proposal> proposal;  ///< what would help, when it is refused
+  std::string overlay_error;                 ///< why there is no overlay
+  calibrate::report::PageJpeg overlay;       ///< where the plan keeps them
 };
 
 /// Measures the plan's pictures, several at a time, each from reading to overlay before the next,

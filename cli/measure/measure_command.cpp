@@ -27,6 +27,12 @@ depends on the window: always state it. Other definitions (height over base,
 tangent at half height, whole flank, other windows) are listed by
 --definitions and in the JSON.
 
+Hints: where the heap is not found, say where it is. --heap alone often is
+enough; --ground is needed where the foot is not seen. Positions are in pixels
+from the picture's top left corner. --save-hints writes them, with --exclude
+and --pitch-deg, into PICTURE.repose.toml, which is read whenever PICTURE is
+measured again. What a refused picture needs is tried and proposed.
+
 Uncertainties are half-widths of 95 % intervals. The mean of several pictures
 is over all that could be measured. A flagged picture counts in it, and has a
 warning to be checked by a person; a refused one has a reason instead of an
@@ -45,6 +51,12 @@ Command measure_command() {
                {"--method", "auto|paper", "How to measure (auto)", &given->method},
                {"--window", "FROM,TO", "Part of the height (0.2,0.8)", &given->window},
                {"--exclude", "X,Y,W,H", "Box in pixels to leave out; repeatable", &given->exclude},
+               {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
+               {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
+               {"--keep", "X,Y", "Place on the heap; repeatable", &given->keep},
+               {"--drop", "X,Y", "Place beside the heap; repeatable", &given->drop},
+               {"--mask", "FILE", "Picture: heap light, rest dark", &given->mask_file},
+               {"--save-hints", "", "Keep these beside each picture", &given->saves_hints},
                {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)", &given->pitch_deg},
                {"--overlay", "FOLDER", "Draw what was measured", &given->overlay_folder},
                {"--json", "FILE|-", "All results, for programs", &given->json_file},

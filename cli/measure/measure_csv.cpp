@@ -18,7 +18,7 @@ constexpr const char* kHeader =
     "left_status,left_deg,left_uncertainty_deg,left_r2,left_points,"
     "right_status,right_deg,right_uncertainty_deg,right_r2,right_points,"
     "ground_tilt_deg,window_from,window_to,method,segmentation,confidence,"
-    "strays,grain_px,height_px,base_px,warnings,reason\n";
+    "strays,grain_px,height_px,base_px,hints,warnings,reason\n";
 
 /// One row, field by field.
 class Row {
@@ -71,6 +71,7 @@ std::string measured_line(const MeasuredPicture& picture) {
   row.add_number(angle.grain_px);
   row.add_number(angle.height_px);
   row.add_number(angle.base_px);
+  row.add_text(picture.used.hints.text());
   row.add_text(warning_codes(angle.warnings));
   row.add_text(angle.reason);
   return row.line();
@@ -78,7 +79,7 @@ std::string measured_line(const MeasuredPicture& picture) {
 
 /// Nothing is known of it but why.
 std::string unread_line(const MeasuredPicture& picture) {
-  constexpr int kUnknownFields = 23;  // between status and reason
+  constexpr int kUnknownFields = 24;  // between status and reason
   Row row;
   row.add_text(picture.file);
   row.add_text(name_of(vision::MeasureStatus::refused));

@@ -29,6 +29,7 @@ Json flank_json(const vision::Flank& flank) {
             {"uncertainty_deg", degrees(flank.uncertainty_rad)},
             {"r2", number(flank.r2)},
             {"points", flank.points},
+            {"window_used", flank.window_used ? Json(*flank.window_used) : Json()},
             {"least_squares_deg", degrees(flank.least_squares_rad)},
             {"robust_deg", degrees(flank.robust_rad)},
             {"bend_deg", degrees(flank.bend_rad)},
@@ -55,6 +56,49 @@ Json definitions_json(const std::vector<vision::NamedAngle>& definitions) {
   return json;
 }
 
+Json box_json(const std::optional<vision::Box>& box) {
+  if (!box) return nullptr;
+  return Json::array({box->x, box->y, box->width, box->height});
+}
+
+Json line_json(const std::optional<vision::Segment>& line) {
+  if (!line) return nullptr;
+  return Json::array({line->from.x, line->from.y, line->to.x, line->to.y});
+}
+
+Json places_json(const std::vector<vision::Point>& places) {
+  Json json = Json::array();
+  for (const vision::Point& place : places) json.push_back(Json::array({place.x, place.y}));
+  return json;
+}
+
+/// What a person has said of the picture; null when nothing.
+Json hints_json(const vision::Hints& hints) {
+  if (hints.empty() && hints.source.empty()) return nullptr;
+  return {{"heap", box_json(hints.heap)},
+          {"ground", line_json(hints.ground)},
+          {"keep", places_json(hints.keep)},
+          {"drop", places_json(hints.drop)},
+          {"mask", hints.mask.width > 0},
+          {"file", hints.source.empty() ? Json() : Json(hints.source)}};
+}
+
+Json excluded_json(const std::vector<vision::Box>& boxes) {
+  Json json = Json::array();
+  for (const vision::Box& box : boxes) json.push_back(box_json(box));
+  return json;
+}
+
+/// What would help a refused picture; null when nothing is known.
+Json proposal_json(const std::optional<vision::Proposal>& proposal) {
+  if (!proposal) return nullptr;
+  return {{"exclude", box_json(proposal->excluded)},
+          {"heap", box_json(proposal->heap)},
+          {"ground", line_json(proposal->ground)},
+          {"angle_deg", degrees(proposal->angle_rad)},
+          {"uncertainty_deg", degrees(proposal->uncertainty_rad)}};
+}
+
 Json picture_json(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Json json{{"file", picture.file},
@@ -69,6 +113,9 @@ Json picture_json(const MeasuredPicture& picture) {
             {"pitch_deg", degrees(angle.camera_pitch_rad)},
             {"confidence", angle.confidence},
             {"warnings", warnings_json(angle.warnings)},
+            {"excluded", excluded_json(picture.used.excluded)},
+            {"hints", hints_json(picture.used.hints)},
+            {"proposal", proposal_json(picture.proposal)},
             {"segmentation", angle.segmentation},
             {"strays", angle.strays},
             {"grain_px", number(angle.grain_px)},

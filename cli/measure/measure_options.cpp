@@ -1,6 +1,7 @@
 #include "cli/measure/measure_options.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
+#include "vision/picture/picture.h"
 
 namespace repose::cli {
 namespace {
@@ -33,6 +35,38 @@ void check_overlay_folder(const MeasureArguments& arguments, MeasurePlan& plan) 
   make_output_folder("--overlay", folder, plan.errors);
 }
 
+void read_places(const char* option, const std::vector<std::string>& typed,
+                 std::vector<vision::Point>& places, std::vector<std::string>& errors) {
+  for (const std::string& text : typed) {
+    if (const auto place = read_point({option, text, errors})) {
+      places.push_back({place->front(), place->back()});
+    }
+  }
+}
+
+/// What a person says of every picture that is measured.
+void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
+  vision::Hints& hints = plan.options.hints;
+  if (const auto box = read_box({"--heap", arguments.heap, plan.errors})) {
+    const auto [x, y, width, height] = *box;
+    hints.heap = vision::Box{.x = x, .y = y, .width = width, .height = height};
+  }
+  if (const auto line = read_line({"--ground", arguments.ground, plan.errors})) {
+    const auto [x1, y1, x2, y2] = *line;
+    hints.ground = vision::Segment{{x1, y1}, {x2, y2}};
+  }
+  read_places("--keep", arguments.keep, hints.keep, plan.errors);
+  read_places("--drop", arguments.drop, hints.drop, plan.errors);
+  plan.mask_file = arguments.mask_file;
+  plan.saves_hints = arguments.saves_hints;
+  if (arguments.mask_file.empty()) return;
+  try {
+    hints.mask = vision::read_picture(arguments.mask_file);
+  } catch (const std::invalid_argument& error) {
+    plan.errors.push_back(fmt::format("--mask {}", error.what()));
+  }
+}
+
 }  // namespace
 
 MeasurePlan plan_measure(const MeasureArguments& arguments) {
@@ -42,6 +76,7 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
                                  .pitch_deg = arguments.pitch_deg,
                                  .exclude = arguments.exclude},
                                 plan.errors);
+  read_hints(arguments, plan);
   plan.threads = read_threads({"--threads", arguments.threads, plan.errors});
   plan.keeps_overlays = !arguments.report_file.empty();
   if (arguments.report_file == kStandardOutput) {

@@ -56,8 +56,8 @@ TEST(OutlineAngle, IsThatOfThePictureWhoseEdgeIsTheOutline) {
     const OutlineAngle angle = measure_outline(outline, {.grain = grain});
     ASSERT_TRUE(angle.left && angle.right);
     const FlankOptions options{.grain = grain};
-    EXPECT_EQ(angle.left->angle_rad, fit_flank(profile, Side::left, options).angle_rad);
-    EXPECT_EQ(angle.right->angle_rad, fit_flank(profile, Side::right, options).angle_rad);
+    EXPECT_NEAR(angle.left->angle_rad, fit_flank(profile, Side::left, options).angle_rad, 1e-9);
+    EXPECT_NEAR(angle.right->angle_rad, fit_flank(profile, Side::right, options).angle_rad, 1e-9);
   }
 }
 

@@ -195,10 +195,11 @@ TEST(ReposeAngle, TellsWhatItSaw) {
   EXPECT_GT(result.outline.size(), 500);
   for (const Flank* flank : {&result.left, &result.right}) {
     EXPECT_EQ(flank->points, static_cast<int>(flank->edge.size()));
+    EXPECT_EQ(flank->window_used, result.window);
     EXPECT_GT(*flank->r2, 0.99);
     EXPECT_NEAR(deg(flank->robust_rad), deg(flank->least_squares_rad), 0.5);
   }
-  EXPECT_EQ(result.definitions.size(), 3);
+  EXPECT_EQ(result.definitions.size(), 5);
 }
 
 /// Angle of a drawn segment against the drawn ground.

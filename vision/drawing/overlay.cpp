@@ -44,7 +44,7 @@ Picture draw_overlay(const Picture& picture, const ReposeAngle& measured,
   const Lettering lettering;
   const double scale = drawing_scale(picture);
   cv::Mat image = scaled(picture, scale);
-  draw_marks(image, scale, measured, notes.excluded, lettering);
+  draw_marks(image, scale, measured, notes, lettering);
   const int width = std::max(image.cols, kSmallestCaption);
   const cv::Mat caption = draw_caption(width, measured, notes, lettering);
 

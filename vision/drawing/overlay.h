@@ -12,6 +12,7 @@ namespace repose::vision {
 struct OverlayNotes {
   std::string title;          ///< the picture's name
   std::vector<Box> excluded;  ///< MeasureOptions::excluded
+  Hints hints = {};           ///< MeasureOptions::hints: the box around the heap, and places
 };
 
 /// The picture with everything that was measured drawn into it, for a person to check or a paper

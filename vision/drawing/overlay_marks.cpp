@@ -29,24 +29,6 @@ void dim_outside(const Canvas& canvas, const std::vector<Point>& outline) {
   dimmed.copyTo(canvas.image());
 }
 
-void draw_excluded(const Canvas& canvas, const Box& box) {
-  const cv::Point2d top_left = canvas.at({double(box.x), double(box.y)});
-  const cv::Point2d bottom_right =
-      canvas.at({double(box.x) + box.width, double(box.y) + box.height});
-  const cv::Point2d top_right{bottom_right.x, top_left.y}, bottom_left{top_left.x, bottom_right.y};
-  canvas.draw({top_left, top_right, bottom_right, bottom_left}, kGrey, 0.7, true);
-  canvas.draw({top_left, bottom_right}, kGrey, 0.7);
-  canvas.draw({top_right, bottom_left}, kGrey, 0.7);
-}
-
-/// Where the lines a and b through two points each meet.
-std::optional<cv::Point2d> meeting(cv::Point2d a0, cv::Point2d a1, cv::Point2d b0, cv::Point2d b1) {
-  const cv::Point2d a = a1 - a0, b = b1 - b0;
-  const double cross = a.cross(b);
-  if (std::abs(cross) <= 1e-9 * cv::norm(a) * cv::norm(b)) return std::nullopt;
-  return a0 + a * ((b0 - a0).cross(b) / cross);
-}
-
 Path arc(cv::Point2d centre, double radius, double from_rad, double to_rad) {
   constexpr int kSteps = 40;
   Path path;
@@ -55,6 +37,51 @@ Path arc(cv::Point2d centre, double radius, double from_rad, double to_rad) {
     path.emplace_back(centre + radius * cv::Point2d(std::cos(angle), std::sin(angle)));
   }
   return path;
+}
+
+/// From its top left corner clockwise.
+Path corners_of(const Canvas& canvas, const Box& box) {
+  const double left = box.x, top = box.y;
+  const double right = left + box.width, bottom = top + box.height;
+  return canvas.path_of({{left, top}, {right, top}, {right, bottom}, {left, bottom}});
+}
+
+void draw_excluded(const Canvas& canvas, const Box& box) {
+  const Path corners = corners_of(canvas, box);
+  canvas.draw(corners, kGrey, 0.7, true);
+  canvas.draw({corners[0], corners[2]}, kGrey, 0.7);
+  canvas.draw({corners[1], corners[3]}, kGrey, 0.7);
+}
+
+/// A place that a person has pointed at: a ring on the heap, a cross beside it.
+void draw_place(const Canvas& canvas, const Point& place, bool is_heap) {
+  const cv::Point2d at = canvas.at(place);
+  const double reach = canvas.length(0.01);
+  if (is_heap) {
+    canvas.draw(arc(at, reach, 0, 2 * std::numbers::pi), kGreen, 0.7, true);
+    return;
+  }
+  const cv::Point2d falling(reach, reach), rising(reach, -reach);
+  canvas.draw({at - falling, at + falling}, kVermilion, 0.7);
+  canvas.draw({at - rising, at + rising}, kVermilion, 0.7);
+}
+
+void draw_hints(const Canvas& canvas, const Hints& hints) {
+  if (hints.heap) {
+    Path corners = corners_of(canvas, *hints.heap);
+    corners.push_back(corners.front());
+    canvas.draw_dashed(corners, kWhite, 0.6);
+  }
+  for (const Point& place : hints.keep) draw_place(canvas, place, true);
+  for (const Point& place : hints.drop) draw_place(canvas, place, false);
+}
+
+/// Where the lines a and b through two points each meet.
+std::optional<cv::Point2d> meeting(cv::Point2d a0, cv::Point2d a1, cv::Point2d b0, cv::Point2d b1) {
+  const cv::Point2d a = a1 - a0, b = b1 - b0;
+  const double cross = a.cross(b);
+  if (std::abs(cross) <= 1e-9 * cv::norm(a) * cv::norm(b)) return std::nullopt;
+  return a0 + a * ((b0 - a0).cross(b) / cross);
 }
 
 double direction(cv::Point2d vector) { return std::atan2(vector.y, vector.x); }
@@ -151,10 +178,11 @@ void draw_ground(const Canvas& canvas, const Segment& ground) {
 }  // namespace
 
 void draw_marks(cv::Mat& image, double scale, const ReposeAngle& measured,
-                const std::vector<Box>& excluded, const Lettering& lettering) {
+                const OverlayNotes& notes, const Lettering& lettering) {
   const Canvas canvas(image, scale);
   dim_outside(canvas, measured.outline);
-  for (const Box& box : excluded) draw_excluded(canvas, box);
+  for (const Box& box : notes.excluded) draw_excluded(canvas, box);
+  draw_hints(canvas, notes.hints);
   if (!measured.outline.empty()) canvas.draw(canvas.path_of(measured.outline), kWhite, 0.6, true);
   if (measured.ground) draw_ground(canvas, *measured.ground);
 

@@ -30,6 +30,9 @@ cv::Mat1b solid_mask(const Segmentation& segmentation, const WorkingPicture& wor
   cv::Mat1b mask = (segmentation.inside > 0) & work.valid_mask;
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  const Told& told = work.told;
+  if (!told.on_heap.empty()) mask |= told.on_heap;
+  if (!told.beside_heap.empty()) mask &= ~told.beside_heap;
   return holes_filled(mask);
 }
 
@@ -37,22 +40,48 @@ int smallest_body(const WorkingPicture& work) {
   return static_cast<int>(kSmallestBody * work.frame.area());
 }
 
-/// The largest piece of `mask` above the ground, solid; empty when there is none.
-cv::Mat1b standing_piece(const cv::Mat1b& mask, const PictureLine& ground, int smallest) {
+/// The piece that a person has pointed at most; else the largest, which is the first.
+int pointed_at(const Pieces& pieces, const std::vector<int>& candidates, const cv::Mat1b& on_heap) {
+  int best = candidates.front();
+  int most = 0;
+  for (const int candidate : candidates) {
+    const int here = cv::countNonZero((pieces.labels == candidate) & on_heap);
+    if (here > most) {
+      best = candidate;
+      most = here;
+    }
+  }
+  return best;
+}
+
+/// The heap among the pieces of `mask` above the ground, solid; empty when there is none.
+cv::Mat1b standing_piece(const cv::Mat1b& mask, const PictureLine& ground,
+                         const WorkingPicture& work) {
   const cv::Rect box = cv::boundingRect(mask);
   if (box.empty()) return {};
   const Pieces standing(holes_filled(cut_below(mask(box), ground, box.tl())));
-  const std::vector<int> heaps = largest_pieces(standing, smallest);
+  const std::vector<int> heaps = largest_pieces(standing, smallest_body(work));
   if (heaps.empty()) return {};
+  const cv::Mat1b& on_heap = work.told.on_heap;
+  const int heap = on_heap.empty() ? heaps.front() : pointed_at(standing, heaps, on_heap(box));
   cv::Mat1b piece = cv::Mat1b::zeros(mask.size());
-  piece(box).setTo(255, standing.labels == heaps.front());
+  piece(box).setTo(255, standing.labels == heap);
   return piece;
+}
+
+/// On the line that a person has drawn.
+std::vector<Body> bodies_on_told_ground(const cv::Mat1b& mask, const WorkingPicture& work) {
+  const Ground ground{*work.told.ground, work.told.ground_deviation_rad};
+  Body body{standing_piece(mask, ground, work), ground};
+  if (body.mask.empty()) return {};
+  return {std::move(body)};
 }
 
 }  // namespace
 
 std::vector<Body> find_bodies(const Segmentation& segmentation, const WorkingPicture& work) {
   const cv::Mat1b mask = solid_mask(segmentation, work);
+  if (work.told.ground) return bodies_on_told_ground(mask, work);
   const int smallest = smallest_body(work);
   const Pieces pieces(mask);
   std::vector<Body> bodies;
@@ -60,7 +89,7 @@ std::vector<Body> find_bodies(const Segmentation& segmentation, const WorkingPic
     const cv::Mat1b alone = pieces.labels == piece;
     const std::optional<Ground> ground = find_ground(spans_of(alone), work);
     if (!ground) continue;
-    Body body{standing_piece(alone, *ground, smallest), *ground};
+    Body body{standing_piece(alone, *ground, work), *ground};
     if (body.mask.empty()) continue;
     bodies.push_back(std::move(body));
   }
@@ -80,7 +109,7 @@ Body largest_region(const Segmentation& segmentation, const WorkingPicture& work
 
 Body body_on(const Body& known, const Segmentation& segmentation, const WorkingPicture& work) {
   Body body = known;
-  body.mask = standing_piece(solid_mask(segmentation, work), known.ground, smallest_body(work));
+  body.mask = standing_piece(solid_mask(segmentation, work), known.ground, work);
   return body;
 }
 

@@ -177,7 +177,7 @@ bool is_same_line(const PictureLine& a, const PictureLine& b) {
 }
 
 /// Reads the heap anew, by every segmentation that sees it, on the ground that they share.
-void fraction_ground(std::vector<Reading>& readings, const WorkingPicture& work,
+void agree_on_ground(std::vector<Reading>& readings, const WorkingPicture& work,
                      const MeasureOptions& options) {
   const Reading& best = best_of(readings);
   const GroundFrame frame(best.body.ground);
@@ -222,7 +222,10 @@ void look_again(std::vector<Reading>& readings, const WorkingPicture& work,
 
 }  // namespace
 
-Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options) {
+namespace {
+
+/// The readings that need nothing but the picture and what a person has said.
+std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOptions& options) {
   std::vector<Reading> readings;
   for (const Segmentation& segmentation : blind_segmentations(work)) {
     readings.push_back(read_heap(segmentation, work, options));
@@ -230,8 +233,21 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
   if (best_of(readings).score < kFairlyGood) {
     readings.push_back(read_heap(rough_segmentation(work), work, options));
   }
-  leave_out_plates(readings);
-  prefer_seen_feet(readings);
+  if (work.told.has_box || work.told.has_places()) {
+    readings.push_back(read_heap(pointed_segmentation(work, options.seed), work, options));
+  }
+  return readings;
+}
+
+}  // namespace
+
+Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options) {
+  std::vector<Reading> readings = first_readings(work, options);
+  const bool knows_ground = work.told.ground.has_value();
+  if (!knows_ground) {
+    leave_out_plates(readings);
+    prefer_seen_feet(readings);
+  }
   Choice choice;
   if (best_of(readings).score < kHardlyAnEdge) {
     const auto upright = std::find_if(readings.begin(), readings.end(), is_upright);
@@ -240,7 +256,7 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
       return choice;
     }
   }
-  if (best_of(readings).score > 0) fraction_ground(readings, work, options);
+  if (best_of(readings).score > 0 && !knows_ground) agree_on_ground(readings, work, options);
   if (best_of(readings).score > 0 && !is_settled(best_of(readings), readings)) {
     look_again(readings, work, options);
   }

@@ -18,71 +18,11 @@ constexpr double kBlockGrains = 2;      // neighbours within 2 grains are one pi
 constexpr double kFewestGrains = 5;     // high: a bump longer than such a heap's grain is none
 constexpr double kFewestLeft = 5;       // grains of flank above an apron: over fewer the slope is a
                                         // grain's, below which the next one looks like an apron
-
-/// The points of one side from the crest outwards: u grows outwards, h is the height.
-struct Descent {
-  std::vector<double> u;
-  std::vector<double> h;
-  std::vector<double> smooth;
-};
-
-Descent descent_of(const Profile& profile, Side side) {
-  Descent descent;
-  const double crest = profile.along[profile.crest];
-  const auto push = [&](std::size_t i) {
-    descent.u.push_back(std::abs(profile.along[i] - crest));
-    descent.h.push_back(profile.height[i]);
-  };
-  if (side == Side::left) {
-    for (std::size_t i = profile.crest + 1; i-- > 0;) push(i);
-  } else {
-    for (std::size_t i = profile.crest; i < profile.size(); ++i) push(i);
-  }
-  const std::size_t width = std::max<std::size_t>(3, profile.size() / 60);
-  descent.smooth = moving_average(descent.h, width);
-  return descent;
-}
-
-struct Window {
-  std::size_t first = 0;
-  std::size_t last = 0;  ///< one past the end
-  std::size_t size() const { return last > first ? last - first : 0; }
-};
-
-std::size_t first_below(const Descent& d, std::size_t from, double height) {
-  while (from < d.smooth.size() && d.smooth[from] >= height) ++from;
-  return from;
-}
-
-LineFit fit_window(const Descent& d, const Window& w) {
-  return least_squares_line(std::span(d.u).subspan(w.first, w.size()),
-                            std::span(d.h).subspan(w.first, w.size()));
-}
-
-std::size_t index_at(const Descent& d, double u) {
-  return static_cast<std::size_t>(std::lower_bound(d.u.begin(), d.u.end(), u) - d.u.begin());
-}
-
-/// Columns between the heights `low` and `high`. The ends are put where the fitted line, not the
-/// bumpy edge, has those heights: choosing points by their own height would flatten the line.
-Window window_between(const Descent& d, double low, double high) {
-  Window w;
-  w.first = first_below(d, 0, high);
-  w.last = first_below(d, w.first, low);
-  for (int round = 0; round < 4 && w.size() >= kFewestPoints; ++round) {
-    const LineFit line = fit_window(d, w);
-    if (line.slope >= -kFlattestSlope) break;
-    const Window next{index_at(d, (high - line.intercept) / line.slope),
-                      index_at(d, (low - line.intercept) / line.slope)};
-    if (next.size() < kFewestPoints || (next.first == w.first && next.last == w.last)) break;
-    w = next;
-  }
-  return w;
-}
+constexpr double kHighestApron = 1.0 / 3;  // of the height: what begins above is half of the flank
 
 /// Mean distance between upward crossings of the line by the edge: one to two grains.
-double bump_length(const Descent& d, const Window& w) {
-  const LineFit line = fit_window(d, w);
+double bump_length(const Descent& d, const Stretch& w) {
+  const LineFit line = line_through(d, w);
   int crossings = 0;
   for (std::size_t i = w.first + 1; i < w.last; ++i) {
     crossings += d.h[i - 1] < line.y(d.u[i - 1]) && d.h[i] >= line.y(d.u[i]) ? 1 : 0;
@@ -90,19 +30,22 @@ double bump_length(const Descent& d, const Window& w) {
   return (d.u[w.last - 1] - d.u[w.first]) / std::max(1, crossings);
 }
 
-/// Where an apron begins, a thin layer that runs out from the foot: where the slope over some
-/// grains has sunk under a third of the flank's, or where less than two grains of height are left
-/// though the foot is still far (twice as far as the flank's slope would take).
-std::size_t apron_start(const Descent& d, const Window& w, double grain) {
-  const LineFit upper = fit_window(d, {w.first, w.first + w.size() / 2});
-  if (upper.slope >= 0) return w.last;
-  const std::size_t two_grains = index_at(d, d.u[w.first] + 2 * grain) - w.first;
-  for (std::size_t i = w.first + w.size() / 2; i < w.last; ++i) {
+/// Where an apron begins in the lower half of the stretch's height: a thin layer that runs out from
+/// the foot. There the slope over some grains has sunk under a third of the upper half's, or less
+/// than two grains of height are left though the foot is still far (twice as far as the flank's
+/// slope would take).
+std::size_t apron_start(const Descent& d, const Stretch& w, double middle, double grain) {
+  const Stretch upper{w.first, rough_stretch(d, middle, d.smooth[w.first]).last};
+  const double slope = upper.size() < 2 ? 0 : line_through(d, upper).slope;
+  if (slope >= 0) return w.last;
+  const std::size_t two_grains = column_at(d, d.u[w.first] + 2 * grain) - w.first;
+  const std::size_t beside = std::max({two_grains, upper.size() / 4, std::size_t{4}});
+  for (std::size_t i = upper.last; i < w.last; ++i) {
     const double to_foot = d.u.back() - d.u[i];
-    if (d.smooth[i] < 2 * grain && to_foot > 2 * d.smooth[i] / -upper.slope) return i;
-    const std::size_t half = std::min(i, std::max({two_grains, w.size() / 8, std::size_t{4}}));
+    if (d.smooth[i] < 2 * grain && to_foot > 2 * d.smooth[i] / -slope) return i;
+    const std::size_t half = std::min(i, beside);
     if (i + half >= d.u.size()) break;
-    if (fit_window(d, {i - half, i + half}).slope > upper.slope / 3) return i;
+    if (line_through(d, {i - half, i + half}).slope > slope / 3) return i;
   }
   return w.last;
 }
@@ -133,38 +76,39 @@ std::vector<double> believed_residuals(const FlankFit& fit) {
   return residual;
 }
 
-/// The window that is asked for, as far as this side has it; else why it has none.
-struct Stretch {
-  Window window;
+/// The heights between which this side is fitted, as far as it has them; else why it has none.
+struct Heights {
+  double low = 0;
+  double high = 0;
   bool frame_cut = false;
   std::optional<FlankFit> none;
 };
 
-Stretch stretch_of(const Descent& d, double crest, bool at_frame, const FlankOptions& options) {
-  const double low = options.window_from * crest;
+Heights heights_of(const Descent& d, double crest, bool at_frame, const FlankOptions& options) {
+  const double asked = options.window_from * crest;
   const double high = options.window_to * crest;
-  const auto none = [](FlankFit why) { return Stretch{{}, false, std::move(why)}; };
+  const auto none = [&](FlankFit why) { return Heights{asked, high, false, std::move(why)}; };
   if (d.u.size() < kFewestPoints || d.smooth.back() > high) {
     return none(at_frame ? without(FlankStatus::absent, "the crest lies at the picture's edge")
                          : upright("the heap ends upright at its crest"));
   }
-  const bool frame_cut = at_frame && d.smooth.back() > low;
-  const double lowest = frame_cut ? d.smooth.back() : low;
-  if (high - lowest < kFewestVisible * (high - low)) {
+  const bool frame_cut = at_frame && d.smooth.back() > asked;
+  const double low = frame_cut ? d.smooth.back() : asked;
+  if (high - low < kFewestVisible * (high - asked)) {
     return none(without(FlankStatus::truncated, "the picture's edge cuts the flank off"));
   }
-  const Window w = window_between(d, lowest, high);
-  if (w.size() < 3 || static_cast<double>(w.size()) < (high - low) / kSteepest) {
+  const Stretch rough = rough_stretch(d, low, high);
+  if (rough.size() < 3 || static_cast<double>(rough.size()) < (high - asked) / kSteepest) {
     return none(upright("this side falls off vertically"));
   }
-  if (w.size() < kFewestPoints) {
+  if (rough.size() < kFewestPoints) {
     return none(without(FlankStatus::absent, "too few pixels on this side"));
   }
-  return {w, frame_cut, std::nullopt};
+  return {low, high, frame_cut, std::nullopt};
 }
 
 /// Both lines through the window's points, and how they scatter.
-void fit_lines(FlankFit& fit, const Descent& d, const Window& w) {
+void fit_lines(FlankFit& fit, const Descent& d, const Stretch& w) {
   const auto part = [&](const std::vector<double>& all) {
     return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(w.first),
                                all.begin() + static_cast<std::ptrdiff_t>(w.last));
@@ -181,7 +125,8 @@ void fit_lines(FlankFit& fit, const Descent& d, const Window& w) {
   }
   fit.scatter = kMadToSigma * median(distance);
   const std::size_t half = w.first + w.size() / 2;
-  fit.bend_rad = angle_of(fit_window(d, {w.first, half})) - angle_of(fit_window(d, {half, w.last}));
+  fit.bend_rad =
+      angle_of(line_through(d, {w.first, half})) - angle_of(line_through(d, {half, w.last}));
 }
 
 void add_fit_error(FlankFit& fit, double spacing, std::uint64_t seed) {
@@ -197,13 +142,29 @@ void add_fit_error(FlankFit& fit, double spacing, std::uint64_t seed) {
 void add_other_windows(FlankFit& fit, const Descent& d, double crest, double floor) {
   constexpr double kWindows[][2] = {{0.1, 0.9}, {0.3, 0.7}};
   for (const auto& [from, to] : kWindows) {
-    const Window w = window_between(d, std::max(from * crest, floor), to * crest);
+    const Stretch w = smoothed_stretch(d, std::max(from * crest, floor), to * crest, fit.grain);
     if (w.size() < kFewestPoints) continue;
-    const double angle = angle_of(fit_window(d, w));
+    const double angle = angle_of(line_through(d, w));
     fit.other_windows.push_back({from, to, angle});
     fit.window_spread_rad =
         std::max(fit.window_spread_rad, std::abs(angle - angle_of(fit.least_squares)));
   }
+}
+
+/// Ends the stretch where an apron begins, if that is low enough; else says that there is one.
+void leave_apron_out(FlankFit& fit, Stretch& w, const Descent& d, double crest) {
+  const double middle = (fit.window_from + fit.window_to) / 2 * crest;
+  const std::size_t start = apron_start(d, w, middle, fit.grain);
+  const std::size_t five_grains = column_at(d, d.u[w.first] + kFewestLeft * fit.grain) - w.first;
+  if (start == w.last || start <= w.first + std::max(kFewestPoints, five_grains)) return;
+  const double height = d.smooth[start] / crest;
+  if (height > kHighestApron) {
+    fit.high_apron = height;
+    return;
+  }
+  w.last = start;
+  fit.apron_cut = true;
+  fit.window_from = std::max(fit.window_from, height);
 }
 
 }  // namespace
@@ -212,24 +173,23 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
   const Descent d = descent_of(profile, side);
   const double crest = profile.crest_height;
   const bool at_frame = side == Side::left ? profile.leaves_frame_left : profile.leaves_frame_right;
-  const Stretch stretch = stretch_of(d, crest, at_frame, options);
-  if (stretch.none) return *stretch.none;
+  const Heights heights = heights_of(d, crest, at_frame, options);
+  if (heights.none) return *heights.none;
 
-  Window w = stretch.window;
-  const double spacing = (d.u[w.last - 1] - d.u[w.first]) / static_cast<double>(w.size() - 1);
   FlankFit fit;
   fit.status = FlankStatus::ok;
-  fit.frame_cut = stretch.frame_cut;
-  fit.grain = options.grain.value_or(std::min(bump_length(d, w), crest / kFewestGrains));
-  const std::size_t cut = options.leave_apron_out ? apron_start(d, w, fit.grain) : w.last;
-  const std::size_t five_grains = index_at(d, d.u[w.first] + kFewestLeft * fit.grain) - w.first;
-  if (cut < w.last && cut > w.first + std::max(kFewestPoints, five_grains)) {
-    w.last = cut;
-    fit.apron_cut = true;
-  }
+  fit.frame_cut = heights.frame_cut;
+  fit.window_from = heights.low / crest;
+  fit.window_to = heights.high / crest;
+  const Stretch rough = rough_stretch(d, heights.low, heights.high);
+  fit.grain = options.grain.value_or(std::min(bump_length(d, rough), crest / kFewestGrains));
+  Stretch w = smoothed_stretch(d, heights.low, heights.high, fit.grain);
+  if (w.size() < kFewestPoints) w = rough;
+  const double spacing = (d.u[w.last - 1] - d.u[w.first]) / static_cast<double>(w.size() - 1);
+  if (options.leave_apron_out) leave_apron_out(fit, w, d, crest);
   fit_lines(fit, d, w);
   add_fit_error(fit, spacing, options.seed);
-  add_other_windows(fit, d, crest, fit.apron_cut ? d.smooth[cut] : 0);
+  add_other_windows(fit, d, crest, fit.apron_cut ? fit.window_from * crest : 0);
   return fit;
 }
 

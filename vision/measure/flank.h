@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "vision/measure/descent.h"
 #include "vision/measure/line_fit.h"
 #include "vision/measure/profile.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
-
-enum class Side { left, right };
-
-/// A line that falls less than this is level: where it has the window's heights says nothing.
-inline constexpr double kFlattestSlope = 0.02;
 
 /// One side of the heap, fitted. Lengths in working pixels, along and above the ground line.
 struct FlankFit {
@@ -32,10 +28,13 @@ struct FlankFit {
   double bend_rad = 0;            ///< upper half's angle minus lower half's
   double scatter = 0;             ///< robust standard deviation of the points around the line
   double grain = 0;               ///< grain size that was used
+  double window_from = 0;         ///< of the crest's height: the stretch that was fitted
+  double window_to = 0;
   std::vector<WindowAngle> other_windows;
-  bool apron_cut = false;  ///< the window was shortened to leave an apron out
-  bool frame_cut = false;  ///< the window was shortened because the frame ends
-  bool vertical = false;   ///< absent because this side is an upright face
+  bool apron_cut = false;            ///< the window was shortened to leave an apron out
+  std::optional<double> high_apron;  ///< one begins at this part of the height: too high to cut off
+  bool frame_cut = false;            ///< the window was shortened because the frame ends
+  bool vertical = false;             ///< absent because this side is an upright face
 };
 
 struct FlankOptions {
@@ -46,6 +45,9 @@ struct FlankOptions {
   std::uint64_t seed = 1;
 };
 
+/// Fits lines to the stretch of a side on which the edge has the window's heights. The stretch ends
+/// higher where the frame cuts the side off below a tenth of the window, and where an apron begins
+/// below a third of the heap's height.
 FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& options);
 
 }  // namespace repose::vision

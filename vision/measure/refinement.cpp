@@ -103,31 +103,64 @@ Segmentation learned_segmentation(const WorkingPicture& work, const Body& body) 
   return learned;
 }
 
-Segmentation grabcut_segmentation(const WorkingPicture& work, const Body& body,
-                                  std::uint64_t seed) {
+namespace {
+
+/// GrabCut at a small size, where its cost is small. `labels` are of the working picture's size.
+Segmentation grab_cut(const std::string& name, const WorkingPicture& work, const cv::Mat1b& labels,
+                      std::uint64_t seed) {
   const double scale =
       std::min(1.0, static_cast<double>(kGrabCutSide) / std::max(work.bgr.cols, work.bgr.rows));
   cv::Mat small;
   cv::resize(work.bgr, small, {}, scale, scale, cv::INTER_AREA);
-  cv::Mat1b start;
-  cv::resize(body.mask, start, small.size(), 0, 0, cv::INTER_AREA);
-  cv::Mat1b below;
-  cv::resize(below_ground(work, body.ground), below, small.size(), 0, 0, cv::INTER_NEAREST);
-  cv::Mat1b labels(small.size(), static_cast<std::uint8_t>(cv::GC_PR_BGD));
-  labels.setTo(cv::GC_PR_FGD, start > 127);
-  labels.setTo(cv::GC_BGD, below);
-  Segmentation cut{"grabcut", cv::Mat1f(work.lab.size(), -1.F)};
-  const int sure = cv::countNonZero(labels == cv::GC_PR_FGD);
+  cv::Mat1b believed;
+  cv::resize(labels, believed, small.size(), 0, 0, cv::INTER_NEAREST);
+  Segmentation cut{name, cv::Mat1f(work.lab.size(), -1.F)};
+  const auto is_heap = [](const cv::Mat1b& by) {
+    return cv::Mat1b((by == cv::GC_FGD) | (by == cv::GC_PR_FGD));
+  };
+  const int sure = cv::countNonZero(is_heap(believed));
   if (sure < 20 || sure > 0.9 * static_cast<double>(small.total())) return cut;
   cv::setRNGSeed(static_cast<int>(seed & 0x7fffffff));  // this thread's generator only
   cv::Mat background;
   cv::Mat foreground;
-  cv::grabCut(small, labels, {}, background, foreground, kGrabCutRounds, cv::GC_INIT_WITH_MASK);
-  const cv::Mat1b heap = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
+  cv::grabCut(small, believed, {}, background, foreground, kGrabCutRounds, cv::GC_INIT_WITH_MASK);
   cv::Mat1f field;
-  heap.convertTo(field, CV_32F, 2 / 255.0, -1);
+  is_heap(believed).convertTo(field, CV_32F, 2 / 255.0, -1);
   cv::resize(field, cut.inside, work.lab.size(), 0, 0, cv::INTER_LINEAR);
   return cut;
+}
+
+/// The triangle that a heap fills of the frame, above a told ground.
+cv::Mat1b triangle_in(const WorkingPicture& work) {
+  const cv::Rect& frame = work.frame;
+  const auto foot = [&](int col) {
+    const double level = work.told.ground ? work.told.ground->y(col + 0.5) : frame.br().y;
+    return cv::Point(col, std::clamp(static_cast<int>(level), frame.y + 1, frame.br().y));
+  };
+  const std::vector<cv::Point> corners = {
+      foot(frame.x), foot(frame.br().x), {frame.x + frame.width / 2, frame.y}};
+  cv::Mat1b triangle = cv::Mat1b::zeros(work.bgr.size());
+  cv::fillConvexPoly(triangle, corners, 255);
+  return triangle;
+}
+
+}  // namespace
+
+Segmentation grabcut_segmentation(const WorkingPicture& work, const Body& body,
+                                  std::uint64_t seed) {
+  cv::Mat1b labels(work.bgr.size(), static_cast<std::uint8_t>(cv::GC_PR_BGD));
+  labels.setTo(cv::GC_PR_FGD, body.mask);
+  labels.setTo(cv::GC_BGD, below_ground(work, body.ground));
+  return grab_cut("grabcut", work, labels, seed);
+}
+
+Segmentation pointed_segmentation(const WorkingPicture& work, std::uint64_t seed) {
+  cv::Mat1b labels(work.bgr.size(), static_cast<std::uint8_t>(cv::GC_PR_BGD));
+  labels.setTo(cv::GC_PR_FGD, triangle_in(work));
+  labels.setTo(cv::GC_BGD, ~work.valid_mask);
+  if (!work.told.on_heap.empty()) labels.setTo(cv::GC_FGD, work.told.on_heap);
+  if (!work.told.beside_heap.empty()) labels.setTo(cv::GC_BGD, work.told.beside_heap);
+  return grab_cut("pointed out", work, labels, seed);
 }
 
 }  // namespace repose::vision

@@ -17,4 +17,9 @@ Segmentation learned_segmentation(const WorkingPicture& work, const Body& body);
 /// GrabCut around the body at low resolution; repeatable for a seed. Coarse: learn from its result.
 Segmentation grabcut_segmentation(const WorkingPicture& work, const Body& body, std::uint64_t seed);
 
+/// Heap and backdrop by GrabCut from what a person has said: places on the heap and beside it, and
+/// a box around it, which a heap fills like a triangle on the box's lower side. Same seed, same
+/// result.
+Segmentation pointed_segmentation(const WorkingPicture& work, std::uint64_t seed);
+
 }  // namespace repose::vision

@@ -39,6 +39,9 @@ void check(const Picture& picture, const MeasureOptions& options) {
                       box.x, box.y, box.width, box.height, picture.width, picture.height));
     }
   }
+  for (std::string& problem : problems_of(options.hints, picture.width, picture.height)) {
+    errors.push_back(std::move(problem));
+  }
   if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
 }
 
@@ -52,8 +55,6 @@ void one_thread_a_picture() {
   }();
   static_cast<void>(once);
 }
-
-Point to_picture(Point working, double shrink) { return {working.x * shrink, working.y * shrink}; }
 
 /// Pitch that a camera may have which was taken for level: what the base's bow tells, where the
 /// base is the heap's own (a plate's front edge is straight from wherever one looks).
@@ -98,7 +99,7 @@ class PitchCorrection {
 };
 
 /// The side in the picture's own pixels, its angle corrected for the camera's pitch.
-Flank flank_of(const Reading& reading, Side side, double shrink, double half_width_rad,
+Flank flank_of(const Reading& reading, Side side, const WorkingPicture& work, double half_width_rad,
                const PitchCorrection& correction) {
   const FlankFit& fit = reading.flank(side);
   Flank flank;
@@ -109,6 +110,7 @@ Flank flank_of(const Reading& reading, Side side, double shrink, double half_wid
   if (fit.status != FlankStatus::ok) return flank;
   flank.angle_rad = correction.angle_rad(fit.angle_rad);
   flank.uncertainty_rad = correction.half_width_rad(fit.angle_rad, half_width_rad);
+  flank.window_used = {fit.window_from, fit.window_to};
   flank.least_squares_rad = correction.angle_rad(std::atan(-fit.least_squares.slope));
   flank.robust_rad = correction.angle_rad(std::atan(-fit.robust.slope));
   flank.r2 = fit.least_squares.r2;
@@ -123,7 +125,7 @@ Flank flank_of(const Reading& reading, Side side, double shrink, double half_wid
   const double crest = reading.profile.along[reading.profile.crest];
   const auto place = [&](double out, double height) {
     const double along = side == Side::left ? crest - out : crest + out;
-    return to_picture(ground.picture(along, height), shrink);
+    return work.in_picture(ground.picture(along, height));
   };
   for (std::size_t i = 0; i < fit.along.size(); ++i) {
     flank.edge.push_back(place(fit.along[i], fit.height[i]));
@@ -134,7 +136,7 @@ Flank flank_of(const Reading& reading, Side side, double shrink, double half_wid
   return flank;
 }
 
-std::vector<Point> outline_of(const cv::Mat1b& mask, double shrink) {
+std::vector<Point> outline_of(const cv::Mat1b& mask, const WorkingPicture& work) {
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   std::vector<Point> outline;
@@ -144,7 +146,7 @@ std::vector<Point> outline_of(const cv::Mat1b& mask, double shrink) {
     if (contours[i].size() > contours[longest].size()) longest = i;
   }
   for (const cv::Point& p : contours[longest]) {
-    outline.push_back(to_picture({p.x + 0.5, p.y + 0.5}, shrink));
+    outline.push_back(work.in_picture({p.x + 0.5, p.y + 0.5}));
   }
   return outline;
 }
@@ -161,23 +163,23 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   if (best.body.mask.empty() || best.profile.size() == 0) return result;
   const Uncertainty u = uncertainty_of(choice);
   const PitchCorrection correction(best, work, options.camera_pitch_rad);
-  result.left = flank_of(best, Side::left, work.shrink, u.left_rad, correction);
-  result.right = flank_of(best, Side::right, work.shrink, u.right_rad, correction);
+  result.left = flank_of(best, Side::left, work, u.left_rad, correction);
+  result.right = flank_of(best, Side::right, work, u.right_rad, correction);
   if (best.has_flank()) {
     result.angle_rad = correction.angle_rad(best.angle_rad());
     result.uncertainty_rad = correction.half_width_rad(best.angle_rad(), u.mean_rad);
   }
   result.ground_tilt_rad = best.body.ground.tilt_rad();
   const GroundFrame ground(best.body.ground);
-  result.ground = Segment{to_picture(ground.picture(best.profile.along.front(), 0), work.shrink),
-                          to_picture(ground.picture(best.profile.along.back(), 0), work.shrink)};
-  result.outline = outline_of(best.body.mask, work.shrink);
+  result.ground = Segment{work.in_picture(ground.picture(best.profile.along.front(), 0)),
+                          work.in_picture(ground.picture(best.profile.along.back(), 0))};
+  result.outline = outline_of(best.body.mask, work);
   for (std::size_t i = 0; i < best.profile.size(); ++i) {
     const Point edge = ground.picture(best.profile.along[i], best.profile.height[i]);
-    result.upper_edge.push_back(to_picture(edge, work.shrink));
+    result.upper_edge.push_back(work.in_picture(edge));
   }
   const double crest = best.profile.along[best.profile.crest];
-  result.crest = to_picture(ground.picture(crest, best.profile.crest_height), work.shrink);
+  result.crest = work.in_picture(ground.picture(crest, best.profile.crest_height));
   result.height_px = best.profile.crest_height * work.shrink;
   result.base_px = (best.profile.along.back() - best.profile.along.front()) * work.shrink;
   if (best.grain) result.grain_px = *best.grain * work.shrink;
@@ -230,7 +232,7 @@ std::vector<std::string> MeasureOptions::problems() const {
 ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options) {
   check(picture, options);
   one_thread_a_picture();
-  const WorkingPicture work = working_picture(picture, options.excluded);
+  const WorkingPicture work = working_picture(picture, options.excluded, options.hints);
   if (std::min(work.frame.width, work.frame.height) < kSmallestSide) {
     return too_small(picture, options);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/measure/hints.h"
 #include "vision/picture/picture.h"
 
 /// Static angle of repose of a heap from one side-view photograph or rendered silhouette.
@@ -21,12 +22,15 @@ enum class Method {
 
 struct MeasureOptions {
   Method method = Method::automatic;
-  /// Stretch of the flank that is fitted, as fractions of the heap's height above the ground line.
-  /// Lower values let in the spreading toe, higher ones the rounded crest; both flatten the line.
+  /// Stretch of the flank that is fitted: from where the edge, smoothed over three grains, has the
+  /// one fraction of the heap's height above the ground line to where it has the other. Lower
+  /// values let in the spreading toe, higher ones the rounded crest; both flatten the line.
   double window_from = 0.2;
   double window_to = 0.8;
   /// Parts of the picture that are no evidence: timers, labels, hands [px of the picture].
   std::vector<Box> excluded;
+  /// What a person says where the program does not see it.
+  Hints hints;
   /// Camera's downward pitch; the angle is corrected for it, as a far camera's. Its interval allows
   /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. None: not
   /// told, and taken for level; the interval then allows for the pitch that the base's bow gives
@@ -62,9 +66,12 @@ struct WindowAngle {
 
 struct Flank {
   FlankStatus status = FlankStatus::absent;
-  std::string reason;                       ///< why it is absent or truncated
-  bool leaves_frame = false;                ///< the picture's edge hides its foot
-  std::optional<double> angle_rad;          ///< the method's angle of this side
+  std::string reason;               ///< why it is absent or truncated
+  bool leaves_frame = false;        ///< the picture's edge hides its foot
+  std::optional<double> angle_rad;  ///< the method's angle of this side
+  /// Stretch that was fitted, as fractions of the heap's height: the options' window, or less of it
+  /// where the frame cuts the side off or an apron is left out.
+  std::optional<std::array<double, 2>> window_used;
   std::optional<double> uncertainty_rad;    ///< 95 % half-width
   std::optional<double> least_squares_rad;  ///< ordinary least squares, y on x
   std::optional<double> robust_rad;         ///< Tukey loss
@@ -114,7 +121,7 @@ struct ReposeAngle {
 /// Measures one picture. Deterministic; safe to call from several threads at once. The first call
 /// sets OpenCV to one thread for the whole process.
 /// @throws std::invalid_argument  options.problems() is not empty, the picture is empty, or an
-///   excluded box lies outside it.
+///   excluded box or a hint lies outside it.
 ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options = {});
 
 }  // namespace repose::vision

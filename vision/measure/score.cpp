@@ -66,6 +66,26 @@ std::vector<EdgePoint> edge_of(const FlankFit& flank, Side side, const Reading& 
   return edge;
 }
 
+double fraction_of(const cv::Mat1b& places, const cv::Mat1b& mask) {
+  return static_cast<double>(cv::countNonZero(places & mask)) /
+         std::max(1, cv::countNonZero(places));
+}
+
+/// How far the body is where a person has said that the heap is, 0 to 1.
+double agreement_with(const Told& told, const Body& body) {
+  const double kept = told.on_heap.empty() ? 1 : fraction_of(told.on_heap, body.mask);
+  const double dropped = told.beside_heap.empty() ? 1 : fraction_of(told.beside_heap, ~body.mask);
+  return kept * dropped;
+}
+
+/// What a heap's place in the frame says of it being the subject.
+double subject_score(const Reading& reading, const WorkingPicture& work) {
+  if (work.told.has_box) return 1;
+  const double base = reading.profile.along.back() - reading.profile.along.front();
+  const double fraction = std::min(1.0, base / (kUsualBase * work.frame.width));
+  return fraction * fraction * (reading.profile.leaves_frame_top ? kCrestUnseen : 1);
+}
+
 }  // namespace
 
 void score(Reading& reading, const WorkingPicture& work) {
@@ -89,10 +109,8 @@ void score(Reading& reading, const WorkingPicture& work) {
   std::sort(contrast.begin(), contrast.end());
   reading.edge_contrast = contrast[contrast.size() / 4];  // most of the edge, not its best part
   reading.edge_sharpness = sharpness;
-  const double base = reading.profile.along.back() - reading.profile.along.front();
-  const double fraction = std::min(1.0, base / (kUsualBase * work.frame.width));
   reading.score = saturated(reading.edge_contrast, 1) * saturated(sharpness, 0.3) * fit * fit *
-                  fraction * fraction * (reading.profile.leaves_frame_top ? kCrestUnseen : 1);
+                  subject_score(reading, work) * agreement_with(work.told, reading.body);
 }
 
 }  // namespace repose::vision

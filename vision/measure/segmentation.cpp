@@ -9,13 +9,28 @@
 namespace repose::vision {
 namespace {
 
-/// Share of the frame's height, from the top, that is taken for backdrop until proven otherwise.
+/// Fraction of the frame's height, from the top, that is taken for backdrop until proven otherwise.
 constexpr double kBackdropFraction = 0.25;
 
 constexpr int kSampleStep = 2;
 constexpr double kMinWeight = 1e-3;  // of the evidence within a blur's reach, to average over it
 
+/// The upper corners of a box around a heap, down to half its height: there it is not.
+cv::Mat1b backdrop_corners(const WorkingPicture& work) {
+  cv::Mat1b corners = cv::Mat1b::zeros(work.valid_mask.size());
+  const cv::Rect& frame = work.frame;
+  for (const int x : {frame.x, frame.br().x - 1}) {
+    const int inwards = x == frame.x ? frame.width / 4 : -frame.width / 4;
+    const std::vector<cv::Point> corner = {
+        {x, frame.y}, {x + inwards, frame.y}, {x, frame.y + frame.height / 2}};
+    cv::fillConvexPoly(corners, corner, 255);
+  }
+  return corners & work.valid_mask;
+}
+
 cv::Mat1b backdrop_strip(const WorkingPicture& work) {
+  if (!work.told.beside_heap.empty()) return work.told.beside_heap & work.valid_mask;
+  if (work.told.has_box) return backdrop_corners(work);
   cv::Mat1b strip = cv::Mat1b::zeros(work.valid_mask.size());
   cv::Rect top = work.frame;
   top.height = std::max(1, static_cast<int>(top.height * kBackdropFraction));

@@ -2,33 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "vision/measure/camera_pitch.h"
+#include "vision/measure/flank_verdict.h"
+#include "vision/measure/verdict_notes.h"
 
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 // Refusals.
 constexpr double kMinConfidence = 0.35;
-constexpr double kFlattest_rad = 4 * kDegree;
-constexpr double kSteepest_rad = 65 * kDegree;
 constexpr double kFewestGrains = 2.5;
-constexpr double kLeastR2 = 0.85;
-constexpr double kRoundest_rad = 17 * kDegree;  // the upper half of a ball lies 20 degrees flatter
 constexpr double kLargestPitch_rad = 10 * kDegree;
-constexpr double kLargestSpread_rad = 12 * kDegree;
 
 // Warnings that ask a person to look.
 constexpr double kDoubtfulConfidence = 0.55;
 constexpr double kDoubtfulPitch_rad = 5 * kDegree;
 constexpr double kPitchTolerance_rad = 6 * kDegree;
-constexpr double kDoubtfulBend_rad = 10 * kDegree;
-constexpr double kDoubtfulSpread_rad = 3 * kDegree;
+constexpr double kWideInterval_rad = 5 * kDegree;
 
 // Warnings to know of.
 constexpr double kFewGrains = 10;
@@ -36,8 +29,6 @@ constexpr double kFewSteps = 5;
 constexpr double kLowHeap_px = 40;
 constexpr double kUnequal_rad = 6 * kDegree;
 constexpr double kTilted_rad = 3 * kDegree;
-
-double degrees(double rad) { return rad / kDegree; }
 
 void refuse(ReposeAngle& result, std::string reason) {
   result.status = MeasureStatus::refused;
@@ -50,60 +41,11 @@ void refuse(ReposeAngle& result, std::string reason) {
   }
 }
 
-void note(ReposeAngle& result, std::string code, std::string message) {
-  result.warnings.push_back({std::move(code), std::move(message)});
-}
-
-void flag(ReposeAngle& result, std::string code, std::string message) {
-  result.status = MeasureStatus::flagged;
-  note(result, std::move(code), std::move(message));
-}
-
 /// The boundary's quality, lowered when equally good segmentations disagree.
 double confidence_of(const Choice& choice) {
   const double boundary = std::clamp(choice.best.score / 0.55, 0.0, 1.0);
   const double disagreement = degrees(choice.disagreement_rad) / 2;
   return boundary * std::exp(-disagreement * disagreement);
-}
-
-/// Why a flank is none; empty when it is one, or absent.
-std::string reason_against(const FlankFit& flank, const std::string& name) {
-  if (flank.status != FlankStatus::ok) return {};
-  if (flank.angle_rad < kFlattest_rad) {
-    return fmt::format(
-        "the {} side is level ({:.1f} degrees): this is a layer, not a heap. Fix: picture a heap "
-        "whose flanks end on the ground.",
-        name, degrees(flank.angle_rad));
-  }
-  if (flank.angle_rad > kSteepest_rad) {
-    return fmt::format(
-        "the {} side stands at {:.0f} degrees, steeper than loose grains lie. Fix: lay an "
-        "excluded box over walls, gates and tubes.",
-        name, degrees(flank.angle_rad));
-  }
-  if (flank.bend_rad < -kRoundest_rad) {
-    return fmt::format(
-        "the {} side is round, {:.0f} degrees flatter at the top than at the foot: no straight "
-        "flank. Fix: check that the picture shows a heap.",
-        name, -degrees(flank.bend_rad));
-  }
-  if (flank.window_spread_rad > kLargestSpread_rad) {
-    return fmt::format(
-        "the {} side's angle changes by {:.0f} degrees with the stretch that is fitted: no "
-        "straight "
-        "flank, or a heap and its plate taken for one thing. Fix: use a level camera and a plate "
-        "of "
-        "another colour than the grains.",
-        name, degrees(flank.window_spread_rad));
-  }
-  if (flank.least_squares.r2 < kLeastR2) {
-    return fmt::format(
-        "the {} side's edge is no line (r2 {:.2f}). Fix: use a plainer backdrop, or lay an "
-        "excluded "
-        "box over what stands before the flank.",
-        name, flank.least_squares.r2);
-  }
-  return {};
 }
 
 /// Why there is no number at all; empty when there is one.
@@ -128,7 +70,7 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
         "foreign things.",
         confidence);
   }
-  if (best.profile.leaves_frame_top) {
+  if (best.profile.leaves_frame_top && !options.hints.heap) {
     return "the crest lies outside the picture, so the heap's height is unknown. Fix: step back or "
            "tilt the camera until the whole heap is in the frame.";
   }
@@ -145,40 +87,46 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
            "least 10 grains high.";
   }
   for (const Side side : {Side::left, Side::right}) {
-    const std::string reason =
-        reason_against(best.flank(side), side == Side::left ? "left" : "right");
+    const std::string reason = reason_against(best.flank(side), side);
     if (!reason.empty()) return reason;
   }
   return {};
 }
 
-void warn_of_flank(ReposeAngle& result, const FlankFit& flank, const std::string& name) {
-  if (flank.status != FlankStatus::ok) {
-    note(result, flank.status == FlankStatus::truncated ? "flank_truncated" : "one_flank",
-         fmt::format("No {} flank: {}. The angle is that of the other side alone.", name,
-                     flank.reason));
-    return;
+/// Names all that a person has said: without it the picture gives another number, or none.
+void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
+  const Hints& hints = options.hints;
+  if (hints.empty() && hints.source.empty()) return;
+  const std::string what = hints.empty() ? "boxes to leave out, or a pitch" : hints.text();
+  const std::string where = hints.source.empty() ? "" : fmt::format(" in {}", hints.source);
+  note(result, "hints", fmt::format("A person has said{}: {}.", where, what));
+}
+
+/// Adds what the other common definitions say where that lies outside the interval.
+void warn_of_definitions(ReposeAngle& result) {
+  const double angle = *result.angle_rad;
+  double least = angle;
+  double most = angle;
+  for (const NamedAngle& other : result.definitions) {
+    least = std::min(least, other.angle_rad);
+    most = std::max(most, other.angle_rad);
   }
-  if (flank.frame_cut) {
-    note(result, "flank_cut_by_frame",
-         fmt::format("The picture's edge cuts the {} flank; only the part above is fitted.", name));
+  if (std::max(most - angle, angle - least) <= *result.uncertainty_rad) return;
+  note(result, "definitions_differ",
+       fmt::format("Other definitions of the angle give {:.1f} to {:.1f} degrees: name yours when "
+                   "you publish.",
+                   degrees(least), degrees(most)));
+}
+
+void warn_of_angle(ReposeAngle& result) {
+  if (*result.uncertainty_rad > kWideInterval_rad) {
+    flag(
+        result, "wide_interval",
+        fmt::format("The angle is uncertain by {:.1f} degrees either way: measure more pictures of "
+                    "this heap, or a heap of more grains.",
+                    degrees(*result.uncertainty_rad)));
   }
-  if (flank.apron_cut) {
-    note(result, "apron_left_out",
-         fmt::format("A thin apron at the {} foot is left out of the line.", name));
-  }
-  if (std::abs(flank.bend_rad) > kDoubtfulBend_rad) {
-    flag(result, "bent_flank",
-         fmt::format(
-             "The {} flank is {}: its slope differs by {:.0f} degrees between its lower and "
-             "upper half, so one angle does not describe it.",
-             name, flank.bend_rad > 0 ? "concave" : "convex", std::abs(degrees(flank.bend_rad))));
-  }
-  if (flank.window_spread_rad > kDoubtfulSpread_rad) {
-    flag(result, "window_sensitive",
-         fmt::format("The {} angle changes by {:.1f} degrees with the stretch that is fitted.",
-                     name, degrees(flank.window_spread_rad)));
-  }
+  warn_of_definitions(result);
 }
 
 void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions& options) {
@@ -256,8 +204,14 @@ void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& opti
          fmt::format("The heap's edge is uncertain (confidence {:.2f} of 1): check the overlay.",
                      result.confidence));
   }
-  warn_of_flank(result, choice.best.left, "left");
-  warn_of_flank(result, choice.best.right, "right");
+  warn_of_flank(result, choice.best, Side::left);
+  warn_of_flank(result, choice.best, Side::right);
+  if (choice.best.profile.leaves_frame_top) {
+    flag(result, "crest_cut",
+         "The box cuts the crest off: the heap's height is taken to end there.");
+  }
+  warn_of_hints(result, options);
+  warn_of_angle(result);
   warn_of_size(result, choice.best, options);
   warn_of_scene(result, choice, options);
 }

@@ -64,17 +64,78 @@ cv::Mat3f lab_of(const cv::Mat3f& bgr) {
   return lab;
 }
 
+constexpr double kPointed_px = 2;  // working px: how well a person points at a line
+constexpr double kPlace = 0.008;   // of the picture's longest side: radius of a place
+constexpr double kLight = 192;     // a mask's lightness from which it says heap, of 255
+constexpr double kDark = 64;       // ... below which it says not
+
+PictureLine line_of(const Segment& segment, double shrink) {
+  const double slope = (segment.to.y - segment.from.y) / (segment.to.x - segment.from.x);
+  return {(segment.from.y - slope * segment.from.x) / shrink, slope};
+}
+
+/// Discs around the places.
+cv::Mat1b marked(const std::vector<Point>& places, const WorkingPicture& work) {
+  if (places.empty()) return {};
+  cv::Mat1b mask = cv::Mat1b::zeros(work.bgr.size());
+  const int radius = std::max(2, static_cast<int>(kPlace * std::max(work.bgr.cols, work.bgr.rows)));
+  for (const Point& place : places) {
+    const cv::Point at(static_cast<int>(place.x / work.shrink),
+                       static_cast<int>(place.y / work.shrink));
+    cv::circle(mask, at, radius, 255, cv::FILLED);
+  }
+  return mask;
+}
+
+void add_mask(Told& told, const Picture& picture, const WorkingPicture& work) {
+  cv::Mat1b grey;
+  cv::cvtColor(mat_of(picture), grey, cv::COLOR_BGR2GRAY);
+  cv::resize(grey, grey, work.bgr.size(), 0, 0, cv::INTER_AREA);
+  const auto add = [](cv::Mat1b& places, const cv::Mat1b& more) {
+    places = places.empty() ? more : cv::Mat1b(places | more);
+  };
+  add(told.on_heap, grey >= kLight);
+  add(told.beside_heap, grey < kDark);
+}
+
+Told told_by(const Hints& hints, const WorkingPicture& work) {
+  Told told;
+  if (hints.ground) {
+    told.ground = line_of(*hints.ground, work.shrink);
+    const double length = std::abs(hints.ground->to.x - hints.ground->from.x) / work.shrink;
+    told.ground_deviation_rad = std::sqrt(2) * kPointed_px / length;
+  }
+  told.on_heap = marked(hints.keep, work);
+  told.beside_heap = marked(hints.drop, work);
+  if (!hints.mask.empty()) add_mask(told, hints.mask, work);
+  return told;
+}
+
+/// The ground is not the heap, and no evidence of what lies behind it.
+void leave_ground_out(WorkingPicture& work) {
+  if (!work.told.ground) return;
+  for (int col = 0; col < work.valid_mask.cols; ++col) {
+    const double level = std::ceil(work.told.ground->y(col + 0.5));
+    const int first = std::clamp(static_cast<int>(level), 0, work.valid_mask.rows);
+    work.valid_mask(cv::Range(first, work.valid_mask.rows), cv::Range(col, col + 1)) = 0;
+  }
+}
+
 }  // namespace
 
-WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& excluded) {
-  const cv::Mat full = mat_of(picture);
-  const int longest = std::max(picture.width, picture.height);
+WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& excluded,
+                               const Hints& hints) {
+  const Box seen =
+      hints.heap.value_or(Box{.x = 0, .y = 0, .width = picture.width, .height = picture.height});
+  const cv::Mat full = mat_of(picture)(cv::Rect(seen.x, seen.y, seen.width, seen.height));
+  const int longest = std::max(seen.width, seen.height);
   WorkingPicture work;
+  work.origin = {static_cast<double>(seen.x), static_cast<double>(seen.y)};
   work.shrink = std::max(1.0, static_cast<double>(longest) / kWorkingSide);
   if (work.shrink > 1) {
     const double scale = 1 / work.shrink;
-    const cv::Size size(std::max(1, static_cast<int>(std::lround(picture.width * scale))),
-                        std::max(1, static_cast<int>(std::lround(picture.height * scale))));
+    const cv::Size size(std::max(1, static_cast<int>(std::lround(seen.width * scale))),
+                        std::max(1, static_cast<int>(std::lround(seen.height * scale))));
     cv::resize(full, work.bgr, size, 0, 0, cv::INTER_AREA);
   } else {
     full.copyTo(work.bgr);
@@ -84,12 +145,17 @@ WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& e
   work.lab = lab_of(scaled);
   cv::Mat1b grey;
   cv::cvtColor(work.bgr, grey, cv::COLOR_BGR2GRAY);
-  work.frame = without_letterbox(grey);
+  work.frame = hints.heap ? cv::Rect({}, grey.size()) : without_letterbox(grey);
   work.valid_mask = cv::Mat1b::zeros(work.bgr.size());
   work.valid_mask(work.frame) = 255;
-  for (const Box& box : excluded) {
+  for (Box box : excluded) {
+    box.x -= seen.x;
+    box.y -= seen.y;
     work.valid_mask(shrunk(box, work.shrink) & cv::Rect({}, work.bgr.size())) = 0;
   }
+  work.told = told_by(hints.heap ? hints_within(hints, *hints.heap) : hints, work);
+  work.told.has_box = hints.heap.has_value();
+  leave_ground_out(work);
   return work;
 }
 

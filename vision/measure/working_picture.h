@@ -1,12 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <opencv2/core/mat.hpp>
 
+#include "vision/measure/geometry.h"
+#include "vision/measure/hints.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
+
+/// What a person has said of a working picture.
+struct Told {
+  bool has_box = false;  ///< the frame is a box around the heap
+  std::optional<PictureLine> ground;
+  double ground_deviation_rad = 0;  ///< standard uncertainty of its tilt
+  cv::Mat1b on_heap;                ///< 255 there; empty when nothing is said
+  cv::Mat1b beside_heap;            ///< likewise
+
+  bool has_places() const { return !on_heap.empty() || !beside_heap.empty(); }
+};
 
 /// The picture at the size at which heaps are found: at most kWorkingSide pixels a side.
 ///
@@ -18,10 +32,20 @@ struct WorkingPicture {
   cv::Mat1b valid_mask;  ///< 255 where the picture counts: not excluded, no letterbox
   cv::Rect frame;        ///< the picture without its letterbox
   double shrink = 1;     ///< pixels of the picture in a working pixel
+  Point origin;          ///< its corner in the picture: that of the box around the heap
+  Told told;
+
+  /// A point of the working picture in the picture.
+  Point in_picture(const Point& working) const {
+    return {origin.x + working.x * shrink, origin.y + working.y * shrink};
+  }
 };
 
 inline constexpr int kWorkingSide = 800;
 
-WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& excluded);
+/// The part of the picture inside the box of the hints, or all of it. Hints and boxes lie inside
+/// the picture.
+WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& excluded,
+                               const Hints& hints = {});
 
 }  // namespace repose::vision

@@ -1,0 +1,160 @@
+#include "vision/hints/proposal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "vision/measure/body.h"
+#include "vision/measure/regions.h"
+#include "vision/measure/segmentation.h"
+#include "vision/measure/working_picture.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr std::size_t kMostOfAKind = 4;  // candidates that are tried
+constexpr double kMargin = 0.06;         // of a thing's size, left around it
+constexpr double kSameBox = 0.7;         // overlap over union of boxes that are one
+constexpr double kSmallestThing = 0.05;  // of the frame's area
+constexpr double kLargestThing = 0.9;
+
+// Things laid over a picture: wide, low, and full of steep edges.
+constexpr double kSteepEdge = 60;     // step in grey levels from a pixel to the next
+constexpr double kWidestLabel = 0.4;  // of the frame's width
+constexpr double kHighestLabel = 0.25;
+constexpr double kLabelFilled = 0.55;  // of its own box
+constexpr int kLetterGap = 9;          // working px, closed between letters
+
+double overlap(const cv::Rect& a, const cv::Rect& b) {
+  const double both = (a & b).area();
+  return both / std::max(1.0, a.area() + b.area() - both);
+}
+
+void add_new(std::vector<cv::Rect>& boxes, const cv::Rect& box) {
+  const bool is_known = std::any_of(boxes.begin(), boxes.end(), [&](const cv::Rect& other) {
+    return overlap(box, other) > kSameBox;
+  });
+  if (!is_known) boxes.push_back(box);
+}
+
+void keep_largest(std::vector<cv::Rect>& boxes) {
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
+  if (boxes.size() > kMostOfAKind) boxes.resize(kMostOfAKind);
+}
+
+/// Boxes around timers, labels and other lettering.
+std::vector<cv::Rect> labels_in(const WorkingPicture& work) {
+  cv::Mat1b grey;
+  cv::cvtColor(work.bgr, grey, cv::COLOR_BGR2GRAY);
+  cv::Mat1b steep;
+  cv::morphologyEx(grey, steep, cv::MORPH_GRADIENT,
+                   cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  steep = steep > kSteepEdge;
+  cv::morphologyEx(steep, steep, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_RECT, {kLetterGap, kLetterGap / 2}));
+  const Pieces pieces(steep);
+  std::vector<cv::Rect> labels;
+  for (int i = 1; i < pieces.count; ++i) {
+    const cv::Rect box = pieces.box(i);
+    const bool is_label = box.width > box.height && box.width < kWidestLabel * work.frame.width &&
+                          box.height > kLetterGap &&
+                          box.height < kHighestLabel * work.frame.height &&
+                          pieces.area(i) > kLabelFilled * box.area();
+    if (is_label) add_new(labels, box);
+  }
+  keep_largest(labels);
+  return labels;
+}
+
+/// Boxes around the larger things that any segmentation sees.
+std::vector<cv::Rect> things_in(const WorkingPicture& work) {
+  std::vector<cv::Rect> things;
+  for (const Segmentation& segmentation : blind_segmentations(work)) {
+    for (const Body& body : find_bodies(segmentation, work)) {
+      const cv::Rect box = cv::boundingRect(body.mask);
+      const double fraction = static_cast<double>(box.area()) / work.frame.area();
+      if (fraction > kSmallestThing && fraction < kLargestThing) add_new(things, box);
+    }
+  }
+  keep_largest(things);
+  return things;
+}
+
+/// The box in the picture, with a margin.
+Box in_picture(const cv::Rect& box, const WorkingPicture& work, const Picture& picture) {
+  const double margin = kMargin * std::max(box.width, box.height);
+  const Point from = work.in_picture({box.x - margin, box.y - margin});
+  const Point to = work.in_picture({box.br().x + margin, box.br().y + margin});
+  const int left = std::max(0, static_cast<int>(from.x));
+  const int top = std::max(0, static_cast<int>(from.y));
+  return {.x = left,
+          .y = top,
+          .width = std::min(picture.width, static_cast<int>(to.x)) - left,
+          .height = std::min(picture.height, static_cast<int>(to.y)) - top};
+}
+
+/// Tries proposals until one gives an angle that needs no second look.
+class Trials {
+ public:
+  Trials(const Picture& picture, const MeasureOptions& options)
+      : picture_(picture), options_(options) {}
+
+  bool is_settled() const { return best_status_ == MeasureStatus::ok; }
+  const std::optional<Proposal>& best() const { return best_; }
+
+  void attempt(Proposal proposal) {
+    if (is_settled()) return;
+    MeasureOptions changed = options_;
+    if (proposal.excluded) changed.excluded.push_back(*proposal.excluded);
+    if (proposal.heap) changed.hints.heap = proposal.heap;
+    const ReposeAngle result = measure_repose_angle(picture_, changed);
+    const bool is_better =
+        result.status == MeasureStatus::ok || (result.status == MeasureStatus::flagged && !best_);
+    if (!is_better) return;
+    proposal.angle_rad = result.angle_rad;
+    proposal.uncertainty_rad = result.uncertainty_rad;
+    best_ = proposal;
+    best_status_ = result.status;
+  }
+
+ private:
+  const Picture& picture_;
+  const MeasureOptions& options_;
+  std::optional<Proposal> best_;
+  MeasureStatus best_status_ = MeasureStatus::refused;
+};
+
+Proposal guess_around(const Box& box) {
+  const double level = box.y + box.height / (1 + 2 * kMargin) * (1 + kMargin);
+  Proposal guess;
+  guess.heap = box;
+  guess.ground = Segment{{static_cast<double>(box.x), std::round(level)},
+                         {static_cast<double>(box.x + box.width), std::round(level)}};
+  return guess;
+}
+
+}  // namespace
+
+std::optional<Proposal> propose_hint(const Picture& picture, const MeasureOptions& options) {
+  const WorkingPicture work = working_picture(picture, options.excluded, options.hints);
+  Trials trials(picture, options);
+  for (const cv::Rect& label : labels_in(work)) {
+    Proposal proposal;
+    proposal.excluded = in_picture(label, work, picture);
+    trials.attempt(proposal);
+  }
+  if (options.hints.heap || trials.is_settled()) return trials.best();
+  const std::vector<cv::Rect> things = things_in(work);
+  for (const cv::Rect& thing : things) {
+    Proposal proposal;
+    proposal.heap = in_picture(thing, work, picture);
+    trials.attempt(proposal);
+  }
+  if (trials.best() || things.empty()) return trials.best();
+  return guess_around(in_picture(things.front(), work, picture));
+}
+
+}  // namespace repose::vision

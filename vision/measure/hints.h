@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/picture/picture.h"
+
+namespace repose::vision {
+
+/// What a person says of one picture. Positions in the picture's pixels.
+struct Hints {
+  /// Around the heap: nothing outside counts, and the heap's height ends where the box does.
+  std::optional<Box> heap;
+  /// Two points of the line that the heap stands on.
+  std::optional<Segment> ground;
+  std::vector<Point> keep;  ///< places on the heap
+  std::vector<Point> drop;  ///< places beside the heap
+  /// As large as the picture: light is on the heap, dark is not, grey (a quarter to three quarters)
+  /// leaves it open. Empty: none.
+  Picture mask = {};
+  std::string source = {};  ///< the file that they were read from; empty when given otherwise
+
+  bool empty() const;
+  /// "box around the heap, ground line, 2 places on the heap": what a person has said.
+  std::string text() const;
+};
+
+/// What cannot be meant in a picture of this size, a line each.
+std::vector<std::string> problems_of(const Hints& hints, int width, int height);
+
+/// The hints inside a box, from the box's own corner; the box itself has been followed.
+Hints hints_within(const Hints& hints, const Box& box);
+
+/// The part of a picture that a box inside it shows.
+Picture part_of(const Picture& picture, const Box& box);
+
+}  // namespace repose::vision

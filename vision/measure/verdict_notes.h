@@ -1,0 +1,26 @@
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "vision/measure/repose_angle.h"
+
+namespace repose::vision {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+inline double degrees(double rad) { return rad / kDegree; }
+
+/// Tells the user something that does not put the number in doubt.
+inline void note(ReposeAngle& result, std::string code, std::string message) {
+  result.warnings.push_back({std::move(code), std::move(message)});
+}
+
+/// Tells the user why a person must look before the number is used.
+inline void flag(ReposeAngle& result, std::string code, std::string message) {
+  result.status = MeasureStatus::flagged;
+  note(result, std::move(code), std::move(message));
+}
+
+}  // namespace repose::vision
