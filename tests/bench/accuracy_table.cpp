@@ -85,10 +85,10 @@ struct Summary {
 };
 
 constexpr std::string_view kLine =
-    "{:<16} {:>4} | {:>6} {:>6} {:>5} {:>6} | {:>6} {:>6} {:>5} {:>5} {:>5} | {:>4} {:>4} {:>4}\n";
+    "{:<18} {:>4} | {:>6} {:>6} {:>5} {:>6} | {:>6} {:>6} {:>5} {:>5} {:>5} | {:>4} {:>4} {:>4}\n";
 
 std::string head() {
-  return fmt::format("{:<16} {:>4} | {:^26} | {:^31} | {:^14}\n", "", "", "picture's mean [deg]",
+  return fmt::format("{:<18} {:>4} | {:^26} | {:^31} | {:^14}\n", "", "", "picture's mean [deg]",
                      "flanks [deg]", "pictures") +
          fmt::format(kLine, "condition", "n", "median", "95 %", "cov %", "half-w", "median", "95 %",
                      "cov %", "miss", "extra", "refd", "flag", ">2");
@@ -108,6 +108,7 @@ std::string_view target_of(Group group) {
     case Group::degraded:
       return "to reach: median <= 0.3, 95 % <= 1, coverage 90-99 %, none > 2 unflagged, "
              "refused <= 3 %\n";
+    case Group::hollow:
     case Group::sample:
     case Group::misplaced:
     case Group::not_measurable:
@@ -183,7 +184,7 @@ std::string group_table(std::span<const Row> rows, Group group) {
 std::string refusal_table(std::span<const Row> rows) {
   std::string text;
   for (const auto& [condition, s] : summaries(of_group(rows, Group::not_measurable))) {
-    text += fmt::format("{:<16} {:>4} | refused {:>3}, flagged {:>3}, angle without a word {:>3}\n",
+    text += fmt::format("{:<18} {:>4} | refused {:>3}, flagged {:>3}, angle without a word {:>3}\n",
                         condition, s.pictures, s.refused, s.flagged,
                         s.pictures - s.refused - s.flagged);
   }
@@ -201,12 +202,12 @@ std::string bias_table(std::span<const Row> rows) {
   }
   std::string text;
   for (const Bias& bias : biases) {
-    text += fmt::format("{:<16} {:>4} | {:>17} {:>22} {:>15}\n", bias.condition,
+    text += fmt::format("{:<18} {:>4} | {:>17} {:>22} {:>15}\n", bias.condition,
                         bias.of_both_deg.size(), signed_mean(bias.of_camera_deg),
                         signed_mean(bias.of_measurement_deg), signed_mean(bias.of_both_deg));
   }
   if (text.empty()) return "";
-  return fmt::format("{:<16} {:>4} | {:>17} {:>22} {:>15}\n", "mean signed [deg]", "n",
+  return fmt::format("{:<18} {:>4} | {:>17} {:>22} {:>15}\n", "mean signed [deg]", "n",
                      "outline less heap", "measured less outline", "both") +
          text + '\n';
 }

@@ -90,7 +90,8 @@ void print_tables(const std::vector<Row>& rows, std::string_view section) {
       return row.subject->section == section && row.method == method;
     });
     std::string text;
-    for (const Group group : {Group::clean, Group::degraded, Group::sample, Group::misplaced}) {
+    for (const Group group :
+         {Group::clean, Group::degraded, Group::hollow, Group::sample, Group::misplaced}) {
       text += repose::bench::group_table(part, group);
     }
     text += repose::bench::bias_table(part) + repose::bench::refusal_table(part);

@@ -64,8 +64,8 @@ DrawnHeap truth_of(const HeapScene& scene, const HeapProfile& profile, const Sta
   DrawnHeap heap;
   heap.left_line = placed(profile.flank(Side::left));
   heap.right_line = placed(profile.flank(Side::right));
-  if (heap.left_line) heap.left_rad = scene.form.left_rad;
-  if (heap.right_line) heap.right_rad = scene.form.right_rad;
+  if (const auto left = profile.angle(Side::left)) heap.left_rad = left->angle_rad;
+  if (const auto right = profile.angle(Side::right)) heap.right_rad = right->angle_rad;
   heap.ground_tilt_rad = scene.camera.tilt_rad;
   heap.ground = {place({profile.left_toe_x(), 0}), place({profile.right_toe_x(), 0})};
   heap.grain_px = profile.grain_px();
