@@ -101,6 +101,14 @@ std::string line(std::string_view name, const Summary& s) {
                      s.invented_flanks, s.refused, s.flagged, s.silent);
 }
 
+constexpr std::string_view kRefusalLine = "{:<18} {:>4} | {:>4} {:>4} {:>4} | {:>5}\n";
+
+std::string refusal_line(std::string_view name, const Summary& s) {
+  const int ok = s.pictures - s.refused - s.flagged;
+  return fmt::format(kRefusalLine, name, s.pictures, ok, s.flagged, s.refused,
+                     fmt::format("{:.1f}", 100.0 * ok / s.pictures));
+}
+
 std::string_view target_of(Group group) {
   switch (group) {
     case Group::clean:
@@ -183,12 +191,15 @@ std::string group_table(std::span<const Row> rows, Group group) {
 
 std::string refusal_table(std::span<const Row> rows) {
   std::string text;
-  for (const auto& [condition, s] : summaries(of_group(rows, Group::not_measurable))) {
-    text += fmt::format("{:<18} {:>4} | refused {:>3}, flagged {:>3}, angle without a word {:>3}\n",
-                        condition, s.pictures, s.refused, s.flagged,
-                        s.pictures - s.refused - s.flagged);
+  const auto chosen = of_group(rows, Group::not_measurable);
+  for (const auto& [condition, s] : summaries(chosen)) {
+    text += refusal_line(condition, s);
   }
-  return text.empty() ? "" : "no angle exists (to reach: all refused)\n" + text;
+  if (text.empty()) return "";
+  Summary total;
+  for (const Row& row : chosen) total.add(row);
+  return fmt::format(kRefusalLine, "no angle exists", "n", "ok", "flag", "refd", "ok %") + text +
+         refusal_line("all of these", total) + "to reach: all refused\n";
 }
 
 std::string bias_table(std::span<const Row> rows) {
