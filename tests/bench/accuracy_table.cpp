@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/share.h"
+
 namespace repose::bench {
 namespace {
 
@@ -36,19 +38,6 @@ struct Sample {
         sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
     return fmt::format("{:.2f}", value);
   }
-};
-
-struct Share {
-  int hits = 0;
-  int all = 0;
-
-  void add(std::optional<bool> hit) {
-    if (!hit) return;
-    ++all;
-    hits += *hit ? 1 : 0;
-  }
-
-  std::string percent() const { return all == 0 ? "-" : fmt::format("{:.0f}", 100.0 * hits / all); }
 };
 
 struct Summary {

@@ -20,6 +20,7 @@
 #include "tests/bench/accuracy_table.h"
 #include "tests/bench/drawn_subjects.h"
 #include "tests/bench/other_subjects.h"
+#include "tests/bench/reliability_table.h"
 #include "tests/bench/rendered_subjects.h"
 
 namespace {
@@ -101,6 +102,16 @@ void print_tables(const std::vector<Row>& rows, std::string_view section) {
   }
 }
 
+/// Of all sections together: confidence means the same in each.
+void print_reliability(const std::vector<Row>& rows) {
+  std::vector<Row> part;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(part),
+               [](const Row& row) { return row.method == "auto"; });
+  if (part.empty()) return;
+  fmt::print("== reliability, method auto ==\n\n{}\n{}", repose::bench::reliability_table(part),
+             repose::bench::coverage_table(part));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -135,6 +146,7 @@ int main(int argc, char** argv) {
     const auto subjects = subjects_for(section, condition, seeds, first_seed);
     const auto rows = measured(subjects, method.empty() ? all_methods : std::span(&one_method, 1));
     for (const std::string_view name : {"drawn", "rendered", "other"}) print_tables(rows, name);
+    print_reliability(rows);
     if (!csv.empty()) repose::bench::write_csv(csv, rows);
     if (!folder.empty()) dump_worst(rows, folder);
     return 0;
