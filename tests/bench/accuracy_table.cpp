@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/share.h"
+
 namespace repose::bench {
 namespace {
 
@@ -36,19 +38,6 @@ struct Sample {
         sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
     return fmt::format("{:.2f}", value);
   }
-};
-
-struct Share {
-  int hits = 0;
-  int all = 0;
-
-  void add(std::optional<bool> hit) {
-    if (!hit) return;
-    ++all;
-    hits += *hit ? 1 : 0;
-  }
-
-  std::string percent() const { return all == 0 ? "-" : fmt::format("{:.0f}", 100.0 * hits / all); }
 };
 
 struct Summary {
@@ -85,10 +74,10 @@ struct Summary {
 };
 
 constexpr std::string_view kLine =
-    "{:<16} {:>4} | {:>6} {:>6} {:>5} {:>6} | {:>6} {:>6} {:>5} {:>5} {:>5} | {:>4} {:>4} {:>4}\n";
+    "{:<18} {:>4} | {:>6} {:>6} {:>5} {:>6} | {:>6} {:>6} {:>5} {:>5} {:>5} | {:>4} {:>4} {:>4}\n";
 
 std::string head() {
-  return fmt::format("{:<16} {:>4} | {:^26} | {:^31} | {:^14}\n", "", "", "picture's mean [deg]",
+  return fmt::format("{:<18} {:>4} | {:^26} | {:^31} | {:^14}\n", "", "", "picture's mean [deg]",
                      "flanks [deg]", "pictures") +
          fmt::format(kLine, "condition", "n", "median", "95 %", "cov %", "half-w", "median", "95 %",
                      "cov %", "miss", "extra", "refd", "flag", ">2");
@@ -101,6 +90,14 @@ std::string line(std::string_view name, const Summary& s) {
                      s.invented_flanks, s.refused, s.flagged, s.silent);
 }
 
+constexpr std::string_view kRefusalLine = "{:<18} {:>4} | {:>4} {:>4} {:>4} | {:>5}\n";
+
+std::string refusal_line(std::string_view name, const Summary& s) {
+  const int ok = s.pictures - s.refused - s.flagged;
+  return fmt::format(kRefusalLine, name, s.pictures, ok, s.flagged, s.refused,
+                     fmt::format("{:.1f}", 100.0 * ok / s.pictures));
+}
+
 std::string_view target_of(Group group) {
   switch (group) {
     case Group::clean:
@@ -108,6 +105,7 @@ std::string_view target_of(Group group) {
     case Group::degraded:
       return "to reach: median <= 0.3, 95 % <= 1, coverage 90-99 %, none > 2 unflagged, "
              "refused <= 3 %\n";
+    case Group::hollow:
     case Group::sample:
     case Group::misplaced:
     case Group::not_measurable:
@@ -182,12 +180,15 @@ std::string group_table(std::span<const Row> rows, Group group) {
 
 std::string refusal_table(std::span<const Row> rows) {
   std::string text;
-  for (const auto& [condition, s] : summaries(of_group(rows, Group::not_measurable))) {
-    text += fmt::format("{:<16} {:>4} | refused {:>3}, flagged {:>3}, angle without a word {:>3}\n",
-                        condition, s.pictures, s.refused, s.flagged,
-                        s.pictures - s.refused - s.flagged);
+  const auto chosen = of_group(rows, Group::not_measurable);
+  for (const auto& [condition, s] : summaries(chosen)) {
+    text += refusal_line(condition, s);
   }
-  return text.empty() ? "" : "no angle exists (to reach: all refused)\n" + text;
+  if (text.empty()) return "";
+  Summary total;
+  for (const Row& row : chosen) total.add(row);
+  return fmt::format(kRefusalLine, "no angle exists", "n", "ok", "flag", "refd", "ok %") + text +
+         refusal_line("all of these", total) + "to reach: all refused\n";
 }
 
 std::string bias_table(std::span<const Row> rows) {
@@ -201,12 +202,12 @@ std::string bias_table(std::span<const Row> rows) {
   }
   std::string text;
   for (const Bias& bias : biases) {
-    text += fmt::format("{:<16} {:>4} | {:>17} {:>22} {:>15}\n", bias.condition,
+    text += fmt::format("{:<18} {:>4} | {:>17} {:>22} {:>15}\n", bias.condition,
                         bias.of_both_deg.size(), signed_mean(bias.of_camera_deg),
                         signed_mean(bias.of_measurement_deg), signed_mean(bias.of_both_deg));
   }
   if (text.empty()) return "";
-  return fmt::format("{:<16} {:>4} | {:>17} {:>22} {:>15}\n", "mean signed [deg]", "n",
+  return fmt::format("{:<18} {:>4} | {:>17} {:>22} {:>15}\n", "mean signed [deg]", "n",
                      "outline less heap", "measured less outline", "both") +
          text + '\n';
 }

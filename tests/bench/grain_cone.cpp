@@ -20,11 +20,13 @@ constexpr double kSideways = .15;  // how far it may lie beside its place / widt
 
 double peak_m(const GrainCone& cone) { return cone.grains_high * kNutWidth_m; }
 
-/// A cone with a rounded tip: the hyperbola whose asymptotes are the cone's sides.
+/// A cone with a rounded tip: the hyperbola whose asymptotes are the cone's sides, hollowed out.
 double top_m(const GrainCone& cone, double r_m) {
   const double slope = std::tan(cone.angle_rad);
   const double lack_m = cone.crest * peak_m(cone);
-  return peak_m(cone) + lack_m - std::hypot(slope * r_m, lack_m);
+  const double straight_m = peak_m(cone) + lack_m - std::hypot(slope * r_m, lack_m);
+  if (cone.hollow == 1) return straight_m;
+  return peak_m(cone) * std::pow(std::max(0.0, straight_m / peak_m(cone)), cone.hollow);
 }
 
 /// How far it reaches in a direction / how far on average.

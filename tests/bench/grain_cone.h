@@ -9,6 +9,7 @@ namespace repose::bench {
 /// A heap as grains make it that are let fall on one spot. Lengths in grains' widths.
 struct GrainCone {
   double angle_rad = .45;
+  double hollow = 1;  ///< exponent on the cone's height / peak: above 1 its flanks are hollow
   double grains_high = 20;
   double crest = .15;     ///< height that the rounded tip lacks to the cone's / height
   double lopsided = .04;  ///< how much farther it reaches on one side than on the other

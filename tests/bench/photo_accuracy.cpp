@@ -19,6 +19,8 @@
 #include "tests/bench/accuracy_row.h"
 #include "tests/bench/accuracy_table.h"
 #include "tests/bench/drawn_subjects.h"
+#include "tests/bench/other_subjects.h"
+#include "tests/bench/reliability_table.h"
 #include "tests/bench/rendered_subjects.h"
 
 namespace {
@@ -33,7 +35,8 @@ std::vector<Subject> subjects_for(const std::string& section, const std::string&
                                   int seeds, std::uint64_t first_seed) {
   std::vector<Subject> subjects;
   for (auto&& part : {repose::bench::drawn_subjects(seeds, first_seed),
-                      repose::bench::rendered_subjects(seeds, first_seed)}) {
+                      repose::bench::rendered_subjects(seeds, first_seed),
+                      repose::bench::other_subjects(seeds, first_seed)}) {
     subjects.insert(subjects.end(), part.begin(), part.end());
   }
   std::erase_if(subjects, [&](const Subject& subject) {
@@ -90,18 +93,30 @@ void print_tables(const std::vector<Row>& rows, std::string_view section) {
       return row.subject->section == section && row.method == method;
     });
     std::string text;
-    for (const Group group : {Group::clean, Group::degraded, Group::sample, Group::misplaced}) {
+    for (const Group group :
+         {Group::clean, Group::degraded, Group::hollow, Group::sample, Group::misplaced}) {
       text += repose::bench::group_table(part, group);
     }
     text += repose::bench::bias_table(part) + repose::bench::refusal_table(part);
-    if (!text.empty()) fmt::print("== {} heaps, method {} ==\n\n{}\n", section, method, text);
+    if (!text.empty()) fmt::print("== {} pictures, method {} ==\n\n{}\n", section, method, text);
   }
+}
+
+/// Of all sections together: confidence means the same in each.
+void print_reliability(const std::vector<Row>& rows) {
+  std::vector<Row> part;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(part),
+               [](const Row& row) { return row.method == "auto"; });
+  if (part.empty()) return;
+  fmt::print("== reliability, method auto ==\n\n{}\n{}", repose::bench::reliability_table(part),
+             repose::bench::coverage_table(part));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures drawn and rendered heaps and compares with their true angles.");
+  CLI::App app(
+      "Measures drawn and rendered heaps, whose angles are known, and pictures without a heap.");
   int seeds = 20;
   std::uint64_t first_seed = 1;
   std::string section;
@@ -113,7 +128,7 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", seeds, "Pictures of each condition")->check(CLI::Range(1, 100000));
   app.add_option("--first-seed", first_seed, "Seed of the first picture");
   app.add_option("--section", section, "These pictures alone")
-      ->check(CLI::IsMember({"drawn", "rendered"}));
+      ->check(CLI::IsMember({"drawn", "rendered", "other"}));
   app.add_option("--condition", condition, "This condition alone");
   app.add_option("--method", method, "This method alone")
       ->check(CLI::IsMember({"auto", "paper", "script"}));
@@ -130,7 +145,8 @@ int main(int argc, char** argv) {
     const std::string_view one_method = method;
     const auto subjects = subjects_for(section, condition, seeds, first_seed);
     const auto rows = measured(subjects, method.empty() ? all_methods : std::span(&one_method, 1));
-    for (const std::string_view name : {"drawn", "rendered"}) print_tables(rows, name);
+    for (const std::string_view name : {"drawn", "rendered", "other"}) print_tables(rows, name);
+    print_reliability(rows);
     if (!csv.empty()) repose::bench::write_csv(csv, rows);
     if (!folder.empty()) dump_worst(rows, folder);
     return 0;

@@ -11,6 +11,7 @@
 #include "render/truth.h"
 #include "tests/bench/grain_cone.h"
 #include "tests/bench/outline_angles.h"
+#include "tests/support/flank_law.h"
 #include "tests/support/heap_camera.h"
 #include "tests/support/heap_draft.h"
 #include "tests/support/heap_palette.h"
@@ -81,8 +82,9 @@ render::PhotoStyle photo_style(double least_contrast, Random& random) {
 }
 
 /// A well-lit photograph by parallel rays, the start of every condition.
-Draft draft(std::string_view condition, std::uint64_t seed, double least_contrast = 32) {
-  Draft draft{.staging = {.cone = cone_of(seed)},
+Draft draft_of(const GrainCone& cone, std::string_view condition, std::uint64_t seed) {
+  constexpr double kLeastContrast = 32;
+  Draft draft{.staging = {.cone = cone},
               .scene = {},
               .random = Random(seed * 0x9E3779B97F4A7C15 ^ hash_of(condition))};
   auto& [staging, scene, random] = draft;
@@ -97,9 +99,13 @@ Draft draft(std::string_view condition, std::uint64_t seed, double least_contras
       .azimuth_rad = azimuth_rad,
       .mm_per_px = 1e3 * m_per_px,
       .middle_m = dem::Vector(0, 0, random.uniform(.15, .3) * kSize.height * m_per_px)};
-  staging.style = photo_style(least_contrast, random);
+  staging.style = photo_style(kLeastContrast, random);
   staging.jpeg_quality = random.integer(85, 96);
   return draft;
+}
+
+Draft draft(std::string_view condition, std::uint64_t seed) {
+  return draft_of(cone_of(seed), condition, seed);
 }
 
 render::PhotoStyle& photo(Draft& draft) {
@@ -123,10 +129,14 @@ render::PerspectiveCamera& set_lens(Draft& draft, double distance, double pitch_
 /// At least three heap widths away, as the instructions say.
 double good_distance(Random& random) { return random.uniform(6, 10); }
 
+void make_silhouette(Draft& draft) {
+  draft.staging.style = render::SilhouetteStyle{.shows_ground = draft.random.chance(.5)};
+  draft.staging.jpeg_quality = 0;
+}
+
 Draft silhouette(std::uint64_t seed) {
   Draft made = draft("silhouette", seed);
-  made.staging.style = render::SilhouetteStyle{.shows_ground = made.random.chance(.5)};
-  made.staging.jpeg_quality = 0;
+  make_silhouette(made);
   return made;
 }
 
@@ -172,6 +182,31 @@ Draft blur_noise_jpeg(std::uint64_t seed) {
   return made;
 }
 
+/// The heap's surface of revolution is a power of the cone's height. What is to be found is the
+/// definition on the exact outline of its grains, as for the other conditions; the outline follows
+/// the smooth surface's but for their bumps.
+Draft hollowed(std::string_view condition, std::uint64_t seed) {
+  Random random(seed * 0x9E3779B97F4A7C15 ^ hash_of("hollow"));
+  GrainCone cone = cone_of(seed);
+  cone.angle_rad *= .85;  // hollow ones are steeper in the window
+  const double height_m = cone.grains_high * testing::kNutWidth_m;
+  cone.hollow = testing::hollow_of_bend(testing::Flanks::power, height_m / base_radius_m(cone),
+                                        radians(random.uniform(3.5, 7.5)));
+  return draft_of(cone, condition, seed);
+}
+
+Draft hollow_silhouette(std::uint64_t seed) {
+  Draft made = hollowed("hollow_silhouette", seed);
+  make_silhouette(made);
+  return made;
+}
+
+Draft hollow_lens(std::uint64_t seed) {
+  Draft made = hollowed("hollow_lens", seed);
+  set_lens(made, good_distance(made.random));
+  return made;
+}
+
 Draft pitched(std::uint64_t seed) {
   Draft made = draft("pitched", seed);
   const double distance = good_distance(made.random);
@@ -206,6 +241,8 @@ constexpr std::array kConditions = {
     RenderedCondition{"hard_light", Group::degraded, hard_light},
     RenderedCondition{"blur_noise_jpeg", Group::degraded, blur_noise_jpeg},
     RenderedCondition{"pitch_told", Group::degraded, pitch_told},
+    RenderedCondition{"hollow_silhouette", Group::hollow, hollow_silhouette},
+    RenderedCondition{"hollow_lens", Group::hollow, hollow_lens},
     RenderedCondition{"pitch_not_told", Group::misplaced, pitched},
     RenderedCondition{"near_lens", Group::misplaced, near_lens},
 };
@@ -218,15 +255,17 @@ vision::Picture drawn(const render::Scene& scene, const Staging& staging) {
   return renderer.draw(scene, staging.camera, kSize, staging.style).picture;
 }
 
-FlankAngles angles_seen_by(const render::Camera& camera, const render::Scene& scene) {
-  const render::Truth truth = truth_of(scene, camera, kSize, render::Shown::mesh);
-  return outline_angles(truth, 1e3 * testing::kNutWidth_m / truth.mm_per_px);
+FlankAngles angles_seen_by(const render::Camera& camera, const Draft& draft) {
+  const render::Truth truth = truth_of(draft.scene, camera, kSize, render::Shown::mesh);
+  const double grain_px = 1e3 * testing::kNutWidth_m / truth.mm_per_px;
+  return draft.staging.cone.hollow == 1 ? outline_angles(truth, grain_px)
+                                        : defined_angles(truth, grain_px);
 }
 
 KnownPicture taken(const Draft& draft) {
   const auto& [staging, scene, random] = draft;
   KnownPicture known{.picture = drawn(scene, staging),
-                     .heap = angles_seen_by(staging.camera, scene),
+                     .heap = angles_seen_by(staging.camera, draft),
                      .told_pitch_rad = staging.told_pitch_rad};
   if (staging.jpeg_quality > 0) {
     known.picture = testing::jpeg_compressed(known.picture, staging.jpeg_quality);
@@ -238,7 +277,7 @@ KnownPicture taken(const Draft& draft) {
     const double pitch_rad = staging.told_pitch_rad.value_or(0);
     *angle_rad = vision::angle_without_pitch(angle_rad->value(), pitch_rad);
   }
-  known.heap = angles_seen_by(render::OrthographicCamera{.azimuth_rad = lens->azimuth_rad}, scene);
+  known.heap = angles_seen_by(render::OrthographicCamera{.azimuth_rad = lens->azimuth_rad}, draft);
   return known;
 }
 

@@ -32,7 +32,8 @@ struct KnownPicture {
 
 /// A picture that can be had again.
 struct Subject {
-  std::string_view section;    ///< how its pictures are made: "drawn" or "rendered"
+  std::string_view
+      section;  ///< how its pictures are made: "drawn", "rendered", or "other" without a heap
   std::string_view condition;  ///< what makes it easy or hard
   testing::Group group = testing::Group::clean;
   std::uint64_t seed = 1;

@@ -10,8 +10,8 @@
 #include "tests/support/heap_draft.h"
 #include "tests/support/heap_fit.h"
 #include "tests/support/heap_palette.h"
-#include "tests/support/heap_picture.h"
 #include "tests/support/heap_random.h"
+#include "tests/support/hollow_conditions.h"
 
 namespace repose::testing {
 namespace {
@@ -159,19 +159,9 @@ HeapScene apron(std::uint64_t seed) {
   return scene;
 }
 
-/// The crest leans on the wall, so only one side of the uncut cone is in the picture.
 HeapScene half_heap(std::uint64_t seed) {
   auto [scene, random] = draft("half_heap", seed);
-  HeapForm& form = scene.form;
-  form.shape = Shape::half_heap;
-  form.wall = any_side(random);
-  form.wall_is_frame = random.chance(0.4);
-  form.right_rad = form.left_rad;
-  form.base = random.uniform(1.0, 1.4);
-  const double apex = form.wall_is_frame ? -0.004 : random.uniform(0.05, 0.15);
-  form.center = form.wall == Side::left ? apex : 1 - apex;
-  // A high flank has to fit in.
-  form.base *= std::min(1.0, 0.75 / std::tan(form.left_rad) / 1.4);
+  lean_on_wall(scene.form, random);
   return scene;
 }
 
@@ -228,17 +218,6 @@ HeapScene wall_to_wall(std::uint64_t seed) {
   return scene;
 }
 
-/// A flank of so few grains strays from its line by chance: takes a heap that keeps to it.
-void settle(HeapScene& scene, Random& random) {
-  constexpr int kTrials = 200;
-  for (int i = 0; i < kTrials; ++i) {
-    const auto errors = outline_errors_rad(heap_truth(scene));
-    const auto is_small = [](double error) { return std::abs(error) < radians(0.15); };
-    if (std::all_of(errors.begin(), errors.end(), is_small)) return;
-    scene.seed = random.seed();
-  }
-}
-
 constexpr std::array kConditions = {
     Condition{"clean", Group::clean, clean},
     Condition{"inverted_white", Group::clean, inverted_white},
@@ -258,6 +237,12 @@ constexpr std::array kConditions = {
     Condition{"apron", Group::degraded, apron},
     Condition{"half_heap", Group::degraded, half_heap},
     Condition{"truncated", Group::degraded, truncated},
+    Condition{"hollow_power", Group::hollow, hollow_power},
+    Condition{"hollow_exponential", Group::hollow, hollow_exponential},
+    Condition{"hollow_half_heap", Group::hollow, hollow_half_heap},
+    Condition{"hollow_apron", Group::hollow, hollow_apron},
+    Condition{"few_grains", Group::hollow, few_grains},
+    Condition{"few_grains_hollow", Group::hollow, few_grains_hollow},
     Condition{"hazelnut", Group::sample, hazelnut_scene},
     Condition{"empty_plate", Group::not_measurable, empty_plate},
     Condition{"column", Group::not_measurable, column},

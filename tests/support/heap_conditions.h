@@ -11,6 +11,7 @@ namespace repose::testing {
 enum class Group {
   clean,           ///< well-lit pictures
   degraded,        ///< one trouble each, as laboratories have them
+  hollow,          ///< flanks that are no straight lines, or made of few grains
   sample,          ///< the hazelnut pictures
   misplaced,       ///< the camera stands where the instructions say it must not
   not_measurable,  ///< no angle exists: a measurement must be refused

@@ -1,5 +1,6 @@
 #include "tests/support/heap_draft.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,6 +13,18 @@ Side any_side(Random& random) { return random.chance(0.5) ? Side::left : Side::r
 void choose_angles(HeapForm& form, double mean_rad, double spread_rad, Random& random) {
   form.left_rad = mean_rad + random.uniform(-spread_rad, spread_rad);
   form.right_rad = mean_rad + random.uniform(-spread_rad, spread_rad);
+}
+
+void lean_on_wall(HeapForm& form, Random& random) {
+  form.shape = Shape::half_heap;
+  form.wall = any_side(random);
+  form.wall_is_frame = random.chance(0.4);
+  form.right_rad = form.left_rad;
+  form.base = random.uniform(1.0, 1.4);
+  const double apex = form.wall_is_frame ? -0.004 : random.uniform(0.05, 0.15);
+  form.center = form.wall == Side::left ? apex : 1 - apex;
+  // A high flank has to fit in.
+  form.base *= std::min(1.0, 0.75 / std::tan(form.left_rad) / 1.4);
 }
 
 Draft draft(std::string_view condition, std::uint64_t seed) {

@@ -21,6 +21,10 @@ Side any_side(Random& random);
 
 void choose_angles(HeapForm& form, double mean_rad, double spread_rad, Random& random);
 
+/// The crest leans on a wall or on the frame, so only one side of the uncut cone is in the picture.
+/// Both sides of the form become alike.
+void lean_on_wall(HeapForm& form, Random& random);
+
 /// A good laboratory picture: the start of every condition.
 Draft draft(std::string_view condition, std::uint64_t seed);
 

@@ -71,6 +71,17 @@ cv::Vec3f light_of(const Color& color) {
   return {channel(color.b), channel(color.g), channel(color.r)};
 }
 
+Stage empty_stage(const HeapScene& scene) {
+  Stage stage;
+  const double reach = std::max(scene.width, scene.height) / 2.0;
+  const double sine = std::abs(std::sin(scene.camera.tilt_rad));
+  const int margin = static_cast<int>(std::ceil(reach * sine + 4));
+  stage.margin_px = margin;
+  stage.size = {scene.width + 2 * margin, scene.height + 2 * margin};
+  stage.ground_y = margin + scene.around.ground * scene.height;
+  return stage;
+}
+
 void paint_grains(Stage& stage, const std::vector<Grain>& grains, const GrainLook& look) {
   for (const Grain& grain : grains) {
     Material material;

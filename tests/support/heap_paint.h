@@ -20,6 +20,10 @@ struct Stage {
   double margin_px = 0;  ///< round the picture
 };
 
+/// With nothing painted yet. Its margin is enough for the corners not to show when the picture is
+/// turned.
+Stage empty_stage(const HeapScene& scene);
+
 /// Paints grains in their order, each shaded like an ellipsoid lit from the upper left.
 void paint_grains(Stage& stage, const std::vector<Grain>& grains, const GrainLook& look);
 

@@ -1,8 +1,5 @@
 #include "tests/support/heap_picture.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <opencv2/core.hpp>
 
 #include "tests/support/heap_camera.h"
@@ -18,18 +15,6 @@ using vision::Point;
 using vision::Segment;
 
 std::uint64_t grain_seed(const HeapScene& scene) { return scene.seed ^ hash_of("grains"); }
-
-/// The margin is enough for the corners not to show when the picture is turned.
-Stage empty_stage(const HeapScene& scene) {
-  Stage stage;
-  const double reach = std::max(scene.width, scene.height) / 2.0;
-  const double sine = std::abs(std::sin(scene.camera.tilt_rad));
-  const int margin = static_cast<int>(std::ceil(reach * sine + 4));
-  stage.margin_px = margin;
-  stage.size = {scene.width + 2 * margin, scene.height + 2 * margin};
-  stage.ground_y = margin + scene.around.ground * scene.height;
-  return stage;
-}
 
 void paint_photo(Stage& stage, const HeapScene& scene, const HeapProfile& profile,
                  const std::vector<Grain>& grains, Random& random) {
@@ -64,8 +49,8 @@ DrawnHeap truth_of(const HeapScene& scene, const HeapProfile& profile, const Sta
   DrawnHeap heap;
   heap.left_line = placed(profile.flank(Side::left));
   heap.right_line = placed(profile.flank(Side::right));
-  if (heap.left_line) heap.left_rad = scene.form.left_rad;
-  if (heap.right_line) heap.right_rad = scene.form.right_rad;
+  if (const auto left = profile.angle(Side::left)) heap.left_rad = left->angle_rad;
+  if (const auto right = profile.angle(Side::right)) heap.right_rad = right->angle_rad;
   heap.ground_tilt_rad = scene.camera.tilt_rad;
   heap.ground = {place({profile.left_toe_x(), 0}), place({profile.right_toe_x(), 0})};
   heap.grain_px = profile.grain_px();

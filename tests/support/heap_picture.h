@@ -15,7 +15,7 @@ struct DrawnHeap {
   std::optional<double> right_rad;  ///< likewise
   double ground_tilt_rad = 0;       ///< > 0: right end lower
   vision::Segment ground;           ///< under the base [px]
-  std::optional<vision::Segment> left_line;   ///< the flank's straight part, toe first [px]
+  std::optional<vision::Segment> left_line;   ///< HeapProfile::flank, toe first [px]
   std::optional<vision::Segment> right_line;  ///< likewise
   std::vector<vision::Point>
       outline;           ///< exact upper edge of the heap's grains, left to right [px]

@@ -29,13 +29,15 @@ HeapProfile::HeapProfile(const HeapForm& form, double picture_width_px, double m
   runout_px_ = form.toe_runout * base / 2;
   height_px_ = apex_height_ * (1 - form.crest / 2);
   straight_from_ = std::max(form.toe_height, 0.15);
+  is_hollow_ = form.flanks != Flanks::straight;
   has_left_ = has_flanks(form.shape) && form.wall != Side::left && form.cut != Side::left;
   has_right_ = has_flanks(form.shape) && form.wall != Side::right && form.cut != Side::right;
 
   switch (form.shape) {
     case Shape::heap:
     case Shape::half_heap:
-      lay_heap(form);
+      is_hollow_ ? lay_hollow(form) : lay_heap(form);
+      lean_on_wall(form);
       break;
     case Shape::column:
       lay_column();
@@ -60,7 +62,40 @@ void HeapProfile::lay_heap(const HeapForm& form) {
   add_line({left_bend, bend_height});
   add_bend({apex_x_, apex_height_}, {right_bend, bend_height});
   add_toe(form, Side::right);
+}
 
+/// As straight flanks, its own are rounded off by a curve that is tangent to both.
+void HeapProfile::lay_hollow(const HeapForm& form) {
+  const FlankLaw law(form.flanks, form.hollow);
+  const double highest = 1 - form.crest;
+  const double left_slope = law.steepness(highest) * std::tan(form.left_rad);
+  const double right_slope = law.steepness(highest) * std::tan(form.right_rad);
+  const double bend_height = highest * apex_height_;
+  const double out_px = law.out_at(highest) * apex_height_;
+  const Point left = {apex_x_ - out_px / std::tan(form.left_rad), bend_height};
+  const Point right = {apex_x_ + out_px / std::tan(form.right_rad), bend_height};
+  const double rise = (right.x - left.x) / (1 / left_slope + 1 / right_slope);
+  height_px_ = bend_height + rise / 2;
+  curve_.push_back({left_toe_x_, 0});
+  add_flank(law, Side::left, highest);
+  add_bend({left.x + rise / left_slope, bend_height + rise}, right);
+  add_flank(law, Side::right, highest);
+}
+
+/// Between the ground and `highest` of the apex, from left to right.
+void HeapProfile::add_flank(const FlankLaw& law, Side side, double highest) {
+  const double toe_x = side == Side::left ? left_toe_x_ : right_toe_x_;
+  const double from = side == Side::left ? 1 : law.out_at(highest);
+  const double to = side == Side::left ? law.out_at(highest) : 1;
+  const int steps =
+      static_cast<int>(std::ceil(2 * (apex_height_ + std::abs(toe_x - apex_x_)) / kStep));
+  for (int i = 1; i <= steps; ++i) {
+    const double out = from + (to - from) * i / steps;
+    curve_.push_back({apex_x_ + out * (toe_x - apex_x_), apex_height_ * law.height(out)});
+  }
+}
+
+void HeapProfile::lean_on_wall(const HeapForm& form) {
   if (form.wall == Side::none || form.wall_is_frame) return;
   std::erase_if(curve_,
                 [&](Point p) { return form.wall == Side::left ? p.x < apex_x_ : p.x > apex_x_; });
@@ -128,9 +163,35 @@ double HeapProfile::height_at(double x) const {
   return heights_[static_cast<std::size_t>(index)];
 }
 
-std::optional<Segment> HeapProfile::flank(Side side) const {
+double HeapProfile::crest_x() const {
+  return std::max_element(curve_.begin(), curve_.end(), [](Point a, Point b) { return a.y < b.y; })
+      ->x;
+}
+
+std::optional<EdgeAngle> HeapProfile::angle(Side side) const {
+  if (!has_flank(side)) return std::nullopt;
   const bool left = side == Side::left;
-  if (left ? !has_left_ : !has_right_) return std::nullopt;
+  const double crest_x = this->crest_x();
+  std::vector<EdgePoint> edge;
+  for (const Point& p : curve_) {
+    const double out = left ? crest_x - p.x : p.x - crest_x;
+    if (out >= 0) edge.push_back({.out = out, .height = p.y});
+  }
+  if (left) std::reverse(edge.begin(), edge.end());
+  return angle_of_edge(edge, height_px_);
+}
+
+Segment HeapProfile::window_of_hollow(Side side) const {
+  const EdgeAngle window = *angle(side);
+  const double sign = side == Side::left ? -1 : 1;
+  return {{crest_x() + sign * window.low.out, window.low.height},
+          {crest_x() + sign * window.high.out, window.high.height}};
+}
+
+std::optional<Segment> HeapProfile::flank(Side side) const {
+  if (!has_flank(side)) return std::nullopt;
+  if (is_hollow_) return window_of_hollow(side);
+  const bool left = side == Side::left;
   const Point toe = {left ? left_toe_x_ : right_toe_x_, 0};
   const Point apex = {apex_x_, apex_height_};
   const double scale = height_px_ / apex_height_;

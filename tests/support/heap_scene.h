@@ -26,6 +26,7 @@ enum class Shape {
 };
 
 enum class Side { none, left, right };
+enum class Flanks { straight, power, exponential };  ///< see FlankLaw
 enum class Texture { none, noise, fabric, wood };
 enum class Style { photo, silhouette };
 enum class Tube { none, steel, acrylic };
@@ -33,8 +34,10 @@ enum class Tube { none, steel, acrylic };
 /// The heap's geometry. Lengths are fractions, so that a scene can be drawn at any size.
 struct HeapForm {
   Shape shape = Shape::heap;
-  double left_rad = 0.45;
+  double left_rad = 0.45;  ///< of the line from toe to apex: a straight flank's angle
   double right_rad = 0.45;
+  Flanks flanks = Flanks::straight;
+  double hollow = 1;           ///< FlankLaw's
   double base = 0.6;           ///< width of the base / width of the picture
   double center = 0.5;         ///< middle of the base / width of the picture
   double grains_high = 30;     ///< height of the heap / mean grain diameter

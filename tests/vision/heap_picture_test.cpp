@@ -50,7 +50,9 @@ TEST_P(ExactAngles, OutlineFollowsTheConstructedFlank) {
 INSTANTIATE_TEST_SUITE_P(Conditions, ExactAngles,
                          ::testing::Values("clean", "asymmetric", "small", "roll", "concave_toe",
                                            "apron", "half_heap", "truncated", "silhouette",
-                                           "hazelnut"));
+                                           "hazelnut", "few_grains", "hollow_power",
+                                           "hollow_exponential", "hollow_half_heap", "hollow_apron",
+                                           "few_grains_hollow"));
 
 TEST(HeapPicture, SameSeedGivesTheSameBytes) {
   const auto scene = condition_named("texture").scene(5);

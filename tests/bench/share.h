@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace repose::bench {
+
+/// How many of those that can be asked say yes.
+struct Share {
+  int hits = 0;
+  int all = 0;
+
+  void add(std::optional<bool> hit) {
+    if (!hit) return;
+    ++all;
+    hits += *hit ? 1 : 0;
+  }
+
+  std::string percent() const { return all == 0 ? "-" : fmt::format("{:.0f}", 100.0 * hits / all); }
+};
+
+}  // namespace repose::bench
