@@ -55,6 +55,19 @@ TEST(GrainSize, ASilhouetteShowsNone) {
   EXPECT_FALSE(grain_size(work_of(mat_of(heap.picture)), mask_of(heap)));
 }
 
+TEST(GrainSize, SpecksInASilhouetteAreNoGrain) {
+  const auto heap = drawn("silhouette", 1, kWorkingSide);
+  const cv::Mat1b mask = mask_of(heap);
+  cv::Mat3b picture = mat_of(heap.picture).clone();
+  const cv::Rect box = cv::boundingRect(mask);
+  const cv::Vec3b backdrop = picture(0, 0);
+  for (int speck = 1; speck <= 5; ++speck) {  // gaps between grains that one can look through
+    const cv::Point at(box.x + speck * box.width / 6, box.br().y - box.height / 6);
+    cv::circle(picture, at, 4, cv::Scalar(backdrop), cv::FILLED);
+  }
+  EXPECT_FALSE(grain_size(work_of(picture), mask));
+}
+
 TEST(GrainSize, NoiseOfSinglePixelsIsNoGrain) {
   testing::Random random(1);
   cv::Mat3b picture(300, 400);

@@ -82,7 +82,7 @@ TEST_P(NotMeasurable, IsRefusedAndTheTroubleNamed) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, NotMeasurable,
                          ::testing::Values(Scene{"empty_plate", "no heap"},
-                                           Scene{"column", "upright"}, Scene{"ball", "no heap"},
+                                           Scene{"column", "upright"}, Scene{"ball", "heap"},
                                            Scene{"oblique", "base bows"},
                                            Scene{"wall_to_wall", "no heap"}),
                          [](const auto& p) { return std::string(p.param.condition); });

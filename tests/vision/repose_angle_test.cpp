@@ -176,7 +176,9 @@ TEST(ReposeAngle, SamePictureGivesTheSameBitsAlsoBesideOtherThreads) {
 TEST(ReposeAngle, SeedMovesTheIntervalALittleAndTheAngleNotAtAll) {
   const auto heap = drawn("clean", 2, 640);
   const ReposeAngle one = measure_repose_angle(heap.picture);
-  const ReposeAngle two = measure_repose_angle(heap.picture, {.excluded = {}, .seed = 7});
+  MeasureOptions other;
+  other.seed = 7;
+  const ReposeAngle two = measure_repose_angle(heap.picture, other);
   EXPECT_EQ(one.angle_rad, two.angle_rad);
   EXPECT_NE(one.uncertainty_rad, two.uncertainty_rad);
   EXPECT_NEAR(*two.uncertainty_rad / *one.uncertainty_rad, 1, 0.2);  // 300 resamples: 4 % a side

@@ -127,6 +127,9 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"hollow", [](Case& c) { c.choice.best.left.bend_rad = 12 * kDegree; }, "bent_flank"},
         Error{"window", [](Case& c) { c.choice.best.left.window_spread_rad = 4 * kDegree; },
               "window_sensitive"},
+        Error{"high_apron", [](Case& c) { c.choice.best.right.high_apron = 0.4; }, "high_apron"},
+        Error{"wide", [](Case& c) { c.result.uncertainty_rad = 6 * kDegree; }, "wide_interval"},
+        Error{"legs", [](Case& c) { c.choice.likeness.filled = 0.8; }, "unlike_a_heap"},
         Error{"low", [](Case& c) { c.choice.best.profile.crest_height = 30; }, "low_heap"},
         Error{"bow", [](Case& c) { c.choice.best.body.ground.bow = 0.045; }, "base_bows"},
         Error{"behind", [](Case& c) { c.choice.best.body.ground.behind = true; }, "edge_behind"}),
@@ -156,9 +159,43 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"tilt", [](Case& c) { c.choice.best.body.ground.slope = 0.07; }, "tilted_picture"},
         Error{"mirror", [](Case& c) { c.choice.best.body.ground.mirrored = true; }, "mirror"},
         Error{"strays", [](Case& c) { c.result.strays = 3; }, "strays"},
+        Error{"definitions",
+              [](Case& c) {
+                c.result.definitions = {{"cone", "", 25 * kDegree}};
+              },
+              "definitions_differ"},
+        Error{"hints",
+              [](Case& c) {
+                c.options.hints.ground = Segment{{0, 9}, {9, 9}};
+              },
+              "hints"},
         Error{"unequal", [](Case& c) { c.choice.best.left.angle_rad = 20 * kDegree; },
               "unequal_flanks"}),
     name_of);
+
+TEST(Judge, WhatTheGrainsScatterExplainsIsNoBend) {
+  Case heap;
+  heap.choice.best.left.bend_rad = 12 * kDegree;
+  heap.choice.best.left.fit_error_rad = 1.5 * kDegree;
+  EXPECT_EQ(heap.judged().status, MeasureStatus::ok);
+}
+
+TEST(Judge, AWindowWhoseChangeTheIntervalCoversIsNoTrouble) {
+  Case heap;
+  heap.choice.best.left.window_spread_rad = 4 * kDegree;
+  heap.result.left.uncertainty_rad = 3.5 * kDegree;
+  EXPECT_EQ(heap.judged().status, MeasureStatus::ok);
+}
+
+TEST(Judge, WhoSaysThatItIsAHeapIsBelieved) {
+  Case heap;
+  heap.choice.likeness.filled = 0.8;
+  EXPECT_LE(heap.judged().confidence, 0.5);
+  Case told;
+  told.choice.likeness.filled = 0.8;
+  told.options.hints.keep = {{5, 5}};
+  EXPECT_EQ(told.judged().status, MeasureStatus::ok);
+}
 
 ReposeAngle judged_with(std::optional<double> base_bow, double pitch_deg) {
   Case heap;

@@ -266,6 +266,7 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
   choice.left_disagreement_rad = side_disagreement(best, rivals, Side::left);
   choice.right_disagreement_rad = side_disagreement(best, rivals, Side::right);
   choice.best = best;
+  if (best.has_flank()) choice.likeness = likeness_of(best, work);
   return choice;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vision/measure/likeness.h"
 #include "vision/measure/reading.h"
 
 namespace repose::vision {
@@ -10,6 +11,7 @@ struct Choice {
   double left_disagreement_rad = 0;  ///< root mean square distance of the other good readings
   double right_disagreement_rad = 0;
   double disagreement_rad = 0;  ///< the same of the mean angle
+  Likeness likeness;            ///< of the best, where it has a flank
 };
 
 /// Tries every segmentation, looks again at the best body, and chooses by score.

@@ -13,6 +13,8 @@ constexpr double kDiameterPerElbow = 1.25;
 constexpr double kPackedPerElbow = 1.7;  // when it ends below zero: light grains beside dark gaps
 constexpr double kPackedDip = -0.05;
 constexpr double kFaintest = 1.0;  // variance of lightness (L 0 to 100) that is a pattern
+constexpr int kTiles = 8;          // of the body's height: a pattern of grains is all over the body
+constexpr double kPatterned = 0.5;  // of the tiles; some specks are none
 
 /// Sum of products of the pattern with itself `lag` pixels to the right and below, both inside.
 double correlation(const cv::Mat1f& pattern, const cv::Mat1f& inside, int lag) {
@@ -27,6 +29,23 @@ double correlation(const cv::Mat1f& pattern, const cv::Mat1f& inside, int lag) {
     pairs += inside(here).dot(inside(there));
   }
   return pairs > 100 ? products / pairs : 0;
+}
+
+/// Whether the pattern is all over the body, not only a speck here and there.
+bool is_everywhere(const cv::Mat1f& pattern, const cv::Mat1f& inside) {
+  const int side = std::max(8, pattern.rows / kTiles);
+  int tiles = 0;
+  int patterned = 0;
+  for (int row = 0; row + side <= pattern.rows; row += side) {
+    for (int col = 0; col + side <= pattern.cols; col += side) {
+      const cv::Rect tile(col, row, side, side);
+      const double pixels = cv::sum(inside(tile))[0];
+      if (pixels < tile.area() / 2.0) continue;
+      ++tiles;
+      patterned += pattern(tile).dot(pattern(tile)) > kFaintest * pixels ? 1 : 0;
+    }
+  }
+  return patterned >= kPatterned * tiles;
 }
 
 }  // namespace
@@ -52,7 +71,7 @@ std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& bo
   const double at_2 = correlation(pattern, inside, 2);
   const double at_0 =  // without the noise of single pixels
       std::min(correlation(pattern, inside, 0), 2 * at_1 - at_2);
-  if (at_0 < kFaintest) return std::nullopt;
+  if (at_0 < kFaintest || !is_everywhere(pattern, inside)) return std::nullopt;
   double steepest = 0;
   double here = at_0;
   for (int lag = 0; lag < std::min(kLongestLag, box.height / 2); ++lag) {

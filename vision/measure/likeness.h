@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "vision/measure/reading.h"
 
 namespace repose::vision {
@@ -11,11 +14,19 @@ struct Likeness {
   double climb = 0;     ///< by how much the smoothed edge rises again on its way down from the
                         ///< crest, of the crest's height; the larger of the two sides
   double straight = 0;  ///< longest straight edge inside the body, of the crest's height
+  double rough_px = 1;  ///< standard deviation of the fitted edge about its own moving average
+                        ///< [working px]; of the rougher side
   double patchy = 0;    ///< part of the body where its colour changes within a tenth of the height:
                         ///< a thing of several parts, not one material
 };
 
 /// Of a reading that has a flank.
 Likeness likeness_of(const Reading& reading, const WorkingPicture& work);
+
+/// Why it may be no heap; empty when nothing speaks against it. The limits lie where all of some
+/// hundred drawn, rendered and real heaps pass and nine of ten other things do not.
+/// Proved by Likeness.* in tests/vision/likeness_test.cpp; tests/bench/photo_accuracy counts both.
+/// @param grain  size that the body's pattern shows [working px]; empty: no pattern
+std::string reason_against_heap(const Likeness& likeness, std::optional<double> grain);
 
 }  // namespace repose::vision

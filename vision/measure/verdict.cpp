@@ -14,13 +14,15 @@ namespace {
 
 // Refusals.
 constexpr double kMinConfidence = 0.35;
+constexpr double kMinToldConfidence = 0.1;  // where a person has pointed at the heap
 constexpr double kFewestGrains = 2.5;
 constexpr double kLargestPitch_rad = 10 * kDegree;
 
 // Warnings that ask a person to look.
-constexpr double kDoubtfulConfidence = 0.55;
+constexpr double kDoubtfulConfidence = 0.65;
 constexpr double kDoubtfulPitch_rad = 5 * kDegree;
 constexpr double kPitchTolerance_rad = 6 * kDegree;
+constexpr double kMostOfUnlike = 0.5;  // confidence in what may be no heap
 constexpr double kWideInterval_rad = 5 * kDegree;
 
 // Warnings to know of.
@@ -63,7 +65,8 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
         best.left.reason.empty() ? "none" : best.left.reason,
         best.right.reason.empty() ? "none" : best.right.reason);
   }
-  if (confidence < kMinConfidence) {
+  const bool is_pointed_at = !options.hints.keep.empty() || options.hints.mask.width > 0;
+  if (confidence < (is_pointed_at ? kMinToldConfidence : kMinConfidence)) {
     return fmt::format(
         "the heap's edge is too uncertain (confidence {:.2f} of 1). Fix: use a plain backdrop of "
         "another colour than the grains, even light and a sharp picture; lay an excluded box over "
@@ -100,6 +103,18 @@ void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
   const std::string what = hints.empty() ? "boxes to leave out, or a pitch" : hints.text();
   const std::string where = hints.source.empty() ? "" : fmt::format(" in {}", hints.source);
   note(result, "hints", fmt::format("A person has said{}: {}.", where, what));
+}
+
+/// Flags what does not look like a heap, unless a person has said that it is one.
+void warn_of_likeness(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
+  const Hints& hints = options.hints;
+  if (hints.heap || !hints.keep.empty() || hints.mask.width > 0) return;
+  const std::string reason = reason_against_heap(choice.likeness, choice.best.grain);
+  if (reason.empty()) return;
+  flag(result, "unlike_a_heap",
+       fmt::format("What was found may be no heap: {}. If it is one, say so with a heap box.",
+                   reason));
+  result.confidence = std::min(result.confidence, kMostOfUnlike);
 }
 
 /// Adds what the other common definitions say where that lies outside the interval.
@@ -211,6 +226,7 @@ void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& opti
          "The box cuts the crest off: the heap's height is taken to end there.");
   }
   warn_of_hints(result, options);
+  warn_of_likeness(result, choice, options);
   warn_of_angle(result);
   warn_of_size(result, choice.best, options);
   warn_of_scene(result, choice, options);

@@ -1,0 +1,140 @@
+#include "vision/measure/hints.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/vision/pictures.h"
+#include "vision/measure/repose_angle.h"
+
+namespace repose::vision {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// Two drawn heaps beside each other.
+struct Pair {
+  testing::DrawnHeap left = drawn("clean", 2, 640);
+  testing::DrawnHeap right = drawn("dark", 1, 640);
+  Picture picture;
+
+  Pair() {
+    cv::Mat3b both(std::max(left.picture.height, right.picture.height), 1280, cv::Vec3b());
+    mat_of(left.picture).copyTo(both(cv::Rect(0, 0, 640, left.picture.height)));
+    mat_of(right.picture).copyTo(both(cv::Rect(640, 0, 640, right.picture.height)));
+    picture = picture_of(both);
+  }
+};
+
+TEST(Hints, ABoxIsTheWholePicture) {
+  const Pair pair;
+  MeasureOptions options;
+  options.hints.heap = Box{.x = 640, .y = 0, .width = 640, .height = pair.right.picture.height};
+  const ReposeAngle inside = measure_repose_angle(pair.picture, options);
+  ASSERT_TRUE(inside.angle_rad);
+  EXPECT_NEAR(*inside.angle_rad, *pair.right.mean_rad(), 0.5 * kDegree);
+  // In the whole picture's pixels.
+  EXPECT_GT(inside.ground->from.x, 640);
+  EXPECT_GT(inside.crest->x, 640);
+  for (const Point& point : inside.outline) EXPECT_GE(point.x, 640);
+  EXPECT_THAT(inside.warnings, Contains(Field(&Warning::code, "hints")));
+}
+
+TEST(Hints, ATiltedGroundLineIsTheAnglesBase) {
+  const auto heap = drawn("clean", 2, 640);
+  const Segment& ground = heap.ground;
+  MeasureOptions options;
+  const double rise = 0.05 * (ground.to.x - ground.from.x);
+  options.hints.ground = Segment{ground.from, {ground.to.x, ground.to.y - rise}};
+  const ReposeAngle result = measure_repose_angle(heap.picture, options);
+  ASSERT_TRUE(result.left.angle_rad && result.right.angle_rad);
+  const double tilt = std::atan(0.05);
+  EXPECT_NEAR(*result.ground_tilt_rad, -tilt, 1.1 * kDegree);  // and the picture's own
+  EXPECT_NEAR(*result.left.angle_rad, *heap.left_rad - tilt, 0.8 * kDegree);
+  EXPECT_NEAR(*result.right.angle_rad, *heap.right_rad + tilt, 0.8 * kDegree);
+  // Two pixels at either end of the line.
+  EXPECT_GT(*result.left.uncertainty_rad, 1.96 * std::sqrt(2) * 2 / 640);
+}
+
+TEST(Hints, TheCrestThatABoxCutsOffIsFlagged) {
+  const auto heap = drawn("clean", 2, 800);
+  const int top = static_cast<int>(heap.ground.from.y - 0.8 * heap.height_px);
+  MeasureOptions options;
+  options.hints.heap = Box{.x = 0, .y = top, .width = 800, .height = heap.picture.height - top};
+  const ReposeAngle result = measure_repose_angle(heap.picture, options);
+  EXPECT_EQ(result.status, MeasureStatus::flagged);
+  EXPECT_THAT(result.warnings, Contains(Field(&Warning::code, "crest_cut")));
+  EXPECT_NEAR(*result.angle_rad, *heap.mean_rad(), 1 * kDegree);
+}
+
+TEST(Hints, AMaskSaysItAll) {
+  const auto heap = drawn("clean", 2, 640);
+  std::vector<cv::Point> corners = {
+      {static_cast<int>(heap.ground.to.x), static_cast<int>(heap.ground.to.y)},
+      {static_cast<int>(heap.ground.from.x), static_cast<int>(heap.ground.from.y)}};
+  for (const Point& p : heap.outline) {
+    corners.emplace_back(static_cast<int>(p.x), static_cast<int>(p.y));
+  }
+  cv::Mat3b painted(heap.picture.height, heap.picture.width, cv::Vec3b());
+  cv::fillPoly(painted, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar::all(255));
+  // The picture itself shows a heap that can hardly be seen.
+  cv::Mat faint;
+  mat_of(heap.picture).convertTo(faint, CV_8UC3, 0.1, 110);
+  MeasureOptions options;
+  options.hints.mask = picture_of(painted);
+  options.hints.ground = heap.ground;
+  const ReposeAngle result = measure_repose_angle(picture_of(faint), options);
+  ASSERT_TRUE(result.angle_rad) << result.reason;
+  EXPECT_NEAR(*result.angle_rad, *heap.mean_rad(), 0.5 * kDegree);
+}
+
+TEST(Hints, APlaceOnTheHeapChoosesBetweenTwo) {
+  const Pair pair;
+  for (const auto* heap : {&pair.left, &pair.right}) {
+    const double shift = heap == &pair.left ? 0 : 640;
+    const double middle = (heap->ground.from.x + heap->ground.to.x) / 2 + shift;
+    MeasureOptions options;
+    options.hints.keep = {{middle, heap->ground.from.y - heap->height_px / 3}};
+    const ReposeAngle result = measure_repose_angle(pair.picture, options);
+    ASSERT_TRUE(result.crest) << result.reason;
+    EXPECT_EQ(result.crest->x > 640, heap == &pair.right);
+  }
+}
+
+TEST(Hints, ThatCannotBeMeantAreRefusedAllAtOnce) {
+  Hints hints;
+  hints.heap = Box{.x = 500, .y = 0, .width = 200, .height = 100};
+  hints.ground = Segment{{10, 10}, {12, 90}};
+  hints.keep = {{-1, 5}};
+  hints.drop = {{std::numeric_limits<double>::quiet_NaN(), 5}};
+  hints.mask = blank_picture(10, 10);
+  EXPECT_THAT(problems_of(hints, 640, 480),
+              ElementsAre(HasSubstr("heap box = 500,0,200,100"), HasSubstr("ground points"),
+                          HasSubstr("place to keep"), HasSubstr("place to drop"),
+                          HasSubstr("the mask is 10 x 10")));
+  MeasureOptions options;
+  options.hints = hints;
+  const auto heap = drawn("clean", 2, 640);
+  EXPECT_THROW(measure_repose_angle(heap.picture, options), std::invalid_argument);
+  EXPECT_THAT(problems_of({}, 640, 480), SizeIs(0));
+}
+
+TEST(Hints, NameThemselves) {
+  Hints hints;
+  EXPECT_TRUE(hints.empty());
+  EXPECT_EQ(hints.text(), "");
+  hints.heap = Box{.x = 0, .y = 0, .width = 10, .height = 10};
+  hints.keep = {{1, 1}};
+  hints.drop = {{2, 2}, {3, 3}};
+  EXPECT_EQ(hints.text(), "box around the heap, 1 place on the heap, 2 places beside the heap");
+}
+
+}  // namespace
+}  // namespace repose::vision

@@ -1,0 +1,38 @@
+#include "vision/hints/proposal.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/vision/pictures.h"
+
+namespace repose::vision {
+namespace {
+
+TEST(Proposal, ATimerBeforeTheHeapMayBeLeftOut) {
+  const auto heap = drawn("clean", 2, 800);
+  cv::Mat3b picture = mat_of(heap.picture).clone();
+  // A lettered plate from the frame's top to the crest joins it with the heap.
+  const int crest_x = static_cast<int>((heap.ground.from.x + heap.ground.to.x) / 2);
+  const int crest_y = static_cast<int>(heap.ground.from.y - heap.height_px);
+  const cv::Rect plate(crest_x - 60, crest_y - 30, 120, 44);
+  picture(plate).setTo(cv::Vec3b(10, 10, 10));
+  cv::putText(picture, "00:01.0", plate.tl() + cv::Point(4, 30), cv::FONT_HERSHEY_DUPLEX, 0.9,
+              cv::Scalar::all(255), 2);
+  const Picture covered = picture_of(picture);
+  const auto proposal = propose_hint(covered, {});
+  ASSERT_TRUE(proposal);
+  ASSERT_TRUE(proposal->angle_rad);
+  EXPECT_NEAR(*proposal->angle_rad, *heap.mean_rad(), 1.5 * kDegree);
+  // Followed, it gives what it promises.
+  MeasureOptions options;
+  if (proposal->excluded) options.excluded.push_back(*proposal->excluded);
+  options.hints.heap = proposal->heap;
+  EXPECT_EQ(measure_repose_angle(covered, options).angle_rad, proposal->angle_rad);
+}
+
+TEST(Proposal, NothingIsProposedWhereNothingIsSeen) {
+  EXPECT_FALSE(propose_hint(picture_of(cv::Mat3b(300, 400, cv::Vec3b(90, 90, 90))), {}));
+}
+
+}  // namespace
+}  // namespace repose::vision
