@@ -89,7 +89,7 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder&
                           const std::atomic<bool>& is_interrupted) {
   const auto outcome = [&] {
     StudyProgressLine progress;
-    const calibrate::StudyReport report = [&](const auto& now) { progress.tell(now); };
+    const calibrate::StudyReport report = [&](const auto& now) { progress.report(now); };
     calibrate::JobRunner runner(plan.problem.problem, simulator, folder, executor, report,
                                 is_interrupted);
     return calibrate_as_published(plan.problem.problem, runner);
@@ -114,7 +114,7 @@ ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& f
     StudyProgressLine progress;
     return run_study(
         plan.problem.problem, plan.record.budget, simulator, folder, executor,
-        [&](const calibrate::StudyProgress& now) { progress.tell(now); }, is_interrupted);
+        [&](const calibrate::StudyProgress& now) { progress.report(now); }, is_interrupted);
   }();
   if (!outcome) return interrupted(folder);
   if (outcome->reused > 0) {
