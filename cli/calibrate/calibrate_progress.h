@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "calibrate/study/job_runner.h"
+#include "calibrate/study/study_context.h"
 #include "cli/common/progress.h"
 
 namespace repose::cli {

@@ -72,15 +72,12 @@ class PublishedMethod : public ::testing::Test {
     const dem::Study study = dem::read_study(folder_.write("study.toml", kStudy), settings);
     const dem::ClumpFile grain = dem::build_grain(study.grain);
     const Problem problem = problem_of(study, grain, budget_named("quick")).problem;
-    std::vector<std::string> names;
-    for (const Parameter& parameter : problem.parameters) names.push_back(parameter.name);
-    const StudySimulator bench(study, grain, names, 0);
+    const StudySimulator simulator(study, grain, problem.parameters, 0);
     const RunFolder folder(folder_.path() / "runs");
-    const StudyReport report = [this](const StudyProgress& now) {
+    const auto report = [this](const StudyProgress& now) {
       is_interrupted_ = now.stage == stop_at_;
     };
-    JobRunner runner(problem, bench, folder, executor_, report, is_interrupted_);
-    return calibrate_as_published(problem, runner);
+    return calibrate_as_published(problem, {simulator, folder, executor_, is_interrupted_, report});
   }
 
   TemporaryFolder folder_;
