@@ -12,6 +12,7 @@
 
 #include "calibrate/study/study_problem.h"
 #include "tests/calibrate/sphere_study.h"
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -136,13 +137,8 @@ TEST_F(PublishedMethod, GoesOnAfterAnInterruption) {
 }
 
 TEST_F(PublishedMethod, NeedsAllSixSoughtAndAllFourMeasured) {
-  const auto refusal = [&](const std::string& setting) -> std::string {
-    try {
-      calibrate({setting});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return {};
+  const auto refusal = [&](const std::string& setting) {
+    return error_of([&] { calibrate({setting}); });
   };
   EXPECT_THAT(refusal("contact.particle_wall.restitution=0.5"), HasSubstr("have no bounds"));
   EXPECT_THAT(refusal("experiment.roll={}"), HasSubstr("[experiment.roll] has no measured value"));

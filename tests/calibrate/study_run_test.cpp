@@ -11,6 +11,7 @@
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/thread_executor.h"
 #include "tests/calibrate/sphere_study.h"
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -97,14 +98,9 @@ TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
 }
 
 TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
-  const auto refusal = [&](const std::vector<std::string>& settings) -> std::string {
+  const auto refusal = [&](const std::vector<std::string>& settings) {
     const dem::Study study = read(settings);
-    try {
-      problem_of(study, grain_of(study), budget_named("quick"));
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return {};
+    return error_of([&] { problem_of(study, grain_of(study), budget_named("quick")); });
   };
   EXPECT_THAT(refusal({"contact.particle_wall.restitution=0.5",
                        "contact.particle_wall.sliding_friction=0.5"}),
