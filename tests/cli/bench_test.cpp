@@ -44,7 +44,7 @@ TEST_F(BenchCommand, TablesAreJoinedAndTakeWhatIsTheSameFromTheCommandLine) {
   folder_.write("a.csv", std::string("stopped_mm\n320\n325\n"));
   folder_.write("b.csv", std::string("note;stopped_mm\nsecond day;322,5\n"));
   const Finished done = run({"rolling", "a.csv", "b.csv", "--set", "incline_deg=20", "--set",
-                            "released_mm=150", "--json", "-"});
+                             "released_mm=150", "--json", "-"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const json quantity = json::parse(done.out)["quantities"][0];
   EXPECT_EQ(quantity["n"], 3);
@@ -65,9 +65,9 @@ TEST_F(BenchCommand, EveryErrorIsNamedWithItsLine) {
   EXPECT_EQ(done.exit_code, 2);
   EXPECT_THAT(done.out, IsEmpty());
   EXPECT_THAT(done.err, AllOf(HasSubstr("repose: drops.csv:3: rebound_mm is \"abc\""),
-                             HasSubstr("repose: drops.csv:4: rebound_mm = 600"),
-                             HasSubstr("repose: drops.csv:5: drop_mm = -1"),
-                             HasSubstr("repose: missing.csv: there is no such file")));
+                              HasSubstr("repose: drops.csv:4: rebound_mm = 600"),
+                              HasSubstr("repose: drops.csv:5: drop_mm = -1"),
+                              HasSubstr("repose: missing.csv: there is no such file")));
 }
 
 TEST_F(BenchCommand, MistypedTestsAndReadingsAreSaid) {

@@ -51,7 +51,7 @@ TEST_F(DesignCommand, RandomOrderKeepsTheStandardOneAndRepeats) {
 
 TEST_F(DesignCommand, WritesAFile) {
   const Finished done = run({"box-behnken", "--factor", "a=0:1", "--factor", "b=0:1", "--factor",
-                            "c=0:1", "--out", "runs.csv"});
+                             "c=0:1", "--out", "runs.csv"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, IsEmpty());
   EXPECT_EQ(lines_in(text("runs.csv")), 16);
@@ -73,7 +73,8 @@ TEST_F(DesignCommand, LevelsBelowZeroAreSaid) {
                                           "a=0.01:0.2", "--factor", "b=1:2"};
   const Finished done = run_repose(folder_, words);
   EXPECT_EQ(done.exit_code, 0);
-  EXPECT_THAT(done.err, AllOf(HasSubstr("a: some runs have a level below 0"), Not(HasSubstr("b:"))));
+  EXPECT_THAT(done.err,
+              AllOf(HasSubstr("a: some runs have a level below 0"), Not(HasSubstr("b:"))));
   std::vector<std::string> inscribed = words;
   inscribed.emplace_back("--inscribed");
   EXPECT_THAT(run_repose(folder_, inscribed).err, IsEmpty());
@@ -81,12 +82,12 @@ TEST_F(DesignCommand, LevelsBelowZeroAreSaid) {
 
 TEST_F(DesignCommand, EveryErrorIsNamedAtOnce) {
   const Finished done = run({"lhs", "--factor", "a=2:1", "--factor", "run=0:1", "--levels", "3",
-                            "--runs", "x", "--random-order", "-1", "--out", "no/where.csv"});
+                             "--runs", "x", "--random-order", "-1", "--out", "no/where.csv"});
   EXPECT_EQ(done.exit_code, 2);
   EXPECT_THAT(done.out, IsEmpty());
   EXPECT_THAT(done.err, AllOf(HasSubstr("--factor a=2:1"), HasSubstr("--factor run=0:1"),
-                             HasSubstr("--levels: not an option of lhs"), HasSubstr("--runs x"),
-                             HasSubstr("--random-order -1"), HasSubstr("--out no/where.csv")));
+                              HasSubstr("--levels: not an option of lhs"), HasSubstr("--runs x"),
+                              HasSubstr("--random-order -1"), HasSubstr("--out no/where.csv")));
   EXPECT_THAT(run({"dcc"}).err, HasSubstr("design dcc: unknown"));
   EXPECT_THAT(run({}).err, HasSubstr("no kind of design"));
   EXPECT_THAT(run({"ccd", "--factor", "a=0:1"}).err, HasSubstr("takes 2 to 6"));

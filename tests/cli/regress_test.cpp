@@ -73,7 +73,7 @@ TEST_F(RegressCommand, JsonHasEverything) {
 TEST_F(RegressCommand, FactorsAndModelCanBeChosen) {
   folder_.write("runs.csv", std::string(kHazelnut));
   const Finished done = run({"runs.csv", "--response", "error", "--factors", "x3,x2", "--model",
-                            "linear", "--json", "-"});
+                             "linear", "--json", "-"});
   const json result = json::parse(done.out);
   ASSERT_EQ(result["coefficients"].size(), 3U);
   EXPECT_EQ(result["coefficients"][1]["term"], "x3");

@@ -25,7 +25,8 @@ struct ShapeCommand : CommandTest {
 };
 
 TEST_F(ShapeCommand, CalliperSizesGiveAClumpWithTheContractsKeys) {
-  const Finished done = run(with(kNut, {"--spheres", "4", "--density-kg-m3", "851", "--json", "-"}));
+  const Finished done =
+      run(with(kNut, {"--spheres", "4", "--density-kg-m3", "851", "--json", "-"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const json shape = json::parse(done.out);
   ASSERT_EQ(shape["spheres"].size(), 4U);
