@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/statistics/design/design.h"
+#include "calibrate/study/job_runner.h"
 
 namespace repose::calibrate {
 namespace {
@@ -55,8 +56,8 @@ std::vector<double> values_for(const Problem& problem, const std::string& experi
 
 class PublishedMethod {
  public:
-  PublishedMethod(const Problem& problem, JobRunner& runner)
-      : problem_(problem), workshop_(runner) {
+  PublishedMethod(const Problem& problem, const StudyContext& context)
+      : problem_(problem), runner_(problem, context) {
     for (const Parameter& parameter : problem.parameters) {
       set_.push_back((parameter.min + parameter.max) / 2);
     }
@@ -84,7 +85,7 @@ class PublishedMethod {
       set_[place] = factor.natural(run.coded.front());
       jobs.push_back(job(experiment, jobs.size()));
     }
-    const auto runs = workshop_.get("sweep of " + parameter.name, jobs);
+    const auto runs = runner_.get("sweep of " + parameter.name, jobs);
     if (!runs) return false;
     PublishedSweep swept{.parameter = parameter.name,
                          .observable = observable.name,
@@ -137,7 +138,7 @@ class PublishedMethod {
       std::copy(coefficients.begin(), coefficients.end(), set_.begin() + kGrains);
       jobs.push_back(job("heap", heap_seeds_++));
     }
-    const auto runs = workshop_.get(stage, jobs);
+    const auto runs = runner_.get(stage, jobs);
     if (!runs) return std::nullopt;
     if (saved != nullptr) *saved = *runs;
     std::vector<PublishedHeap> heaps;
@@ -229,7 +230,7 @@ class PublishedMethod {
   }
 
   const Problem& problem_;
-  JobRunner& workshop_;
+  JobRunner runner_;
   std::vector<double> set_;
   std::uint64_t heap_seeds_ = 0;
   PublishedOutcome outcome_;
@@ -237,9 +238,10 @@ class PublishedMethod {
 
 }  // namespace
 
-std::optional<PublishedOutcome> calibrate_as_published(const Problem& problem, JobRunner& runner) {
+std::optional<PublishedOutcome> calibrate_as_published(const Problem& problem,
+                                                       const StudyContext& context) {
   require_all_sought(problem);
-  return PublishedMethod(problem, runner).run();
+  return PublishedMethod(problem, context).run();
 }
 
 }  // namespace repose::calibrate

@@ -6,7 +6,7 @@
 
 #include "calibrate/fit/problem.h"
 #include "calibrate/statistics/regress/surface_report.h"
-#include "calibrate/study/job_runner.h"
+#include "calibrate/study/study_context.h"
 
 /// The way a published study of hazelnuts was calibrated, step by step, to be compared with: one
 /// coefficient after the other, from single runs, on the absolute error of one heap. THEORY.md says
@@ -47,6 +47,7 @@ struct PublishedOutcome {
 /// Runs it. All six coefficients must be sought and all four experiments measured.
 /// None when it was interrupted.
 /// @throws std::invalid_argument  the study lacks something, or too few runs gave a reading.
-std::optional<PublishedOutcome> calibrate_as_published(const Problem& problem, JobRunner& runner);
+std::optional<PublishedOutcome> calibrate_as_published(const Problem& problem,
+                                                       const StudyContext& context);
 
 }  // namespace repose::calibrate

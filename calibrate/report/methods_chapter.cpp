@@ -1,4 +1,6 @@
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,12 +11,6 @@
 /// their sources and the tests that prove them.
 namespace repose::calibrate::report {
 namespace {
-
-/// A paragraph, or an equation as people read it and as LaTeX has it.
-struct Piece {
-  std::string text;
-  std::string latex;  ///< of an equation; empty for a paragraph
-};
 
 /// "mu_r F_n" of the definition's plain text.
 std::string rolling_text(std::string definition) {
@@ -72,6 +68,21 @@ std::string latex_text(const std::string& text) {
   return escaped;
 }
 
+/// Paragraphs and equations, as people read them and as LaTeX has them.
+struct Methods {
+  std::vector<Block> blocks;
+  std::string latex;
+
+  void add(std::string_view text) {
+    blocks.push_back(Paragraph{std::string(text)});
+    latex += latex_text(std::string(text)) + '\n';
+  }
+  void add_equation(std::string_view text, std::string_view in_latex) {
+    blocks.push_back(Equation{std::string(text)});
+    latex += fmt::format("\\begin{{equation}}\n  {}\n\\end{{equation}}\n", in_latex);
+  }
+};
+
 std::string stiffness_text(const Provenance& provenance) {
   std::string text;
   for (const auto& [experiment, factor] : provenance.stiffness_factor) {
@@ -81,108 +92,90 @@ std::string stiffness_text(const Provenance& provenance) {
   return text;
 }
 
-void add_simulation(const Provenance& provenance, std::vector<Piece>& pieces) {
+void add_simulation(const Provenance& provenance, Methods& methods) {
   const ClumpFacts& clump = provenance.clump;
-  pieces.push_back(
-      {fmt::format("Grains were simulated with the discrete element method ({}) as clumps of {} "
-                   "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
-                   "and inertia are those of the surface. Contacts follow {}: with overlap d of "
-                   "two surfaces,",
-                   provenance.study.program, clump.spheres, shortened(clump.source, 300),
-                   shown(100 * clump.volume_error, 2), shown(100 * clump.inertia_error, 2),
-                   provenance.contact_model),
-       ""});
-  pieces.push_back(
-      {"Fₙ = (4/3) E* √R* d^(3/2),   1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂,   1/R* = 1/R₁ + "
-       "1/R₂,  |Fₜ| ≤ μₛ Fₙ",
-       "F_n = \\tfrac43 E^* \\sqrt{R^*}\\, d^{3/2}, \\quad "
-       "\\frac{1}{E^*} = \\frac{1-\\nu_1^2}{E_1} + \\frac{1-\\nu_2^2}{E_2}, \\quad "
-       "\\frac{1}{R^*} = \\frac{1}{R_1} + \\frac{1}{R_2}, \\quad "
-       "|F_t| \\le \\mu_s F_n"});
-  pieces.push_back(
-      {fmt::format("with damping that gives the stated coefficient of restitution, and sliding "
-                   "friction μₛ. Rolling friction μᵣ: {}. Young's moduli were multiplied by these "
-                   "factors: {}.",
-                   shortened(rolling_text(provenance.rolling_definition), 400),
-                   stiffness_text(provenance)),
-       ""});
+  methods.add(
+      fmt::format("Grains were simulated with the discrete element method ({}) as clumps of {} "
+                  "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
+                  "and inertia are those of the surface. Contacts follow {}: with overlap d of "
+                  "two surfaces,",
+                  provenance.study.program, clump.spheres, shortened(clump.source, 300),
+                  shown(100 * clump.volume_error, 2), shown(100 * clump.inertia_error, 2),
+                  provenance.contact_model));
+  methods.add_equation(
+      "Fₙ = (4/3) E* √R* d^(3/2),   1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂,   1/R* = 1/R₁ + "
+      "1/R₂,  |Fₜ| ≤ μₛ Fₙ",
+      "F_n = \\tfrac43 E^* \\sqrt{R^*}\\, d^{3/2}, \\quad "
+      "\\frac{1}{E^*} = \\frac{1-\\nu_1^2}{E_1} + \\frac{1-\\nu_2^2}{E_2}, \\quad "
+      "\\frac{1}{R^*} = \\frac{1}{R_1} + \\frac{1}{R_2}, \\quad "
+      "|F_t| \\le \\mu_s F_n");
+  methods.add(fmt::format(
+      "with damping that gives the stated coefficient of restitution, and sliding "
+      "friction μₛ. Rolling friction μᵣ: {}. Young's moduli were multiplied by these "
+      "factors: {}.",
+      shortened(rolling_text(provenance.rolling_definition), 400), stiffness_text(provenance)));
 }
 
-void add_angle(std::vector<Piece>& pieces) {
-  pieces.push_back(
-      {"The angle of repose was measured in photographs and in silhouettes of the simulated heaps "
-       "by the same program: on each side a straight line was fitted to the heap's edge between 20 "
-       "and 80 % of its height, and the angle is the mean of both sides' angles to the ground "
-       "line,",
-       ""});
-  pieces.push_back({"θ = (θ_left + θ_right) / 2",
-                    "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})"});
+void add_angle(Methods& methods) {
+  methods.add(
+      "The angle of repose was measured in photographs and in silhouettes of the simulated heaps "
+      "by the same program: on each side a straight line was fitted to the heap's edge between 20 "
+      "and 80 % of its height, and the angle is the mean of both sides' angles to the ground "
+      "line,");
+  methods.add_equation("θ = (θ_left + θ_right) / 2",
+                       "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})");
 }
 
-void add_joint_fit(const JointResult& joint, std::vector<Piece>& pieces) {
-  pieces.push_back(
-      {fmt::format(
-           "All {} coefficients were fitted to all {} measured means at once. {} simulations "
-           "were spread over the bounds; each measured quantity was described by a Gaussian "
-           "process with expectation fᵢ and variance vᵢ (Matérn 5/2, seed noise included), and "
-           "the coefficients x minimise",
-           joint.parameters.size(), joint.observables.size(), joint.runs.size()),
-       ""});
-  pieces.push_back(
-      {"χ²(x) = Σᵢ (fᵢ(x) − mᵢ)² / (uᵢ² + vᵢ(x)),  uᵢ = (sᵢ/√nᵢ) · t(0.975; nᵢ−1)/1.960",
-       "\\chi^2(x) = \\sum_i \\frac{(f_i(x)-m_i)^2}{u_i^2+v_i(x)}, \\quad "
-       "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}"});
-  pieces.push_back(
-      {"where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
-       "is Student's quantile. Intervals are 95 % profile-likelihood intervals (Venzon and "
-       "Moolgavkar 1988), the values xⱼ for which",
-       ""});
-  pieces.push_back(
-      {"min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
-       "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84"});
-  pieces.push_back(
-      {"A coefficient is called determined when both ends of its interval lie inside the bounds, "
-       "one-sided when one does, undetermined otherwise. The coefficients found were simulated "
-       "again with seeds that the fit had not seen and compared with the bench by Welch's test.",
-       ""});
+void add_joint_fit(const JointResult& joint, Methods& methods) {
+  methods.add(fmt::format(
+      "All {} coefficients were fitted to all {} measured means at once. {} simulations "
+      "were spread over the bounds; each measured quantity was described by a Gaussian "
+      "process with expectation fᵢ and variance vᵢ (Matérn 5/2, seed noise included), and "
+      "the coefficients x minimise",
+      joint.parameters.size(), joint.observables.size(), joint.runs.size()));
+  methods.add_equation(
+      "χ²(x) = Σᵢ (fᵢ(x) − mᵢ)² / (uᵢ² + vᵢ(x)),  uᵢ = (sᵢ/√nᵢ) · t(0.975; nᵢ−1)/1.960",
+      "\\chi^2(x) = \\sum_i \\frac{(f_i(x)-m_i)^2}{u_i^2+v_i(x)}, \\quad "
+      "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}");
+  methods.add(
+      "where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
+      "is Student's quantile. Intervals are 95 % profile-likelihood intervals (Venzon and "
+      "Moolgavkar 1988), the values xⱼ for which");
+  methods.add_equation(
+      "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
+      "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84");
+  methods.add(
+      "A coefficient is called determined when both ends of its interval lie inside the bounds, "
+      "one-sided when one does, undetermined otherwise. The coefficients found were simulated "
+      "again with seeds that the fit had not seen and compared with the bench by Welch's test.");
 }
 
-void add_paper_way(std::vector<Piece>& pieces) {
-  pieces.push_back(
-      {"The coefficients against the wall were found one after the other: each was swept over nine "
-       "levels, a parabola was fitted to the results, and solved for the measured value. Those "
-       "between grains were approached by steepest ascent and refined by a central composite "
-       "design, to whose relative errors of the angle a quadratic surface was fitted:",
-       ""});
-  pieces.push_back({"|θ − θ_measured| / θ_measured = b₀ + Σ bᵢxᵢ + Σ bᵢⱼxᵢxⱼ + Σ bᵢᵢxᵢ²",
-                    "\\frac{|\\theta-\\theta_m|}{\\theta_m} = b_0 + \\sum_i b_i x_i + "
-                    "\\sum_{i<j} b_{ij} x_i x_j + \\sum_i b_{ii} x_i^2"});
-  pieces.push_back({"Its least value in the design's box was taken and simulated ten times.", ""});
+void add_paper_way(Methods& methods) {
+  methods.add(
+      "The coefficients against the wall were found one after the other: each was swept over nine "
+      "levels, a parabola was fitted to the results, and solved for the measured value. Those "
+      "between grains were approached by steepest ascent and refined by a central composite "
+      "design, to whose relative errors of the angle a quadratic surface was fitted:");
+  methods.add_equation("|θ − θ_measured| / θ_measured = b₀ + Σ bᵢxᵢ + Σ bᵢⱼxᵢxⱼ + Σ bᵢᵢxᵢ²",
+                       "\\frac{|\\theta-\\theta_m|}{\\theta_m} = b_0 + \\sum_i b_i x_i + "
+                       "\\sum_{i<j} b_{ij} x_i x_j + \\sum_i b_{ii} x_i^2");
+  methods.add("Its least value in the design's box was taken and simulated ten times.");
 }
 
 }  // namespace
 
 Chapter methods_chapter(const StudyResult& result) {
-  Chapter chapter{.id = "methods", .title = "Methods, to be cited", .blocks = {}};
-  std::vector<Piece> pieces;
-  add_simulation(result.provenance, pieces);
-  add_angle(pieces);
+  Methods methods;
+  add_simulation(result.provenance, methods);
+  add_angle(methods);
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
-    add_joint_fit(*joint, pieces);
+    add_joint_fit(*joint, methods);
   } else {
-    add_paper_way(pieces);
+    add_paper_way(methods);
   }
-  std::string latex;
-  for (const Piece& piece : pieces) {
-    if (piece.latex.empty()) {
-      chapter.blocks.push_back(Paragraph{piece.text});
-      latex += latex_text(piece.text) + '\n';
-    } else {
-      chapter.blocks.push_back(Equation{piece.text});
-      latex += "\\begin{equation}\n  " + piece.latex + "\n\\end{equation}\n";
-    }
-  }
-  chapter.blocks.push_back(CodeText{.label = "The same for LaTeX", .text = latex});
+  Chapter chapter{
+      .id = "methods", .title = "Methods, to be cited", .blocks = std::move(methods.blocks)};
+  chapter.blocks.push_back(CodeText{.label = "The same for LaTeX", .text = methods.latex});
   return chapter;
 }
 

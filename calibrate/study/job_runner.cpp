@@ -10,7 +10,7 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
   std::vector<std::optional<Run>> runs(jobs.size());
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    auto saved = folder_.find_whole(simulator_.spec(jobs[k]), jobs[k].seed);
+    auto saved = context_.folder.find_whole(context_.simulator.spec(jobs[k]), jobs[k].seed);
     if (saved) runs[k] = run_of({.job = jobs[k], .run = *std::move(saved)});
     if (!runs[k]) open.push_back(k);
   }
@@ -18,7 +18,7 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
   std::stable_sort(open.begin(), open.end(),
                    [&](std::size_t a, std::size_t b) { return cost_s(jobs[a]) > cost_s(jobs[b]); });
   simulate(stage, jobs, open, runs);
-  if (is_interrupted_) return std::nullopt;
+  if (context_.is_interrupted) return std::nullopt;
   std::vector<Run> done;
   done.reserve(runs.size());
   for (std::optional<Run>& run : runs) done.push_back(std::move(run.value()));
@@ -35,8 +35,8 @@ void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
     progress.seconds_of += cost_s(jobs[k]);
   }
   if (missing.empty()) return;
-  report_(progress);
-  executor_.run(
+  context_.report(progress);
+  context_.executor.run(
       missing,
       [&](std::size_t k, const SimulatedJob& done) {
         keep(done);
@@ -44,15 +44,15 @@ void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
         ++simulated_;
         ++progress.done;
         progress.seconds_done += cost_s(missing[k]);
-        report_(progress);
+        context_.report(progress);
       },
-      is_interrupted_);
+      context_.is_interrupted);
 }
 
 /// Whoever simulates saves its runs, but where its folder is another machine's.
 void JobRunner::keep(const SimulatedJob& done) const {
-  const RunSpec spec = simulator_.spec(done.job);
-  if (!folder_.find_whole(spec, done.job.seed)) folder_.save(spec, done.run);
+  const RunSpec spec = context_.simulator.spec(done.job);
+  if (!context_.folder.find_whole(spec, done.job.seed)) context_.folder.save(spec, done.run);
 }
 
 double JobRunner::cost_s(const Job& job) const {

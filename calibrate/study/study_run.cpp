@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/fit/propose.h"
+#include "calibrate/study/job_runner.h"
 
 namespace repose::calibrate {
 namespace {
@@ -87,10 +88,8 @@ bool check_family(const Problem& problem, const Budget& budget, JobRunner& runne
 }  // namespace
 
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
-                                      const StudySimulator& simulator, const RunFolder& folder,
-                                      Executor& executor, const StudyReport& report,
-                                      const std::atomic<bool>& is_interrupted) {
-  JobRunner runner(problem, simulator, folder, executor, report, is_interrupted);
+                                      const StudyContext& context) {
+  JobRunner runner(problem, context);
   StudyOutcome outcome;
   if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
   if (!fit_and_check(problem, budget, runner, outcome)) return std::nullopt;

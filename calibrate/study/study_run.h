@@ -1,14 +1,12 @@
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/verification.h"
-#include "calibrate/study/executor.h"
-#include "calibrate/study/job_runner.h"
+#include "calibrate/study/study_context.h"
 #include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate {
@@ -30,8 +28,6 @@ struct StudyOutcome {
 /// @throws std::invalid_argument  a protocol that cannot be run, a folder that cannot be written,
 /// or too few runs with a reading for a fit.
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
-                                      const StudySimulator& simulator, const RunFolder& folder,
-                                      Executor& executor, const StudyReport& report,
-                                      const std::atomic<bool>& is_interrupted);
+                                      const StudyContext& context);
 
 }  // namespace repose::calibrate

@@ -19,11 +19,9 @@ Run run_of(const SimulatedJob& done) {
 }
 
 StudySimulator::StudySimulator(dem::Study study, dem::ClumpFile grain,
-                               std::vector<std::string> names, int heap_views)
-    : study_(std::move(study)),
-      grain_(std::move(grain)),
-      names_(std::move(names)),
-      heap_views_(heap_views) {
+                               const std::vector<Parameter>& sought, int heap_views)
+    : study_(std::move(study)), grain_(std::move(grain)), heap_views_(heap_views) {
+  for (const Parameter& parameter : sought) names_.push_back(parameter.name);
   study_.model.threads = 1;
 }
 

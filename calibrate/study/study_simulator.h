@@ -23,9 +23,9 @@ Run run_of(const SimulatedJob& done);
 /// Turns jobs into runs: the study's experiments with a job's coefficients.
 class StudySimulator {
  public:
-  /// @param names  of Problem::parameters, in their order
+  /// @param sought  what a job's values are, in their order
   /// @param heap_views  pictures of each heap; 0: none are taken
-  StudySimulator(dem::Study study, dem::ClumpFile grain, std::vector<std::string> names,
+  StudySimulator(dem::Study study, dem::ClumpFile grain, const std::vector<Parameter>& sought,
                  int heap_views = kHeapViews);
 
   /// What a job asks for but its seed.

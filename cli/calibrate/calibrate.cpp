@@ -25,14 +25,6 @@
 namespace repose::cli {
 namespace {
 
-std::vector<std::string> parameter_names(const CalibratePlan& plan) {
-  std::vector<std::string> names;
-  for (const calibrate::Parameter& parameter : plan.problem.problem.parameters) {
-    names.push_back(parameter.name);
-  }
-  return names;
-}
-
 /// The result of another study, method or budget stays, as "result_quick_1b9d6bcd.json".
 void set_aside_old_result(const CalibratePlan& plan) {
   const std::filesystem::path file = plan.out_folder / "result.json";
@@ -57,21 +49,25 @@ void write_results(const CalibratePlan& plan, const calibrate::StudyResult& resu
 }
 
 /// The heap of the fitted coefficients, to look at and to compare with a photograph.
-void save_heap(const CalibratePlan& plan, const calibrate::RunFolder& folder,
-               const calibrate::StudySimulator& simulator,
+void save_heap(const CalibratePlan& plan, const calibrate::StudyContext& context,
                const std::vector<calibrate::Run>& checks) {
   constexpr const char* kHeap = "heap.vtp";
   for (const calibrate::Run& run : checks) {
     const bool is_heap = run.job.experiment == "heap" && run.failure.empty();
-    if (is_heap && folder.copy_state(simulator.spec(run.job), run.job.seed, kHeap)) return;
+    if (is_heap &&
+        context.folder.copy_state(context.simulator.spec(run.job), run.job.seed, kHeap)) {
+      return;
+    }
   }
   // That of other coefficients must not stand for these.
   std::error_code ignored;
   std::filesystem::remove(plan.out_folder / kHeap, ignored);
 }
 
-calibrate::StudySimulator bench_of(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
-  calibrate::StudySimulator simulator(plan.record.study, plan.record.grain, parameter_names(plan));
+calibrate::StudySimulator simulator_of(const CalibratePlan& plan,
+                                       const calibrate::RunFolder& folder) {
+  calibrate::StudySimulator simulator(plan.record.study, plan.record.grain,
+                                      plan.problem.problem.parameters);
   simulator.store_in(folder);
   return simulator;
 }
@@ -84,18 +80,20 @@ ExitCode interrupted(const calibrate::RunFolder& folder) {
   return ExitCode::interrupted;
 }
 
-ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder& folder,
-                          const calibrate::StudySimulator& simulator, calibrate::Executor& executor,
-                          const std::atomic<bool>& is_interrupted) {
-  const auto outcome = [&] {
-    StudyProgressLine progress;
-    const calibrate::StudyReport report = [&](const auto& now) { progress.tell(now); };
-    calibrate::JobRunner runner(plan.problem.problem, simulator, folder, executor, report,
-                                is_interrupted);
-    return calibrate_as_published(plan.problem.problem, runner);
-  }();
-  if (!outcome) return interrupted(folder);
-  save_heap(plan, folder, simulator, outcome->checks);
+/// What `study` returns; its progress is shown meanwhile.
+template <class Study>
+auto with_progress(calibrate::StudyContext context, Study study) {
+  StudyProgressLine line;
+  context.report = [&](const calibrate::StudyProgress& progress) { line.report(progress); };
+  return study(context);
+}
+
+ExitCode run_as_published(const CalibratePlan& plan, const calibrate::StudyContext& context) {
+  const auto outcome = with_progress(context, [&](const calibrate::StudyContext& shown) {
+    return calibrate_as_published(plan.problem.problem, shown);
+  });
+  if (!outcome) return interrupted(context.folder);
+  save_heap(plan, context, outcome->checks);
   const calibrate::StudyResult result = result_of(plan.record, plan.problem, *outcome);
   write_results(plan, result,
                 paper_table(std::get<calibrate::PublishedResult>(result.found), plan.record.study,
@@ -104,26 +102,20 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::RunFolder&
 }
 
 /// The whole study, from rank 0 where there are ranks.
-ExitCode run_study_with(const CalibratePlan& plan, const calibrate::RunFolder& folder,
-                        const calibrate::StudySimulator& simulator, calibrate::Executor& executor,
-                        const std::atomic<bool>& is_interrupted) {
-  if (plan.record.method == "paper") {
-    return run_as_published(plan, folder, simulator, executor, is_interrupted);
-  }
-  const auto outcome = [&] {
-    StudyProgressLine progress;
-    return run_study(
-        plan.problem.problem, plan.record.budget, simulator, folder, executor,
-        [&](const calibrate::StudyProgress& now) { progress.tell(now); }, is_interrupted);
-  }();
-  if (!outcome) return interrupted(folder);
+ExitCode run_study_with(const CalibratePlan& plan, const calibrate::StudyContext& context) {
+  if (plan.record.method == "paper") return run_as_published(plan, context);
+  const auto outcome = with_progress(context, [&](const calibrate::StudyContext& shown) {
+    return run_study(plan.problem.problem, plan.record.budget, shown);
+  });
+  if (!outcome) return interrupted(context.folder);
   if (outcome->reused > 0) {
-    print_lines({fmt::format("{} of {} simulations were there already, in {}", outcome->reused,
-                             outcome->reused + outcome->simulated, folder.runs().string())});
+    print_lines(
+        {fmt::format("{} of {} simulations were there already, in {}", outcome->reused,
+                     outcome->reused + outcome->simulated, context.folder.runs().string())});
   }
   print_lines(outcome->notes);
   print_lines(outcome->fit.warnings);
-  save_heap(plan, folder, simulator, outcome->checks);
+  save_heap(plan, context, outcome->checks);
   const calibrate::StudyResult result = result_of(plan.record, plan.problem, *outcome);
   write_results(plan, result,
                 joint_table(std::get<calibrate::JointResult>(result.found), result.provenance,
@@ -138,7 +130,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
   if (session.rank() == 0) print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
   const calibrate::RunFolder folder(plan.out_folder);
-  const calibrate::StudySimulator simulator = bench_of(plan, folder);
+  const calibrate::StudySimulator simulator = simulator_of(plan, folder);
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   if (session.rank() > 0) {
     session.serve(simulator, is_interrupted);
@@ -147,7 +139,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
   print_lines(plan.notes);
   calibrate::write_study_record(plan.out_folder, plan.record);
   calibrate::RankExecutor executor(session, simulator);
-  return run_study_with(plan, folder, simulator, executor, is_interrupted);
+  return run_study_with(plan, {simulator, folder, executor, is_interrupted});
 }
 
 }  // namespace
@@ -167,9 +159,9 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   print_lines(plan.notes);
   const calibrate::RunFolder folder(plan.out_folder);
   calibrate::write_study_record(plan.out_folder, plan.record);
-  const calibrate::StudySimulator simulator = bench_of(plan, folder);
+  const calibrate::StudySimulator simulator = simulator_of(plan, folder);
   calibrate::ThreadExecutor executor(simulator, plan.jobs);
-  return run_study_with(plan, folder, simulator, executor, watch_for_interrupt());
+  return run_study_with(plan, {simulator, folder, executor, watch_for_interrupt()});
 }
 
 }  // namespace repose::cli

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <chrono>
-#include <mutex>
 #include <string>
 
-#include "calibrate/study/job_runner.h"
+#include "calibrate/study/study_context.h"
+#include "cli/common/progress.h"
 
 namespace repose::cli {
 
@@ -12,21 +11,11 @@ namespace repose::cli {
 /// time left of the stage; else a line for each stage.
 class StudyProgressLine {
  public:
-  StudyProgressLine();
-  ~StudyProgressLine();
-  StudyProgressLine(const StudyProgressLine&) = delete;
-  StudyProgressLine& operator=(const StudyProgressLine&) = delete;
-  StudyProgressLine(StudyProgressLine&&) = delete;
-  StudyProgressLine& operator=(StudyProgressLine&&) = delete;
-
-  void tell(const calibrate::StudyProgress& progress);
+  void report(const calibrate::StudyProgress& progress);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  const bool is_terminal_;
   std::string stage_;
-  Clock::time_point stage_start_ = Clock::now();
+  ProgressLine line_;
 };
 
 }  // namespace repose::cli

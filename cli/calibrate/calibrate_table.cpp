@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/common/terminal.h"
+#include "cli/common/page.h"
 
 namespace repose::cli {
 
@@ -20,99 +20,107 @@ namespace {
 
 /// "0.310", or with as many digits as a quantity of that size needs.
 std::string number(double value) {
-  if (!std::isfinite(value)) return "–";
+  if (!std::isfinite(value)) return kNothing;
   const double size = std::abs(value);
   return fmt::format("{:.{}f}", value, size < 10 ? 3 : size < 100 ? 2 : 1);
 }
 
-std::string parameters_text(const calibrate::JointResult& joint) {
-  std::string text = fmt::format("{}{:>8}   {}verdict\n", padded("coefficient", 34), "value",
-                                 padded("95 % interval", 19));
+Table parameters_table(const calibrate::JointResult& joint) {
+  Table table({{.heading = "coefficient"},
+               number_column("value"),
+               {.heading = "95 % interval"},
+               {.heading = "verdict"}});
   for (const calibrate::ResultParameter& parameter : joint.parameters) {
-    const std::string interval =
-        fmt::format("{} … {}", number(parameter.interval.low), number(parameter.interval.high));
-    text += fmt::format("{}{:>8}   {}{}\n", padded(short_name(parameter.name), 34),
-                        number(parameter.value), padded(interval, 19), name_of(parameter.verdict));
+    table.add_row(
+        {short_name(parameter.name), number(parameter.value),
+         fmt::format("{} … {}", number(parameter.interval.low), number(parameter.interval.high)),
+         name_of(parameter.verdict)});
   }
-  return text;
+  return table;
 }
 
-std::string observables_text(const calibrate::JointResult& joint) {
-  std::string text =
-      fmt::format("\n{}{}{}{:>16}\n", padded("observable", 22), right_aligned("measured", 18),
-                  right_aligned("simulated", 20), "difference / σ");
+std::string pair(double value, double uncertainty) {
+  return fmt::format("{} ± {}", number(value), number(uncertainty));
+}
+
+Table observables_table(const calibrate::JointResult& joint) {
+  Table table({{.heading = "observable"},
+               number_column("measured"),
+               number_column("simulated"),
+               number_column("difference / σ")});
   for (const calibrate::ResultObservable& observable : joint.observables) {
     const calibrate::ObservableCheck& checked = observable.verification;
-    const std::string name = observable.unit.empty()
-                                 ? observable.name
-                                 : fmt::format("{} [{}]", observable.name, observable.unit);
-    const auto pair = [](double value, double uncertainty) {
-      return fmt::format("{} ± {}", number(value), number(uncertainty));
-    };
-    text += fmt::format(
-        "{}{}{}{:>16}\n", padded(name, 22),
-        right_aligned(pair(observable.measured, observable.measured_uncertainty), 18),
-        right_aligned(pair(checked.simulated, checked.uncertainty), 20),
-        std::isfinite(checked.difference_sigma) ? fmt::format("{:+.1f}", checked.difference_sigma)
-                                                : "–");
+    table.add_row(
+        {observable.unit.empty() ? observable.name
+                                 : fmt::format("{} [{}]", observable.name, observable.unit),
+         pair(observable.measured, observable.measured_uncertainty),
+         pair(checked.simulated, checked.uncertainty),
+         std::isfinite(checked.difference_sigma) ? fmt::format("{:+.1f}", checked.difference_sigma)
+                                                 : kNothing});
   }
-  return text + fmt::format(
-                    "(± is the standard uncertainty of the mean; simulated with fresh seeds: {})\n",
-                    joint.verified ? "agrees with the bench" : "does NOT agree with the bench");
+  return table;
 }
 
-std::string family_text(const calibrate::JointResult& joint) {
-  if (joint.equivalence_family.empty()) return {};
-  std::string text = "\nequally good parameter sets, in the order of the coefficients above\n";
+void add_family(const calibrate::JointResult& joint, Page& page) {
+  if (joint.equivalence_family.empty()) return;
+  std::vector<Column> columns(joint.parameters.size(), number_column(""));
+  columns.emplace_back();
+  Table table(std::move(columns));
   for (const calibrate::EquivalentSet& set : joint.equivalence_family) {
-    std::string line = " ";
-    for (const double value : set.values) line += fmt::format("{:>8}", number(value));
-    if (set.verified)
-      line += *set.verified ? "   simulated: agrees" : "   simulated: does not agree";
-    text += line + '\n';
+    std::vector<std::string> cells;
+    for (const double value : set.values) cells.push_back(number(value));
+    if (set.verified) {
+      cells.emplace_back(*set.verified ? "simulated: agrees" : "simulated: does not agree");
+    }
+    table.add_row(std::move(cells));
   }
-  return text;
+  page.add_gap();
+  page.add("equally good parameter sets, in the order of the coefficients above");
+  page.add(table);
 }
 
-std::string advice_text(const calibrate::JointResult& joint, std::size_t width) {
-  std::string text;
+void add_advice(const calibrate::JointResult& joint, Page& page) {
   std::set<std::string> told;
   for (const calibrate::ResultParameter& parameter : joint.parameters) {
     if (parameter.advice.empty()) continue;
     const std::string line = fmt::format("{} is {}: {}", short_name(parameter.name),
                                          name_of(parameter.verdict), parameter.advice);
     if (!told.insert(line).second) continue;
-    text += '\n';
-    for (const std::string& part : wrapped(line, width)) text += part + '\n';
+    page.add_gap();
+    page.add(line);
   }
-  return text;
 }
 
-std::string belongs_to_text(const calibrate::Provenance& of, std::size_t width) {
+std::string belongs_to_text(const calibrate::Provenance& of) {
   std::string stiffness;
   for (const auto& [experiment, factor] : of.stiffness_factor) {
     stiffness += fmt::format("{}{} {:g}", stiffness.empty() ? "" : ", ", experiment, factor);
   }
   const calibrate::ClumpFacts& clump = of.clump;
-  const std::string text = fmt::format(
+  return fmt::format(
       "These coefficients belong to: {}, rolling friction {} ({}); a clump of {} ({}, "
       "volume {:+.2f} % off); stiffness factor {}; budget {}: {}.",
       of.contact_model, of.rolling_model, of.rolling_definition,
       clump.spheres == 1 ? "1 sphere" : fmt::format("{} spheres", clump.spheres), clump.source,
       100 * clump.volume_error, stiffness, of.study.budget, of.study.budget_description);
-  std::string lines = "\n";
-  for (const std::string& part : wrapped(text, width)) lines += part + '\n';
-  return lines;
 }
 
 }  // namespace
 
 std::string joint_table(const calibrate::JointResult& joint,
                         const calibrate::Provenance& provenance, int columns) {
-  constexpr int kWidest = 100;
-  const auto width = static_cast<std::size_t>(std::clamp(columns, 40, kWidest));
-  return parameters_text(joint) + observables_text(joint) + family_text(joint) +
-         advice_text(joint, width) + belongs_to_text(provenance, width);
+  Page page(std::min(columns, kWidestText));
+  page.add(parameters_table(joint));
+  page.add_gap();
+  page.add(observables_table(joint));
+  page.add(
+      fmt::format("(± is the standard uncertainty of the mean; simulated with fresh seeds: {})",
+                  joint.verified ? "agrees with the bench" : "does NOT agree with the bench"));
+  add_family(joint, page);
+  add_advice(joint, page);
+  page.add_gap();
+  page.add(belongs_to_text(provenance));
+  return page.text();
 }
 
 }  // namespace repose::cli

@@ -6,6 +6,9 @@
 
 namespace repose::cli {
 
+/// Sentences in longer lines are hard to read.
+inline constexpr int kWidestText = 100;
+
 /// As tables call a coefficient: "particle_wall.restitution".
 std::string short_name(const std::string& coefficient);
 

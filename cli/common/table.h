@@ -21,6 +21,10 @@ struct Column {
   std::size_t min_width = 0;
 };
 
+inline Column number_column(std::string heading) {
+  return {.heading = std::move(heading), .align = Align::right};
+}
+
 /// Columns as wide as their widest cell. Where that is wider than the terminal, the last column is
 /// wrapped if it is aligned left, and a cell of the first that does not fit has a line of its own.
 class Table {

@@ -1,6 +1,7 @@
 #include "cli/common/terminal.h"
 
 #include <cstdlib>
+#include <string_view>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -13,11 +14,6 @@ constexpr int kUsualColumns = 80;
 /// Null when it is not set.
 const char* environment(const char* name) {
   return std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody changes the environment
-}
-
-std::string blanks(std::string_view text, std::size_t width) {
-  const std::size_t used = letters(text);
-  return std::string(width > used ? width - used : 0, ' ');
 }
 
 }  // namespace
@@ -37,14 +33,6 @@ bool wants_colour(std::FILE* stream) {
   const char* kind = environment("TERM");
   const bool is_plain = kind == nullptr || std::string_view(kind) == "dumb";
   return is_terminal(stream) && !is_plain && (no_colour == nullptr || *no_colour == '\0');
-}
-
-std::string padded(std::string_view text, std::size_t width) {
-  return std::string(text) + blanks(text, width);
-}
-
-std::string right_aligned(std::string_view text, std::size_t width) {
-  return blanks(text, width) + std::string(text);
 }
 
 }  // namespace repose::cli

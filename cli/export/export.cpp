@@ -14,6 +14,7 @@
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
+#include "cli/common/table.h"
 #include "cli/common/terminal.h"
 
 namespace repose::cli {
@@ -95,14 +96,16 @@ std::string export_json(const ExportPlan& plan) {
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-std::string export_table(const ExportPlan& plan) {
-  std::string text =
-      fmt::format("{}{:>9}{:>10}  conversion\n", padded("coefficient", 35), "ours", "theirs");
+std::string export_table(const ExportPlan& plan, int columns) {
+  Table table({{.heading = "coefficient"},
+               number_column("ours"),
+               number_column("theirs"),
+               {.heading = "conversion"}});
   for (const Conversion& conversion : plan.made.conversions) {
-    text += fmt::format("{}{:>9.4g}{:>10.4g}  {}\n", padded(short_name(conversion.coefficient), 35),
-                        conversion.value, conversion.exported, name_of(conversion.fidelity));
+    table.add_row({short_name(conversion.coefficient), fmt::format("{:.4g}", conversion.value),
+                   fmt::format("{:.4g}", conversion.exported), name_of(conversion.fidelity)});
   }
-  return text +
+  return table.text(columns) +
          fmt::format("\n{}: {} files.\nREADME.txt says what carries over and what does not.\n",
                      plan.out_folder.string(), plan.made.files.size());
 }
@@ -117,7 +120,7 @@ ExitCode run_export(const ExportArguments& arguments) {
   print_lines(plan.made.warnings);
   if (!arguments.json_file.empty()) write_output(arguments.json_file, export_json(plan));
   if (arguments.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput), export_table(plan));
+    write_output(std::string(kStandardOutput), export_table(plan, columns_of(stdout)));
   }
   return ExitCode::done;
 }

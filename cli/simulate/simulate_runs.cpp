@@ -80,7 +80,7 @@ class Batch {
     if (folder_) options.folder = &*folder_;
     if (plan_.trajectory_s) options.trajectory = {place, *plan_.trajectory_s};
     options.report = [&](double fraction) {
-      progress_.tell(index, fraction);
+      progress_.report(index, fraction);
       return !is_stopping();
     };
     run.result = simulate_experiment(spec_, seed, options);
@@ -89,7 +89,7 @@ class Batch {
       return;
     }
     run.outcome = RunOutcome::done;
-    progress_.tell(index, 1);
+    progress_.report(index, 1);
     if (folder_) name_files(run, place);
   }
 
@@ -112,7 +112,7 @@ class Batch {
   const std::atomic<bool>& is_interrupted_;
   std::optional<calibrate::RunFolder> folder_;
   std::atomic<bool> has_failed_{false};
-  FractionProgress progress_;
+  RepeatsProgress progress_;
 };
 
 }  // namespace

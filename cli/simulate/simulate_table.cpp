@@ -1,12 +1,11 @@
 #include "cli/simulate/simulate_table.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "cli/common/terminal.h"
+#include "cli/common/page.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/simulate/simulate_values.h"
 #include "dem/contact/rolling_name.h"
@@ -19,74 +18,77 @@ std::string unit_sign(const SimulatePlan& plan) {
   return unit == "deg" ? "°" : fmt::format(" {}", unit);
 }
 
-std::string repeats_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
+Table repeats_table(const SimulatePlan& plan, const std::vector<Run>& runs) {
   constexpr double kMicroseconds = 1e6, kMillion = 1e6;
-  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
   const bool is_mixed = source_of(runs) == "mixed";
-  std::size_t width = 4;
-  for (const Run& run : runs) width = std::max(width, std::to_string(run.result.seed).size());
-  std::string text = fmt::format("{}: {}\n", entry.name, entry.value_name);
-  text += fmt::format("{:>{}}{:>14}{:>12}{:>10}{:>10}{:>12}\n", "seed", width,
-                      fmt::format("value [{}]", entry.unit), "steps", "step [us]", "time [s]",
-                      "Mclump-st/s");
+  Table table({number_column("seed"),
+               number_column(fmt::format("value [{}]", dem::entry_of(plan.experiment).unit)),
+               number_column("steps"),
+               number_column("step [us]"),
+               number_column("time [s]"),
+               number_column("Mclump-st/s"),
+               {}});
   for (const Run& run : runs) {
     const calibrate::SimulatedRun& result = run.result;
-    text +=
-        fmt::format("{:>{}}{:>14.3f}{:>12}{:>10.3f}{:>10.1f}{:>12.3f}", result.seed, width,
-                    calibrate::value_of(result), result.steps, result.timestep_s * kMicroseconds,
-                    result.wall_s, result.clump_steps / result.wall_s / kMillion);
-    if (is_mixed && !calibrate::is_from_pictures(result)) text += "  from positions";
-    text += '\n';
+    table.add_row({std::to_string(result.seed), fmt::format("{:.3f}", calibrate::value_of(result)),
+                   std::to_string(result.steps),
+                   fmt::format("{:.3f}", result.timestep_s * kMicroseconds),
+                   fmt::format("{:.1f}", result.wall_s),
+                   fmt::format("{:.3f}", result.clump_steps / result.wall_s / kMillion),
+                   is_mixed && !calibrate::is_from_pictures(result) ? "from positions" : ""});
   }
-  return text;
+  return table;
 }
 
 std::string mean_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
   const auto summary = summarise(runs);
   const std::string unit = unit_sign(plan);
-  if (!summary) return "no mean: a repeat gave no number\n";
+  if (!summary) return "no mean: a repeat gave no number";
   if (!summary->sd && summary->n > 1) {
-    return fmt::format("mean {:.3f}{} n = {}, all the same: no scatter and no interval\n",
+    return fmt::format("mean {:.3f}{} n = {}, all the same: no scatter and no interval",
                        summary->mean, unit, summary->n);
   }
   if (!summary->sd || !summary->mean_uncertainty) {
-    return fmt::format("mean {:.3f}{} n = 1, which has no scatter and no interval: --repeats 5\n",
+    return fmt::format("mean {:.3f}{} n = 1, which has no scatter and no interval: --repeats 5",
                        summary->mean, unit);
   }
   return fmt::format(
       "mean {:.3f}{} sd {:.3f}{} n = {}, 95 % interval of the mean {:.3f} … {:.3f}{}"
-      " (Student)\n",
+      " (Student)",
       summary->mean, unit, *summary->sd, unit, summary->n,
       summary->mean - *summary->mean_uncertainty, summary->mean + *summary->mean_uncertainty, unit);
 }
 
-std::string number_or_dash(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f}", *value) : "–";
+std::string cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : kNothing;
 }
 
 /// A heap's angle from its pictures and from where its grains lie.
-std::string sources_text(const std::vector<Run>& runs) {
+void add_sources(const std::vector<Run>& runs, Page& page) {
   const auto angles = heap_angles(runs);
-  if (!angles) return {};
-  const auto row = [](const char* source, const std::optional<calibrate::Summary>& repeats,
-                      const std::optional<double>& between_views, const std::string& use) {
+  if (!angles) return;
+  Table table({{.heading = "  angle [deg]"},
+               number_column("mean"),
+               number_column("sd of repeats"),
+               number_column("sd of views"),
+               {}});
+  const auto add = [&](const char* source, const std::optional<calibrate::Summary>& repeats,
+                       const std::optional<double>& between_views, std::size_t count) {
     const auto mean = repeats ? std::optional(repeats->mean) : std::nullopt;
     const auto sd = repeats ? repeats->sd : std::nullopt;
-    return fmt::format("  {}{:>9}{:>15}{:>15}{}\n", padded(source, 14), number_or_dash(mean),
-                       number_or_dash(sd), number_or_dash(between_views), use);
+    const std::string use = count == 0             ? ""
+                            : count == runs.size() ? "the value"
+                                                   : fmt::format("the value of {}", count);
+    table.add_row({source, cell(mean), cell(sd), cell(between_views), use});
   };
-  const auto used = [&](int count) {
-    if (count == 0) return std::string();
-    if (count == static_cast<int>(runs.size())) return std::string("   the value");
-    return fmt::format("   the value of {}", count);
-  };
-  return fmt::format("\n  {}{:>9}{:>15}{:>15}\n", padded("angle [deg]", 14), "mean",
-                     "sd of repeats", "sd of views") +
-         row("pictures", angles->pictures, angles->between_views_pictures, used(angles->pictured)) +
-         row("positions", angles->positions, angles->between_views_positions,
-             used(static_cast<int>(runs.size()) - angles->pictured)) +
-         fmt::format("  {} {}: {} refused, {} flagged\n", angles->views,
-                     angles->views == 1 ? "picture" : "pictures", angles->refused, angles->flagged);
+  const auto pictured = static_cast<std::size_t>(angles->pictured);
+  add("  pictures", angles->pictures, angles->between_views_pictures, pictured);
+  add("  positions", angles->positions, angles->between_views_positions, runs.size() - pictured);
+  table.add_note("  ", fmt::format("{} {}: {} refused, {} flagged", angles->views,
+                                   angles->views == 1 ? "picture" : "pictures", angles->refused,
+                                   angles->flagged));
+  page.add_gap();
+  page.add(table);
 }
 
 /// "measured 9.420 mm, n = 10; simulated - measured = -0.290 mm (-3.1 %)"
@@ -113,35 +115,25 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs
     text += fmt::format("; simulated is {:+.3f}{} off", difference, unit);
     if (*mean != 0) text += fmt::format(" ({:+.1f} %)", 100 * difference / *mean);
   }
-  return text + '\n';
+  return text;
 }
 
 /// The mean of each other reading over the repeats.
-std::string readings_text(const std::vector<Run>& runs) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  struct Spread {
-    double sum = 0, least = kInfinity, greatest = -kInfinity;
-    int count = 0;
-  };
-  std::map<std::string, Spread> spreads;
-  std::size_t width = 0;
+void add_readings(const std::vector<Run>& runs, Page& page) {
+  std::map<std::string, std::vector<double>> readings;
   for (const Run& run : runs) {
-    for (const auto& [name, value] : run.result.readings) {
-      Spread& spread = spreads[name];
-      spread.sum += value;
-      spread.least = std::min(spread.least, value);
-      spread.greatest = std::max(spread.greatest, value);
-      ++spread.count;
-      width = std::max(width, name.size());
-    }
+    for (const auto& [name, value] : run.result.readings) readings[name].push_back(value);
   }
-  std::string text = spreads.empty() ? "" : "\nother readings\n";
-  for (const auto& [name, spread] : spreads) {
-    text += fmt::format("  {}  {:.4g}", padded(name, width), spread.sum / spread.count);
-    if (spread.count > 1) text += fmt::format("  ({:.4g} … {:.4g})", spread.least, spread.greatest);
-    text += '\n';
+  if (readings.empty()) return;
+  Table table({{}, {}, {}});
+  for (const auto& [name, values] : readings) {
+    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+    table.add_row({"  " + name, fmt::format("{:.4g}", calibrate::summarise(values).mean),
+                   values.size() > 1 ? fmt::format("({:.4g} … {:.4g})", *least, *greatest) : ""});
   }
-  return text;
+  page.add_gap();
+  page.add("other readings");
+  page.add(table);
 }
 
 std::string coefficients_text(const dem::PairCoefficients& pair) {
@@ -150,47 +142,43 @@ std::string coefficients_text(const dem::PairCoefficients& pair) {
 }
 
 /// Coefficients mean nothing without these.
-std::string belongs_to_text(const SimulatePlan& plan, std::size_t width) {
+Table belongs_to_table(const SimulatePlan& plan) {
   const dem::Model& model = plan.spec.model;
   const std::string step =
       model.timestep_s ? fmt::format("{:g} s, as asked for", *model.timestep_s)
                        : fmt::format("{:g} of the longest accurate one", model.timestep_fraction);
-  std::vector<std::pair<std::string, std::string>> facts = {
-      {"contact model", std::string(dem::kContactModel)},
-      {"rolling model",
-       fmt::format("{}: {}", dem::name_of(model.rolling), dem::rolling_definition(model.rolling))},
-      {"clump", fmt::format("{} spheres, volume error {:.1f} % ({})", model.grain.spheres.size(),
-                            100 * plan.grain.errors.volume_error, plan.grain.source)},
-      {"stiffness factor", fmt::format("{:g}", model.stiffness_factor)},
-      {"time step", step},
-      {"with the wall", coefficients_text(model.grain_wall)}};
+  Table table({{}, {}});
+  table.add_row({"  contact model", std::string(dem::kContactModel)});
+  table.add_row({"  rolling model", fmt::format("{}: {}", dem::name_of(model.rolling),
+                                                dem::rolling_definition(model.rolling))});
+  table.add_row(
+      {"  clump", fmt::format("{} spheres, volume error {:.1f} % ({})", model.grain.spheres.size(),
+                              100 * plan.grain.errors.volume_error, plan.grain.source)});
+  table.add_row({"  stiffness factor", fmt::format("{:g}", model.stiffness_factor)});
+  table.add_row({"  time step", step});
+  table.add_row({"  with the wall", coefficients_text(model.grain_wall)});
   if (dem::has_grain_contacts(plan.experiment)) {
-    facts.emplace_back("between grains", coefficients_text(model.grain_grain));
+    table.add_row({"  between grains", coefficients_text(model.grain_grain)});
   }
-  constexpr std::size_t kNames = 20;
-  std::string text = "these values belong to\n";
-  for (const auto& [name, fact] : facts) {
-    std::string before = padded("  " + name, kNames);
-    for (const std::string& line : wrapped(fact, width - kNames)) {
-      text += before + line + '\n';
-      before = std::string(kNames, ' ');
-    }
-  }
-  return text;
+  return table;
 }
 
 }  // namespace
 
 std::string simulate_table(const SimulatePlan& plan, const std::vector<Run>& runs, int columns) {
-  constexpr int kNarrowest = 40;
-  std::string text = repeats_text(plan, runs) + '\n';
-  const auto width = static_cast<std::size_t>(std::max(kNarrowest, columns));
-  for (const std::string& line : {mean_text(plan, runs), measured_text(plan, runs)}) {
-    for (const std::string& part : wrapped(line, width)) text += part + '\n';
-  }
-  text += sources_text(runs);
-  text += readings_text(runs) + '\n';
-  return text + belongs_to_text(plan, width);
+  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
+  Page page(columns);
+  page.add(fmt::format("{}: {}", entry.name, entry.value_name));
+  page.add(repeats_table(plan, runs));
+  page.add_gap();
+  page.add(mean_text(plan, runs));
+  page.add(measured_text(plan, runs));
+  add_sources(runs, page);
+  add_readings(runs, page);
+  page.add_gap();
+  page.add("these values belong to");
+  page.add(belongs_to_table(plan));
+  return page.text();
 }
 
 }  // namespace repose::cli

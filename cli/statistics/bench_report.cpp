@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common/table.h"
+#include "cli/common/page.h"
 
 namespace repose::cli {
 namespace {
@@ -26,17 +26,20 @@ std::vector<std::string> quantity_row(const calibrate::BenchQuantity& quantity) 
 std::string bench_table(const std::string& test, const calibrate::BenchResult& result,
                         int columns) {
   Table table({{.heading = ""},
-               {.heading = "mean", .align = Align::right},
-               {.heading = "sd", .align = Align::right},
-               {.heading = "n", .align = Align::right},
-               {.heading = "95 % interval of the mean (Student)", .align = Align::right}});
+               number_column("mean"),
+               number_column("sd"),
+               number_column("n"),
+               number_column("95 % interval of the mean (Student)")});
   for (const calibrate::BenchQuantity& quantity : result.quantities) {
     table.add_row(quantity_row(quantity));
   }
-  std::string text = paragraph("", fmt::format("{}: {}", test, result.source), columns) + '\n' +
-                     table.text(columns) + '\n';
-  for (const std::string& note : result.notes) text += paragraph("", note, columns);
-  return text;
+  Page page(columns);
+  page.add(fmt::format("{}: {}", test, result.source));
+  page.add_gap();
+  page.add(table);
+  page.add_gap();
+  for (const std::string& note : result.notes) page.add(note);
+  return page.text();
 }
 
 std::string bench_json(const std::string& test, const calibrate::BenchResult& result) {

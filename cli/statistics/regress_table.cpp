@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/common/table.h"
-#include "cli/common/terminal.h"
+#include "cli/common/page.h"
 
 namespace repose::cli {
 namespace {
@@ -25,25 +24,6 @@ std::string cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.4g}", *value) : kNothing;
 }
 
-/// Text, for a terminal of some width.
-class Page {
- public:
-  explicit Page(int columns) : columns_(columns) {}
-
-  void add_gap() { text_ += '\n'; }
-  void add_table(const Table& table) { text_ += table.text(columns_); }
-  void add(std::string_view mark, std::string_view text) {
-    text_ += paragraph(mark, text, columns_);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  int columns_;
-  std::string text_;
-};
-
-Column number_column(const char* heading) { return {.heading = heading, .align = Align::right}; }
-
 std::string levels_text(const calibrate::Regression& fit, const std::vector<double>& levels) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -58,9 +38,9 @@ void add_heading(const calibrate::Regression& fit, Page& page) {
     names.push_back(factor.name);
     codings.push_back(fmt::format("{} {:g} … {:g}", factor.name, factor.low, factor.high));
   }
-  page.add("", fmt::format("{} from {}: {} model, {} runs", fit.response_name,
-                           fmt::join(names, ", "), name_of(fit.model), fit.runs.size()));
-  page.add("", fmt::format("coded -1 … 1 are {}", fmt::join(codings, ", ")));
+  page.add(fmt::format("{} from {}: {} model, {} runs", fit.response_name, fmt::join(names, ", "),
+                       name_of(fit.model), fit.runs.size()));
+  page.add(fmt::format("coded -1 … 1 are {}", fmt::join(codings, ", ")));
 }
 
 void add_coefficients(const calibrate::Regression& fit, Page& page) {
@@ -80,7 +60,7 @@ void add_coefficients(const calibrate::Regression& fit, Page& page) {
              : fmt::format("{:.4g} … {:.4g}", coefficient.interval[0], coefficient.interval[1])});
   }
   page.add_gap();
-  page.add_table(table);
+  page.add(table);
 }
 
 /// The surface of the factors in their own units; nothing where these are the coded ones.
@@ -97,7 +77,7 @@ void add_equation(const calibrate::Regression& fit, Page& page) {
     equation += fmt::format(" {}{:.6g}", sign, std::abs(value));
     if (!is_first) equation += ' ' + name_of(coefficient.term, fit.factors);
   }
-  page.add("", equation);
+  page.add(equation);
 }
 
 void add_variance(const std::string& name, const calibrate::Variance& variance, Table& table) {
@@ -128,12 +108,11 @@ void add_anova(const calibrate::Regression& fit, Page& page) {
   }
   table.add_note("", "Sums of squares of terms are partial: what the fit loses without them.");
   page.add_gap();
-  page.add_table(table);
+  page.add(table);
   page.add_gap();
-  page.add("", fmt::format("R² {:.4f}, adjusted {:.4f}, predicted {}; residual sd {:.4g}", fit.r2,
-                           fit.r2_adjusted,
-                           fit.r2_predicted ? fmt::format("{:.4f}", *fit.r2_predicted) : kNothing,
-                           fit.residual_sd));
+  page.add(fmt::format(
+      "R² {:.4f}, adjusted {:.4f}, predicted {}; residual sd {:.4g}", fit.r2, fit.r2_adjusted,
+      fit.r2_predicted ? fmt::format("{:.4f}", *fit.r2_predicted) : kNothing, fit.residual_sd));
 }
 
 std::string point_text(const calibrate::Regression& fit, const calibrate::SurfacePoint& point) {
@@ -143,23 +122,24 @@ std::string point_text(const calibrate::Regression& fit, const calibrate::Surfac
 
 void add_shape(const calibrate::SurfaceReport& report, Page& page) {
   const calibrate::Regression& fit = report.fit;
-  page.add_gap();
+  Table table({{}, {}});
   if (report.form) {
     for (const calibrate::CanonicalAxis& axis : report.form->axes) {
       if (fit.factors.size() == 1) continue;  // the square's coefficient is in the table above
-      page.add(padded("curvature", kNameWidth),
-               fmt::format("{:.4g} ± {:.3g} along {} (coded)", axis.curvature, axis.uncertainty,
-                           levels_text(fit, axis.direction)));
+      table.add_row({"curvature", fmt::format("{:.4g} ± {:.3g} along {} (coded)", axis.curvature,
+                                              axis.uncertainty, levels_text(fit, axis.direction))});
     }
     if (report.form->stationary) {
-      page.add(
-          padded(name_of(report.form->shape), kNameWidth),
-          fmt::format("{}, {} the range of the runs", point_text(fit, *report.form->stationary),
-                      report.form->is_inside ? "inside" : "outside"));
+      table.add_row(
+          {name_of(report.form->shape),
+           fmt::format("{}, {} the range of the runs", point_text(fit, *report.form->stationary),
+                       report.form->is_inside ? "inside" : "outside")});
     }
   }
-  page.add(padded("lowest in box", kNameWidth), point_text(fit, report.extremes.least));
-  page.add(padded("highest in box", kNameWidth), point_text(fit, report.extremes.greatest));
+  table.add_row({"lowest in box", point_text(fit, report.extremes.least)});
+  table.add_row({"highest in box", point_text(fit, report.extremes.greatest)});
+  page.add_gap();
+  page.add(table);
 }
 
 std::string range_text(const calibrate::Factor& factor,
@@ -177,15 +157,17 @@ void add_target(const calibrate::SurfaceReport& report, Page& page) {
   if (!report.target || !report.target->is_reached) return;
   const calibrate::Regression& fit = report.fit;
   page.add_gap();
-  page.add("", fmt::format("{} = {:g} within the range of the runs", fit.response_name,
-                           report.target->target));
+  page.add(fmt::format("{} = {:g} within the range of the runs", fit.response_name,
+                       report.target->target));
   const bool is_single = fit.factors.size() == 1;
+  Table table({{}, {}});
   for (std::size_t i = 0; i < fit.factors.size() && !is_single; ++i) {
-    page.add(padded("  " + fit.factors[i].name, kNameWidth) + ' ',
-             range_text(fit.factors[i], report.target->ranges[i], fit.box[i]));
+    table.add_row({"  " + fit.factors[i].name,
+                   range_text(fit.factors[i], report.target->ranges[i], fit.box[i])});
   }
+  page.add(table);
   if (!is_single && !report.target->through_centre.empty()) {
-    page.add("", "with all other factors in the middle of their ranges");
+    page.add("with all other factors in the middle of their ranges");
   }
   for (const calibrate::Crossing& crossing : report.target->through_centre) {
     const std::size_t i = crossing.factor;

@@ -19,11 +19,11 @@ namespace {
 /// A case's name and source, then a row for each of its numbers.
 std::string verify_table(const std::vector<dem::CaseResult>& results, int columns) {
   Table table({{.heading = "case, quantity"},
-               {.heading = "expected", .align = Align::right},
-               {.heading = "measured", .align = Align::right},
-               {.heading = "error", .align = Align::right},
-               {.heading = "allowed", .align = Align::right},
-               {.heading = "step [s]", .align = Align::right},
+               number_column("expected"),
+               number_column("measured"),
+               number_column("error"),
+               number_column("allowed"),
+               number_column("step [s]"),
                {.heading = ""}});
   std::string_view name;
   for (const dem::CaseResult& result : results) {

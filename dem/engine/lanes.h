@@ -18,10 +18,10 @@ inline constexpr std::size_t kLanes = 4;
 #define REPOSE_INLINE inline __attribute__((always_inline))
 
 /// Compiled for machines with vectors of four (AVX2), for those that have more of them (AVX-512),
-/// and for all others; the best one runs. Under the sanitizer, which makes them slow to compile,
-/// the last alone.
+/// and for all others; the best one runs. Under sanitizers the last alone: they make all slow to
+/// compile, and that of threads is not ready when the program chooses.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define REPOSE_FOR_EACH_MACHINE __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
 #else
 #define REPOSE_FOR_EACH_MACHINE

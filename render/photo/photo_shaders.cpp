@@ -1,5 +1,7 @@
 #include "render/photo/photo_shaders.h"
 
+#include <fmt/format.h>
+
 namespace repose::render::shaders {
 namespace {
 
@@ -227,7 +229,8 @@ void main() {
 }
 
 const std::string& body_fragment() {
-  static const std::string source = std::string(kBodyInputs) + kNoise + kLighting + kBodyMain;
+  static const std::string source =
+      fmt::format("{}{}{}{}", kBodyInputs, kNoise, kLighting, kBodyMain);
   return source;
 }
 
@@ -243,7 +246,8 @@ void main() {
 }
 
 const std::string& room_fragment() {
-  static const std::string source = std::string(kRoomInputs) + kNoise + kLighting + kRoomMain;
+  static const std::string source =
+      fmt::format("{}{}{}{}", kRoomInputs, kNoise, kLighting, kRoomMain);
   return source;
 }
 

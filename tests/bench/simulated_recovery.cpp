@@ -23,12 +23,6 @@ constexpr int kReadings = 8;
 constexpr double kReading_deg = .5, kReadingFraction = .03;
 constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
 
-std::vector<std::string> names_of(const std::vector<calibrate::Parameter>& parameters) {
-  std::vector<std::string> names;
-  for (const calibrate::Parameter& parameter : parameters) names.push_back(parameter.name);
-  return names;
-}
-
 /// With something measured everywhere, a study says what is sought.
 std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFile& grain,
                                             const calibrate::Budget& budget) {
@@ -39,15 +33,16 @@ std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFi
 class Material {
  public:
   Material(const dem::Study& study, const dem::ClumpFile& grain, const calibrate::RunFolder& folder,
-           std::vector<std::string> names, std::vector<double> truth, std::uint64_t number)
+           const std::vector<calibrate::Parameter>& sought, std::vector<double> truth,
+           std::uint64_t number)
       : study_(study),
         grain_(grain),
         folder_(folder),
-        bench_(study, grain, std::move(names)),
+        simulator_(study, grain, sought),
         truth_(std::move(truth)),
         number_(number),
         random_(number) {
-    bench_.store_in(folder_);
+    simulator_.store_in(folder_);
   }
 
   calibrate::StudyOutcome calibrated(const calibrate::Budget& budget) {
@@ -55,11 +50,9 @@ class Material {
       described.measured.values = readings(dem::entry_of(experiment));
     }
     const calibrate::Problem problem = calibrate::problem_of(study_, grain_, budget).problem;
-    calibrate::ThreadExecutor executor(bench_,
+    calibrate::ThreadExecutor executor(simulator_,
                                        static_cast<int>(std::thread::hardware_concurrency()));
-    return calibrate::run_study(
-               problem, budget, bench_, folder_, executor, [](const auto&) {}, never_)
-        .value();
+    return calibrate::run_study(problem, budget, {simulator_, folder_, executor, never_}).value();
   }
 
  private:
@@ -81,13 +74,13 @@ class Material {
   }
 
   calibrate::Run simulated(const calibrate::Job& job) {
-    return run_of(bench_.simulate(job, never_));
+    return run_of(simulator_.simulate(job, never_));
   }
 
   dem::Study study_;
   const dem::ClumpFile& grain_;
   const calibrate::RunFolder& folder_;
-  calibrate::StudySimulator bench_;
+  calibrate::StudySimulator simulator_;
   std::vector<double> truth_;
   std::uint64_t number_;
   Random random_;
@@ -108,7 +101,7 @@ void recover_simulated(const SimulatedRecovery& plan) {
   Random random(plan.seed);
   for (int m = 0; m < plan.materials; ++m) {
     const std::vector<double> truth = made_up_material(parameters, random);
-    Material material(study, grain, folder, names_of(parameters), truth,
+    Material material(study, grain, folder, parameters, truth,
                       plan.seed + static_cast<std::uint64_t>(m));
     try {
       tally.add(material.calibrated(budget).fit, truth, plan.verbose);

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/statistics/bench/formulas.h"
+#include "tests/support/error_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -32,12 +33,7 @@ std::vector<BenchReading> readings(const std::vector<std::vector<double>>& rows)
 }
 
 std::string error_of(BenchTest test, const std::vector<std::vector<double>>& rows) {
-  try {
-    evaluate_bench(test, readings(rows));
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return repose::error_of([&] { evaluate_bench(test, readings(rows)); });
 }
 
 TEST(BenchFormulas, HazelnutStudysMeansGiveItsCoefficients) {

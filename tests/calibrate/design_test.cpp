@@ -11,6 +11,7 @@
 
 #include "calibrate/statistics/design/steepest_ascent.h"
 #include "tests/calibrate/hazelnut_runs.h"
+#include "tests/support/error_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -47,16 +48,6 @@ double closest_pair(const Design& design) {
     }
   }
   return least;
-}
-
-template <typename Make>
-std::string error_of(const Make& make) {
-  try {
-    make();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(CentralComposite, IsTheHazelnutStudysDesign) {

@@ -25,8 +25,7 @@ dem::Study hazelnuts() {
 }
 
 std::string errors_of(const dem::Study& study, const std::vector<FittedValue>& fitted) {
-  return dem::test::message_of<std::invalid_argument>(
-      [&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted); });
+  return error_of([&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted); });
 }
 
 constexpr const char* kRestitution = "contact.particle_wall.restitution";

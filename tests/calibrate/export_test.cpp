@@ -86,8 +86,7 @@ TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
 
 TEST(ExportStudy, AnotherLawIsRefusedUnlessApproximateIsAskedFor) {
   const dem::Study study = hazelnuts(dem::RollingModel::constant_torque);
-  const std::string refused = dem::test::message_of<std::invalid_argument>(
-      [&] { exported(study, ExportTarget::liggghts, false); });
+  const std::string refused = error_of([&] { exported(study, ExportTarget::liggghts, false); });
   EXPECT_THAT(refused, AllOf(HasSubstr(kWallRolling), HasSubstr("--approximate"),
                              HasSubstr("contact.particle_particle.rolling_friction")));
   EXPECT_THAT(exported(study, ExportTarget::liggghts).files, Not(IsEmpty()));
@@ -149,8 +148,7 @@ TEST(ExportStudy, DampersGiveTheRestitutionInYadeAndLammps) {
 TEST(ExportStudy, RestitutionThatLiggghtsCannotHaveIsRefused) {
   dem::Study study = hazelnuts();
   study.model.grain_wall.restitution = .03;
-  const std::string refused = dem::test::message_of<std::invalid_argument>(
-      [&] { exported(study, ExportTarget::liggghts, false); });
+  const std::string refused = error_of([&] { exported(study, ExportTarget::liggghts, false); });
   EXPECT_THAT(refused, AllOf(HasSubstr("contact.particle_wall.restitution"), HasSubstr(".05")));
 }
 
@@ -207,10 +205,9 @@ TEST(WriteExport, MakesTheFolderAndRefusesAFileInItsPlace) {
   write_export(folder.path() / "a" / "b", {{.name = "deck.txt", .text = "run 1\n"}});
   EXPECT_EQ(repose::testing::text_of(folder.path() / "a" / "b" / "deck.txt"), "run 1\n");
   folder.write("taken", std::string("a file"));
-  EXPECT_THAT(dem::test::message_of<std::invalid_argument>([&] {
-                write_export(folder.path() / "taken", {{.name = "deck.txt", .text = ""}});
-              }),
-              AllOf(HasSubstr("taken"), HasSubstr("Fix: ")));
+  EXPECT_THAT(
+      error_of([&] { write_export(folder.path() / "taken", {{.name = "deck.txt", .text = ""}}); }),
+      AllOf(HasSubstr("taken"), HasSubstr("Fix: ")));
 }
 
 TEST(FittedValues, AreThoseOfBothMethods) {

@@ -10,6 +10,7 @@
 #include "calibrate/fit/plausible.h"
 #include "calibrate/fit/training_set.h"
 #include "tests/calibrate/fake_simulator.h"
+#include "tests/support/error_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -76,13 +77,8 @@ TEST(Misfit, FailuresNearbyMakeASetUnlikely) {
 TEST(Misfit, AReadingThatNoRunHasIsNamedWithThoseThereAre) {
   Problem problem = full_problem(false);
   problem.observables[3].reading = "hight_mm";
-  try {
-    misfit_of(problem, false);
-    FAIL() << "not refused";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("heap: 0 of "));
-    EXPECT_THAT(error.what(), HasSubstr("\"base_radius_mm\""));
-  }
+  EXPECT_THAT(error_of([&] { misfit_of(problem, false); }),
+              testing::AllOf(HasSubstr("heap: 0 of "), HasSubstr("\"base_radius_mm\"")));
 }
 
 TEST(Misfit, RunsOfAnotherProblemAreRefused) {

@@ -7,6 +7,7 @@
 
 #include "calibrate/fit/propose.h"
 #include "tests/calibrate/fake_simulator.h"
+#include "tests/support/error_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -143,12 +144,8 @@ TEST(Propose, AllFailedIsAErrorThatSaysWhy) {
   for (auto& run : runs) {
     if (run.job.experiment == "heap") run = {run.job, {}, "the grains stay in the tube"};
   }
-  try {
-    propose(problem, runs);
-    FAIL() << "not refused";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("the grains stay in the tube"));
-  }
+  EXPECT_THAT(error_of([&] { propose(problem, runs); }),
+              testing::HasSubstr("the grains stay in the tube"));
 }
 
 TEST(Propose, AnErroryProblemIsRefused) { EXPECT_THROW(propose({}, {}), std::invalid_argument); }

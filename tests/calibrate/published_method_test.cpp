@@ -12,6 +12,7 @@
 
 #include "calibrate/study/study_problem.h"
 #include "tests/calibrate/sphere_study.h"
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -72,15 +73,12 @@ class PublishedMethod : public ::testing::Test {
     const dem::Study study = dem::read_study(folder_.write("study.toml", kStudy), settings);
     const dem::ClumpFile grain = dem::build_grain(study.grain);
     const Problem problem = problem_of(study, grain, budget_named("quick")).problem;
-    std::vector<std::string> names;
-    for (const Parameter& parameter : problem.parameters) names.push_back(parameter.name);
-    const StudySimulator bench(study, grain, names, 0);
+    const StudySimulator simulator(study, grain, problem.parameters, 0);
     const RunFolder folder(folder_.path() / "runs");
-    const StudyReport report = [this](const StudyProgress& now) {
+    const auto report = [this](const StudyProgress& now) {
       is_interrupted_ = now.stage == stop_at_;
     };
-    JobRunner runner(problem, bench, folder, executor_, report, is_interrupted_);
-    return calibrate_as_published(problem, runner);
+    return calibrate_as_published(problem, {simulator, folder, executor_, is_interrupted_, report});
   }
 
   TemporaryFolder folder_;
@@ -139,13 +137,8 @@ TEST_F(PublishedMethod, GoesOnAfterAnInterruption) {
 }
 
 TEST_F(PublishedMethod, NeedsAllSixSoughtAndAllFourMeasured) {
-  const auto refusal = [&](const std::string& setting) -> std::string {
-    try {
-      calibrate({setting});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return {};
+  const auto refusal = [&](const std::string& setting) {
+    return error_of([&] { calibrate({setting}); });
   };
   EXPECT_THAT(refusal("contact.particle_wall.restitution=0.5"), HasSubstr("have no bounds"));
   EXPECT_THAT(refusal("experiment.roll={}"), HasSubstr("[experiment.roll] has no measured value"));

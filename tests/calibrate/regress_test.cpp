@@ -7,6 +7,7 @@
 
 #include "calibrate/statistics/regress/regression.h"
 #include "tests/calibrate/hazelnut_runs.h"
+#include "tests/support/error_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -33,12 +34,7 @@ RunTable line(const std::vector<double>& levels, const std::vector<double>& resp
 }
 
 std::string error_of(const RunTable& table, SurfaceModel model) {
-  try {
-    regress(table, model);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return repose::error_of([&] { regress(table, model); });
 }
 
 TEST(Regression, HazelnutStudysCoefficientsErrorsAndPValues) {

@@ -11,6 +11,7 @@
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/thread_executor.h"
 #include "tests/calibrate/sphere_study.h"
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -30,11 +31,8 @@ class StudyRun : public ::testing::Test {
 
   static dem::ClumpFile grain_of(const dem::Study& study) { return dem::build_grain(study.grain); }
 
-  static StudySimulator bench_of(const dem::Study& study) {
-    return {study,
-            grain_of(study),
-            {"contact.particle_wall.restitution", "contact.particle_wall.sliding_friction"},
-            0};
+  static StudySimulator simulator_of(const dem::Study& study) {
+    return {study, grain_of(study), small_problem(study).parameters, 0};
   }
 
   static Problem small_problem(const dem::Study& study) {
@@ -53,16 +51,17 @@ class StudyRun : public ::testing::Test {
   /// The fitted values of a study run in a folder; breaks it off before job number `stop`.
   std::optional<StudyOutcome> run(const std::string& folder, int threads, int stop = -1) const {
     const dem::Study study = read();
-    StudySimulator bench = bench_of(study);
+    StudySimulator simulator = simulator_of(study);
     const RunFolder runs(folder_.path() / folder);
-    bench.store_in(runs);
-    ThreadExecutor executor(bench, threads);
+    simulator.store_in(runs);
+    ThreadExecutor executor(simulator, threads);
     std::atomic<bool> is_interrupted = false;
     int told = 0;
-    return run_study(
-        small_problem(study), budget(), bench, runs, executor,
-        [&](const StudyProgress&) { is_interrupted = is_interrupted || ++told == stop; },
-        is_interrupted);
+    const auto report = [&](const StudyProgress&) {
+      is_interrupted = is_interrupted || ++told == stop;
+    };
+    return run_study(small_problem(study), budget(),
+                     {simulator, runs, executor, is_interrupted, report});
   }
 
   static std::vector<double> numbers(const StudyOutcome& outcome) {
@@ -99,14 +98,9 @@ TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
 }
 
 TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
-  const auto refusal = [&](const std::vector<std::string>& settings) -> std::string {
+  const auto refusal = [&](const std::vector<std::string>& settings) {
     const dem::Study study = read(settings);
-    try {
-      problem_of(study, grain_of(study), budget_named("quick"));
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return {};
+    return error_of([&] { problem_of(study, grain_of(study), budget_named("quick")); });
   };
   EXPECT_THAT(refusal({"contact.particle_wall.restitution=0.5",
                        "contact.particle_wall.sliding_friction=0.5"}),
@@ -122,7 +116,7 @@ TEST_F(StudyRun, KeysNameWhatIsSimulatedAndNotWhatForWhichStudy) {
   const dem::Study study = read();
   const Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
   const auto key_in = [](const dem::Study& studied, const Job& asked) {
-    return key_of(bench_of(studied).spec(asked), asked.seed);
+    return key_of(simulator_of(studied).spec(asked), asked.seed);
   };
   const std::string key = key_in(study, job);
   EXPECT_THAT(key, HasSubstr("drop-"));
@@ -151,10 +145,10 @@ TEST_F(StudyRun, AStudyAsksForTheRunsThatASingleExperimentMakes) {
   const RunSpec alone =
       spec_of(single, dem::Experiment::drop, NamedGrain(grain_of(single)), kHeapViews);
   const Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
-  EXPECT_EQ(key_of(alone, job.seed), key_of(bench_of(read()).spec(job), job.seed));
+  EXPECT_EQ(key_of(alone, job.seed), key_of(simulator_of(read()).spec(job), job.seed));
   const RunFolder folder(folder_.path() / "single");
   simulate_experiment(alone, job.seed, {.folder = &folder, .trajectory = {}, .report = {}});
-  EXPECT_TRUE(folder.find_whole(bench_of(read()).spec(job), job.seed));
+  EXPECT_TRUE(folder.find_whole(simulator_of(read()).spec(job), job.seed));
 }
 
 TEST_F(StudyRun, FindsTheCoefficientsOfTheBench) {
@@ -197,7 +191,7 @@ TEST_F(StudyRun, DamagedFilesAreSimulatedAgain) {
 TEST_F(StudyRun, AnExperimentWithoutAReadingIsAFailedRunNotAnError) {
   const dem::Study study = read({"contact.particle_wall.rolling_friction=0"});
   const std::atomic<bool> is_interrupted = false;
-  const SimulatedJob done = bench_of(study).simulate(
+  const SimulatedJob done = simulator_of(study).simulate(
       {.experiment = "tilt", .values = {.5, 90.}, .seed = 1}, is_interrupted);
   EXPECT_THAT(run_of(done).readings, IsEmpty());
   EXPECT_THAT(run_of(done).failure, HasSubstr("instead of sliding"));

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -14,12 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::string error_of(const std::string& text, const std::vector<std::string>& columns = {}) {
-  try {
-    numbers_of(parse_table("runs.csv", text), columns);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return repose::error_of([&] { numbers_of(parse_table("runs.csv", text), columns); });
 }
 
 std::vector<double> column(const std::string& text, const std::string& name) {
@@ -81,12 +77,8 @@ TEST(Table, WhatIsNoTableIsRefused) {
 TEST(Table, FilesThatCannotBeReadAreNamed) {
   const testing::TemporaryFolder folder;
   for (const auto& file : {folder.path(), folder.path() / "missing.csv"}) {
-    try {
-      read_table(file);
-      ADD_FAILURE() << file;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), AllOf(HasSubstr(file.string()), HasSubstr("Fix: ")));
-    }
+    EXPECT_THAT(repose::error_of([&] { read_table(file); }),
+                AllOf(HasSubstr(file.string()), HasSubstr("Fix: ")));
   }
   EXPECT_EQ(read_table(folder.write("a.csv", std::string("x\n1\n"))).rows.size(), 1U);
 }

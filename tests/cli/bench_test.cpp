@@ -4,25 +4,27 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-TEST(BenchCommand, ATableOfReadingsGivesMeanScatterAndInterval) {
-  const TemporaryFolder folder;
-  folder.write("angles.csv", std::string("angle_deg\n22.1\n22.9\n23.1\n22.3\n22.6\n"));
-  const Finished table = run_repose(folder, {"bench", "sliding", "angles.csv"});
+struct BenchCommand : CommandTest {
+  BenchCommand() : CommandTest({"bench"}) {}
+};
+
+TEST_F(BenchCommand, ATableOfReadingsGivesMeanScatterAndInterval) {
+  folder_.write("angles.csv", std::string("angle_deg\n22.1\n22.9\n23.1\n22.3\n22.6\n"));
+  const Finished table = run({"sliding", "angles.csv"});
   EXPECT_EQ(table.exit_code, 0) << table.err;
   EXPECT_THAT(table.out, AllOf(HasSubstr("0.4163"), HasSubstr("0.4058 … 0.4268")));
 
-  const Finished run = run_repose(folder, {"bench", "sliding", "angles.csv", "--json", "-"});
-  const json result = json::parse(run.out);
+  const Finished done = run({"sliding", "angles.csv", "--json", "-"});
+  const json result = json::parse(done.out);
   EXPECT_EQ(result["test"], "sliding");
   const json& quantity = result["quantities"][0];
   EXPECT_EQ(quantity["n"], 5);
@@ -31,63 +33,54 @@ TEST(BenchCommand, ATableOfReadingsGivesMeanScatterAndInterval) {
   EXPECT_EQ(quantity["values"].size(), 5U);
 }
 
-TEST(BenchCommand, ShortListsCanBeTyped) {
-  const TemporaryFolder folder;
-  const Finished run = run_repose(folder, {"bench", "restitution", "--set", "drop_mm=500", "--set",
-                                           "rebound_mm=9.42,9.42", "--json", "-"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_NEAR(json::parse(run.out)["quantities"][0]["mean"].get<double>(), .137, 5e-4);
+TEST_F(BenchCommand, ShortListsCanBeTyped) {
+  const Finished done =
+      run({"restitution", "--set", "drop_mm=500", "--set", "rebound_mm=9.42,9.42", "--json", "-"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NEAR(json::parse(done.out)["quantities"][0]["mean"].get<double>(), .137, 5e-4);
 }
 
-TEST(BenchCommand, TablesAreJoinedAndTakeWhatIsTheSameFromTheCommandLine) {
-  const TemporaryFolder folder;
-  folder.write("a.csv", std::string("stopped_mm\n320\n325\n"));
-  folder.write("b.csv", std::string("note;stopped_mm\nsecond day;322,5\n"));
-  const Finished run =
-      run_repose(folder, {"bench", "rolling", "a.csv", "b.csv", "--set", "incline_deg=20", "--set",
-                          "released_mm=150", "--json", "-"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const json quantity = json::parse(run.out)["quantities"][0];
+TEST_F(BenchCommand, TablesAreJoinedAndTakeWhatIsTheSameFromTheCommandLine) {
+  folder_.write("a.csv", std::string("stopped_mm\n320\n325\n"));
+  folder_.write("b.csv", std::string("note;stopped_mm\nsecond day;322,5\n"));
+  const Finished done = run({"rolling", "a.csv", "b.csv", "--set", "incline_deg=20", "--set",
+                             "released_mm=150", "--json", "-"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json quantity = json::parse(done.out)["quantities"][0];
   EXPECT_EQ(quantity["n"], 3);
   EXPECT_NEAR(quantity["mean"].get<double>(), .1107, 5e-4);
 }
 
-TEST(BenchCommand, OneReadingHasNullsAndIsSaid) {
-  const TemporaryFolder folder;
-  const Finished run =
-      run_repose(folder, {"bench", "sliding", "--set", "angle_deg=22.7", "--json", "-"});
-  const json result = json::parse(run.out);
+TEST_F(BenchCommand, OneReadingHasNullsAndIsSaid) {
+  const Finished done = run({"sliding", "--set", "angle_deg=22.7", "--json", "-"});
+  const json result = json::parse(done.out);
   EXPECT_TRUE(result["quantities"][0]["sd"].is_null());
   EXPECT_TRUE(result["quantities"][0]["interval"].is_null());
   EXPECT_THAT(result["notes"].dump(), HasSubstr("repeat the test"));
 }
 
-TEST(BenchCommand, EveryErrorIsNamedWithItsLine) {
-  const TemporaryFolder folder;
-  folder.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n500,abc\n500,600\n-1,2\n"));
-  const Finished run = run_repose(folder, {"bench", "restitution", "drops.csv", "missing.csv"});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.out, IsEmpty());
-  EXPECT_THAT(run.err, AllOf(HasSubstr("repose: drops.csv:3: rebound_mm is \"abc\""),
-                             HasSubstr("repose: drops.csv:4: rebound_mm = 600"),
-                             HasSubstr("repose: drops.csv:5: drop_mm = -1"),
-                             HasSubstr("repose: missing.csv: there is no such file")));
+TEST_F(BenchCommand, EveryErrorIsNamedWithItsLine) {
+  folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n500,abc\n500,600\n-1,2\n"));
+  const Finished done = run({"restitution", "drops.csv", "missing.csv"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.out, IsEmpty());
+  EXPECT_THAT(done.err, AllOf(HasSubstr("repose: drops.csv:3: rebound_mm is \"abc\""),
+                              HasSubstr("repose: drops.csv:4: rebound_mm = 600"),
+                              HasSubstr("repose: drops.csv:5: drop_mm = -1"),
+                              HasSubstr("repose: missing.csv: there is no such file")));
 }
 
-TEST(BenchCommand, MistypedTestsAndReadingsAreSaid) {
-  const TemporaryFolder folder;
-  EXPECT_THAT(run_repose(folder, {"bench", "slide", "a.csv"}).err,
+TEST_F(BenchCommand, MistypedTestsAndReadingsAreSaid) {
+  EXPECT_THAT(run({"slide", "a.csv"}).err,
               AllOf(HasSubstr("bench slide: unknown"), HasSubstr("sliding")));
-  EXPECT_THAT(run_repose(folder, {"bench"}).err, HasSubstr("no test is named"));
-  const Finished run = run_repose(folder, {"bench", "sliding", "--set", "angel_deg=3"});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("Did you mean angle_deg?"), HasSubstr("are missing")));
-  EXPECT_THAT(run_repose(folder, {"bench", "restitution", "--set", "drop_mm=1,2", "--set",
-                                  "rebound_mm=1,2,3"})
-                  .err,
+  EXPECT_THAT(run({}).err, HasSubstr("no test is named"));
+  const Finished done = run({"sliding", "--set", "angel_deg=3"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("Did you mean angle_deg?"), HasSubstr("are missing")));
+  EXPECT_THAT(run({"restitution", "--set", "drop_mm=1,2", "--set", "rebound_mm=1,2,3"}).err,
               HasSubstr("2 values, another reading has 3"));
-  folder.write("a.csv", std::string("angle_deg\n22\n"));
-  EXPECT_THAT(run_repose(folder, {"bench", "sliding", "a.csv", "--set", "angle_deg=3"}).err,
+  folder_.write("a.csv", std::string("angle_deg\n22\n"));
+  EXPECT_THAT(run({"sliding", "a.csv", "--set", "angle_deg=3"}).err,
               HasSubstr("leave one of them out"));
 }
 

@@ -11,28 +11,21 @@
 #include <sys/wait.h>
 
 #include "tests/calibrate/sphere_study.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 #include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using Words = std::vector<std::string>;
 
-class Calibrate : public ::testing::Test {
+class Calibrate : public CommandTest {
  protected:
-  Calibrate() { folder_.write("study.toml", calibrate::test::kSphereStudy); }
-
-  Finished run(Words words) const {
-    words.insert(words.begin(), "calibrate");
-    return run_repose(folder_, words);
+  Calibrate() : CommandTest({"calibrate"}) {
+    folder_.write("study.toml", calibrate::test::kSphereStudy);
   }
-
-  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
 
   std::size_t files_in(const std::string& name) const {
     std::error_code error;
@@ -42,8 +35,6 @@ class Calibrate : public ::testing::Test {
     }
     return count;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
@@ -51,7 +42,7 @@ TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("determined"),
                               HasSubstr("drop [mm]"), HasSubstr("These coefficients belong to: ")));
-  const json result = json::parse(text_of(path("result.json")));
+  const json result = json::parse(text("result.json"));
   ASSERT_EQ(result["parameters"].size(), 2U);
   const json& friction = result["parameters"][1];
   EXPECT_EQ(friction["name"], "contact.particle_wall.sliding_friction");
@@ -64,7 +55,7 @@ TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
                           "responses", "surfaces"}) {
     EXPECT_TRUE(result.contains(key)) << key;
   }
-  EXPECT_EQ(text_of(path("study_calibration/result.json")), text_of(path("result.json")));
+  EXPECT_EQ(text("study_calibration/result.json"), text("result.json"));
   const json& regression = result["regressions"][0];
   EXPECT_EQ(regression["observable"], "drop");
   EXPECT_GT(regression["regression"]["anova"]["model"]["f"], 10);
@@ -90,18 +81,18 @@ TEST_F(Calibrate, KilledAgainAndAgainEndsWithTheSameBytes) {
   const Finished last = run({"study.toml", "--out", "killed", "--jobs", "2"});
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("simulations were there already, in killed/runs"));
-  EXPECT_EQ(text_of(path("killed/result.json")), text_of(path("whole/result.json")));
+  EXPECT_EQ(text("killed/result.json"), text("whole/result.json"));
 }
 
 TEST_F(Calibrate, AnotherStudyFindsTheRunsThatItShares) {
   ASSERT_EQ(run({"study.toml", "--out", "runs"}).exit_code, 0);
-  const std::string first = text_of(path("runs/result.json"));
+  const std::string first = text("runs/result.json");
   const Finished other = run({"study.toml", "--out", "runs", "--set",
                               "experiment.drop.measured = { mean = 26, sd = 1, n = 5 }"});
   ASSERT_EQ(other.exit_code, 0) << other.err;
   EXPECT_THAT(other.err, AllOf(HasSubstr("simulations were there already"),
                                HasSubstr("runs/result.json: was of another study")));
-  EXPECT_NE(text_of(path("runs/result.json")), first);
+  EXPECT_NE(text("runs/result.json"), first);
   bool is_saved = false;
   for (const auto& entry : std::filesystem::directory_iterator(path("runs"))) {
     is_saved = is_saved || (entry.is_regular_file() && text_of(entry.path()) == first);
@@ -119,7 +110,7 @@ TEST_F(Calibrate, EveryErrorIsToldAtOnce) {
               AllOf(HasSubstr("budget (--budget) = cheap: must be quick, standard or paper"),
                     HasSubstr("--method best: must be joint or paper"),
                     HasSubstr("--jobs 0: must be a whole number"), HasSubstr("min below max")));
-  EXPECT_FALSE(std::filesystem::exists(path("study_calibration")));
+  EXPECT_FALSE(exists("study_calibration"));
   EXPECT_EQ(run({}).exit_code, 2);
   EXPECT_EQ(run({"none.toml"}).exit_code, 2);
 }
@@ -129,7 +120,7 @@ TEST_F(Calibrate, AFolderThatCannotBeMadeIsRefused) {
   const Finished refused = run({"study.toml", "--out", "runs"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("runs: the folder cannot be made"));
-  EXPECT_EQ(text_of(path("runs")), "a file where the folder should be");
+  EXPECT_EQ(text("runs"), "a file where the folder should be");
 }
 
 TEST_F(Calibrate, AFullDiskLosesNothing) {
@@ -141,16 +132,16 @@ TEST_F(Calibrate, AFullDiskLosesNothing) {
   EXPECT_EQ(at_once.exit_code, 2) << "before anything is simulated";
   EXPECT_THAT(at_once.err, AllOf(HasSubstr("runs/clump.json"), HasSubstr("Fix: ")));
   ASSERT_EQ(run({"study.toml", "--out", "runs"}).exit_code, 0);
-  const std::string result = text_of(path("runs/result.json"));
+  const std::string result = text("runs/result.json");
   std::filesystem::remove(path("runs/result.json"));
   const Finished full = run_program("sh", folder_, {"full.sh"});
   EXPECT_EQ(full.exit_code, 2);
   EXPECT_THAT(full.err, AllOf(HasSubstr("runs/result.json"), HasSubstr("Fix: ")));
-  EXPECT_FALSE(std::filesystem::exists(path("runs/result.json"))) << "not even half of it";
+  EXPECT_FALSE(exists("runs/result.json")) << "not even half of it";
   const Finished again = run({"study.toml", "--out", "runs"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_THAT(again.err, HasSubstr("simulations were there already"));
-  EXPECT_EQ(text_of(path("runs/result.json")), result);
+  EXPECT_EQ(text("runs/result.json"), result);
 }
 
 TEST_F(Calibrate, PicturesThatAreMissingAreNamed) {
@@ -193,7 +184,7 @@ TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {
          "ASAN_OPTIONS=detect_leaks=0", program(), "calibrate", "study.toml", "--out", out});
     if (done.exit_code == 127) GTEST_SKIP() << "there is no mpirun";
     ASSERT_EQ(done.exit_code, 0) << done.err;
-    EXPECT_EQ(text_of(path(out + "/result.json")), text_of(path("one/result.json"))) << ranks;
+    EXPECT_EQ(text(out + "/result.json"), text("one/result.json")) << ranks;
   }
 }
 
@@ -214,11 +205,11 @@ TEST_F(Calibrate, AStudyGoesOnAfterARankWasKilled) {
   const Finished killed = run_program("sh", folder_, {"killing.sh"});
   if (killed.exit_code == 127) GTEST_SKIP() << "there is no mpirun or no ps";
   EXPECT_NE(killed.exit_code, 0) << "it was too fast";
-  ASSERT_FALSE(std::filesystem::exists(path("ranks/result.json")));
+  ASSERT_FALSE(exists("ranks/result.json"));
   const Finished last = run({"study.toml", "--out", "ranks"});
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("simulations were there already"));
-  EXPECT_EQ(text_of(path("ranks/result.json")), text_of(path("one/result.json")));
+  EXPECT_EQ(text("ranks/result.json"), text("one/result.json"));
 }
 
 }  // namespace

@@ -7,29 +7,27 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 #include "tests/support/heap_picture.h"
 #include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-using Words = std::vector<std::string>;
 
 /// A folder with two drawn heaps in it, `steep.png` and `flat.png`, and `black.png` without one.
-class Compare : public ::testing::Test {
+class Compare : public CommandTest {
  protected:
-  Compare() {
+  Compare() : CommandTest({"compare"}) {
     static const vision::Picture steep = heap(0.5), flat = heap(0.35);
-    vision::write_picture(folder_.path() / "steep.png", steep);
-    vision::write_picture(folder_.path() / "flat.png", flat);
+    vision::write_picture(path("steep.png"), steep);
+    vision::write_picture(path("flat.png"), flat);
     vision::write_picture(
-        folder_.path() / "black.png",
+        path("black.png"),
         {.width = 200, .height = 200, .bgr = std::vector<std::uint8_t>(120000, 0)});
   }
   static vision::Picture heap(double angle_rad) {
@@ -40,21 +38,6 @@ class Compare : public ::testing::Test {
     scene.form.right_rad = angle_rad;
     return draw_heap(scene).picture;
   }
-  Finished run(const Words& words) const {
-    Words all = {"compare"};
-    all.insert(all.end(), words.begin(), words.end());
-    return run_repose(folder_, all);
-  }
-  json result(const Words& words) const {
-    Words all = words;
-    all.insert(all.end(), {"--json", "-"});
-    return json::parse(run(all).out);
-  }
-  bool exists(const std::string& name) const {
-    return std::filesystem::exists(folder_.path() / name);
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Compare, TwoHeapsGiveNumbersAndAVerdict) {
@@ -143,8 +126,8 @@ TEST_F(Compare, OverlayAndJsonAreWritten) {
   const Finished done =
       run({"steep.png", "flat.png", "--overlay", "both.png", "--json", "both.json"});
   EXPECT_EQ(done.exit_code, 0);
-  EXPECT_EQ(vision::read_picture(folder_.path() / "both.png").width, 1400);
-  EXPECT_EQ(json::parse(text_of(folder_.path() / "both.json"))["verdict"], "different");
+  EXPECT_EQ(vision::read_picture(path("both.png")).width, 1400);
+  EXPECT_EQ(json::parse(text("both.json"))["verdict"], "different");
   EXPECT_THAT(done.out, HasSubstr("different"));
 }
 

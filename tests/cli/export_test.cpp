@@ -7,42 +7,32 @@
 
 #include "tests/calibrate/made_up_result.h"
 #include "tests/calibrate/sphere_study.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-using Words = std::vector<std::string>;
 
 /// A folder as repose calibrate leaves it, of a study that has ended.
-class Export : public ::testing::Test {
+class Export : public CommandTest {
  protected:
-  Export() {
+  Export() : CommandTest({"export"}) {
     folder_.write("study.toml", calibrate::test::kSphereStudy);
     run_repose(folder_, {"shape", "--size-mm", "20,20,20", "--spheres", "1", "--out", "ball.json"});
-    const auto study = folder_.path() / "study";
+    const auto study = path("study");
     std::filesystem::create_directory(study);
-    std::filesystem::copy(folder_.path() / "study.toml", study / "study.toml");
-    std::filesystem::copy(folder_.path() / "ball.json", study / "clump.json");
+    std::filesystem::copy(path("study.toml"), study / "study.toml");
+    std::filesystem::copy(path("ball.json"), study / "clump.json");
     folder_.write("study/study.json", std::string(R"({"program": "repose 0", "method": "joint",
                       "study": {"file": "study.toml", "hash": "h", "settings": []},
                       "budget": {"name": "standard", "description": ""}, "pictures": []})"));
     folder_.write("study/result.json", to_json(calibrate::test::joint_result()));
   }
-
-  Finished run(Words words) const {
-    words.insert(words.begin(), "export");
-    return run_repose(folder_, words);
-  }
-  std::string text(const std::string& name) const { return text_of(folder_.path() / name); }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Export, WritesDecksAndSaysWhatBecameOfEachCoefficient) {
@@ -71,12 +61,12 @@ TEST_F(Export, JsonListsFilesAndConversions) {
 }
 
 TEST_F(Export, AnUnfinishedStudyIsRefused) {
-  std::filesystem::remove(folder_.path() / "study/result.json");
+  std::filesystem::remove(path("study/result.json"));
   const Finished refused = run({"study", "--to", "yade"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.out, IsEmpty());
   EXPECT_THAT(refused.err, AllOf(HasSubstr("is not finished"), HasSubstr("Fix: ")));
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "study/export"));
+  EXPECT_FALSE(exists("study/export"));
 }
 
 TEST_F(Export, EveryErrorIsTold) {

@@ -7,12 +7,11 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -27,16 +26,6 @@ constexpr const char* kHazelnut =
     "15,centre,0,0,0,0.51\n16,centre,0,0,0,11.03\n17,centre,0,0,0,0.51\n18,centre,0,0,0,2.61\n"
     "19,centre,0,0,0,0.56\n20,centre,0,0,0,0.51\n";
 
-std::size_t longest_line(const std::string& text) {
-  std::size_t longest = 0, length = 0;
-  for (const char byte : text) {
-    if (byte == '\n') length = 0;
-    if (byte != '\n' && (static_cast<unsigned char>(byte) & 0xC0) != 0x80) ++length;
-    longest = std::max(longest, length);
-  }
-  return longest;
-}
-
 /// A design's table with a column y of made-up results.
 std::string with_results(const std::string& design) {
   std::istringstream lines(design);
@@ -49,26 +38,26 @@ std::string with_results(const std::string& design) {
   return table;
 }
 
-TEST(RegressCommand, PrintsTheHazelnutStudysAnalysis) {
-  const TemporaryFolder folder;
-  folder.write("runs.csv", std::string(kHazelnut));
-  const Finished run =
-      run_repose(folder, {"regress", "runs.csv", "--response", "error", "--target", "5"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+struct RegressCommand : CommandTest {
+  RegressCommand() : CommandTest({"regress"}) {}
+};
+
+TEST_F(RegressCommand, PrintsTheHazelnutStudysAnalysis) {
+  folder_.write("runs.csv", std::string(kHazelnut));
+  const Finished done = run({"runs.csv", "--response", "error", "--target", "5"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
   for (const char* part :
        {"-16.45", "0.1813", "0.9586, adjusted 0.9214", "-8.764", "saddle", "looks like an absolute",
         "all of the box", "cannot determine 3 factors"}) {
-    EXPECT_THAT(run.out, HasSubstr(part));
+    EXPECT_THAT(done.out, HasSubstr(part));
   }
-  EXPECT_LE(longest_line(run.out), 80U);
+  EXPECT_LE(longest_line(done.out), 80U);
 }
 
-TEST(RegressCommand, JsonHasEverything) {
-  const TemporaryFolder folder;
-  folder.write("runs.csv", std::string(kHazelnut));
-  const Finished run = run_repose(
-      folder, {"regress", "runs.csv", "--response", "error", "--target", "5", "--json", "-"});
-  const json result = json::parse(run.out);
+TEST_F(RegressCommand, JsonHasEverything) {
+  folder_.write("runs.csv", std::string(kHazelnut));
+  const Finished done = run({"runs.csv", "--response", "error", "--target", "5", "--json", "-"});
+  const json result = json::parse(done.out);
   EXPECT_EQ(result["model"], "quadratic");
   EXPECT_EQ(result["factors"].size(), 3U);
   EXPECT_EQ(result["coefficients"][7]["term"], "x1^2");
@@ -81,88 +70,77 @@ TEST(RegressCommand, JsonHasEverything) {
   EXPECT_THAT(result["warnings"].dump(), HasSubstr("absolute_error"));
 }
 
-TEST(RegressCommand, FactorsAndModelCanBeChosen) {
-  const TemporaryFolder folder;
-  folder.write("runs.csv", std::string(kHazelnut));
-  const Finished run =
-      run_repose(folder, {"regress", "runs.csv", "--response", "error", "--factors", "x3,x2",
-                          "--model", "linear", "--json", "-"});
-  const json result = json::parse(run.out);
+TEST_F(RegressCommand, FactorsAndModelCanBeChosen) {
+  folder_.write("runs.csv", std::string(kHazelnut));
+  const Finished done = run({"runs.csv", "--response", "error", "--factors", "x3,x2", "--model",
+                             "linear", "--json", "-"});
+  const json result = json::parse(done.out);
   ASSERT_EQ(result["coefficients"].size(), 3U);
   EXPECT_EQ(result["coefficients"][1]["term"], "x3");
   EXPECT_TRUE(result["canonical"].is_null());
   EXPECT_TRUE(result["target"].is_null());
 }
 
-TEST(RegressCommand, ADesignsTableGoesStraightIn) {
-  const TemporaryFolder folder;
+TEST_F(RegressCommand, ADesignsTableGoesStraightIn) {
   const Finished design = run_repose(
-      folder, {"design", "sweep", "--factor", "e=0.01:0.41", "--coded", "--random-order", "1"});
-  folder.write("runs.csv", with_results(design.out));
-  const Finished run = run_repose(folder, {"regress", "runs.csv", "--response", "y"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("y from e:"), HasSubstr("e 0.01 … 0.41")));
+      folder_, {"design", "sweep", "--factor", "e=0.01:0.41", "--coded", "--random-order", "1"});
+  folder_.write("runs.csv", with_results(design.out));
+  const Finished done = run({"runs.csv", "--response", "y"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("y from e:"), HasSubstr("e 0.01 … 0.41")));
 }
 
-TEST(RegressCommand, CornersOfACompositeDesignAreItsUnits) {
-  const TemporaryFolder folder;
+TEST_F(RegressCommand, CornersOfACompositeDesignAreItsUnits) {
   const Finished design =
-      run_repose(folder, {"design", "ccd", "--factor", "a=1:3", "--factor", "b=10:30"});
-  folder.write("runs.csv", with_results(design.out));
-  const json result = json::parse(
-      run_repose(folder, {"regress", "runs.csv", "--response", "y", "--json", "-"}).out);
+      run_repose(folder_, {"design", "ccd", "--factor", "a=1:3", "--factor", "b=10:30"});
+  folder_.write("runs.csv", with_results(design.out));
+  const json result = json::parse(run({"runs.csv", "--response", "y", "--json", "-"}).out);
   EXPECT_EQ(result["factors"][0]["coded_minus_1"], 1);
   EXPECT_EQ(result["factors"][1]["coded_plus_1"], 30);
   EXPECT_NEAR(result["factors"][0]["box"][0].get<double>(), 2 - std::sqrt(2.0), 1e-9);
 }
 
-TEST(RegressCommand, PrintsTheSurfaceInNaturalUnits) {
-  const TemporaryFolder folder;
-  folder.write("runs.csv", std::string("e,h\n0,1\n.1,2\n.2,5\n.3,10.001\n.4,17\n"));
+TEST_F(RegressCommand, PrintsTheSurfaceInNaturalUnits) {
+  folder_.write("runs.csv", std::string("e,h\n0,1\n.1,2\n.2,5\n.3,10.001\n.4,17\n"));
   // R: coef(lm(h ~ e + I(e^2)))
-  EXPECT_THAT(run_repose(folder, {"regress", "runs.csv", "--response", "h"}).out,
+  EXPECT_THAT(run({"runs.csv", "--response", "h"}).out,
               HasSubstr("h = 0.999857 + 0.00385714 e + 99.9929 e^2"));
 }
 
-TEST(RegressCommand, CodingsCanBeGiven) {
-  const TemporaryFolder folder;
-  folder.write("runs.csv", std::string("x,y\n0,1\n1,3.1\n2,4.9\n3,7\n"));
-  const Finished run = run_repose(folder, {"regress", "runs.csv", "--response", "y", "--model",
-                                           "linear", "--coding", "x=0:1", "--json", "-"});
-  const json slope = json::parse(run.out)["coefficients"][1];
+TEST_F(RegressCommand, CodingsCanBeGiven) {
+  folder_.write("runs.csv", std::string("x,y\n0,1\n1,3.1\n2,4.9\n3,7\n"));
+  const Finished done =
+      run({"runs.csv", "--response", "y", "--model", "linear", "--coding", "x=0:1", "--json", "-"});
+  const json slope = json::parse(done.out)["coefficients"][1];
   EXPECT_NEAR(slope["value"].get<double>(), slope["natural"].get<double>() / 2, 1e-12);
 }
 
-TEST(RegressCommand, EveryErrorOfTheTableIsNamedWithItsLine) {
-  const TemporaryFolder folder;
-  folder.write("runs.csv", std::string("a,b,y\n1,2,3\n1,nan,3\nx,2,\n"));
-  const Finished cells = run_repose(folder, {"regress", "runs.csv", "--response", "y", "--model",
-                                             "cubic", "--target", "z", "--coding", "a=1"});
+TEST_F(RegressCommand, EveryErrorOfTheTableIsNamedWithItsLine) {
+  folder_.write("runs.csv", std::string("a,b,y\n1,2,3\n1,nan,3\nx,2,\n"));
+  const Finished cells =
+      run({"runs.csv", "--response", "y", "--model", "cubic", "--target", "z", "--coding", "a=1"});
   EXPECT_EQ(cells.exit_code, 2);
   EXPECT_THAT(cells.out, IsEmpty());
   EXPECT_THAT(cells.err, AllOf(HasSubstr("repose: runs.csv:3: b is \"nan\""),
                                HasSubstr("repose: runs.csv:4: a is \"x\""),
                                HasSubstr("runs.csv:4: y is \"\""), HasSubstr("--model cubic"),
                                HasSubstr("--target z"), HasSubstr("--coding a=1")));
-  folder.write("ragged.csv", std::string("a,y\n1,2\n3\n4,5,6\n"));
-  EXPECT_THAT(run_repose(folder, {"regress", "ragged.csv", "--response", "y"}).err,
+  folder_.write("ragged.csv", std::string("a,y\n1,2\n3\n4,5,6\n"));
+  EXPECT_THAT(run({"ragged.csv", "--response", "y"}).err,
               AllOf(HasSubstr("ragged.csv:3:"), HasSubstr("ragged.csv:4:")));
 }
 
-TEST(RegressCommand, DesignsThatCannotCarryTheModelAreRefused) {
-  const TemporaryFolder folder;
-  folder.write("few.csv", std::string("a,b,y\n0,0,1\n1,1,1\n"));
-  const Finished few = run_repose(folder, {"regress", "few.csv", "--response", "y"});
+TEST_F(RegressCommand, DesignsThatCannotCarryTheModelAreRefused) {
+  folder_.write("few.csv", std::string("a,b,y\n0,0,1\n1,1,1\n"));
+  const Finished few = run({"few.csv", "--response", "y"});
   EXPECT_EQ(few.exit_code, 2);
   EXPECT_THAT(few.err,
               AllOf(HasSubstr("2 runs for the 6 terms"), HasSubstr("y is 1 in every run")));
-  EXPECT_THAT(run_repose(folder, {"regress", "few.csv", "--response", "z"}).err,
-              HasSubstr("has no column z"));
-  EXPECT_THAT(
-      run_repose(folder, {"regress", "few.csv", "--response", "y", "--factors", "y,q,q"}).err,
-      AllOf(HasSubstr("y is the response"), HasSubstr("q is named twice"),
-            HasSubstr("has no column q")));
-  EXPECT_THAT(run_repose(folder, {"regress", "few.csv"}).err, HasSubstr("response"));
+  EXPECT_THAT(run({"few.csv", "--response", "z"}).err, HasSubstr("has no column z"));
+  EXPECT_THAT(run({"few.csv", "--response", "y", "--factors", "y,q,q"}).err,
+              AllOf(HasSubstr("y is the response"), HasSubstr("q is named twice"),
+                    HasSubstr("has no column q")));
+  EXPECT_THAT(run({"few.csv"}).err, HasSubstr("response"));
 }
 
 }  // namespace

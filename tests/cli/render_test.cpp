@@ -7,22 +7,21 @@
 
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 #include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
 /// Three balls on a plane, as a state and as a film of three states.
-class RenderCommand : public ::testing::Test {
+class RenderCommand : public CommandTest {
  protected:
-  RenderCommand() {
+  RenderCommand() : CommandTest({"render"}) {
     const dem::ContactTable contacts(
         {{.name = "glass", .density_kg_m3 = 2500, .young_modulus_pa = 1e7, .poisson_ratio = .25}},
         {dem::PairCoefficients{}}, dem::RollingModel::none);
@@ -30,36 +29,26 @@ class RenderCommand : public ::testing::Test {
                                .walls = {{.shape = dem::Plane{}}},
                                .contacts = contacts};
     setup.timestep_s = 1e-4;
-    dem::Simulation run(setup);
-    for (int k = 0; k < 3; ++k) run.add({.position = {.021 * k, 0, .02}});
-    dem::TrajectoryWriter film(folder_.path() / "film", .01, "{}");
+    dem::Simulation simulation(setup);
+    for (int k = 0; k < 3; ++k) simulation.add({.position = {.021 * k, 0, .02}});
+    dem::TrajectoryWriter film(path("film"), .01, "{}");
     for (int k = 0; k < 3; ++k) {
-      film.add(run);
-      run.advance(100);
+      film.add(simulation);
+      simulation.advance(100);
     }
-    dem::write_state(folder_.path() / "state.vtp", run, "{}");
+    dem::write_state(path("state.vtp"), simulation, "{}");
   }
-
-  Finished render(std::vector<std::string> words) const {
-    words.insert(words.begin(), "render");
-    return run_repose(folder_, words);
-  }
-  std::string bytes(const std::string& name) const { return text_of(folder_.path() / name); }
-  const TemporaryFolder& folder() const { return folder_; }
-
- private:
-  TemporaryFolder folder_;
 };
 
 TEST_F(RenderCommand, WritesPictureMaskAndTruth) {
-  const Finished run = render({"state.vtp", "--size", "200,100", "--mm-per-px", ".5", "--out",
-                               "a.png", "--mask", "mask.png", "--truth", "truth.json"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto picture = vision::read_picture(folder().path() / "a.png");
-  const auto mask = vision::read_picture(folder().path() / "mask.png");
+  const Finished done = run({"state.vtp", "--size", "200,100", "--mm-per-px", ".5", "--out",
+                             "a.png", "--mask", "mask.png", "--truth", "truth.json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto picture = vision::read_picture(path("a.png"));
+  const auto mask = vision::read_picture(path("mask.png"));
   EXPECT_EQ(picture.width, 200);
   for (std::size_t k = 0; k < mask.bgr.size(); ++k) ASSERT_EQ(mask.bgr[k], 255 - picture.bgr[k]);
-  const json truth = json::parse(bytes("truth.json"));
+  const json truth = json::parse(text("truth.json"));
   EXPECT_EQ(truth["mm_per_px"], .5);
   EXPECT_EQ(truth["camera"]["kind"], "orthographic");
   EXPECT_TRUE(truth["ground_px"].is_array());
@@ -73,9 +62,9 @@ TEST_F(RenderCommand, WritesModelFilmAndPhoto) {
             "--camera", "distance_mm=400,height_mm=30,pitch_deg=3,roll_deg=1,focal_mm=60,k1=-.1"},
            {"state.vtp", "--out", "a.gif", "--turntable", "3", "--size", "64,48"},
            {"film/trajectory.pvd", "--out", "a.mp4", "--size", "64,48", "--view", "30"}}) {
-    const Finished run = render(words);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_GT(bytes(words[2]).size(), 200U) << words[2];
+    const Finished done = run(words);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_GT(text(words[2]).size(), 200U) << words[2];
   }
 }
 
@@ -84,18 +73,18 @@ TEST_F(RenderCommand, TheSameBytesAtAnyNumberOfThreadsOfTheDriver) {
     std::string first;
     for (const char* threads : {"0", "1", "2", "5"}) {
       ::setenv("LP_NUM_THREADS", threads, 1);
-      const Finished run =
-          render({"state.vtp", "--style", style, "--size", "320,180", "--out", "a.png"});
+      const Finished done =
+          run({"state.vtp", "--style", style, "--size", "320,180", "--out", "a.png"});
       ::unsetenv("LP_NUM_THREADS");
-      ASSERT_EQ(run.exit_code, 0) << run.err;
-      if (first.empty()) first = bytes("a.png");
-      EXPECT_EQ(bytes("a.png"), first) << style << ' ' << threads;
+      ASSERT_EQ(done.exit_code, 0) << done.err;
+      if (first.empty()) first = text("a.png");
+      EXPECT_EQ(text("a.png"), first) << style << ' ' << threads;
     }
   }
 }
 
 TEST_F(RenderCommand, ErrorsAreOneLineEachAndLeaveNothing) {
-  folder().write("notes.vtp", std::string("no state"));
+  folder_.write("notes.vtp", std::string("no state"));
   const std::vector<std::pair<std::vector<std::string>, const char*>> cases = {
       {{"missing.vtp", "--out", "a.png"}, "missing.vtp"},
       {{"notes.vtp", "--out", "a.png"}, "notes.vtp"},
@@ -117,12 +106,12 @@ TEST_F(RenderCommand, ErrorsAreOneLineEachAndLeaveNothing) {
       {{"film/trajectory.pvd", "--out", "a.png"}, "film"},
   };
   for (const auto& [words, named] : cases) {
-    const Finished run = render(words);
-    EXPECT_EQ(run.exit_code, 2) << named;
-    EXPECT_THAT(run.err, AllOf(HasSubstr(named), HasSubstr("Fix: "))) << named;
-    EXPECT_THAT(run.out, IsEmpty());
+    const Finished done = run(words);
+    EXPECT_EQ(done.exit_code, 2) << named;
+    EXPECT_THAT(done.err, AllOf(HasSubstr(named), HasSubstr("Fix: "))) << named;
+    EXPECT_THAT(done.out, IsEmpty());
   }
-  EXPECT_THAT(folder().names(), UnorderedElementsAre("film", "state.vtp", "notes.vtp"));
+  EXPECT_THAT(folder_.names(), UnorderedElementsAre("film", "state.vtp", "notes.vtp"));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/calibrate/made_up_result.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 #include "tests/support/heap_picture.h"
 #include "vision/picture/picture.h"
 
@@ -19,23 +19,12 @@ using ::testing::IsEmpty;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 
-class ReportCommand : public ::testing::Test {
+class ReportCommand : public CommandTest {
  protected:
-  ReportCommand() {
+  ReportCommand() : CommandTest({"report"}) {
     std::filesystem::create_directory(folder_.path() / "study");
     folder_.write("study/result.json", to_json(calibrate::test::joint_result()));
   }
-
-  Finished run(std::vector<std::string> words) const {
-    words.insert(words.begin(), "report");
-    return run_repose(folder_, words);
-  }
-  bool exists(const std::string& name) const {
-    return std::filesystem::exists(folder_.path() / name);
-  }
-  std::string text(const std::string& name) const { return text_of(folder_.path() / name); }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(ReportCommand, LeavesPageAndTablesInTheFolder) {

@@ -5,16 +5,14 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 #include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using Words = std::vector<std::string>;
 
 /// A heap five grains high of soft, rough grains: some seconds of work.
 constexpr const char* kStudy = R"([particle]
@@ -43,28 +41,20 @@ lift_speed_mm_s = 150
 )";
 
 /// Later calls in the same folder go on from the heap that is there, and only take pictures.
-class SimulatePictures : public ::testing::Test {
+class SimulatePictures : public CommandTest {
  protected:
-  SimulatePictures() { folder_.write("study.toml", std::string(kStudy)); }
+  SimulatePictures() : CommandTest({"simulate", "heap", "study.toml"}) {
+    folder_.write("study.toml", std::string(kStudy));
+  }
 
-  Finished run(Words words) const {
-    words.insert(words.begin(), {"simulate", "heap", "study.toml"});
-    return run_repose(folder_, words);
+  json timeless(Words words) const {
+    words.insert(words.end(), {"--out", "runs"});
+    return without_times(result(words));
   }
-  /// The result without what a clock measured.
-  json result(Words words) const {
-    words.insert(words.end(), {"--out", "runs", "--json", "-"});
-    const Finished finished = run(words);
-    EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    json result = json::parse(finished.out);
-    for (const char* key : {"wall_s", "clump_steps_per_s"}) result["repeats"][0].erase(key);
-    return result;
-  }
-  TemporaryFolder folder_;
 };
 
 TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
-  const json heap = result({"--views", "4", "--threads", "1"});
+  const json heap = timeless({"--views", "4", "--threads", "1"});
   const json& repeat = heap["repeats"][0];
   EXPECT_EQ(heap["source"], "pictures");
   ASSERT_EQ(repeat["views"].size(), 4U);
@@ -88,20 +78,20 @@ TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
   // Single views of such a low heap lie up to 4 degrees from the same view of the positions.
   EXPECT_NEAR(heap["value"].get<double>(), heap["angle_from_positions_deg"].get<double>(), 3.0);
 
-  const auto overlay = folder_.path() / "runs" / "heap_seed_1.overlay.png";
+  const auto overlay = path("runs/heap_seed_1.overlay.png");
   EXPECT_EQ(repeat["overlay"], "runs/heap_seed_1.overlay.png");
   EXPECT_FALSE(vision::read_picture(overlay).empty());
 
-  EXPECT_EQ(result({"--views", "4", "--threads", "3"}), heap) << "threads do not change it";
+  EXPECT_EQ(timeless({"--views", "4", "--threads", "3"}), heap) << "threads do not change it";
 }
 
 TEST_F(SimulatePictures, NoPicturesLeaveTheAngleOfThePositions) {
-  const json none = result({"--views", "0"});
+  const json none = timeless({"--views", "0"});
   EXPECT_FALSE(none.contains("source"));
   EXPECT_FALSE(none["repeats"][0].contains("views"));
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "runs" / "heap_seed_1.overlay.png"));
+  EXPECT_FALSE(exists("runs/heap_seed_1.overlay.png"));
 
-  const json two = result({"--views", "2"});
+  const json two = timeless({"--views", "2"});
   EXPECT_EQ(two["angle_from_positions_deg"], none["value"]);
   const json view = two["repeats"][0]["views"][1];
   EXPECT_EQ(view["azimuth_deg"], 90);

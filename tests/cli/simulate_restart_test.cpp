@@ -4,23 +4,22 @@
 #include <map>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-using Words = std::vector<std::string>;
 
 /// A heap of a second's work.
 constexpr const char* kStudy = R"([particle]
@@ -48,19 +47,15 @@ grains = 12
 lift_speed_mm_s = 100
 )";
 
-class SimulateRestart : public ::testing::Test {
+class SimulateRestart : public CommandTest {
  protected:
-  SimulateRestart() { folder_.write("study.toml", std::string(kStudy)); }
-
-  Finished run(Words words) const {
-    words.insert(words.begin(), "simulate");
-    return run_repose(folder_, words);
+  SimulateRestart() : CommandTest({"simulate"}) {
+    folder_.write("study.toml", std::string(kStudy));
   }
 
   /// Presses Ctrl-C when `frame` of a repeat is there; the exit code.
   int run_until(const std::string& frame, Words words, int seed = 1) const {
-    words.insert(words.begin(), "simulate");
-    const pid_t program = start_repose(folder_, words);
+    const pid_t program = start_repose(folder_, with_command(std::move(words)));
     int status = 0;
     while (!std::filesystem::exists(path("runs/heap_seed_" + std::to_string(seed) + "/" + frame))) {
       if (::waitpid(program, &status, WNOHANG) != 0) return -1;
@@ -70,8 +65,6 @@ class SimulateRestart : public ::testing::Test {
     ::waitpid(program, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-
-  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
 
   /// The files of the store whose names end so.
   std::vector<std::filesystem::path> stored(const std::string& ending) const {
@@ -103,7 +96,6 @@ class SimulateRestart : public ::testing::Test {
     }
     return texts;
   }
-  TemporaryFolder folder_;
 };
 
 const Words kHeap = {"heap",           "study.toml", "--repeats", "2", "--threads", "1",

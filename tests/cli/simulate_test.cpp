@@ -12,18 +12,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 
 namespace repose::testing {
 namespace {
 
-using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
-using Words = std::vector<std::string>;
 
 /// Soft, two spheres to a grain, short ways: a run takes a fraction of a second.
 constexpr const char* kStudy = R"([particle]
@@ -53,28 +51,11 @@ release_mm = 20
 grains = 40
 )";
 
-class Simulate : public ::testing::Test {
+class Simulate : public CommandTest {
  protected:
-  Simulate() { folder_.write("study.toml", std::string(kStudy)); }
+  Simulate() : CommandTest({"simulate"}) { folder_.write("study.toml", std::string(kStudy)); }
 
-  Finished run(const Words& words) const {
-    Words all = {"simulate"};
-    all.insert(all.end(), words.begin(), words.end());
-    return run_repose(folder_, all);
-  }
-  /// The result without what a clock measured.
-  json result(Words words) const {
-    words.insert(words.end(), {"--json", "-"});
-    const Finished finished = run(words);
-    EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    json result = json::parse(finished.out);
-    for (json& repeat : result["repeats"]) {
-      repeat.erase("wall_s");
-      repeat.erase("clump_steps_per_s");
-    }
-    return result;
-  }
-  TemporaryFolder folder_;
+  json timeless(const Words& words) const { return without_times(result(words)); }
 };
 
 TEST_F(Simulate, ADropGivesAValueAndWhatItBelongsTo) {
@@ -90,7 +71,7 @@ TEST_F(Simulate, ADropGivesAValueAndWhatItBelongsTo) {
 TEST_F(Simulate, OneRepeatHasNoInterval) {
   EXPECT_THAT(run({"roll", "study.toml"}).out,
               AllOf(HasSubstr("n = 1, which has no scatter"), Not(HasSubstr("95 %"))));
-  EXPECT_TRUE(result({"roll", "study.toml"})["interval"].is_null());
+  EXPECT_TRUE(timeless({"roll", "study.toml"})["interval"].is_null());
 }
 
 TEST_F(Simulate, RepeatsThatAreTheSameHaveNoInterval) {
@@ -100,7 +81,7 @@ TEST_F(Simulate, RepeatsThatAreTheSameHaveNoInterval) {
   EXPECT_THAT(finished.out,
               AllOf(HasSubstr("n = 2, all the same: no scatter"), Not(HasSubstr("95 %"))));
   EXPECT_THAT(finished.err, HasSubstr("repose: all 2 repeats gave the same value"));
-  const json tilt = result(words);
+  const json tilt = timeless(words);
   EXPECT_TRUE(tilt["value"].is_number());
   EXPECT_TRUE(tilt["interval"].is_null());
   EXPECT_TRUE(tilt["sd"].is_null());
@@ -135,22 +116,23 @@ TEST_F(Simulate, JsonHasTheContractsKeys) {
 
 TEST_F(Simulate, ThreadsDoNotChangeTheResult) {
   for (const char* repeats : {"1", "3"}) {
-    EXPECT_EQ(result({"roll", "study.toml", "--repeats", repeats, "--threads", "1"}),
-              result({"roll", "study.toml", "--repeats", repeats, "--threads", "7"}))
+    EXPECT_EQ(timeless({"roll", "study.toml", "--repeats", repeats, "--threads", "1"}),
+              timeless({"roll", "study.toml", "--repeats", repeats, "--threads", "7"}))
         << "seven threads for three repeats: two each";
   }
 }
 
 TEST_F(Simulate, RepeatsTakeSeedsThatFollow) {
-  const json both = result({"drop", "study.toml", "--seed", "8", "--repeats", "2"});
+  const json both = timeless({"drop", "study.toml", "--seed", "8", "--repeats", "2"});
   EXPECT_EQ(both["repeats"][0]["seed"], 8);
-  EXPECT_EQ(both["repeats"][1], result({"drop", "study.toml", "--seed", "9"})["repeats"][0]);
+  EXPECT_EQ(both["repeats"][1], timeless({"drop", "study.toml", "--seed", "9"})["repeats"][0]);
 }
 
 TEST_F(Simulate, SettingsReachTheRun) {
-  const json usual = result({"drop", "study.toml"});
-  const json hard = result({"drop", "study.toml", "--set", "contact.particle_wall.restitution=0.9",
-                            "--set", "contact.rolling_model=\"none\""});
+  const json usual = timeless({"drop", "study.toml"});
+  const json hard =
+      timeless({"drop", "study.toml", "--set", "contact.particle_wall.restitution=0.9", "--set",
+                "contact.rolling_model=\"none\""});
   EXPECT_GT(hard["value"], usual["value"]);
   EXPECT_EQ(hard["rolling_model"], "none");
   EXPECT_EQ(hard["study"]["settings"][0], "contact.particle_wall.restitution=0.9");
@@ -158,8 +140,8 @@ TEST_F(Simulate, SettingsReachTheRun) {
 }
 
 TEST_F(Simulate, OutHoldsStatesAndTheResult) {
-  const json printed = result({"drop", "study.toml", "--repeats", "2", "--out", "new/runs"});
-  const auto runs = folder_.path() / "new" / "runs";
+  const json printed = timeless({"drop", "study.toml", "--repeats", "2", "--out", "new/runs"});
+  const auto runs = path("new") / "runs";
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(runs)) {
     names.push_back(entry.path().filename());
@@ -173,8 +155,7 @@ TEST_F(Simulate, OutHoldsStatesAndTheResult) {
 
 TEST_F(Simulate, TrajectoriesAreSeriesOfStates) {
   EXPECT_EQ(run({"roll", "study.toml", "--out", "runs", "--trajectory-s", "0.1"}).exit_code, 0);
-  EXPECT_THAT(text_of(folder_.path() / "runs/roll_seed_1/trajectory.pvd"),
-              HasSubstr("frame_00002.vtp"));
+  EXPECT_THAT(text_of(path("runs/roll_seed_1/trajectory.pvd")), HasSubstr("frame_00002.vtp"));
 }
 
 TEST_F(Simulate, AllErrorsAreToldAtOnce) {
@@ -218,7 +199,7 @@ TEST_F(Simulate, ARunWithoutAReadingIsNoResult) {
            "contact.particle_wall.sliding_friction=90", "--out", "runs"});
   EXPECT_EQ(finished.exit_code, 3) << finished.err;
   EXPECT_THAT(finished.err, AllOf(HasSubstr("seed 1: "), HasSubstr("no result; 0 of 1")));
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "runs" / "result.json"));
+  EXPECT_FALSE(std::filesystem::exists(path("runs") / "result.json"));
 }
 
 TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
@@ -226,7 +207,7 @@ TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
                        "--set", "experiment.drop.height_mm=0.01",
                        "--set", "contact.particle_wall.restitution=0.01"};
   EXPECT_THAT(run(words).err, HasSubstr("2 of 2 grains did not rise again"));
-  EXPECT_EQ(result(words)["warnings"][0]["code"], "never_rose");
+  EXPECT_EQ(timeless(words)["warnings"][0]["code"], "never_rose");
 }
 
 TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
@@ -241,7 +222,7 @@ TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
   for (const char* seed : {"1", "2", "3"}) {
     Words words = rough;
     words.insert(words.end(), {"--seed", seed});
-    const json heap = result(words);
+    const json heap = timeless(words);
     const json& readings = heap["repeats"][0]["readings"];
     const double apart =
         std::abs(heap["value"].get<double>() - readings["inner_window_deg"].get<double>());
@@ -269,7 +250,7 @@ TEST_F(Simulate, AnInterruptionLeavesNothingHalfWritten) {
       start_repose(folder_, {"simulate", "heap", "study.toml", "--out", "runs", "--trajectory-s",
                              "0.001", "--set", "contact.particle_particle.restitution=0.2", "--set",
                              "particle.young_modulus_pa=1e9"});
-  const auto runs = folder_.path() / "runs";
+  const auto runs = path("runs");
   int status = 0;
   while (!std::filesystem::exists(runs / "heap_seed_1" / "frame_00001.vtp")) {
     ASSERT_EQ(::waitpid(program, &status, WNOHANG), 0) << "ended by itself";

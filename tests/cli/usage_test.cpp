@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/command_test.h"
 
 namespace repose::testing {
 namespace {
@@ -13,17 +13,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
-
-/// Of a text in UTF-8.
-std::size_t longest_line(const std::string& text) {
-  std::size_t longest = 0, length = 0;
-  for (const char byte : text) {
-    if (byte == '\n') length = 0;
-    if (byte != '\n' && (static_cast<unsigned char>(byte) & 0xC0) != 0x80) ++length;
-    longest = std::max(longest, length);
-  }
-  return longest;
-}
 
 TEST(Usage, TheProgramAlonePrintsItsHelp) {
   const TemporaryFolder folder;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/dem/packing.h"
+#include "tests/support/error_of.h"
 
 namespace repose::dem {
 namespace {
@@ -182,15 +183,11 @@ TEST(SimulationSetup, ErrorsAreAllNamedAtOnce) {
   setup.kinds[0].material = 9;
   setup.kinds[1].shape.spheres.clear();
   setup.walls[1].material = -1;
-  try {
-    Simulation simulation(setup);
-    FAIL() << "was accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("timestep_s is 0"), HasSubstr("threads is 0"),
-                                    HasSubstr("grain kind 0: no such material"),
-                                    HasSubstr("grain kind 1: it has no spheres"),
-                                    HasSubstr("wall 1: no such material")));
-  }
+  EXPECT_THAT(
+      error_of([&] { const Simulation simulation(setup); }),
+      AllOf(HasSubstr("timestep_s is 0"), HasSubstr("threads is 0"),
+            HasSubstr("grain kind 0: no such material"),
+            HasSubstr("grain kind 1: it has no spheres"), HasSubstr("wall 1: no such material")));
 }
 
 TEST(SimulationSetup, ShapesThatCannotMoveAreRefused) {
@@ -222,15 +219,10 @@ TEST(ContactTable, EveryBadValueIsNamed) {
       .name = "chalk", .density_kg_m3 = -1, .young_modulus_pa = 0, .poisson_ratio = .5};
   const PairCoefficients pair{
       .restitution = 1.2, .sliding_friction = -1, .rolling_friction = std::nan("")};
-  try {
-    const ContactTable table({material}, {pair}, RollingModel::none);
-    FAIL() << "was accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(),
-                AllOf(HasSubstr("chalk: density_kg_m3 is -1"), HasSubstr("young_modulus_pa is 0"),
-                      HasSubstr("poisson_ratio is 0.5"), HasSubstr("restitution is 1.2"),
-                      HasSubstr("sliding_friction is -1"), HasSubstr("rolling_friction is nan")));
-  }
+  EXPECT_THAT(error_of([&] { const ContactTable table({material}, {pair}, RollingModel::none); }),
+              AllOf(HasSubstr("chalk: density_kg_m3 is -1"), HasSubstr("young_modulus_pa is 0"),
+                    HasSubstr("poisson_ratio is 0.5"), HasSubstr("restitution is 1.2"),
+                    HasSubstr("sliding_friction is -1"), HasSubstr("rolling_friction is nan")));
   material = {.name = "ok", .density_kg_m3 = 1, .young_modulus_pa = 1, .poisson_ratio = 0};
   EXPECT_THROW(ContactTable({material, material}, {{}}, RollingModel::none), std::invalid_argument);
 }

@@ -85,8 +85,8 @@ TEST(Drop, TellsEveryErrorAtOnce) {
   model.threads = 0;
   model.stiffness_factor = -1;
   model.timestep_fraction = 2;
-  const std::string message = test::message_of<std::invalid_argument>(
-      [&] { run_drop(model, {.height_m = std::nan(""), .grains = 0}, 1); });
+  const std::string message =
+      error_of([&] { run_drop(model, {.height_m = std::nan(""), .grains = 0}, 1); });
   for (const char* name :
        {"threads", "stiffness_factor", "timestep_fraction", "drop.height_m", "drop.grains"}) {
     EXPECT_NE(message.find(name), std::string::npos) << name << " in:\n" << message;

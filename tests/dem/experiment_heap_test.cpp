@@ -72,8 +72,7 @@ TEST(Heap, RefusesMoreGrainsThanFitAndSaysHowManyDo) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .05;
   protocol.grains = 1000000;
-  const std::string message =
-      test::message_of<std::invalid_argument>([&] { run_heap(soft_bench(), protocol, 1); });
+  const std::string message = error_of([&] { run_heap(soft_bench(), protocol, 1); });
   EXPECT_NE(message.find("heap.grains is 1000000"), std::string::npos) << message;
   EXPECT_NE(message.find("at most what fits into the tube, 2"), std::string::npos) << message;
 }
@@ -104,8 +103,7 @@ TEST(Heap, GrainsThatHangInTheTubeAreNoReading) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .06;
   // Of this seed three spheres make an arch, and go up with the tube.
-  const std::string message =
-      test::message_of<NoReading>([&] { run_heap(soft_bench(), protocol, 3); });
+  const std::string message = error_of<NoReading>([&] { run_heap(soft_bench(), protocol, 3); });
   EXPECT_NE(message.find("hang in the tube"), std::string::npos) << message;
 }
 
@@ -138,8 +136,7 @@ TEST(Heap, TellsEveryErrorAtOnce) {
   protocol.lift_speed_m_s = 0;
   protocol.plate_m = -1;
   protocol.grains = 0;
-  const std::string message =
-      test::message_of<std::invalid_argument>([&] { run_heap(soft_bench(), protocol, 1); });
+  const std::string message = error_of([&] { run_heap(soft_bench(), protocol, 1); });
   for (const char* name :
        {"heap.tube_diameter_m is 0.015. Rule: wider than a grain", "heap.tube_height_m",
         "heap.tube_thickness_m", "heap.lift_speed_m_s", "heap.plate_m", "heap.grains"}) {
@@ -150,8 +147,7 @@ TEST(Heap, TellsEveryErrorAtOnce) {
 TEST(Heap, RefusesATubeWiderThanThePlate) {
   HeapProtocol protocol;
   protocol.plate_m = .1;
-  const std::string message =
-      test::message_of<std::invalid_argument>([&] { run_heap(soft_bench(), protocol, 1); });
+  const std::string message = error_of([&] { run_heap(soft_bench(), protocol, 1); });
   EXPECT_NE(message.find("stands on the plate"), std::string::npos) << message;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dem/experiment/experiment.h"
+#include "tests/support/error_of.h"
 
 namespace repose::dem::test {
 
@@ -50,17 +51,6 @@ inline bool same_state(const Simulation& a, const Simulation& b) {
     if (a.grain(k).orientation.coeffs() != b.grain(k).orientation.coeffs()) return false;
   }
   return true;
-}
-
-/// What a run throws, as text; empty when it throws nothing.
-template <typename Error, typename Run>
-std::string message_of(const Run& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace repose::dem::test

@@ -54,7 +54,7 @@ TEST(Roll, AGrainThatDoesNotStopIsNoReading) {
   Model model = test::sphere_bench();
   model.stiffness_factor = .001;
   model.grain_wall.rolling_friction = 0;
-  const std::string message = test::message_of<NoReading>([&] { run_roll(model, {}, 1); });
+  const std::string message = error_of<NoReading>([&] { run_roll(model, {}, 1); });
   EXPECT_NE(message.find("still moves"), std::string::npos) << message;
 }
 
@@ -70,8 +70,8 @@ TEST(Roll, ClumpsComeToRestWhereTheirSeedSays) {
 }
 
 TEST(Roll, TellsEveryErrorAtOnce) {
-  const std::string message = test::message_of<std::invalid_argument>(
-      [&] { run_roll(test::sphere_bench(), {.incline_deg = 90, .release_m = 0}, 1); });
+  const std::string message =
+      error_of([&] { run_roll(test::sphere_bench(), {.incline_deg = 90, .release_m = 0}, 1); });
   for (const char* name : {"roll.incline_deg", "roll.release_m"}) {
     EXPECT_NE(message.find(name), std::string::npos) << name << " in:\n" << message;
   }

@@ -21,7 +21,7 @@ TEST(ExperimentTable, HasEachExperimentInItsPlace) {
     EXPECT_TRUE(entry.unit == "mm" || entry.unit == "deg") << entry.name;
   }
   EXPECT_EQ(experiment_names(), "drop, tilt, roll or heap");
-  EXPECT_THAT(test::message_of<std::invalid_argument>([] { experiment_named("spin"); }),
+  EXPECT_THAT(error_of([] { experiment_named("spin"); }),
               HasSubstr("experiment spin: there is no such experiment. Fix: drop,"));
 }
 

@@ -59,13 +59,12 @@ TEST(Tilt, DoesNotDependOnTheRate) {
 TEST(Tilt, GrainsTipWhenFrictionHoldsThem) {
   Model model = test::clump_bench();
   model.grain_wall.sliding_friction = 1.3;
-  const std::string message =
-      test::message_of<NoReading>([&] { run_tilt(model, {.rate_deg_s = 10}, 1); });
+  const std::string message = error_of<NoReading>([&] { run_tilt(model, {.rate_deg_s = 10}, 1); });
   EXPECT_NE(message.find("tipped"), std::string::npos) << message;
 }
 
 TEST(Tilt, ASingleGrainRolls) {
-  const std::string message = test::message_of<NoReading>(
+  const std::string message = error_of<NoReading>(
       [&] { run_tilt(test::sphere_bench(), {.bonded = 1, .rate_deg_s = 10}, 1); });
   EXPECT_NE(message.find("rolled"), std::string::npos) << message;
 }
@@ -84,7 +83,7 @@ TEST(Tilt, HasNoChanceInIt) {
 }
 
 TEST(Tilt, TellsEveryErrorAtOnce) {
-  const std::string message = test::message_of<std::invalid_argument>(
+  const std::string message = error_of(
       [&] { run_tilt(test::sphere_bench(), {.bonded = 0, .rate_deg_s = 0, .start_deg = 95}, 1); });
   for (const char* name : {"tilt.bonded", "tilt.rate_deg_s", "tilt.start_deg"}) {
     EXPECT_NE(message.find(name), std::string::npos) << name << " in:\n" << message;

@@ -9,6 +9,7 @@
 
 #include "dem/engine/time_step.h"
 #include "dem/verify/scene.h"
+#include "tests/support/error_of.h"
 
 namespace repose::dem {
 namespace {
@@ -62,12 +63,8 @@ TEST(Restitution, OutOfRangeIsRefused) {
   for (const double e : {-1.0, 0.0, .0099, 1.0001, kNan, kInfinity}) {
     EXPECT_THROW(damping_factor(e), std::invalid_argument) << e;
   }
-  try {
-    damping_factor(1.5);
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("1.5"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("Fix:"));
-  }
+  EXPECT_THAT(error_of([] { damping_factor(1.5); }),
+              testing::AllOf(testing::HasSubstr("1.5"), testing::HasSubstr("Fix:")));
 }
 
 // Why the factor is worked out anew: with the pull cut off, the textbook's returns too much.

@@ -7,6 +7,7 @@
 
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::dem {
@@ -89,13 +90,10 @@ class StateFile : public ::testing::Test {
   }
   std::string error(const std::string& text) const {
     folder_.write("state.vtp", text);
-    try {
+    return error_of([&] {
       const SavedState state = read_state(file());
       const Simulation simulation(state.setup, state.checkpoint);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return {};
+    });
   }
   TemporaryFolder folder_;
 };

@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/error_of.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
@@ -53,17 +54,12 @@ class StudyFile : public ::testing::Test {
   }
   /// What is wrong, without the folder's name; empty when nothing is.
   std::string errors(const std::string& text, const Settings& settings = {}) const {
-    try {
-      read(text, settings);
-    } catch (const std::invalid_argument& error) {
-      std::string all = error.what();
-      const std::string folder = folder_.path().string() + "/";
-      for (std::size_t at = 0; (at = all.find(folder)) != std::string::npos;) {
-        all.erase(at, folder.size());
-      }
-      return all;
+    std::string all = error_of([&] { read(text, settings); });
+    const std::string folder = folder_.path().string() + "/";
+    for (std::size_t at = 0; (at = all.find(folder)) != std::string::npos;) {
+      all.erase(at, folder.size());
     }
-    return {};
+    return all;
   }
   TemporaryFolder folder_;
 };

@@ -4,7 +4,6 @@ import urllib.parse
 
 import documents
 
-
 def error_of(document, link, known):
     """What is wrong with a link; empty: nothing."""
     name, _, anchor = link.partition("#")
@@ -16,7 +15,6 @@ def error_of(document, link, known):
     if anchor and anchor not in known[target].anchors():
         return f"there is no heading {anchor} in {known[target].name}"
     return ""
-
 
 def main():
     texts = documents.all_documents(documents.root_folder())
@@ -32,6 +30,5 @@ def main():
             if error:
                 errors.append(f"{document.place(line)}: link {link}: {error}")
     documents.finish(errors, f"{checked} links")
-
 
 main()

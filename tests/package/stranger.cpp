@@ -94,16 +94,12 @@ bool runs_a_study(const std::filesystem::path& folder) {
   record.budget = budget_named("quick");
   record.budget.settings.max_jobs = 20;
   const StudyProblem problem = problem_of(record.study, record.grain, record.budget);
-
-  std::vector<std::string> names;
-  for (const Parameter& parameter : problem.problem.parameters) names.push_back(parameter.name);
-  const StudySimulator simulator(record.study, record.grain, names);
+  const StudySimulator simulator(record.study, record.grain, problem.problem.parameters);
   const RunFolder runs(folder / "calibration");
   ThreadExecutor executor(simulator, 2);
   const std::atomic<bool> is_interrupted = false;
-  const std::optional<StudyOutcome> outcome = run_study(
-      problem.problem, record.budget, simulator, runs, executor, [](const StudyProgress&) {},
-      is_interrupted);
+  const std::optional<StudyOutcome> outcome =
+      run_study(problem.problem, record.budget, {simulator, runs, executor, is_interrupted});
   if (!outcome) return false;
 
   const StudyResult result = result_of(record, problem, *outcome);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/renderer.h"
+#include "tests/support/error_of.h"
 
 namespace repose::render {
 
@@ -36,17 +37,6 @@ inline Blob blob_of(const Rendered& rendered) {
   blob.x /= blob.pixels;
   blob.y /= blob.pixels;
   return blob;
-}
-
-/// What a call throws as an error of the user, as text; empty when it throws nothing.
-template <typename Call>
-std::string error_of(const Call& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace repose::render

@@ -25,7 +25,6 @@ class HeapProfile {
   double apex_x() const { return apex_x_; }
   double left_toe_x() const { return left_toe_x_; }    ///< where the flank meets the ground
   double right_toe_x() const { return right_toe_x_; }  ///< likewise
-  double runout_px() const { return runout_px_; }      ///< of the concave toes
 
   /// A flank's angle by its definition; empty when the shape has no such flank.
   std::optional<EdgeAngle> angle(Side side) const;
