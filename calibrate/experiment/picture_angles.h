@@ -19,9 +19,8 @@ struct PictureAngle {
 
 /// Whether a picture's angle counts towards a mean: every one that could be measured does, flagged
 /// ones too. A flag says that a heap looks low or hollow from there, or that its interval is wide;
-/// it does not make the number wrong, and to leave out just those moves the mean. Of the sample's
-/// ten photographs the seven without a flag have a mean of 21.59 degrees and all ten of 22.44; the
-/// exact outlines of these heaps have 22.11. The flagged ones are the steeper heaps. Their number
+/// it does not make the number wrong, and to leave out just those moves the mean: of six simulated
+/// heaps seen from many sides, the views without a flag read 1.3 degrees less than all. Their number
 /// is said wherever there is a mean, and each keeps its own, wider interval.
 bool counts_in_mean(vision::MeasureStatus status);
 /// The same, of a status by its name in JSON: "flagged".

@@ -134,6 +134,7 @@ TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {
   EXPECT_THAT(reason([](Likeness& l) { l.straight = 1.5; }), HasSubstr("1.5 times as long"));
   EXPECT_THAT(reason([](Likeness& l) { l.patchy = 0.3; }), HasSubstr("different colours"));
   EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }), HasSubstr("smooth"));
+  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25, l.sharpness = 0.4; }), IsEmpty());
   // Fine grains make a fine edge.
   EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }, 4), IsEmpty());
   EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }, std::nullopt), HasSubstr("smooth"));

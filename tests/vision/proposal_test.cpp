@@ -32,6 +32,8 @@ TEST(Proposal, ATimerBeforeTheHeapMayBeLeftOut) {
 
 TEST(Proposal, NothingIsProposedWhereNothingIsSeen) {
   EXPECT_FALSE(propose_hint(picture_of(cv::Mat3b(300, 400, cv::Vec3b(90, 90, 90))), {}));
+  EXPECT_FALSE(propose_hint(picture_of(cv::Mat3b(1, 1, cv::Vec3b(90, 90, 90))), {}));
+  EXPECT_FALSE(propose_hint(picture_of(cv::Mat3b(300, 400, cv::Vec3b())), {}));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace repose::vision {
 namespace {
 
 constexpr std::size_t kMostOfAKind = 4;  // candidates that are tried
+constexpr int kSmallestFrame = 64;       // px: nothing is measured in smaller ones
 constexpr double kMargin = 0.06;         // of a thing's size, left around it
 constexpr double kSameBox = 0.7;         // overlap over union of boxes that are one
 constexpr double kSmallestThing = 0.05;  // of the frame's area
@@ -140,6 +141,7 @@ Proposal guess_around(const Box& box) {
 
 std::optional<Proposal> propose_hint(const Picture& picture, const MeasureOptions& options) {
   const WorkingPicture work = working_picture(picture, options.excluded, options.hints);
+  if (std::min(work.frame.width, work.frame.height) < kSmallestFrame) return std::nullopt;
   Trials trials(picture, options);
   for (const cv::Rect& label : labels_in(work)) {
     Proposal proposal;

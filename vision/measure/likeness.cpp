@@ -23,9 +23,15 @@ constexpr double kPatchStep = 1.0 / 10;    // ... over which the colour may not 
 constexpr double kCoarser = 4;             // pixels of the picture in one that is compared
 constexpr double kPatchChange = 9;         // distance in L*a*b* that is another part
 
+/// A grain's size, from the body's pattern or else from the edge's bumps.
+double grain_of(const Reading& reading) {
+  if (reading.grain) return *reading.grain;
+  return std::max(reading.left.grain, reading.right.grain);
+}
+
 double filled_part(const Reading& reading, const WorkingPicture& work) {
   const cv::Mat1b& mask = reading.body.mask;
-  const double gaps = std::max(kLowest * reading.profile.crest_height, reading.grain.value_or(0));
+  const double gaps = std::max(kLowest * reading.profile.crest_height, grain_of(reading));
   double under = 0;
   double inside = 0;
   for (int col = 0; col < mask.cols; ++col) {
@@ -136,15 +142,18 @@ constexpr double kMostPatchy = 0.1;
 // some size, and at all [working px].
 constexpr double kSmoothEdge_px = 0.3;
 constexpr double kSmoothGrain = 0.035;
+constexpr double kBlurredGrain = 0.015;  // ... of the grain, where the edge is less sharp than
+constexpr double kBlurred = 0.5;
 constexpr double kSharpEdge_px = 0.14;
 
 }  // namespace
 
 Likeness likeness_of(const Reading& reading, const WorkingPicture& work) {
   return {.filled = filled_part(reading, work),
-          .climb = climb_of(reading.profile, reading.grain.value_or(0)),
+          .climb = climb_of(reading.profile, grain_of(reading)),
           .straight = longest_edge_inside(reading, work),
           .rough_px = std::max(roughness_of(reading.left), roughness_of(reading.right)),
+          .sharpness = reading.edge_sharpness,
           .patchy = patchy_part(reading, work)};
 }
 
@@ -167,7 +176,8 @@ std::string reason_against_heap(const Likeness& likeness, std::optional<double> 
     return fmt::format("it has parts of different colours ({:.0f} % of it lies between them)",
                        100 * likeness.patchy);
   }
-  const double roughest = grain ? kSmoothGrain * *grain : kSmoothEdge_px;
+  const double of_grain = likeness.sharpness < kBlurred ? kBlurredGrain : kSmoothGrain;
+  const double roughest = grain ? of_grain * *grain : kSmoothEdge_px;
   if (likeness.rough_px < std::max(kSharpEdge_px, roughest)) {
     return "its edge is as smooth as no edge of grains is";
   }

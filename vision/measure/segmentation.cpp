@@ -25,17 +25,20 @@ cv::Mat1b backdrop_corners(const WorkingPicture& work) {
         {x, frame.y}, {x + inwards, frame.y}, {x, frame.y + frame.height / 2}};
     cv::fillConvexPoly(corners, corner, 255);
   }
-  return corners & work.valid_mask;
+  return corners;
 }
 
+/// What is taken for backdrop until proven otherwise: the upper part of the frame, or the corners of
+/// a box around the heap, and what a person has said.
 cv::Mat1b backdrop_strip(const WorkingPicture& work) {
-  if (!work.told.beside_heap.empty()) return work.told.beside_heap & work.valid_mask;
-  if (work.told.has_box) return backdrop_corners(work);
   cv::Mat1b strip = cv::Mat1b::zeros(work.valid_mask.size());
   cv::Rect top = work.frame;
   top.height = std::max(1, static_cast<int>(top.height * kBackdropFraction));
-  work.valid_mask(top).copyTo(strip(top));
-  return strip;
+  strip(top).setTo(255);
+  if (work.told.has_box) strip = backdrop_corners(work);
+  if (!work.told.beside_heap.empty()) strip |= work.told.beside_heap;
+  if (!work.told.on_heap.empty()) strip &= ~work.told.on_heap;
+  return strip & work.valid_mask;
 }
 
 /// Every kSampleStep-th value each way where `where` is set: thousands, enough for a histogram.
