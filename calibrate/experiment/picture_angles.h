@@ -20,8 +20,8 @@ struct PictureAngle {
 /// Whether a picture's angle counts towards a mean: every one that could be measured does, flagged
 /// ones too. A flag says that a heap looks low or hollow from there, or that its interval is wide;
 /// it does not make the number wrong, and to leave out just those moves the mean: of six simulated
-/// heaps seen from many sides, the views without a flag read 1.3 degrees less than all. Their number
-/// is said wherever there is a mean, and each keeps its own, wider interval.
+/// heaps seen from many sides, the views without a flag read 1.3 degrees less than all. Their
+/// number is said wherever there is a mean, and each keeps its own, wider interval.
 bool counts_in_mean(vision::MeasureStatus status);
 /// The same, of a status by its name in JSON: "flagged".
 bool counts_in_mean(std::string_view status);

@@ -95,6 +95,36 @@ TEST_F(Measure, FoldersStandForTheirPicturesByName) {
   EXPECT_EQ(array[1]["file"], "photos/b.png");
 }
 
+TEST_F(Measure, SavedHintsAreUsedAgainAndNamed) {
+  draw_heap_to("heap.png");
+  const Words hints = {"heap.png", "--heap", "0,20,600,380", "--keep", "300,250", "--json", "-"};
+  Words saving = hints;
+  saving.emplace_back("--save-hints");
+  const Finished first = run(saving);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(json::parse(first.out)[0]["hints"]["file"], nullptr);
+  EXPECT_THAT(text("heap.png.repose.toml"),
+              AllOf(HasSubstr("heap = [0, 20, 600, 380]"), HasSubstr("keep = [[300, 250]]")));
+  const json again = json::parse(run({"heap.png", "--json", "-"}).out)[0];
+  EXPECT_EQ(again["hints"]["file"], "heap.png.repose.toml");
+  EXPECT_EQ(again["hints"]["heap"], json::array({0, 20, 600, 380}));
+  EXPECT_EQ(again["angle_deg"], json::parse(first.out)[0]["angle_deg"]);
+  EXPECT_THAT(run({"heap.png"}).out, HasSubstr("in heap.png.repose.toml: box around the heap"));
+}
+
+TEST_F(Measure, HintsThatCannotBeReadAreSaid) {
+  draw_heap_to("heap.png");
+  const Finished typed = run(
+      {"heap.png", "--heap", "1,2,3", "--ground", "a,b", "--keep", "7", "--mask", "nowhere.png"});
+  EXPECT_EQ(typed.exit_code, 2);
+  EXPECT_THAT(typed.err, AllOf(HasSubstr("--heap 1,2,3"), HasSubstr("--ground a,b"),
+                               HasSubstr("--keep 7"), HasSubstr("--mask nowhere.png")));
+  const Finished outside = run({"heap.png", "--heap", "500,0,200,100", "--save-hints"});
+  EXPECT_EQ(outside.exit_code, 2);
+  EXPECT_THAT(outside.err, HasSubstr("--heap"));
+  EXPECT_FALSE(exists("heap.png.repose.toml")) << "a hint that was refused is not saved";
+}
+
 TEST_F(Measure, FoldersWithoutPicturesAreSaid) {
   std::filesystem::create_directory(folder_.path() / "empty");
   const Finished result = run({"empty"});

@@ -18,6 +18,7 @@ constexpr double kBlockGrains = 2;      // neighbours within 2 grains are one pi
 constexpr double kFewestGrains = 5;     // high: a bump longer than such a heap's grain is none
 constexpr double kFewestLeft = 5;       // grains of flank above an apron: over fewer the slope is a
                                         // grain's, below which the next one looks like an apron
+constexpr double kThinGrains = 2;       // height of an apron
 constexpr double kHighestApron = 1.0 / 3;  // of the height: what begins above is half of the flank
 
 /// Mean distance between upward crossings of the line by the edge: one to two grains.
@@ -32,8 +33,8 @@ double bump_length(const Descent& d, const Stretch& w) {
 
 /// Where an apron begins in the lower half of the stretch's height: a thin layer that runs out from
 /// the foot. There the slope over some grains has sunk under a third of the upper half's, or less
-/// than two grains of height are left though the foot is still far (twice as far as the flank's
-/// slope would take).
+/// than two grains of height are left though the foot is still far
+/// (twice as far as the flank's slope would take).
 std::size_t apron_start(const Descent& d, const Stretch& w, double middle, double grain) {
   const Stretch upper{w.first, rough_stretch(d, middle, d.smooth[w.first]).last};
   const double slope = upper.size() < 2 ? 0 : line_through(d, upper).slope;
@@ -42,7 +43,7 @@ std::size_t apron_start(const Descent& d, const Stretch& w, double middle, doubl
   const std::size_t beside = std::max({two_grains, upper.size() / 4, std::size_t{4}});
   for (std::size_t i = upper.last; i < w.last; ++i) {
     const double to_foot = d.u.back() - d.u[i];
-    if (d.smooth[i] < 2 * grain && to_foot > 2 * d.smooth[i] / -slope) return i;
+    if (d.smooth[i] < kThinGrains * grain && to_foot > 2 * d.smooth[i] / -slope) return i;
     const std::size_t half = std::min(i, beside);
     if (i + half >= d.u.size()) break;
     if (line_through(d, {i - half, i + half}).slope > slope / 3) return i;
@@ -158,13 +159,15 @@ void leave_apron_out(FlankFit& fit, Stretch& w, const Descent& d, double crest) 
   const std::size_t five_grains = column_at(d, d.u[w.first] + kFewestLeft * fit.grain) - w.first;
   if (start == w.last || start <= w.first + std::max(kFewestPoints, five_grains)) return;
   const double height = d.smooth[start] / crest;
-  if (height > kHighestApron) {
+  const bool is_thin = d.smooth[start] < kThinGrains * fit.grain;
+  if (height > kHighestApron && !is_thin) {
     fit.high_apron = height;
     return;
   }
-  w.last = start;
+  // Two large grains may be more than a third of the height.
+  w.last = std::max(start, rough_stretch(d, kHighestApron * crest, d.smooth[w.first]).last);
   fit.apron_cut = true;
-  fit.window_from = std::max(fit.window_from, height);
+  fit.window_from = std::max(fit.window_from, std::min(height, kHighestApron));
 }
 
 }  // namespace
@@ -182,7 +185,11 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
   fit.window_from = heights.low / crest;
   fit.window_to = heights.high / crest;
   const Stretch rough = rough_stretch(d, heights.low, heights.high);
-  fit.grain = options.grain.value_or(std::min(bump_length(d, rough), crest / kFewestGrains));
+  // An apron's bumps are longer: what may be one is left out.
+  const Stretch upper =
+      rough_stretch(d, std::max(heights.low, kHighestApron * crest), heights.high);
+  const Stretch& bumpy = upper.size() < kFewestPoints ? rough : upper;
+  fit.grain = options.grain.value_or(std::min(bump_length(d, bumpy), crest / kFewestGrains));
   Stretch w = smoothed_stretch(d, heights.low, heights.high, fit.grain);
   if (w.size() < kFewestPoints) w = rough;
   const double spacing = (d.u[w.last - 1] - d.u[w.first]) / static_cast<double>(w.size() - 1);

@@ -28,8 +28,8 @@ cv::Mat1b backdrop_corners(const WorkingPicture& work) {
   return corners;
 }
 
-/// What is taken for backdrop until proven otherwise: the upper part of the frame, or the corners of
-/// a box around the heap, and what a person has said.
+/// What is taken for backdrop until proven otherwise: the upper part of the frame, or the corners
+/// of a box around the heap, and what a person has said.
 cv::Mat1b backdrop_strip(const WorkingPicture& work) {
   cv::Mat1b strip = cv::Mat1b::zeros(work.valid_mask.size());
   cv::Rect top = work.frame;
