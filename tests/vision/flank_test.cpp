@@ -153,6 +153,18 @@ TEST(FitFlank, AnApronInTheWindowIsLeftOut) {
   EXPECT_LT(std::atan(-with.least_squares.slope), 23 * kDegree);
 }
 
+TEST(FitFlank, AHighWindowKeepsAboveAnApron) {
+  const double slope = std::tan(26 * kDegree);
+  const auto with_apron = [&](double u, double h) {
+    return u < 3 * 100 / slope ? std::max(h, 24 + std::sin(u / 4)) : 0;
+  };
+  const FlankFit flank = fit(right_flank(slope, with_apron), Side::right,
+                             {.window_from = 0.4, .window_to = 0.9, .grain = 24});
+  EXPECT_FALSE(flank.apron_cut);
+  EXPECT_NEAR(flank.height.back(), 40, 1.5);
+  EXPECT_NEAR(flank.angle_rad, 26 * kDegree, 0.1 * kDegree);
+}
+
 TEST(FitFlank, AFootThatIsHalfOfTheFlankIsNotCutOffButSaid) {
   // Level from .4 of the height on: what would be left is another angle.
   const auto with_foot = [](double u, double h) {

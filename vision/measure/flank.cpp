@@ -33,8 +33,8 @@ double bump_length(const Descent& d, const Stretch& w) {
 
 /// Where an apron begins in the lower half of the stretch's height: a thin layer that runs out from
 /// the foot. There the slope over some grains has sunk under a third of the upper half's, or less
-/// than two grains of height are left though the foot is still far
-/// (twice as far as the flank's slope would take).
+/// than two grains of height are left though the foot is still far (twice as far as the flank's
+/// slope would take).
 std::size_t apron_start(const Descent& d, const Stretch& w, double middle, double grain) {
   const Stretch upper{w.first, rough_stretch(d, middle, d.smooth[w.first]).last};
   const double slope = upper.size() < 2 ? 0 : line_through(d, upper).slope;
@@ -165,7 +165,10 @@ void leave_apron_out(FlankFit& fit, Stretch& w, const Descent& d, double crest) 
     return;
   }
   // Two large grains may be more than a third of the height.
-  w.last = std::max(start, rough_stretch(d, kHighestApron * crest, d.smooth[w.first]).last);
+  const std::size_t low_enough = rough_stretch(d, kHighestApron * crest, d.smooth[w.first]).last;
+  const std::size_t cut = std::max(start, low_enough);
+  if (cut >= w.last) return;
+  w.last = cut;
   fit.apron_cut = true;
   fit.window_from = std::max(fit.window_from, std::min(height, kHighestApron));
 }
