@@ -133,11 +133,15 @@ TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {
   EXPECT_THAT(reason([](Likeness& l) { l.climb = 0.2; }), HasSubstr("rises again by 20 %"));
   EXPECT_THAT(reason([](Likeness& l) { l.straight = 1.5; }), HasSubstr("1.5 times as long"));
   EXPECT_THAT(reason([](Likeness& l) { l.patchy = 0.3; }), HasSubstr("different colours"));
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }), HasSubstr("smooth"));
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25, l.sharpness = 0.4; }), IsEmpty());
+  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.2; }), HasSubstr("smooth"));
+  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.2, l.sharpness = 0.4; }), IsEmpty());
   // Fine grains make a fine edge.
   EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }, 4), IsEmpty());
   EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }, std::nullopt), HasSubstr("smooth"));
+  // A silhouette's edge has no noise.
+  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.15, l.noise = 0; }, std::nullopt), IsEmpty());
+  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.05, l.noise = 0; }, std::nullopt),
+              HasSubstr("smooth"));
 }
 
 }  // namespace

@@ -49,8 +49,10 @@ double filled_part(const Reading& reading, const WorkingPicture& work) {
   return under > 0 ? inside / under : 0;
 }
 
-/// Sum of all rises of the smoothed edge from the crest outwards.
-double climb_of(const Profile& profile, double grain) {
+/// Sum of all rises of the smoothed edge from the crest outwards, on the sides that are flanks.
+double climb_of(const Reading& reading) {
+  const Profile& profile = reading.profile;
+  const double grain = grain_of(reading);
   const auto grains = static_cast<std::size_t>(kSmoothingGrains * grain);
   const std::vector<double> smooth = moving_average(
       profile.height, std::max({std::size_t{3}, grains, profile.size() / kSmoothingParts}));
@@ -60,6 +62,8 @@ double climb_of(const Profile& profile, double grain) {
   for (std::size_t i = profile.crest + 1; i < smooth.size(); ++i) {
     right += std::max(0.0, smooth[i] - smooth[i - 1]);
   }
+  if (reading.left.status != FlankStatus::ok && reading.right.status == FlankStatus::ok) left = 0;
+  if (reading.right.status != FlankStatus::ok && reading.left.status == FlankStatus::ok) right = 0;
   return std::max(left, right) / std::max(1.0, profile.crest_height);
 }
 
@@ -79,6 +83,20 @@ cv::Mat1b core_of(const cv::Mat1b& body, int rim) {
   cv::erode(body, core, cv::getStructuringElement(cv::MORPH_RECT, {2 * rim + 1, 2 * rim + 1}),
             {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
   return core;
+}
+
+double noise_inside(const Reading& reading, const WorkingPicture& work) {
+  const cv::Mat1b core = core_of(reading.body.mask, kRim_px);
+  double sum = 0;
+  int pairs = 0;
+  for (int row = 0; row < core.rows; row += 2) {
+    for (int col = 0; col + 1 < core.cols; col += 2) {
+      if (core(row, col) == 0 || core(row, col + 1) == 0) continue;
+      sum += std::abs(work.lab(row, col + 1)[0] - work.lab(row, col)[0]);
+      ++pairs;
+    }
+  }
+  return pairs > 0 ? sum / pairs : 0;
 }
 
 double longest_edge_inside(const Reading& reading, const WorkingPicture& work) {
@@ -138,21 +156,31 @@ constexpr double kLeastFilled = 0.93;
 constexpr double kMostClimb = 0.08;
 constexpr double kLongestStraight = 0.4;
 constexpr double kMostPatchy = 0.1;
-// Roughness of an edge that no grains make: without a pattern on the body, with one of grains of
-// some size, and at all [working px].
+// Roughness of an edge that no grains make: without a pattern on the body of a photograph, with one
+// of grains of some size, and at all [working px].
 constexpr double kSmoothEdge_px = 0.3;
-constexpr double kSmoothGrain = 0.035;
+constexpr double kSmoothGrain = 0.03;
 constexpr double kBlurredGrain = 0.015;  // ... of the grain, where the edge is less sharp than
-constexpr double kBlurred = 0.5;
-constexpr double kSharpEdge_px = 0.14;
+constexpr double kBlurred = 0.65;
+constexpr double kSharpEdge_px = 0.1;
+constexpr double kNoNoise =
+    0.05;  // of lightness, from pixel to pixel: a camera's is ten times that
+
+/// Below it an edge is smoother than grains make it.
+double least_roughness(const Likeness& likeness, std::optional<double> grain) {
+  if (!grain) return likeness.noise < kNoNoise ? kSharpEdge_px : kSmoothEdge_px;
+  const double of_grain = likeness.sharpness < kBlurred ? kBlurredGrain : kSmoothGrain;
+  return std::max(kSharpEdge_px, of_grain * *grain);
+}
 
 }  // namespace
 
 Likeness likeness_of(const Reading& reading, const WorkingPicture& work) {
   return {.filled = filled_part(reading, work),
-          .climb = climb_of(reading.profile, grain_of(reading)),
+          .climb = climb_of(reading),
           .straight = longest_edge_inside(reading, work),
           .rough_px = std::max(roughness_of(reading.left), roughness_of(reading.right)),
+          .noise = noise_inside(reading, work),
           .sharpness = reading.edge_sharpness,
           .patchy = patchy_part(reading, work)};
 }
@@ -176,9 +204,7 @@ std::string reason_against_heap(const Likeness& likeness, std::optional<double> 
     return fmt::format("it has parts of different colours ({:.0f} % of it lies between them)",
                        100 * likeness.patchy);
   }
-  const double of_grain = likeness.sharpness < kBlurred ? kBlurredGrain : kSmoothGrain;
-  const double roughest = grain ? of_grain * *grain : kSmoothEdge_px;
-  if (likeness.rough_px < std::max(kSharpEdge_px, roughest)) {
+  if (likeness.rough_px < least_roughness(likeness, grain)) {
     return "its edge is as smooth as no edge of grains is";
   }
   return {};

@@ -16,6 +16,7 @@ struct Likeness {
   double straight = 0;   ///< longest straight edge inside the body, of the crest's height
   double rough_px = 1;   ///< standard deviation of the fitted edge about its own moving average
                          ///< [working px]; of the rougher side
+  double noise = 1;      ///< mean step of lightness from pixel to pixel inside; 0 in silhouettes
   double sharpness = 1;  ///< of the edge (Reading::edge_sharpness): a blurred one is less rough
   double patchy = 0;  ///< part of the body where its colour changes within a tenth of the height:
                       ///< a thing of several parts, not one material
