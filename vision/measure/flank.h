@@ -46,8 +46,8 @@ struct FlankOptions {
 };
 
 /// Fits lines to the stretch of a side on which the edge has the window's heights. The stretch ends
-/// higher where the frame cuts the side off below a tenth of the window, and where an apron begins
-/// below a third of the heap's height.
+/// higher where the frame cuts off up to a fifth of the window, and where an apron begins below a
+/// third of the heap's height.
 FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& options);
 
 }  // namespace repose::vision
