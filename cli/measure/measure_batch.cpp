@@ -57,9 +57,7 @@ MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
       measured.proposal = vision::propose_hint(picture, measured.used);
     }
     name_options(measured.angle, kNames);
-    if (plan.saves_hints) {
-      vision::save_hints(measured.used, plan.pictures[index], plan.mask_file);
-    }
+    if (plan.saves_hints) vision::save_hints(measured.used, plan.pictures[index]);
     if (!plan.overlays.empty()) draw(picture, plan, index, measured);
     if (plan.keeps_overlays) {
       measured.overlay = calibrate::report::overlay_for_page(

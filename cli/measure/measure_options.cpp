@@ -57,9 +57,9 @@ void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
   }
   read_places("--keep", arguments.keep, hints.keep, plan.errors);
   read_places("--drop", arguments.drop, hints.drop, plan.errors);
-  plan.mask_file = arguments.mask_file;
   plan.saves_hints = arguments.saves_hints;
   if (arguments.mask_file.empty()) return;
+  hints.mask_file = arguments.mask_file;
   try {
     hints.mask = vision::read_picture(arguments.mask_file);
   } catch (const std::invalid_argument& error) {

@@ -15,7 +15,6 @@ struct MeasurePlan {
   std::vector<std::filesystem::path> overlays;  ///< one a picture, or none
   bool keeps_overlays = false;                  ///< in memory, for a report
   vision::MeasureOptions options;
-  std::filesystem::path mask_file;
   bool saves_hints = false;
   int threads = 1;
 

@@ -48,9 +48,9 @@ TEST_F(HintFile, WhatIsSavedIsReadAgain) {
   options.hints.drop = {{3, 4}};
   options.excluded = {{5, 6, 7, 8}};
   options.camera_pitch_rad = 4 * kDegree;
-  const auto mask = folder_.path() / "a mask \"here\".png";
-  write_picture(mask, picture_of(cv::Mat3b(20, 30, cv::Vec3b(9, 9, 9))));
-  save_hints(options, picture(), mask);
+  options.hints.mask_file = folder_.path() / "a mask \"here\".png";
+  write_picture(options.hints.mask_file, picture_of(cv::Mat3b(20, 30, cv::Vec3b(9, 9, 9))));
+  save_hints(options, picture());
   for (int time = 0; time < 2; ++time) {  // what is given again is there once
     const MeasureOptions again = read(time == 0 ? MeasureOptions{} : options);
     EXPECT_EQ(again.hints.source, "heap.jpg.repose.toml");
@@ -64,6 +64,15 @@ TEST_F(HintFile, WhatIsSavedIsReadAgain) {
     EXPECT_NEAR(*again.camera_pitch_rad, 4 * kDegree, 1e-6);
     EXPECT_EQ(again.hints.mask.width, 30);
   }
+}
+
+TEST_F(HintFile, WhatItSaysIsKeptWhenItIsSavedAgain) {
+  write_picture(folder_.path() / "mask.png", picture_of(cv::Mat3b(20, 30, cv::Vec3b(9, 9, 9))));
+  base::write_whole_file(hint_file_of(picture()),
+                         "ground = [0, 18, 30, 18]\nmask = \"mask.png\"\n");
+  save_hints(read(), picture());
+  EXPECT_EQ(read().hints.mask.width, 30);
+  EXPECT_TRUE(read().hints.ground);
 }
 
 TEST_F(HintFile, WhatIsGivenStandsAboveTheFile) {

@@ -196,11 +196,14 @@ MeasureOptions with_saved_hints(MeasureOptions options, const fs::path& picture)
   if (pitch_deg && !options.camera_pitch_rad) options.camera_pitch_rad = *pitch_deg * kDegree;
   const std::string mask = reader.text("mask");
   reader.throw_if_any();
-  if (!mask.empty() && hints.mask.empty()) hints.mask = read_picture(picture.parent_path() / mask);
+  if (!mask.empty() && hints.mask.empty()) {
+    hints.mask_file = picture.parent_path() / mask;
+    hints.mask = read_picture(hints.mask_file);
+  }
   return options;
 }
 
-void save_hints(const MeasureOptions& options, const fs::path& picture, const fs::path& mask) {
+void save_hints(const MeasureOptions& options, const fs::path& picture) {
   const Hints& hints = options.hints;
   std::string text =
       fmt::format("# What a person says of {}, in its pixels: read whenever it is measured.\n",
@@ -216,9 +219,9 @@ void save_hints(const MeasureOptions& options, const fs::path& picture, const fs
   }
   if (!hints.keep.empty()) add("keep", list_of(hints.keep));
   if (!hints.drop.empty()) add("drop", list_of(hints.drop));
-  if (!mask.empty()) {
+  if (!hints.mask_file.empty()) {
     const fs::path beside = fs::absolute(picture).parent_path();
-    const fs::path near = fs::proximate(fs::absolute(mask), beside);
+    const fs::path near = fs::proximate(fs::absolute(hints.mask_file), beside);
     add("mask", (std::ostringstream() << toml::value<std::string>(near.generic_string())).str());
   }
   if (!options.excluded.empty()) add("exclude", list_of(options.excluded));

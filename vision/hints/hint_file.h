@@ -18,9 +18,8 @@ std::filesystem::path hint_file_of(const std::filesystem::path& picture);
 MeasureOptions with_saved_hints(MeasureOptions options, const std::filesystem::path& picture);
 
 /// Writes the hints, excluded boxes and pitch of the options into the file beside the picture, for
-/// the next time. `mask` names the picture that the hints' mask was read from; empty without one.
+/// the next time. Of a mask the name of its file.
 /// @throws std::invalid_argument  when the file cannot be written.
-void save_hints(const MeasureOptions& options, const std::filesystem::path& picture,
-                const std::filesystem::path& mask);
+void save_hints(const MeasureOptions& options, const std::filesystem::path& picture);
 
 }  // namespace repose::vision

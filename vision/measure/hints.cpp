@@ -108,6 +108,7 @@ Hints hints_within(const Hints& hints, const Box& box) {
                .keep = moved(hints.keep, box),
                .drop = moved(hints.drop, box),
                .mask = {},
+               .mask_file = hints.mask_file,
                .source = hints.source};
   if (inside.ground) inside.ground = {moved(hints.ground->from, box), moved(hints.ground->to, box)};
   if (!hints.mask.empty()) inside.mask = part_of(hints.mask, box);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct Hints {
   /// As large as the picture: light is on the heap, dark is not, grey (a quarter to three quarters)
   /// leaves it open. Empty: none.
   Picture mask = {};
+  std::filesystem::path mask_file = {};  ///< that the mask was read from
   std::string source = {};  ///< the file that they were read from; empty when given otherwise
 
   bool empty() const;
