@@ -73,17 +73,6 @@ TEST(Likeness, ASmoothTriangleIsFlagged) {
               Not(Contains(Field(&Warning::code, "unlike_a_heap"))));
 }
 
-TEST(Likeness, AStripedRoofIsPatchy) {
-  const Likeness roof = likeness_in(painted([](cv::Mat3b& picture) {
-    fill(picture, {{120, 400}, {320, 280}, {520, 400}}, kBrown);
-    for (int x = 180; x < 480; x += 120) {
-      const int top = 400 - (200 - std::abs(x + 60 - 320)) * 2 / 5;
-      fill(picture, {{x, top}, {x + 60, top}, {x + 60, 400}, {x, 400}}, cv::Scalar(60, 60, 200));
-    }
-  }));
-  EXPECT_GT(roof.patchy, 0.1);
-}
-
 /// A body with a level base at y = 100 and an upper edge at `top`, empty from `gap_from` down to it
 /// between the columns 80 and 220.
 Reading body_with_gap(int top, int gap_from) {
@@ -120,10 +109,21 @@ TEST(Likeness, AnEdgeThatRisesAgainClimbs) {
   EXPECT_NEAR(likeness_of(reading, work).climb, 20.0 / 80, 0.02);
 }
 
+TEST(Likeness, TreadsOfStairsAreLevelAndASlopeIsNot) {
+  const WorkingPicture work = work_of(cv::Mat3b(120, 300, cv::Vec3b(90, 90, 90)));
+  Reading reading = body_with_gap(20, 100);
+  FlankFit& flank = reading.right;
+  flank.status = FlankStatus::ok;
+  flank.robust.slope = -0.5;
+  for (int i = 0; i < 200; ++i) flank.height.push_back(100 - 0.5 * i);
+  EXPECT_EQ(likeness_of(reading, work).level, 0);
+  for (int i = 0; i < 200; ++i) flank.height.at(i) = 100 - 10 * (i / 20);
+  EXPECT_NEAR(likeness_of(reading, work).level, 1 - 5.0 / 20, 0.03);  // but for five at each riser
+}
+
 TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {
   const Likeness heap;
   EXPECT_THAT(reason_against_heap(heap, 8), IsEmpty());
-  EXPECT_THAT(reason_against_heap(heap, std::nullopt), IsEmpty());
   const auto reason = [](auto change, std::optional<double> grain = 8) {
     Likeness other;
     change(other);
@@ -131,17 +131,37 @@ TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {
   };
   EXPECT_THAT(reason([](Likeness& l) { l.filled = 0.9; }), HasSubstr("10 % of what lies under"));
   EXPECT_THAT(reason([](Likeness& l) { l.climb = 0.2; }), HasSubstr("rises again by 20 %"));
-  EXPECT_THAT(reason([](Likeness& l) { l.straight = 1.5; }), HasSubstr("1.5 times as long"));
-  EXPECT_THAT(reason([](Likeness& l) { l.patchy = 0.3; }), HasSubstr("different colours"));
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.2; }), HasSubstr("smooth"));
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.2, l.sharpness = 0.4; }), IsEmpty());
-  // Fine grains make a fine edge.
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }, 4), IsEmpty());
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.25; }, std::nullopt), HasSubstr("smooth"));
-  // A silhouette's edge has no noise.
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.15, l.noise = 0; }, std::nullopt), IsEmpty());
-  EXPECT_THAT(reason([](Likeness& l) { l.rough_px = 0.05, l.noise = 0; }, std::nullopt),
-              HasSubstr("smooth"));
+  EXPECT_THAT(reason([](Likeness& l) { l.level = 0.8; }), HasSubstr("80 % of its edge is level"));
+  EXPECT_THAT(reason([](Likeness& l) { l.inside.straight = 1.5; }), HasSubstr("1.5 times as long"));
+  EXPECT_THAT(reason([](Likeness& l) { l.inside.patchy = 0.3; }), HasSubstr("different colours"));
+  EXPECT_THAT(reason([](Likeness& l) { l.inside.aligned = 0.6; }), HasSubstr("straight lines"));
+  EXPECT_THAT(reason([](Likeness& l) { l.inside.crossed = 0.6; }), HasSubstr("straight lines"));
+  EXPECT_THAT(reason([](Likeness& l) { l.inside.regular = 0.6; }),
+              HasSubstr("60 % of the pattern"));
+  EXPECT_THAT(reason([](Likeness& l) { l.inside.noise = 0.2; }), HasSubstr("no grains"));
+  EXPECT_THAT(reason([](Likeness&) {}, std::nullopt), HasSubstr("no grains"));
+}
+
+TEST(ReasonAgainstHeap, AnEdgeIsAsRoughAsItsGrains) {
+  const auto reason = [](double rough_px, std::optional<double> grain, double sharpness = 1) {
+    Likeness edge;
+    edge.rough_px = rough_px;
+    edge.sharpness = sharpness;
+    return reason_against_heap(edge, grain);
+  };
+  EXPECT_THAT(reason(0.2, 8), HasSubstr("smooth"));
+  EXPECT_THAT(reason(0.2, 8, 0.4), IsEmpty());  // blurred
+  EXPECT_THAT(reason(0.4, 8), IsEmpty());
+  EXPECT_THAT(reason(0.12, 4), IsEmpty());  // fine grains make a fine edge
+}
+
+TEST(ReasonAgainstHeap, ASilhouetteShowsNoGrainsButItsEdgeDoes) {
+  Likeness silhouette;
+  silhouette.inside = {.noise = 0, .spread = 0, .aligned = 0.9, .crossed = 0.9, .regular = 0.9};
+  silhouette.rough_px = 0.15;
+  EXPECT_THAT(reason_against_heap(silhouette, std::nullopt), IsEmpty());
+  silhouette.rough_px = 0.05;
+  EXPECT_THAT(reason_against_heap(silhouette, std::nullopt), HasSubstr("smooth"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "vision/measure/body_texture.h"
 #include "vision/measure/reading.h"
 
 namespace repose::vision {
@@ -13,13 +14,11 @@ struct Likeness {
                          ///< wheels and branches leave gaps
   double climb = 0;      ///< by how much the smoothed edge rises again on its way down from the
                          ///< crest, of the crest's height; the larger of the two sides
-  double straight = 0;   ///< longest straight edge inside the body, of the crest's height
   double rough_px = 1;   ///< standard deviation of the fitted edge about its own moving average
                          ///< [working px]; of the rougher side
-  double noise = 1;      ///< mean step of lightness from pixel to pixel inside; 0 in silhouettes
+  double level = 0;      ///< part of the fitted edge that is level; of the more level side
   double sharpness = 1;  ///< of the edge (Reading::edge_sharpness): a blurred one is less rough
-  double patchy = 0;  ///< part of the body where its colour changes within a tenth of the height:
-                      ///< a thing of several parts, not one material
+  BodyTexture inside;
 };
 
 /// Of a reading that has a flank.
