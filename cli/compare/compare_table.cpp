@@ -71,9 +71,10 @@ std::string difference_cell(const std::optional<vision::AngleDifference>& angle)
   return angle ? difference_cell(*angle) : kNothing;
 }
 
-std::string verdict_text(const vision::AngleDifference& angle, double margin_rad) {
+std::string verdict_text(const std::optional<vision::AngleDifference>& angle, double margin_rad) {
+  if (!angle) return "cannot tell: an angle is refused. The outlines are compared all the same.";
   const double margin = to_degrees(margin_rad);
-  switch (angle.verdict) {
+  switch (angle->verdict) {
     case vision::Agreement::equivalent:
       return fmt::format("equivalent: the angles differ by less than {:g}°", margin);
     case vision::Agreement::different:
@@ -129,7 +130,7 @@ std::string measured_text(const ComparePlan& plan, const vision::HeapComparison&
   table.add_row(lengths.pair_row("base", comparison.base));
   table.add_row(lengths.pair_row("  left of the axis", comparison.left.run_out));
   table.add_row(lengths.pair_row("  right of the axis", comparison.right.run_out));
-  table.add_note("", verdict_text(*comparison.angle, plan.comparing.margin_rad));
+  table.add_note("", verdict_text(comparison.angle, plan.comparing.margin_rad));
   return table.text(columns);
 }
 
@@ -137,7 +138,7 @@ std::string warnings_text(const vision::HeapComparison& comparison, int columns)
   std::string text;
   if (comparison.status == vision::MeasureStatus::flagged) {
     text +=
-        paragraph("! ", "A picture is flagged: look at it before you use the verdict.", columns);
+        paragraph("! ", "A picture is in doubt: look at it before you use the verdict.", columns);
   }
   for (const vision::CompareWarning& warning : comparison.warnings) {
     const char* whose = !warning.picture        ? "! "

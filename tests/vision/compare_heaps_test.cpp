@@ -227,6 +227,36 @@ TEST(CompareHeaps, ARefusedPictureIsRefusedWithItsReason) {
   EXPECT_THAT(compare_heaps(nothing, nothing).reason, HasSubstr("first picture: no heap"));
 }
 
+/// A heap of which only the angle is refused.
+ReposeAngle without_angle(const TriangleHeap& heap) {
+  ReposeAngle result = measured(heap);
+  result.status = MeasureStatus::refused;
+  result.reason = "the left side is round.";
+  result.outline_holds = true;
+  result.angle_rad.reset();
+  result.uncertainty_rad.reset();
+  result.left.angle_rad.reset();
+  result.right.angle_rad.reset();
+  return result;
+}
+
+TEST(CompareHeaps, OutlinesAreComparedWhereOnlyAnAngleIsRefused) {
+  const HeapComparison c = compare_heaps(measured({}), without_angle({}), scaled(1e-3, 1e-3));
+  EXPECT_EQ(c.status, MeasureStatus::flagged);
+  EXPECT_NEAR(*c.iou, 1, kExact);
+  EXPECT_TRUE(c.left.run_out[1]);
+  EXPECT_FALSE(c.angle);
+  EXPECT_TRUE(c.angle_rad[0]);
+  EXPECT_FALSE(c.angle_rad[1]);
+  ASSERT_TRUE(warns(c, "angle_refused"));
+  EXPECT_THAT(c.warnings[0].warning.message, HasSubstr("the left side is round."));
+  EXPECT_EQ(c.warnings[0].picture, 1);
+  const HeapComparison one_sided =
+      compare_heaps(without_angle({.has_left = false}), measured({}), scaled(1e-3, 1e-3));
+  EXPECT_FALSE(one_sided.angle);
+  EXPECT_EQ(one_sided.right.cover, Cover::whole);
+}
+
 TEST(CompareHeaps, PicturesBringTheirWarningsAndFlags) {
   ReposeAngle flagged = measured({});
   flagged.status = MeasureStatus::flagged;

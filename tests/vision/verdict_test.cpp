@@ -109,6 +109,20 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"ragged", [](Case& c) { c.choice.best.right.least_squares.r2 = 0.7; }, "no line"}),
     name_of);
 
+TEST(Judge, AnOutlineHoldsWhereOnlyAFlankIsRefused) {
+  Case round;
+  round.choice.best.left.bend_rad = -20 * kDegree;
+  EXPECT_TRUE(round.judged().outline_holds);
+  Case on_legs = round;
+  on_legs.choice.likeness.filled = 0.8;
+  EXPECT_FALSE(on_legs.judged().outline_holds);
+  on_legs.options.hints.heap = Box{.x = 0, .y = 0, .width = 9, .height = 9};
+  EXPECT_TRUE(on_legs.judged().outline_holds);
+  Case faint = round;
+  faint.choice.best.score = 0.1;
+  EXPECT_FALSE(faint.judged().outline_holds);
+}
+
 class Flagged : public ::testing::TestWithParam<Error> {};
 
 TEST_P(Flagged, KeepsTheNumberAndAsksForALook) {

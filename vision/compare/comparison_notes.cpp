@@ -62,6 +62,7 @@ void note_angles(HeapComparison& result, const Measured& measured, const Compare
     note(result, "same_picture",
          "Both are the same picture: the same errors, so their difference has none.");
   }
+  if (!result.angle) return;
   const bool left = result.left.angle.has_value();
   const bool right = result.right.angle.has_value();
   if (!left && !right) {
@@ -86,9 +87,13 @@ void note_angles(HeapComparison& result, const Measured& measured, const Compare
 
 void add_notes(HeapComparison& result, const Measured& measured, const CompareOptions& options) {
   for (const int picture : {0, 1}) {
-    for (const Warning& warning : measured[static_cast<std::size_t>(picture)]->warnings) {
-      result.warnings.push_back({picture, warning});
+    const ReposeAngle& heap = *measured[static_cast<std::size_t>(picture)];
+    if (heap.status == MeasureStatus::refused) {
+      result.warnings.push_back(
+          {picture,
+           {"angle_refused", "Its outline is compared, its angle is refused: " + heap.reason}});
     }
+    for (const Warning& warning : heap.warnings) result.warnings.push_back({picture, warning});
   }
   note_side(result, result.left, "left", {&measured[0]->left, &measured[1]->left});
   note_side(result, result.right, "right", {&measured[0]->right, &measured[1]->right});

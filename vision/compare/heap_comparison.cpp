@@ -123,11 +123,12 @@ void compare_angles(HeapComparison& result, const Measured& measured,
   for (const std::size_t i : {0, 1}) {
     const ReposeAngle& heap = *measured[i];
     const Flank& one = left ? heap.left : heap.right;
-    const bool takes_one = left != right;
+    const bool takes_one = left != right && one.angle_rad;
     result.angle_rad[i] = takes_one ? one.angle_rad : heap.angle_rad;
     result.uncertainty_rad[i] = takes_one ? one.uncertainty_rad : heap.uncertainty_rad;
-    angles[i] = {result.angle_rad[i].value(), result.uncertainty_rad[i].value()};
+    angles[i] = {result.angle_rad[i].value_or(0), result.uncertainty_rad[i].value_or(0)};
   }
+  if (!result.angle_rad[0] || !result.angle_rad[1]) return;
   result.angle =
       angle_difference(angles[0], angles[1], options.margin_rad, options.same_measurement);
 }
@@ -162,10 +163,14 @@ void compare_outlines(HeapComparison& result, const Measured& measured, const Sk
   forget_made_equal(result);
 }
 
+bool has_outline(const ReposeAngle* measured) {
+  return measured->status != MeasureStatus::refused || measured->outline_holds;
+}
+
 HeapComparison refused(const Measured& measured) {
   HeapComparison result;
   for (const std::size_t i : {0, 1}) {
-    if (measured[i]->status != MeasureStatus::refused) continue;
+    if (has_outline(measured[i])) continue;
     if (!result.reason.empty()) result.reason += '\n';
     result.reason +=
         fmt::format("{} picture: {}", i == 0 ? "first" : "second", measured[i]->reason);
@@ -178,7 +183,7 @@ void check(const CompareOptions& options) {
   if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
 }
 
-bool is_flagged(const ReposeAngle* measured) { return measured->status == MeasureStatus::flagged; }
+bool is_doubtful(const ReposeAngle* measured) { return measured->status != MeasureStatus::ok; }
 
 }  // namespace
 
@@ -210,12 +215,10 @@ HeapComparison compare_heaps(const ReposeAngle& first, const ReposeAngle& second
                              const CompareOptions& options) {
   check(options);
   const Measured measured = {&first, &second};
-  if (first.status == MeasureStatus::refused || second.status == MeasureStatus::refused) {
-    return refused(measured);
-  }
+  if (!has_outline(&first) || !has_outline(&second)) return refused(measured);
   HeapComparison result;
-  const bool any_flagged = std::any_of(measured.begin(), measured.end(), is_flagged);
-  result.status = any_flagged ? MeasureStatus::flagged : MeasureStatus::ok;
+  const bool is_any_doubtful = std::any_of(measured.begin(), measured.end(), is_doubtful);
+  result.status = is_any_doubtful ? MeasureStatus::flagged : MeasureStatus::ok;
 
   const Aligned aligned = align(measured);
   result.is_aligned_by_crest = aligned.by_crest;

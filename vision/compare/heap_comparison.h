@@ -117,8 +117,9 @@ struct CompareWarning {
 };
 
 struct HeapComparison {
-  MeasureStatus status = MeasureStatus::refused;  ///< the worse of the two pictures'
-  std::string reason;                             ///< when refused
+  /// The worse of the two pictures'; flagged where only a flank's angle was refused.
+  MeasureStatus status = MeasureStatus::refused;
+  std::string reason;  ///< when refused
   LengthUnit unit = LengthUnit::root_area;
   std::array<double, 2> unit_per_px = {};
 
@@ -141,7 +142,7 @@ struct HeapComparison {
   bool is_aligned_by_crest = false;
 
   /// Mean of both sides where both pictures have both, else the side that both have, else the one
-  /// that each has. Empty only when refused.
+  /// that each has. Empty when a picture has no angle.
   std::optional<AngleDifference> angle;
   std::array<std::optional<double>, 2> angle_rad;        ///< what was subtracted
   std::array<std::optional<double>, 2> uncertainty_rad;  ///< 95 % half-widths

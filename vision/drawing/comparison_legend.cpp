@@ -23,7 +23,9 @@ std::string length_text(double length, LengthUnit unit) {
                      unit == LengthUnit::height ? "height" : "area's square root");
 }
 
-std::string verdict_text(const AngleDifference& angle, double margin_rad) {
+std::string verdict_text(const std::optional<AngleDifference>& compared, double margin_rad) {
+  if (!compared) return "an angle is refused: angles not compared";
+  const AngleDifference& angle = *compared;
   const char* verdict = angle.verdict == Agreement::equivalent  ? "equivalent"
                         : angle.verdict == Agreement::different ? "different"
                                                                 : "cannot tell";
@@ -40,12 +42,14 @@ std::string outline_text(const HeapComparison& comparison) {
 
 std::string heap_text(const HeapComparison& comparison, const ComparisonOverlayNotes& notes,
                       std::size_t heap) {
+  const std::optional<double>& angle_rad = comparison.angle_rad[heap];
+  if (!angle_rad) return notes.titles[heap] + " · angle refused";
   return fmt::format("{} · {}", notes.titles[heap],
-                     angle_text(*comparison.angle_rad[heap], comparison.uncertainty_rad[heap]));
+                     angle_text(*angle_rad, comparison.uncertainty_rad[heap]));
 }
 
 std::vector<Text> remarks(const HeapComparison& comparison, const ComparisonOverlayNotes& notes) {
-  std::vector<Text> texts = {{verdict_text(*comparison.angle, notes.margin_rad), kInk},
+  std::vector<Text> texts = {{verdict_text(comparison.angle, notes.margin_rad), kInk},
                              {outline_text(comparison), kInk}};
   for (const CompareWarning& warning : comparison.warnings) {
     const char* whose = !warning.picture ? "" : *warning.picture == 0 ? "first: " : "second: ";

@@ -95,6 +95,7 @@ struct NamedAngle {
 struct ReposeAngle {
   MeasureStatus status = MeasureStatus::refused;
   std::string reason;               ///< when refused: what is wrong and how to mend it
+  bool outline_holds = false;       ///< when refused: only a flank's angle is, not the outline
   std::optional<double> angle_rad;  ///< mean of the sides that exist
   std::optional<double> uncertainty_rad;
   Flank left;

@@ -50,9 +50,9 @@ double confidence_of(const Choice& choice) {
   return boundary * std::exp(-disagreement * disagreement);
 }
 
-/// Why there is no number at all; empty when there is one.
-std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options,
-                             double confidence) {
+/// Why what was found is nothing to measure; empty when it is.
+std::string reason_against_picture(const Choice& choice, const MeasureOptions& options,
+                                   double confidence) {
   const Reading& best = choice.best;
   if (best.body.mask.empty()) {
     return "no heap stands out from the backdrop. Fix: use a plain backdrop of another colour than "
@@ -89,8 +89,12 @@ std::string reason_to_refuse(const Choice& choice, const MeasureOptions& options
     return "the thing found is hardly higher than its grains: no heap. Fix: picture a heap at "
            "least 10 grains high.";
   }
+  return {};
+}
+
+std::string reason_against_flanks(const Reading& best) {
   for (const Side side : {Side::left, Side::right}) {
-    const std::string reason = reason_against(best.flank(side), side);
+    std::string reason = reason_against(best.flank(side), side);
     if (!reason.empty()) return reason;
   }
   return {};
@@ -105,11 +109,15 @@ void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
   note(result, "hints", fmt::format("A person has said{}: {}.", where, what));
 }
 
-/// Flags what does not look like a heap, unless a person has said that it is one.
-void warn_of_likeness(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
+/// Why it may be no heap; empty when a person has said that it is one.
+std::string reason_to_doubt(const Choice& choice, const MeasureOptions& options) {
   const Hints& hints = options.hints;
-  if (hints.heap || !hints.keep.empty() || hints.mask.width > 0) return;
-  const std::string reason = reason_against_heap(choice.likeness, choice.best.grain);
+  if (hints.heap || !hints.keep.empty() || hints.mask.width > 0) return {};
+  return reason_against_heap(choice.likeness, choice.best.grain);
+}
+
+void warn_of_likeness(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
+  const std::string reason = reason_to_doubt(choice, options);
   if (reason.empty()) return;
   flag(result, "unlike_a_heap",
        fmt::format("What was found may be no heap: {}. If it is one, say so with a heap box.",
@@ -208,10 +216,16 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
 
 void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
   result.status = MeasureStatus::ok;
+  result.outline_holds = false;
   result.confidence = confidence_of(choice);
-  const std::string reason = reason_to_refuse(choice, options, result.confidence);
-  if (!reason.empty()) {
-    refuse(result, reason);
+  if (std::string reason = reason_against_picture(choice, options, result.confidence);
+      !reason.empty()) {
+    refuse(result, std::move(reason));
+    return;
+  }
+  if (std::string reason = reason_against_flanks(choice.best); !reason.empty()) {
+    refuse(result, std::move(reason));
+    result.outline_holds = reason_to_doubt(choice, options).empty();
     return;
   }
   if (result.confidence < kDoubtfulConfidence) {
