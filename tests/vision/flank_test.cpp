@@ -177,6 +177,15 @@ TEST(FitFlank, AFootThatIsHalfOfTheFlankIsNotCutOffButSaid) {
   EXPECT_EQ(flank.window_from, 0.2);
 }
 
+TEST(FitFlank, ALedgeUnderWhichTheFlankGoesOnIsNoFoot) {
+  const auto with_ledge = [](double u, double) {  // 2.5 grains wide, at .48 of the height
+    return std::max(0.0, 100 - 0.5 * (u < 104 ? u : std::max(104.0, u - 30)));
+  };
+  const FlankFit flank = fit(right_flank(0.5, with_ledge), Side::right, {.grain = 12});
+  EXPECT_FALSE(flank.apron_cut);
+  EXPECT_FALSE(flank.high_apron);
+}
+
 TEST(FitFlank, AStepBetweenLargeGrainsOfUnknownSizeIsNoApron) {
   // Three grains high: over the length of one of them the edge may lie level anywhere.
   for (double phase = 0; phase < 6; phase += 0.5) {

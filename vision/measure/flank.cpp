@@ -161,7 +161,9 @@ void leave_apron_out(FlankFit& fit, Stretch& w, const Descent& d, double crest) 
   const double height = d.smooth[start] / crest;
   const bool is_thin = d.smooth[start] < kThinGrains * fit.grain;
   if (height > kHighestApron && !is_thin) {
-    fit.high_apron = height;
+    const double below = line_through(d, {start, w.last}).slope;
+    const double above = line_through(d, {w.first, start}).slope;
+    if (below > above / 2) fit.high_apron = height;  // else a ledge, under which the flank goes on
     return;
   }
   // Two large grains may be more than a third of the height.
