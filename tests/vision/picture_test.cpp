@@ -269,7 +269,7 @@ TEST_F(PictureFile, UnreadableFileIsSaid) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const auto file = folder_.write("locked.png", coded(".png", noise(4, 4)));
   std::filesystem::permissions(file, std::filesystem::perms::none);
-  EXPECT_THAT(error_of(file), HasSubstr("cannot be opened"));
+  EXPECT_THAT(error_of(file), HasSubstr("cannot be read"));
 }
 
 Picture striped(int width, int height) {
