@@ -230,6 +230,43 @@ TEST_F(PictureFile, DamageIsRefusedWithoutPrinting) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
+/// A little-endian number of two bytes more or less, at a place.
+Bytes with_change(Bytes bytes, std::size_t at, int change) {
+  const int number = bytes.at(at) + 256 * bytes.at(at + 1) + change;
+  bytes[at] = static_cast<std::uint8_t>(number);
+  bytes[at + 1] = static_cast<std::uint8_t>(number / 256);
+  return bytes;
+}
+
+/// Where the value of a tag stands in a little-endian TIFF.
+std::size_t tiff_value(const Bytes& bytes, int tag) {
+  std::size_t entry = bytes.at(4) + 256U * bytes.at(5) + 65536U * bytes.at(6) + 2;
+  while (bytes.at(entry) + 256 * bytes.at(entry + 1) != tag) entry += 12;
+  return entry + 8;
+}
+
+TEST_F(PictureFile, SizesThatTheFileDoesNotHoldAreRefused) {
+  const cv::Mat samples = noise(64, 48);
+  const Bytes bmp = coded(".bmp", samples), webp = coded(".webp", samples);
+  Bytes tiff;
+  cv::imencode(".tif", samples, tiff, {cv::IMWRITE_TIFF_COMPRESSION, 1});  // not packed
+  constexpr int kTiffWidth = 256, kTiffHeight = 257;
+  constexpr std::size_t kBmpWidth = 18, kBmpHeight = 22, kRiffLength = 4;
+  EXPECT_EQ(read("whole.bmp", bmp).width, 64);
+  EXPECT_EQ(read("whole.tif", tiff).width, 64);
+  EXPECT_EQ(read("whole.webp", webp).width, 64);
+  for (const int change : {-16, -1}) {
+    for (const Bytes& bytes :
+         {with_change(bmp, kBmpWidth, 8 * change), with_change(bmp, kBmpHeight, change),
+          with_change(tiff, tiff_value(tiff, kTiffWidth), change),
+          with_change(tiff, tiff_value(tiff, kTiffHeight), change),
+          with_change(webp, kRiffLength, 2 * change)}) {
+      EXPECT_THAT(error_of("wrong", bytes), AllOf(HasSubstr("damaged"), HasSubstr("Fix: ")))
+          << change;
+    }
+  }
+}
+
 TEST_F(PictureFile, GiantClaimsAreRefusedBeforeMemoryIsAskedFor) {
   for (const Bytes& bytes :
        {testing::png_that_claims(50'000, 50'000), testing::jpeg_that_claims(50'000, 50'000),

@@ -46,6 +46,13 @@ void check_length(Bytes bytes) {
       pixels_from + row_bytes * height > static_cast<std::int64_t>(bytes.size())) {
     refuse_damaged();
   }
+  // What follows the pixels may be a colour profile; then the header says how many bytes they take.
+  constexpr std::int64_t kMostPadding = 4;
+  const std::int64_t behind = static_cast<std::int64_t>(bytes.size()) - pixels_from;
+  const std::int64_t said = number_at(bytes, 34);
+  if (behind - row_bytes * height > kMostPadding && said != row_bytes * height) {
+    check_claimed_bytes(width, height, row_bytes * height, said > 0 ? said : behind);
+  }
 }
 
 }  // namespace
