@@ -16,18 +16,18 @@ constexpr double kUsualWallDensity_kg_m3 = 7850;  // steel; of no effect, but mu
 
 /// A unit that a number may have been typed in by mistake.
 struct Slip {
-  const char* unit;
-  double factor;  ///< to the key's own unit
+  const char* unit = "";
+  double factor = 1;  ///< to the key's own unit
 };
 
 /// What a property of real materials is, and what the program can compute with.
 struct Property {
-  const char* key;
+  const char* key = "";
   Range possible;
   Range plausible;
   Range usual;  ///< where a number in another unit is looked for
-  const char* examples;
-  std::array<Slip, 3> slips;  ///< the likeliest first
+  const char* examples = "";
+  std::array<Slip, 3> slips = {};  ///< the likeliest first
 };
 
 constexpr Property kYoung{

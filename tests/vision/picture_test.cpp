@@ -267,6 +267,22 @@ TEST_F(PictureFile, SizesThatTheFileDoesNotHoldAreRefused) {
   }
 }
 
+TEST_F(PictureFile, PalettesThatDoNotFitAreRefusedWithoutPrinting) {
+  const cv::Mat grey(48, 64, CV_8UC1, cv::Scalar(100));
+  const Bytes whole = coded(".bmp", grey);
+  ASSERT_EQ(whole.at(28), 8) << "bits a pixel, with a palette";
+  EXPECT_THAT(colour_at(read("grey.bmp", whole), 0, 0), ElementsAre(100, 100, 100));
+  constexpr std::size_t kPixelsFrom = 10, kHeaderBytes = 14, kColours = 46;
+  ::testing::internal::CaptureStderr();
+  for (const auto& [at, change] : {std::pair{kColours, 0x7FFF},
+                                   {kColours, 257 - whole.at(kColours)},
+                                   {kHeaderBytes, 4000},
+                                   {kPixelsFrom, -1000}}) {
+    EXPECT_THAT(error_of("palette.bmp", with_change(whole, at, change)), HasSubstr("damaged"));
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(PictureFile, GiantClaimsAreRefusedBeforeMemoryIsAskedFor) {
   for (const Bytes& bytes :
        {testing::png_that_claims(50'000, 50'000), testing::jpeg_that_claims(50'000, 50'000),

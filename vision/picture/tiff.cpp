@@ -139,8 +139,10 @@ void check_bytes(const File& file, std::int64_t width, std::int64_t height) {
   if (tag<std::uint16_t>(file, TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE) return;
   const std::int64_t listed = listed_bytes(file);
   if (TIFFIsTiled(file.get())) {
-    check_claimed_bytes(width, height, TIFFNumberOfTiles(file.get()) * TIFFTileSize64(file.get()),
-                        listed);
+    check_claimed_bytes(
+        width, height,
+        static_cast<std::int64_t>(TIFFNumberOfTiles(file.get()) * TIFFTileSize64(file.get())),
+        listed);
     return;
   }
   const bool is_apart = tag<std::uint16_t>(file, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;

@@ -100,7 +100,7 @@ class HeaderReader {
     constexpr std::size_t kLongest = 4096;
     ++line_;
     const std::size_t end = rest_.find('\n');
-    if (end == std::string_view::npos || end > kLongest) {
+    if (end > kLongest) {  // also where there is none
       wrong("the header is cut short, or this is no PLY file");
     }
     std::string line(rest_.substr(0, end));
