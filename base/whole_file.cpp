@@ -3,8 +3,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -85,25 +83,6 @@ class Temporary {
 constexpr const char* kFixPlace = "choose a folder you may write to, or free some space there.";
 
 }  // namespace
-
-std::optional<std::string> read_file_if_there(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored) && !ignored) return std::nullopt;
-  if (fs::is_directory(file, ignored)) refuse(file, "is a folder", "name a file inside it.");
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    refuse(file, fmt::format("cannot be read ({})", std::generic_category().message(errno)),
-           "correct the name, or who may read it.");
-  }
-  return std::string{std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string read_whole_file(const fs::path& file) {
-  std::optional<std::string> content = read_file_if_there(file);
-  if (!content) refuse(file, "there is no such file", "correct the name.");
-  return *std::move(content);
-}
 
 void write_whole_file(const fs::path& file, std::span<const std::byte> content) {
   check_place(file);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -11,13 +12,20 @@
 /// a full disk or a kill leaves the earlier file as it was.
 namespace repose::base {
 
-/// The bytes of a file.
-/// @throws std::invalid_argument  "FILE: what. Fix: ..." when it is not there or cannot be read.
-std::string read_whole_file(const std::filesystem::path& file);
+/// More than this no file that is read whole may have, unless its reader allows less.
+inline constexpr std::uintmax_t kLargestFile_bytes = std::uintmax_t{1} << 30;
+
+/// The bytes of a file. Pipes, devices and sockets are refused without being opened for long: they
+/// may have nothing to say, or never end.
+/// @throws std::invalid_argument  "FILE: what. Rule: ... Fix: ..." when it is not there, cannot be
+///   read, is no regular file or larger than `largest_bytes`.
+std::string read_whole_file(const std::filesystem::path& file,
+                            std::uintmax_t largest_bytes = kLargestFile_bytes);
 
 /// The same; none when there is no such file.
 /// @throws std::invalid_argument  when it is there and cannot be read.
-std::optional<std::string> read_file_if_there(const std::filesystem::path& file);
+std::optional<std::string> read_file_if_there(const std::filesystem::path& file,
+                                              std::uintmax_t largest_bytes = kLargestFile_bytes);
 
 /// @throws std::invalid_argument  "FILE: what. Fix: ..." when the place cannot be written.
 void write_whole_file(const std::filesystem::path& file, std::span<const std::byte> content);

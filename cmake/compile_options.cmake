@@ -12,3 +12,12 @@ add_compile_options(-ffp-contract=off)
 # Presets for developers turn these into errors. -Wfloat-conversion: a pixel position silently cut to
 # an int is a wrong angle. (All of -Wconversion objects to how OpenCV assigns its expressions.)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor)
+
+if(REPOSE_FUZZERS)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    message(FATAL_ERROR "REPOSE_FUZZERS needs Clang, and the compiler is ${CMAKE_CXX_COMPILER_ID}.\n"
+      "Fix: cmake --preset fuzz")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link,address)
+  add_link_options(-fsanitize=address)
+endif()

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/whole_file.h"
 #include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate::report {
@@ -54,8 +53,7 @@ std::vector<MeasuredNumber> measured_in(const JointResult& joint) {
 /// A run as RunFolder saves it; none where the file is damaged.
 std::optional<SavedRun> run_in(const fs::path& file) {
   try {
-    std::ifstream in(file, std::ios::binary);
-    const auto json = nlohmann::json::parse(in);
+    const auto json = nlohmann::json::parse(base::read_whole_file(file));
     const auto& simulated = json.at("simulated");
     SavedRun run{.experiment = simulated.at("experiment"),
                  .values = {},
@@ -69,6 +67,8 @@ std::optional<SavedRun> run_in(const fs::path& file) {
     }
     return run;
   } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  } catch (const std::invalid_argument&) {  // no file that can be read
     return std::nullopt;
   }
 }

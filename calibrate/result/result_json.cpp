@@ -1,7 +1,4 @@
-#include <fstream>
-#include <iterator>
-#include <system_error>
-
+#include "base/whole_file.h"
 #include "calibrate/result/result.h"
 #include "calibrate/result/result_fields.h"
 
@@ -123,10 +120,9 @@ StudyResult result_from_json(const std::string& json, const std::string& name) {
 
 std::optional<StudyResult> read_result(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "result.json";
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  return result_from_json({std::istreambuf_iterator<char>(in), {}}, file.string());
+  const std::optional<std::string> text = base::read_file_if_there(file);
+  if (!text) return std::nullopt;
+  return result_from_json(*text, file.string());
 }
 
 std::optional<StudyIdentity> study_in_result(const std::string& json) {

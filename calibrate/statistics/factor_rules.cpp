@@ -17,8 +17,13 @@ void check_factors(const std::vector<Factor>& factors, std::size_t least, std::s
     errors.require(!factor.name.empty(), "a factor has no name. Fix: NAME=MIN:MAX.");
     errors.require(names.insert(factor.name).second,
                    fmt::format("{}: is named twice. Fix: give each factor once.", factor.name));
-    const bool is_finite = std::isfinite(factor.low) && std::isfinite(factor.high);
-    errors.require(is_finite && factor.low < factor.high,
+    constexpr double kMost = 1e100;  // squares and differences of levels are still numbers
+    errors.require(
+        !(std::abs(factor.low) > kMost || std::abs(factor.high) > kMost),
+        fmt::format("{} = {:g}:{:g}: a level is out of range. Rule: at most {:g} either way. Fix: "
+                    "choose another unit.",
+                    factor.name, factor.low, factor.high, kMost));
+    errors.require(factor.low < factor.high,
                    fmt::format("{} = {:g}:{:g}: the lower level must be below the higher. Fix: "
                                "{}=MIN:MAX.",
                                factor.name, factor.low, factor.high, factor.name));

@@ -1,12 +1,11 @@
 #include "cli/simulate/simulate_folder.h"
 
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/whole_file.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/experiment/simulator_version.h"
 #include "cli/common/output.h"
@@ -18,11 +17,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 fs::path identity_file(const SimulatePlan& plan) { return plan.out_folder / "run.json"; }
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 bool is_there(const fs::path& file) {
   std::error_code ignored;
@@ -67,7 +61,7 @@ fs::path result_file(const SimulatePlan& plan) {
 std::string error_of_saved(const SimulatePlan& plan) {
   const fs::path file = identity_file(plan);
   if (plan.out_folder.empty() || !is_there(file)) return {};
-  const Json saved = Json::parse(read_text(file), nullptr, false);
+  const Json saved = Json::parse(base::read_whole_file(file), nullptr, false);
   const Json asked = identity_of(plan);
   if (saved == asked) return {};
   return fmt::format(

@@ -98,6 +98,14 @@ double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s) {
 
 void check_timestep(double timestep_s, const SimulationSetup& setup, double speed_m_s) {
   const double longest = accurate_timestep_s(setup, speed_m_s);
+  constexpr double kLongestDetour = 1000;
+  if (timestep_s < longest / kLongestDetour) {
+    throw std::invalid_argument(
+        fmt::format("timestep_s is {:.3g}. Rule: at least {:.3g} s, a thousandth of the longest "
+                    "accurate step; shorter ones take for ever and gain nothing. Fix: {:.2g}, or "
+                    "leave it to the program.",
+                    timestep_s, longest / kLongestDetour, longest));
+  }
   if (timestep_s <= longest) return;
   throw std::invalid_argument(
       fmt::format("timestep_s is {:.3g}. Rule: at most {:.3g} s for these grains at {:.2g} m/s; "

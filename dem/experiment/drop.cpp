@@ -6,6 +6,7 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
+#include "dem/experiment/grain_limit.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
@@ -23,8 +24,9 @@ void check(const Model& model, const DropProtocol& protocol) {
                  fmt::format("drop.height_m is {:g}. Rule: above 0. Fix: the height of the drop "
                              "test, such as 0.5.",
                              protocol.height_m));
-  errors.require(protocol.grains >= 1,
-                 fmt::format("drop.grains is {}. Rule: 1 or more. Fix: 10.", protocol.grains));
+  errors.require(
+      protocol.grains >= 1 && protocol.grains <= kMaxGrains,
+      fmt::format("drop.grains is {}. Rule: 1 to {}. Fix: 10.", protocol.grains, kMaxGrains));
   errors.throw_if_any();
 }
 

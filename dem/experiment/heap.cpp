@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
+#include "dem/experiment/grain_limit.h"
 #include "dem/experiment/heap_envelope.h"
 #include "dem/experiment/heap_fill.h"
 #include "dem/experiment/heap_settling.h"
@@ -40,6 +42,26 @@ void check_sizes(const HeapProtocol& protocol, base::ErrorList& errors) {
   above_0("plate_thickness_m", protocol.plate_thickness_m);
 }
 
+void check_grains(const Model& model, const HeapProtocol& protocol, base::ErrorList& errors) {
+  if (protocol.grains) {
+    errors.require(*protocol.grains >= 1 && *protocol.grains <= kMaxGrains,
+                   fmt::format("heap.grains is {}. Rule: 1 to {}. Fix: leave it out to fill the "
+                               "tube.",
+                               *protocol.grains, kMaxGrains));
+    return;
+  }
+  constexpr double kPacked = .6;
+  const double radius = protocol.tube_diameter_m / 2;
+  const double tube_m3 = std::numbers::pi * radius * radius * protocol.tube_height_m;
+  const double full = kPacked * tube_m3 / model.grain.volume_m3;
+  errors.require(
+      !(full > kMaxGrains),
+      fmt::format(
+          "heap.tube_diameter_m is {:g}, heap.tube_height_m {:g}: the tube holds about "
+          "{:.2g} grains. Rule: at most {}. Fix: a smaller tube, or fewer grains by number.",
+          protocol.tube_diameter_m, protocol.tube_height_m, full, kMaxGrains));
+}
+
 void check(const Model& model, const HeapProtocol& protocol) {
   base::ErrorList errors;
   find_errors(model, errors);
@@ -66,10 +88,7 @@ void check(const Model& model, const HeapProtocol& protocol) {
       fmt::format("heap.lift_speed_m_s is {:g}. Rule: above 0, and fast enough to lift the tube "
                   "by its height in {:g} s. Fix: the speed on the bench, such as 0.03.",
                   protocol.lift_speed_m_s, kLongestLift_s));
-  errors.require(!protocol.grains || *protocol.grains >= 1,
-                 fmt::format("heap.grains is {}. Rule: 1 or more. Fix: leave it out to fill the "
-                             "tube.",
-                             protocol.grains.value_or(0)));
+  check_grains(model, protocol, errors);
   errors.throw_if_any();
 }
 

@@ -51,9 +51,14 @@ template class ArrayStream<double>;
 template class ArrayStream<std::int64_t>;
 
 Vector take_vector(NumberStream& numbers) {
+  constexpr double kMost = 1e12;  // in any SI unit; sums and squares of these are still numbers
   const double x = numbers.take();
   const double y = numbers.take();
-  return {x, y, numbers.take()};
+  const Vector vector(x, y, numbers.take());
+  if (!(vector.cwiseAbs().maxCoeff() <= kMost)) {
+    refuse(numbers.name(), fmt::format("holds a number beyond {:g}", kMost));
+  }
+  return vector;
 }
 
 Quaternion take_quaternion(NumberStream& numbers) {
@@ -95,8 +100,9 @@ const std::vector<Value>& ArrayReader::find(const std::string& name, int compone
 
 NumberStream ArrayReader::numbers(const std::string& name, int components) const {
   const auto& values = find<double>(name, components);
-  if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); })) {
-    refuse(prefix_ + name, "holds what is no number");
+  if (std::any_of(values.begin(), values.end(),
+                  [](double value) { return !std::isfinite(value); })) {
+    refuse(prefix_ + name, "holds what is no finite number");
   }
   return {prefix_ + name, values};
 }

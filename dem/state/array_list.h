@@ -53,6 +53,7 @@ class ArrayStream {
 using NumberStream = ArrayStream<double>;
 using IntegerStream = ArrayStream<std::int64_t>;
 
+/// None of its numbers beyond 1e12. @throws std::invalid_argument
 Vector take_vector(NumberStream& numbers);
 /// @throws std::invalid_argument  it is not of unit length.
 Quaternion take_quaternion(NumberStream& numbers);
@@ -67,7 +68,7 @@ class ArrayReader {
   explicit ArrayReader(const std::vector<VtkArray>& arrays, std::string prefix = {})
       : arrays_(arrays), prefix_(std::move(prefix)) {}
 
-  /// Without NaN.
+  /// All finite.
   NumberStream numbers(const std::string& name, int components) const;
   IntegerStream integers(const std::string& name, int components) const;
   const std::vector<std::string>& texts(const std::string& name) const;

@@ -55,14 +55,6 @@ std::vector<double> positions_of(const Checkpoint& checkpoint, const std::vector
   return positions;
 }
 
-Vector take_finite(NumberStream& numbers) {
-  const Vector vector = take_vector(numbers);
-  if (!vector.allFinite()) {
-    throw std::invalid_argument(fmt::format("array {} holds an infinite number", numbers.name()));
-  }
-  return vector;
-}
-
 /// Fills the places of these grains in a checkpoint that has room for all.
 void take_grains(const ArrayReader& arrays, NumberStream position, std::size_t kinds, bool present,
                  Checkpoint& checkpoint, std::vector<bool>& is_filled) {
@@ -80,13 +72,13 @@ void take_grains(const ArrayReader& arrays, NumberStream position, std::size_t k
     is_filled[k] = true;
     Grain& grain = checkpoint.grains[k];
     grain.kind = take_index(kind, kinds);
-    grain.position = take_finite(position);
+    grain.position = take_vector(position);
     grain.orientation = take_quaternion(orientation);
-    grain.velocity = take_finite(velocity);
-    grain.spin = take_finite(spin);
-    checkpoint.angular_momentum[k] = take_finite(momentum);
-    checkpoint.force[k] = take_finite(force);
-    checkpoint.torque[k] = take_finite(torque);
+    grain.velocity = take_vector(velocity);
+    grain.spin = take_vector(spin);
+    checkpoint.angular_momentum[k] = take_vector(momentum);
+    checkpoint.force[k] = take_vector(force);
+    checkpoint.torque[k] = take_vector(torque);
     checkpoint.rolling_limit[k] = limit.take();
     checkpoint.is_present[k] = present;
   }
@@ -138,8 +130,8 @@ std::vector<ContactState> contacts_in(const ArrayReader& arrays, const Checkpoin
     contact.sphere_b = contact.grain_b >= 0 ? take_sphere(parts, checkpoint, contact.grain_b, setup)
                                             : take_index(parts, std::numeric_limits<int>::max());
     contact.contact_radius_m = values.take();
-    contact.tangential_n = take_finite(values);
-    contact.rolling_n_m = take_finite(values);
+    contact.tangential_n = take_vector(values);
+    contact.rolling_n_m = take_vector(values);
     contacts.push_back(contact);
   }
   check_end(values.is_at_end(), values.name());

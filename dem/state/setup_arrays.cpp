@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "dem/contact/rolling_name.h"
 
 namespace repose::dem {
@@ -165,6 +167,11 @@ SimulationSetup setup_in(const ArrayReader& arrays) {
                         .audit_steps = take_index(audit, std::numeric_limits<int>::max())};
   if (setup.audit_steps == 0)
     throw std::invalid_argument("array audit_steps holds 0, must be more");
+  constexpr double kShortest_s = 1e-15, kLongest_s = 1;
+  if (!(setup.timestep_s >= kShortest_s && setup.timestep_s <= kLongest_s)) {
+    throw std::invalid_argument(fmt::format("array timestep holds {:g}, must be from {:g} to {:g}",
+                                            setup.timestep_s, kShortest_s, kLongest_s));
+  }
   return setup;
 }
 

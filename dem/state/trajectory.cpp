@@ -60,8 +60,9 @@ void TrajectoryWriter::write_collection() const {
 }
 
 std::vector<TrajectoryFrame> read_trajectory(const fs::path& file) {
+  const std::string text = base::read_whole_file(file);
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_file(file.c_str());
+  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
   std::vector<TrajectoryFrame> frames;
   for (const pugi::xml_node& frame : document.child("VTKFile").child("Collection").children()) {
     const std::string name = frame.attribute("file").as_string();

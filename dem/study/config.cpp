@@ -1,11 +1,13 @@
 #include "dem/study/config.h"
 
 #include <algorithm>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
+
+#include "base/toml_nesting.h"
 
 namespace repose::dem {
 namespace {
@@ -25,7 +27,18 @@ std::size_t byte_of(std::string_view line, std::size_t column) {
 /// A text whose parts can be shown as they were typed.
 class SourceText {
  public:
-  SourceText(std::string text, Place file) : text_(std::move(text)), file_(std::move(file)) {}
+  SourceText(std::string text, Place file) : text_(std::move(text)), file_(std::move(file)) {
+    for (std::size_t start = 0; start <= text_.size();) {
+      const std::size_t end = std::min(text_.find('\n', start), text_.size());
+      lines_.push_back(std::string_view(text_).substr(start, end - start));
+      start = end + 1;
+    }
+  }
+  SourceText(const SourceText&) = delete;  // its lines are parts of its text
+  SourceText& operator=(const SourceText&) = delete;
+  SourceText(SourceText&&) = delete;
+  SourceText& operator=(SourceText&&) = delete;
+  ~SourceText() = default;
 
   const std::string& text() const { return text_; }
   Place place(const toml::source_region& source) const {
@@ -36,16 +49,23 @@ class SourceText {
   }
   /// The first line of what stands there.
   std::string shown(const toml::source_region& source) const {
-    std::istringstream lines(text_);
-    std::string line;
-    for (std::size_t k = 0; k < source.begin.line; ++k) std::getline(lines, line);
+    if (source.begin.line < 1 || source.begin.line > lines_.size()) return {};
+    const std::string_view line = lines_[source.begin.line - 1];
     const std::size_t start = byte_of(line, source.begin.column);
-    if (source.end.line != source.begin.line) return line.substr(start) + " ...";
-    return line.substr(start, byte_of(line, source.end.column) - start);
+    if (source.end.line != source.begin.line) return cut(line.substr(start)) + " ...";
+    return cut(line.substr(start, byte_of(line, source.end.column) - start));
   }
 
  private:
+  /// Enough to know it again.
+  static std::string cut(std::string_view shown) {
+    constexpr std::size_t kMostLetters = 120;
+    const std::size_t end = byte_of(shown, kMostLetters + 1);
+    return std::string(shown.substr(0, end)) + (end < shown.size() ? "..." : "");
+  }
+
   std::string text_;
+  std::vector<std::string_view> lines_;
   Place file_;
 };
 
@@ -99,6 +119,14 @@ void lay_over(ConfigValue& below, const ConfigValue& above) {
 }
 
 ConfigValue parsed(const SourceText& source, const std::string& fix, StudyErrors& errors) {
+  if (const auto line = base::line_of_deep_key(source.text())) {
+    Place place = source.place({});
+    place.line = *line;
+    place.column = 1;
+    errors.add(place, "a key has too many parts",
+               fmt::format("at most {} points in a key", base::kMostPointsInAKey), fix);
+    return {};
+  }
   try {
     return converted(toml::parse(std::string_view(source.text())), {}, source);
   } catch (const toml::parse_error& error) {
@@ -121,12 +149,12 @@ const ConfigValue* ConfigValue::find(const std::string& key) const {
 
 ConfigValue parse_config(const std::string& file, const std::string& text,
                          const std::vector<std::string>& settings, StudyErrors& errors) {
-  ConfigValue config = parsed({text, {.file = file}}, "correct this line", errors);
+  ConfigValue config = parsed(SourceText(text, {.file = file}), "correct this line", errors);
   for (std::size_t k = 0; k < settings.size(); ++k) {
     const Place place{.file = "setting", .setting = static_cast<int>(k) + 1};
     const std::string fix =
         "write " + settings[k] + " as key.path=value, text in quotes: particle.scan=\"nut.stl\"";
-    lay_over(config, parsed({settings[k], place}, fix, errors));
+    lay_over(config, parsed(SourceText(settings[k], place), fix, errors));
   }
   return config;
 }

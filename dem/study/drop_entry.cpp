@@ -1,3 +1,4 @@
+#include "dem/experiment/grain_limit.h"
 #include "dem/study/entries.h"
 
 namespace repose::dem {

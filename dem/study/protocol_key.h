@@ -25,9 +25,6 @@ ProtocolKey number_key(std::string name, std::string example, const Range& range
 ProtocolKey count_key(std::string name, std::string example, int max, int& value);
 ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value);
 
-/// As many grains as a study may ask for.
-inline constexpr int kMaxGrains = 10'000'000;
-
 /// The value in the key's unit; none for a number that was left out.
 std::optional<double> value_of(const ProtocolKey& key);
 

@@ -1,5 +1,7 @@
 #include "dem/study/read_particle.h"
 
+#include <algorithm>
+#include <array>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -12,10 +14,82 @@ namespace fs = std::filesystem;
 constexpr double kMetres_mm = 1e-3;
 constexpr double kUsualWallDensity_kg_m3 = 7850;  // steel; of no effect, but must be a number
 
+/// A unit that a number may have been typed in by mistake.
+struct Slip {
+  const char* unit = "";
+  double factor = 1;  ///< to the key's own unit
+};
+
+/// What a property of real materials is, and what the program can compute with.
+struct Property {
+  const char* key = "";
+  Range possible;
+  Range plausible;
+  Range usual;  ///< where a number in another unit is looked for
+  const char* examples = "";
+  std::array<Slip, 3> slips = {};  ///< the likeliest first
+};
+
+constexpr Property kYoung{
+    .key = "young_modulus_pa",
+    .possible = above(0, 1e13),
+    .plausible = from_to(1e6, 1.3e12),
+    .usual = from_to(1e7, 5e11),
+    .examples = "Pa: soaked seeds 1e7, nuts and plastics 1e9, glass 7e10, steel 2e11",
+    .slips = {{{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}}};
+constexpr Property kDensity{
+    .key = "density_kg_m3",
+    .possible = above(0, 1e6),
+    .plausible = from_to(10, 25'000),
+    .usual = from_to(100, 25'000),
+    .examples = "kg/m3: foam 20, wood and seeds 500 to 1300, steel 7850, tungsten 19300",
+    .slips = {{{"g/cm3", 1e3}, {"t/m3", 1e3}, {"kg/mm3", 1e9}}}};
+
+/// Names of properties that may have any possible value.
+void check_allowed(Section& section) {
+  const char* example = "allow = [\"young_modulus_pa\"]";
+  const auto allowed = section.texts("allow", example);
+  if (!allowed) return;
+  for (const std::string& name : *allowed) {
+    if (name == kYoung.key || name == kDensity.key) continue;
+    section.wrong(*section.value("allow"),
+                  fmt::format("names of keys: \"{}\", \"{}\"", kYoung.key, kDensity.key),
+                  fmt::format("for example {}", example));
+  }
+}
+
+bool is_allowed(Section& section, const std::string& key) {
+  const ConfigValue* allowed = section.value("allow");
+  return allowed != nullptr &&
+         std::any_of(allowed->items.begin(), allowed->items.end(),
+                     [&](const ConfigValue& item) { return item.text == key; });
+}
+
+/// A number in another unit is possible, and simulates something else: nothing later finds it out.
+void check_plausible(Section& section, const Property& property) {
+  const ConfigValue* value = section.value(property.key);
+  if (value == nullptr || !property.possible.contains(value->number)) return;  // said elsewhere
+  if (property.plausible.contains(value->number) || is_allowed(section, property.key)) return;
+  std::string fix;
+  for (const auto& [unit, factor] : property.slips) {
+    if (!property.usual.contains(value->number * factor)) continue;
+    fix = fmt::format("{:g} if it was in {}; ", value->number * factor, unit);
+    break;
+  }
+  section.wrong(*value,
+                fmt::format("{:g} to {:g} {}", property.plausible.from, property.plausible.to,
+                            property.examples),
+                fmt::format("{}or, if it is meant, add allow = [\"{}\"] to [{}]", fix, property.key,
+                            section.path()));
+}
+
 void read_material(Section& section, const std::string& otherwise, Material& material) {
   material.name = section.text("name", "name = \"hazelnut\"").value_or(otherwise);
+  check_allowed(section);
   material.young_modulus_pa =
-      section.needed_number("young_modulus_pa", above(0), "young_modulus_pa = 1.254e9");
+      section.needed_number("young_modulus_pa", kYoung.possible, "young_modulus_pa = 1.254e9");
+  check_plausible(section, kYoung);
+  check_plausible(section, kDensity);
   material.poisson_ratio =
       section.needed_number("poisson_ratio", from_to_below(0, .5), "poisson_ratio = 0.38");
 }
@@ -121,14 +195,14 @@ void read_particle(Section particle, const NamedFiles& files, Study& study) {
   read_filling(particle, study.grain);
   read_material(particle, "particle", study.model.grain_material);
   study.model.grain_material.density_kg_m3 =
-      particle.needed_number("density_kg_m3", above(0), "density_kg_m3 = 851");
+      particle.needed_number("density_kg_m3", kDensity.possible, "density_kg_m3 = 851");
   particle.refuse_others();
 }
 
 void read_wall(Section wall, Study& study) {
   read_material(wall, "wall", study.model.wall_material);
   study.model.wall_material.density_kg_m3 =
-      wall.number("density_kg_m3", above(0), "density_kg_m3 = 7850")
+      wall.number("density_kg_m3", kDensity.possible, "density_kg_m3 = 7850")
           .value_or(kUsualWallDensity_kg_m3);
   wall.refuse_others();
 }

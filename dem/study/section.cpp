@@ -16,6 +16,13 @@ using Kind = ConfigValue::Kind;
 
 std::string for_example(const std::string& example) { return "for example " + example; }
 
+/// What names something: a zero byte would end it early, and a file of another name be opened.
+bool is_text(const ConfigValue& value) {
+  const auto is_control = [](char letter) { return letter >= 0 && letter < ' '; };
+  return value.kind == Kind::text && !value.text.empty() &&
+         std::none_of(value.text.begin(), value.text.end(), is_control);
+}
+
 /// A known key that begins like the one typed: "density" for "density_kg_m3", "height_m" for
 /// "height_mm"; else one that is spelt nearly the same.
 std::string guess(const std::string& typed, const std::vector<std::string>& known) {
@@ -63,7 +70,7 @@ bool Section::has(const std::string& key) const {
 }
 
 const ConfigValue* Section::value(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return table_ == nullptr ? nullptr : table_->find(key);
 }
 
@@ -118,8 +125,8 @@ std::optional<std::int64_t> Section::integer(const std::string& key, std::int64_
 std::optional<std::string> Section::text(const std::string& key, const std::string& example) {
   const ConfigValue* found = value(key);
   if (found == nullptr) return std::nullopt;
-  if (found->kind != Kind::text || found->text.empty()) {
-    wrong(*found, "text in quotes", for_example(example));
+  if (!is_text(*found)) {
+    wrong(*found, "text in quotes, without control characters", for_example(example));
     return std::nullopt;
   }
   return found->text;
@@ -148,10 +155,11 @@ std::optional<std::vector<std::string>> Section::texts(const std::string& key,
   if (found == nullptr) return std::nullopt;
   std::vector<std::string> result;
   for (const ConfigValue& item : found->items) {
-    if (item.kind == Kind::text && !item.text.empty()) result.push_back(item.text);
+    if (is_text(item)) result.push_back(item.text);
   }
   if (found->kind != Kind::array || result.empty() || result.size() != found->items.size()) {
-    wrong(*found, "texts in quotes, within brackets", for_example(example));
+    wrong(*found, "texts in quotes without control characters, within brackets",
+          for_example(example));
     return std::nullopt;
   }
   return result;

@@ -23,17 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargestStudy_bytes = 1 << 20;
 
 std::string study_text(const fs::path& file) {
-  const auto refuse = [&file](const char* what, const char* fix) {
-    throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
-  };
-  std::error_code error;
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
-    refuse("is no file", "name a study file (TOML).");
-  }
-  if (const auto size = fs::file_size(file, error); !error && size > kLargestStudy_bytes) {
-    refuse("is larger than 1 MiB, which no study file is", "name a study file (TOML).");
-  }
-  return base::read_whole_file(file);
+  return base::read_whole_file(file, kLargestStudy_bytes);
 }
 
 /// A section that every study has.
@@ -48,7 +38,7 @@ Section needed_section(Section& study, const std::string& key, const std::string
 
 void read_simulation(Section simulation, Study& study) {
   const auto fraction =
-      simulation.number("timestep_fraction", above(0, 1), "timestep_fraction = 1");
+      simulation.number("timestep_fraction", from_to(.001, 1), "timestep_fraction = 1");
   study.model.timestep_fraction = fraction.value_or(study.model.timestep_fraction);
   study.model.timestep_s = simulation.number("timestep_s", above(0, 1), "timestep_s = 1e-5");
   if (simulation.has("timestep_fraction") && simulation.has("timestep_s")) {

@@ -27,8 +27,15 @@ void StudyErrors::throw_if_any() const {
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Error& a, const Error& b) { return order(a) < order(b); });
+  constexpr std::size_t kMost = 100;  // errors that are listed
   std::string text;
-  for (const Error& error : sorted) text += (text.empty() ? "" : "\n") + error.text;
+  for (std::size_t k = 0; k < std::min(kMost, sorted.size()); ++k) {
+    text += (text.empty() ? "" : "\n") + sorted[k].text;
+  }
+  if (sorted.size() > kMost) {
+    text += fmt::format("\nand {} more, which are not listed. Fix: correct these first.",
+                        sorted.size() - kMost);
+  }
   throw std::invalid_argument(text);
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
@@ -40,6 +41,29 @@ TEST(WholeFile, MissingFilesAndFoldersAreRefused) {
                   AllOf(HasSubstr("missing: there is no such file"), HasSubstr("Fix: "))));
   EXPECT_THAT([&] { read_file_if_there(folder.path()); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("is a folder")));
+}
+
+TEST(WholeFile, PipesAndDevicesAreRefusedWithoutWaiting) {
+  const testing::TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT([&] { read_whole_file(pipe); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("pipe: is a pipe, not a file"), HasSubstr("Fix: "))));
+  EXPECT_THAT([] { read_whole_file("/dev/zero"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("/dev/zero: is a device")));
+}
+
+TEST(WholeFile, WhatIsTooLargeIsRefusedBeforeItIsRead) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("hole", std::string());
+  std::filesystem::resize_file(file, std::uintmax_t{100} << 30);
+  EXPECT_THAT([&] { read_whole_file(file); },
+              ThrowsMessage<std::invalid_argument>(AllOf(
+                  HasSubstr("has 102400.0 MiB. Rule: at most 1024 MiB"), HasSubstr("Fix: "))));
+  EXPECT_THROW(read_whole_file(folder.write("four", std::string("four")), 3),
+               std::invalid_argument);
+  EXPECT_EQ(read_whole_file(folder.path() / "four", 4), "four");
 }
 
 TEST(WholeFile, AFullDiskIsSaidAndTheDeviceStays) {

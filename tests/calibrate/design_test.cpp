@@ -251,6 +251,14 @@ TEST(RandomOrder, KeepsAllRunsAndFollowsTheSeed) {
   for (int k = 0; k < 20; ++k) EXPECT_EQ(order[static_cast<std::size_t>(k)], k + 1);
 }
 
+TEST(Designs, LevelsWhoseDifferenceIsNoNumberAreRefused) {
+  EXPECT_THAT(error_of([] {
+                latin_hypercube({{"a", -1e308, 1e308}}, 4, 1);
+              }),
+              AllOf(HasSubstr("a = -1e+308:1e+308"), HasSubstr("Rule: at most 1e+100"),
+                    HasSubstr("Fix: ")));
+}
+
 TEST(Designs, AllErrorsAreNamedAtOnce) {
   const std::string error = error_of([] {
     central_composite({{"a", 1, 1}, {"a", 0, std::numeric_limits<double>::quiet_NaN()}},

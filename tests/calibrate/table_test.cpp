@@ -1,5 +1,6 @@
 #include "calibrate/statistics/table/table.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -41,6 +42,35 @@ TEST(Table, SpreadsheetsHabitsAreUnderstood) {
   EXPECT_THAT(column(" a , b\n 1e-3 , 2\n", "a"), ElementsAre(1e-3));
   EXPECT_EQ(parse_table("x", "a,b\n\"two\nlines \"\"here\"\"\",2\n").rows[0].cells[0],
             "two\nlines \"here\"");
+}
+
+TEST(Table, PointsThatMayPartThousandsAreRefusedBesideDecimalCommas) {
+  EXPECT_THAT(error_of("a;b\n987,5;1\n1.012;2\n", {"a", "b"}),
+              AllOf(HasSubstr("runs.csv:3: a is \"1.012\", which may mean thousands: line 2"),
+                    HasSubstr("Fix: ")));
+  EXPECT_THAT(error_of("a;b\n1;0,5\n-12.345.678;2\n", {"a", "b"}), HasSubstr("runs.csv:3"));
+  EXPECT_THAT(column("a;b\n0.125;1,5\n12.5;2\n", "a"), ElementsAre(.125, 12.5));
+  EXPECT_THAT(column("a;b\n1.012;1\n", "a"), ElementsAre(1.012));
+  EXPECT_THAT(column("a;b\n1.012;nut, small\n", "a"), ElementsAre(1.012));
+}
+
+TEST(Table, OfManyErrorsTheFirstTenAreListed) {
+  std::string cells = "a,b\n", ragged = "a,b\n";
+  for (int row = 0; row < 1000; ++row) {
+    cells += "x,1\n";
+    ragged += "1\n";
+  }
+  for (const std::string& error : {error_of(cells, {"a", "b"}), error_of(ragged)}) {
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 10);
+    EXPECT_THAT(error, HasSubstr("\nand 990 more of this kind"));
+  }
+}
+
+TEST(Table, BytesThatAreNoLettersAreRefused) {
+  EXPECT_THAT(error_of(std::string("a,b\n1\0x,2\n", 10), {"a"}),
+              AllOf(HasSubstr("runs.csv:2: holds a byte that is no letter (number 0)"),
+                    HasSubstr("CSV UTF-8")));
+  EXPECT_THAT(error_of("a,b\n\x1b[2J,2\n"), HasSubstr("number 27"));
 }
 
 TEST(Table, EveryRaggedLineIsNamed) {

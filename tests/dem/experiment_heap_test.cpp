@@ -71,16 +71,31 @@ TEST(Heap, TakesAsManyGrainsAsAskedFor) {
 TEST(Heap, RefusesMoreGrainsThanFitAndSaysHowManyDo) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .05;
-  protocol.grains = 1000000;
+  protocol.grains = 100000;
   const std::string message = error_of([&] { run_heap(soft_bench(), protocol, 1); });
-  EXPECT_NE(message.find("heap.grains is 1000000"), std::string::npos) << message;
+  EXPECT_NE(message.find("heap.grains is 100000"), std::string::npos) << message;
   EXPECT_NE(message.find("at most what fits into the tube, 2"), std::string::npos) << message;
+}
+
+TEST(Heap, RefusesMoreGrainsThanAMachineHolds) {
+  HeapProtocol protocol = small_tube();
+  protocol.grains = 10'000'000;
+  const std::string many = error_of([&] { run_heap(soft_bench(), protocol, 1); });
+  EXPECT_NE(many.find("heap.grains is 10000000. Rule: 1 to 100000"), std::string::npos) << many;
+  protocol.grains.reset();
+  protocol.tube_diameter_m = protocol.plate_m / 2;
+  protocol.tube_height_m = 100;
+  protocol.lift_speed_m_s = 1;
+  Model dust = soft_bench();
+  dust.grain = sphere_shape(1e-4);
+  const std::string full = error_of([&] { run_heap(dust, protocol, 1); });
+  EXPECT_NE(full.find("the tube holds about"), std::string::npos) << full;
 }
 
 TEST(Heap, TakesThoseThatFitWhereFewerWillDo) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .05;
-  protocol.grains = 1000000;
+  protocol.grains = 100000;
   protocol.may_be_fewer = true;
   const double grains = run_heap(soft_bench(), protocol, 1).readings.at("grains");
   EXPECT_GT(grains, 2);

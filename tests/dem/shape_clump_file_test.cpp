@@ -65,10 +65,32 @@ TEST(ClumpFile, ComesBackToTheLastBit) {
   EXPECT_EQ(dem::clump_json(back), text);
 }
 
+/// A sphere, radius in m.
+ClumpFile ball(double radius_m) {
+  ClumpFile clump;
+  clump.shape = dem::sphere_shape(radius_m);
+  return clump;
+}
+
+TEST(ClumpFile, LengthsInMillimetresAreFoundOut) {
+  const TemporaryFolder folder;
+  const auto read = [&](const ClumpFile& clump) {
+    return [&, file = folder.write("nut.json", dem::clump_json(clump))] {
+      dem::read_clump_file(file);
+    };
+  };
+  EXPECT_THAT(read(ball(10)), refused(AllOf(HasSubstr("nut.json: spheres: they reach 10 m"),
+                                            HasSubstr("divide lengths in mm by 1000"))));
+  ClumpFile half_converted = ball(5e-4);  // 1 mm: as 1 m its spheres alone would be a grain
+  half_converted.shape.spheres.front().radius = .5;
+  EXPECT_THAT(read(half_converted), refused(HasSubstr("does not fit to volume_m3")));
+  EXPECT_NO_THROW(read(ball(5e-4))());
+}
+
 TEST(ClumpFile, IsReadFromDisk) {
   const TemporaryFolder folder;
-  const auto file = folder.write("clump.json", dem::clump_json(small_clump()));
-  EXPECT_EQ(dem::read_clump_file(file).shape.volume_m3, 1.0 / 7);
+  const auto file = folder.write("clump.json", dem::clump_json(ball(.01)));
+  EXPECT_EQ(dem::read_clump_file(file).shape.spheres.front().radius, .01);
   EXPECT_THAT([&] { dem::read_clump_file(folder.path() / "none.json"); },
               refused(HasSubstr("there is no such file")));
   EXPECT_THAT([&] { dem::read_clump_file(folder.path()); }, refused(HasSubstr("is a folder")));

@@ -63,6 +63,24 @@ TEST(Fill, SpheresThatAreNoGrainAreRefused) {
   EXPECT_THAT(dem::fill(needle, {.spheres = 24}).spheres, SizeIs(24)) << "the fix helps";
 }
 
+TEST(Fill, DiscsAndNeedlesEndInAClumpOrAMessage) {
+  struct Sizes {
+    double length_mm, width_mm, thickness_mm;
+  };
+  for (const auto& [length, width, thickness] :
+       {Sizes{20, 20, 1}, Sizes{20, 1.2, 1.2}, Sizes{20, 20, .06}, Sizes{2000, .05, .05}}) {
+    const Mesh body = dem::calliper_surface(
+        {.length_m = length / 1e3, .width_m = width / 1e3, .thickness_m = thickness / 1e3});
+    for (const int spheres : {2, 11, 24}) {
+      try {
+        EXPECT_LT(dem::fill(body, {.spheres = spheres}).errors.volume_error, 1);
+      } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), HasSubstr("Fix: more spheres"));
+      }
+    }
+  }
+}
+
 TEST(Fill, FollowsTheNutWithinATenthOfAMillimetre) {
   const FillReport& report = filled_nut();
   EXPECT_THAT(report.spheres, SizeIs(11));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "dem/shape/scan/mass_properties.h"
 #include "dem/shape/scan/mesh_edges.h"
@@ -105,6 +106,44 @@ TEST(ReadScan, ReadsTheSameBodyFromEveryFormat) {
     EXPECT_EQ(scan.surface.vertices.size(), 8U) << file;
     EXPECT_NEAR(volume(scan), 24e-6, kSinglePrecision) << file;
     EXPECT_THAT(scan.repairs, IsEmpty()) << file;
+  }
+}
+
+TEST(ReadScan, CutsFacesOfMoreCornersIntoTriangles) {
+  const TemporaryFolder folder;
+  const std::string corners =
+      "0 0 0\n0 0 40\n0 30 0\n0 30 40\n20 0 0\n20 0 40\n20 30 0\n20 30 40\n";
+  const std::string faces = "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n";
+  const auto file = folder.write(
+      "quads.ply",
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n" +
+          corners + faces);
+  EXPECT_NEAR(volume(dem::read_scan(file, ScanUnit::millimetre)), 24e-6, kSinglePrecision);
+}
+
+TEST(ReadScan, RefusesFacesOfTooManyCorners) {
+  const TemporaryFolder folder;
+  std::string corners, face = "f";
+  for (int k = 1; k <= 257; ++k) {
+    corners += "v " + std::to_string(k) + " 0 0\n";
+    face += ' ' + std::to_string(k);
+  }
+  const auto file = folder.write("disc.obj", corners + face + '\n');
+  EXPECT_THAT(
+      [&] { dem::read_scan(file, ScanUnit::millimetre); },
+      refuses(AllOf(HasSubstr("a face with 257 corners. Rule: at most 256"), HasSubstr("Fix:"))));
+}
+
+TEST(ReadScan, OpensNothingThatAScanRefersTo) {
+  const TemporaryFolder folder;
+  const std::string body = "usemtl shell\n" + obj(box_surface(20, 30, 40));
+  folder.write("bad.mtl", std::string("newmtl shell\nKd not numbers\n"));
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe.mtl").c_str(), 0600), 0);  // opening it would wait
+  for (const char* library : {"bad.mtl", "pipe.mtl", "none.mtl", "../../../../etc/passwd"}) {
+    const auto file = folder.write("nut.obj", "mtllib " + std::string(library) + '\n' + body);
+    EXPECT_NEAR(volume(dem::read_scan(file, ScanUnit::millimetre)), 24e-6, kSinglePrecision)
+        << library;
   }
 }
 

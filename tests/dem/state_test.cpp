@@ -1,3 +1,7 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -5,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/base64.h"
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
 #include "tests/support/error_of.h"
@@ -248,12 +253,35 @@ TEST_F(StateFile, EditedContentsAreRefused) {
   const std::string minus_one = "CAAAAAAAAAD//////////w==";
   EXPECT_THAT(error(with_numbers(whole, "audit_steps", minus_one)), HasSubstr("audit_steps"));
   EXPECT_THAT(error(with_numbers(whole, "step", minus_one)), HasSubstr("array step"));
-  EXPECT_THAT(error(with_numbers(whole, "timestep", minus_one)), HasSubstr("no number")) << "NaN";
+  EXPECT_THAT(error(with_numbers(whole, "timestep", minus_one)), HasSubstr("no finite number"))
+      << "NaN";
   EXPECT_THAT(error(with_numbers(whole, "repose_state_format", "CAAAAAAAAAACAAAAAAAAAA==")),
               HasSubstr("format is 2"));
   EXPECT_THAT(error(with_numbers(whole, "wall_motion", "AAAAAAAAAAA=")), HasSubstr("array wall_"));
   EXPECT_THAT(error(with_numbers(whole, "rolling_model", "AAAAAAAAAAA=")),
               HasSubstr("rolling_model"));
+}
+
+/// Numbers as an array of the file has them.
+std::string base64_of(const std::vector<double>& numbers) {
+  const std::uint64_t size = numbers.size() * sizeof(double);
+  std::vector<std::byte> bytes(sizeof size + size);
+  std::memcpy(bytes.data(), &size, sizeof size);
+  std::memcpy(bytes.data() + sizeof size, numbers.data(), size);
+  return base::base64_of(bytes);
+}
+
+TEST_F(StateFile, NumbersBeyondAllBoundsAreRefused) {
+  const std::string whole = saved();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  std::vector<double> motion(11, 0.);
+  motion[2] = kInfinite;
+  EXPECT_THAT(error(with_numbers(whole, "wall_motion", base64_of(motion))),
+              HasSubstr("array wall_motion holds what is no finite number"));
+  EXPECT_THAT(error(with_numbers(whole, "timestep", base64_of({kInfinite}))),
+              HasSubstr("array timestep holds what is no finite number"));
+  EXPECT_THAT(error(with_numbers(whole, "gravity", base64_of({0, 0, -1e200}))),
+              HasSubstr("array gravity holds a number beyond 1e+12"));
 }
 
 TEST_F(StateFile, NoEditedByteCrashesTheReader) {

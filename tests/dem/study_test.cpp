@@ -86,6 +86,60 @@ TEST_F(StudyFile, TheSmallestStudyHasTheUsualValues) {
   EXPECT_FALSE(study.threads);
 }
 
+TEST_F(StudyFile, MaterialsInAnotherUnitAreFoundOut) {
+  EXPECT_THAT(errors(kStudy, {"particle.young_modulus_pa=1.254"}),
+              AllOf(HasSubstr("particle.young_modulus_pa = 1.254. Rule: 1e+06 to 1.3e+12 Pa"),
+                    HasSubstr("Fix: 1.254e+09 if it was in GPa; or, if it is meant, add allow = "
+                              "[\"young_modulus_pa\"] to [particle]")));
+  EXPECT_THAT(errors(kStudy, {"particle.young_modulus_pa=1254"}), HasSubstr("if it was in MPa"));
+  EXPECT_THAT(errors(kStudy, {"wall.young_modulus_pa=2.1e5"}),
+              HasSubstr("2.1e+11 if it was in MPa"));
+  EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3=0.851"}),
+              HasSubstr("851 if it was in g/cm3"));
+  for (const char* real : {"1e6", "5e6", "1.3e8", "7e10", "1.2e12"}) {
+    EXPECT_EQ(errors(kStudy, {std::string("particle.young_modulus_pa=") + real}), "");
+  }
+}
+
+TEST_F(StudyFile, OtherMaterialsAreAllowedByName) {
+  const Settings soft = {"particle.young_modulus_pa=5e4", "particle.allow=[\"young_modulus_pa\"]"};
+  EXPECT_EQ(read(kStudy, soft).model.grain_material.young_modulus_pa, 5e4);
+  EXPECT_THAT(errors(kStudy, {soft[0], "particle.allow=[\"density_kg_m3\"]"}),
+              HasSubstr("particle.young_modulus_pa = 5e4"));
+  EXPECT_THAT(errors(kStudy, {"particle.allow=[\"poisson_ratio\"]"}),
+              HasSubstr("names of keys: \"young_modulus_pa\", \"density_kg_m3\""));
+  EXPECT_THAT(errors(kStudy, {"particle.young_modulus_pa=1e300", soft[1]}),
+              HasSubstr("at most 1e+13"));
+}
+
+TEST_F(StudyFile, KeysWithinKeysHaveAnEnd) {
+  std::string key = "x";
+  for (int k = 0; k < 20'000; ++k) key += ".x";
+  EXPECT_THAT(errors(key + " = 1\n" + kStudy),
+              HasSubstr("study.toml:1:1: a key has too many parts. Rule: at most 8 points"));
+  EXPECT_THAT(errors(kStudy, {key + "=1"}), HasSubstr("setting:1:1: a key has too many parts"));
+}
+
+TEST_F(StudyFile, ManyWrongKeysAreToldShortlyAndSoon) {
+  std::string text;
+  for (int k = 0; k < 60'000; ++k) text += "k" + std::to_string(k) + " = 1\n";
+  const std::string all = errors(text + kStudy);
+  EXPECT_EQ(lines(all), 101U);
+  EXPECT_THAT(all, HasSubstr("\nand 59900 more, which are not listed."));
+}
+
+TEST_F(StudyFile, NamesHaveNoControlCharacters) {
+  EXPECT_THAT(errors(kStudy, {"particle.name=\"a\\u0000b\""}),
+              HasSubstr("without control characters"));
+}
+
+TEST_F(StudyFile, RunsThatWouldNotEndAreRefused) {
+  EXPECT_THAT(errors(kStudy, {"experiment.drop.grains=10000000"}),
+              HasSubstr("a whole number from 1 to 100000"));
+  EXPECT_THAT(errors(kStudy, {"simulation.timestep_fraction=1e-300"}),
+              HasSubstr("a number of at least 0.001"));
+}
+
 TEST_F(StudyFile, EveryKeyReachesItsPlaceInSiUnits) {
   folder_.write("nut.stl", std::string("solid"));
   const Study study = read(R"(
@@ -173,7 +227,8 @@ seed = -1
       all,
       AllOf(HasSubstr("study.toml:2:19: particle.size_mm = -1. Rule: "),
             HasSubstr("study.toml:2:23: particle.size_mm = nan. Rule: "),
-            HasSubstr("study.toml:3:17: particle.density_kg_m3 = 0. Rule: a number above 0. Fix: "),
+            HasSubstr("study.toml:3:17: particle.density_kg_m3 = 0. Rule: a number above 0 and at "
+                      "most 1e+06. Fix: "),
             HasSubstr("study.toml:4:20: particle.young_modulus_pa = \"soft\". Rule: a number"),
             HasSubstr("study.toml:5:17: particle.poisson_ratio = 0.5. Rule: a number of at least 0 "
                       "and below 0.5. Fix: "),
@@ -222,9 +277,10 @@ TEST_F(StudyFile, MissingSectionsSayWhatToAdd) {
 TEST_F(StudyFile, ShapesAreExactlyOne) {
   EXPECT_THAT(errors(kStudy, {"particle.clump = \"study.toml\""}),
               HasSubstr("one shape only, and there is size_mm already"));
-  EXPECT_THAT(errors("[particle]\ndensity_kg_m3 = 1\nyoung_modulus_pa = 1\npoisson_ratio = 0\n" +
-                     kWall + kContact + kDrop),
-              HasSubstr("particle has no shape"));
+  EXPECT_THAT(
+      errors("[particle]\ndensity_kg_m3 = 1e3\nyoung_modulus_pa = 1e9\npoisson_ratio = 0\n" +
+             kWall + kContact + kDrop),
+      HasSubstr("particle has no shape"));
   EXPECT_THAT(errors(kStudy, {"particle.spheres = 3", "particle.volume_error = 0.1"}),
               HasSubstr("spheres or volume_error, not both"));
   EXPECT_THAT(errors(kStudy, {"particle.unit = \"mm\""}), HasSubstr("only a scan has a unit"));

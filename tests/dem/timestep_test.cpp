@@ -52,6 +52,15 @@ TEST(AccurateTimestep, LongerStepsAreRefused) {
               AllOf(HasSubstr("timestep_s is"), HasSubstr("Rule: at most"), HasSubstr("Fix:")));
 }
 
+TEST(AccurateTimestep, StepsThatWouldTakeForEverAreRefused) {
+  const SimulationSetup setup = ball_on_plane(.5);
+  const double longest = accurate_timestep_s(setup, .1);
+  EXPECT_NO_THROW(check_timestep(longest / 999, setup, .1));
+  EXPECT_THAT(
+      error_of([&] { check_timestep(1e-300, setup, .1); }),
+      AllOf(HasSubstr("timestep_s is 1e-300"), HasSubstr("Rule: at least"), HasSubstr("Fix:")));
+}
+
 TEST(StableTimestep, NoContactsSetNoLimit) {
   Simulation simulation(ball_on_plane(.5));
   Grain ball;

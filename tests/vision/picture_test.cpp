@@ -230,6 +230,59 @@ TEST_F(PictureFile, DamageIsRefusedWithoutPrinting) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
+/// A little-endian number of two bytes more or less, at a place.
+Bytes with_change(Bytes bytes, std::size_t at, int change) {
+  const int number = bytes.at(at) + 256 * bytes.at(at + 1) + change;
+  bytes[at] = static_cast<std::uint8_t>(number);
+  bytes[at + 1] = static_cast<std::uint8_t>(number / 256);
+  return bytes;
+}
+
+/// Where the value of a tag stands in a little-endian TIFF.
+std::size_t tiff_value(const Bytes& bytes, int tag) {
+  std::size_t entry = bytes.at(4) + 256U * bytes.at(5) + 65536U * bytes.at(6) + 2;
+  while (bytes.at(entry) + 256 * bytes.at(entry + 1) != tag) entry += 12;
+  return entry + 8;
+}
+
+TEST_F(PictureFile, SizesThatTheFileDoesNotHoldAreRefused) {
+  const cv::Mat samples = noise(64, 48);
+  const Bytes bmp = coded(".bmp", samples), webp = coded(".webp", samples);
+  Bytes tiff;
+  cv::imencode(".tif", samples, tiff, {cv::IMWRITE_TIFF_COMPRESSION, 1});  // not packed
+  constexpr int kTiffWidth = 256, kTiffHeight = 257;
+  constexpr std::size_t kBmpWidth = 18, kBmpHeight = 22, kRiffLength = 4;
+  EXPECT_EQ(read("whole.bmp", bmp).width, 64);
+  EXPECT_EQ(read("whole.tif", tiff).width, 64);
+  EXPECT_EQ(read("whole.webp", webp).width, 64);
+  for (const int change : {-16, -1}) {
+    for (const Bytes& bytes :
+         {with_change(bmp, kBmpWidth, 8 * change), with_change(bmp, kBmpHeight, change),
+          with_change(tiff, tiff_value(tiff, kTiffWidth), change),
+          with_change(tiff, tiff_value(tiff, kTiffHeight), change),
+          with_change(webp, kRiffLength, 2 * change)}) {
+      EXPECT_THAT(error_of("wrong", bytes), AllOf(HasSubstr("damaged"), HasSubstr("Fix: ")))
+          << change;
+    }
+  }
+}
+
+TEST_F(PictureFile, PalettesThatDoNotFitAreRefusedWithoutPrinting) {
+  const cv::Mat grey(48, 64, CV_8UC1, cv::Scalar(100));
+  const Bytes whole = coded(".bmp", grey);
+  ASSERT_EQ(whole.at(28), 8) << "bits a pixel, with a palette";
+  EXPECT_THAT(colour_at(read("grey.bmp", whole), 0, 0), ElementsAre(100, 100, 100));
+  constexpr std::size_t kPixelsFrom = 10, kHeaderBytes = 14, kColours = 46;
+  ::testing::internal::CaptureStderr();
+  for (const auto& [at, change] : {std::pair{kColours, 0x7FFF},
+                                   {kColours, 257 - whole.at(kColours)},
+                                   {kHeaderBytes, 4000},
+                                   {kPixelsFrom, -1000}}) {
+    EXPECT_THAT(error_of("palette.bmp", with_change(whole, at, change)), HasSubstr("damaged"));
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(PictureFile, GiantClaimsAreRefusedBeforeMemoryIsAskedFor) {
   for (const Bytes& bytes :
        {testing::png_that_claims(50'000, 50'000), testing::jpeg_that_claims(50'000, 50'000),
@@ -269,7 +322,7 @@ TEST_F(PictureFile, UnreadableFileIsSaid) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const auto file = folder_.write("locked.png", coded(".png", noise(4, 4)));
   std::filesystem::permissions(file, std::filesystem::perms::none);
-  EXPECT_THAT(error_of(file), HasSubstr("cannot be opened"));
+  EXPECT_THAT(error_of(file), HasSubstr("cannot be read"));
 }
 
 Picture striped(int width, int height) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include <toml++/toml.h>
 
 #include "base/error_list.h"
+#include "base/toml_nesting.h"
 #include "base/whole_file.h"
 
 namespace repose::vision {
@@ -116,6 +118,12 @@ Box box_of(const std::array<double, 4>& numbers) {
 }
 
 toml::table parsed(const std::string& text, const fs::path& file) {
+  if (const auto line = base::line_of_deep_key(text)) {
+    throw std::invalid_argument(
+        fmt::format("{}:{}: a key has more than {} points. Fix: correct this line, or delete the "
+                    "file.",
+                    file.string(), *line, base::kMostPointsInAKey));
+  }
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
@@ -175,7 +183,8 @@ fs::path hint_file_of(const fs::path& picture) {
 
 MeasureOptions with_saved_hints(MeasureOptions options, const fs::path& picture) {
   const fs::path file = hint_file_of(picture);
-  const std::optional<std::string> text = base::read_file_if_there(file);
+  constexpr std::uintmax_t kLargest_bytes = 1 << 20;
+  const std::optional<std::string> text = base::read_file_if_there(file, kLargest_bytes);
   if (!text) return options;
   const toml::table table = parsed(*text, file);
   HintReader reader(table, file);

@@ -27,6 +27,19 @@ std::uint32_t number_at(Bytes bytes, std::size_t at) {
       "PNG.");
 }
 
+/// OpenCV prints to stderr what is wrong with a palette, so it is checked before.
+void check_palette(Bytes bytes) {
+  constexpr std::int64_t kFileHeaderBytes = 14, kMostColours = 256, kColourBytes = 4;
+  const std::int64_t bits_per_pixel = bytes[28];
+  if (bits_per_pixel > 8) return;
+  const std::int64_t said = number_at(bytes, 46);
+  const std::int64_t colours = said > 0 ? said : std::int64_t{1} << bits_per_pixel;
+  const std::int64_t from = kFileHeaderBytes + number_at(bytes, 14);
+  if (colours > kMostColours || from + kColourBytes * colours > number_at(bytes, 10)) {
+    refuse_damaged();
+  }
+}
+
 /// OpenCV prints to stderr when the data end early, so their length is checked before.
 void check_length(Bytes bytes) {
   if (bytes.size() < kHeaderBytes) refuse_damaged();
@@ -46,12 +59,20 @@ void check_length(Bytes bytes) {
       pixels_from + row_bytes * height > static_cast<std::int64_t>(bytes.size())) {
     refuse_damaged();
   }
+  // What follows the pixels may be a colour profile; then the header says how many bytes they take.
+  constexpr std::int64_t kMostPadding = 4;
+  const std::int64_t behind = static_cast<std::int64_t>(bytes.size()) - pixels_from;
+  const std::int64_t said = number_at(bytes, 34);
+  if (behind - row_bytes * height > kMostPadding && said != row_bytes * height) {
+    check_claimed_bytes(width, height, row_bytes * height, said > 0 ? said : behind);
+  }
 }
 
 }  // namespace
 
 Picture decode_bmp(Bytes bytes) {
   check_length(bytes);
+  check_palette(bytes);
   const cv::Mat coded(1, static_cast<int>(bytes.size()), CV_8U,
                       const_cast<std::uint8_t*>(bytes.data()));
   const cv::Mat samples = cv::imdecode(coded, cv::IMREAD_COLOR);

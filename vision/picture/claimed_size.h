@@ -27,4 +27,17 @@ inline void check_claimed_size(std::int64_t width, std::int64_t height) {
   }
 }
 
+/// To be called where a file says how many bytes its pixels take, or can be asked.
+/// @param claimed_bytes  what the size in the header comes to
+/// @throws std::invalid_argument  "what. Fix: ..." when the file holds another number of them.
+inline void check_claimed_bytes(std::int64_t width, std::int64_t height, std::int64_t claimed_bytes,
+                                std::int64_t held_bytes) {
+  if (claimed_bytes == held_bytes) return;
+  throw std::invalid_argument(
+      fmt::format("the picture is cut short or damaged: its header claims {} x {} pixels, which "
+                  "take {} bytes, and it holds {}. Fix: copy it from where it came from again, or "
+                  "save it as PNG.",
+                  width, height, claimed_bytes, held_bytes));
+}
+
 }  // namespace repose::vision

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
@@ -54,33 +52,6 @@ Format format_of(Bytes bytes) {
   return Format::unknown;
 }
 
-std::vector<std::uint8_t> read_bytes(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) {
-    throw std::invalid_argument("there is no such file. Fix: check the name and the folder.");
-  }
-  if (fs::is_directory(status)) {
-    throw std::invalid_argument("is a folder, not a picture. Fix: name a picture inside it.");
-  }
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) {
-    throw std::invalid_argument(
-        "cannot be opened. Fix: allow yourself to read it, for example with chmod u+r.");
-  }
-  const auto size = static_cast<std::streamoff>(in.tellg());
-  std::vector<std::uint8_t> bytes(size > 0 ? static_cast<std::size_t>(size) : 0);
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) {
-    throw std::invalid_argument("cannot be read to its end. Fix: copy it to this machine first.");
-  }
-  if (bytes.empty()) {
-    throw std::invalid_argument("is empty (0 bytes). Fix: copy it from the camera again.");
-  }
-  return bytes;
-}
-
 Picture decode(Bytes bytes) {
   switch (format_of(bytes)) {
     case Format::jpeg:
@@ -116,8 +87,12 @@ std::string lower_case_ending(const fs::path& file) {
 
 Picture read_picture(const fs::path& file) {
   silence_opencv();
+  const std::string bytes = base::read_whole_file(file);
   try {
-    return decode(read_bytes(file));
+    if (bytes.empty()) {
+      throw std::invalid_argument("is empty (0 bytes). Fix: copy it from the camera again.");
+    }
+    return decode({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", file.string(), error.what()));
   }

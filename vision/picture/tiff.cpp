@@ -122,6 +122,39 @@ Layout layout_of(const File& file) {
   };
 }
 
+/// Bytes of all strips or tiles together, as the file lists them.
+std::int64_t listed_bytes(const File& file) {
+  const bool is_tiled = TIFFIsTiled(file.get()) != 0;
+  const std::uint32_t parts =
+      is_tiled ? TIFFNumberOfTiles(file.get()) : TIFFNumberOfStrips(file.get());
+  std::int64_t sum = 0;
+  for (std::uint32_t part = 0; part < parts; ++part) {
+    sum += static_cast<std::int64_t>(TIFFGetStrileByteCount(file.get(), part));
+  }
+  return sum;
+}
+
+/// Only of pixels that are not packed the file says how many bytes they must be.
+void check_bytes(const File& file, std::int64_t width, std::int64_t height) {
+  if (tag<std::uint16_t>(file, TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE) return;
+  const std::int64_t listed = listed_bytes(file);
+  if (TIFFIsTiled(file.get())) {
+    check_claimed_bytes(
+        width, height,
+        static_cast<std::int64_t>(TIFFNumberOfTiles(file.get()) * TIFFTileSize64(file.get())),
+        listed);
+    return;
+  }
+  const bool is_apart = tag<std::uint16_t>(file, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;
+  const std::int64_t planes = is_apart ? tag<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL) : 1;
+  const auto rows = static_cast<std::uint32_t>(height);
+  const auto plane = static_cast<std::int64_t>(TIFFVStripSize64(file.get(), rows));
+  const std::int64_t whole_strips = static_cast<std::int64_t>(TIFFNumberOfStrips(file.get())) *
+                                    static_cast<std::int64_t>(TIFFStripSize64(file.get()));
+  if (listed == whole_strips) return;  // the last one too, as some programs write it
+  check_claimed_bytes(width, height, planes * plane, listed);
+}
+
 cv::Mat read_plain(const File& file, const Source& source, const Layout& layout, cv::Size size) {
   const int depth = layout.bits == 16 ? CV_16U : CV_8U;
   cv::Mat samples(size, CV_MAKETYPE(depth, layout.channels));
@@ -172,6 +205,7 @@ Picture decode_tiff(std::span<const std::uint8_t> bytes) {
         fmt::format("a TIFF of {}-bit {} samples is not read. Fix: save it with 8 or 16 bits.",
                     layout.bits, layout.is_integer ? "whole" : "signed or floating-point"));
   }
+  check_bytes(file, width, height);
   const cv::Size size(static_cast<int>(width), static_cast<int>(height));
   const int orientation = tag<std::uint16_t>(file, TIFFTAG_ORIENTATION, kUprightOrientation);
   const cv::Mat samples = layout.is_plain() ? read_plain(file, source, layout, size)

@@ -1,5 +1,7 @@
 #include "vision/picture/webp.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 
@@ -32,7 +34,19 @@ int orientation_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
+/// RIFF says how long it is, but for its own first eight bytes. One byte may fill up.
+void check_length(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kLengthAt = 4, kHeader = 8;
+  if (bytes.size() < kLengthAt + sizeof(std::uint32_t)) refuse_damaged();
+  std::uint64_t length = kHeader;
+  for (std::size_t k = 0; k < sizeof(std::uint32_t); ++k) {
+    length += std::uint64_t{bytes[kLengthAt + k]} << (8 * k);
+  }
+  if (length != bytes.size() && length + 1 != bytes.size()) refuse_damaged();
+}
+
 Picture decode_webp(std::span<const std::uint8_t> bytes) {
+  check_length(bytes);
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) refuse_damaged();
   if (features.has_animation) {

@@ -122,7 +122,8 @@ std::vector<ReadingColumn> columns_of(BenchTest test) { return method_of(test).c
 
 BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings) {
   const Method method = method_of(test);
-  base::ErrorList errors;
+  constexpr std::size_t kMostErrors = 10;  // a table may have a million rows
+  base::ErrorList errors(kMostErrors);
   errors.require(!readings.empty(), "bench: there are no readings. Fix: give at least one.");
   for (const BenchReading& reading : readings) check_reading(method, reading, errors);
   errors.throw_if_any();

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -92,6 +93,57 @@ std::vector<TableRow> rows_of(const std::string& name, std::string_view text, ch
   return parser.take_rows();
 }
 
+/// A spreadsheet's own file, or one in UTF-16, has bytes that no text in UTF-8 has.
+void check_letters(const std::string& name, std::string_view text) {
+  const auto is_no_letter = [](char letter) {
+    constexpr char kFirstLetter = ' ', kDelete = 0x7F;
+    return (letter >= 0 && letter < kFirstLetter && letter != '\t' && letter != '\r' &&
+            letter != '\n') ||
+           letter == kDelete;
+  };
+  const auto found = std::find_if(text.begin(), text.end(), is_no_letter);
+  if (found == text.end()) return;
+  throw std::invalid_argument(
+      fmt::format("{}:{}: holds a byte that is no letter (number {}). Rule: a table is text in "
+                  "UTF-8. Fix: save "
+                  "it from the spreadsheet as CSV UTF-8.",
+                  name, 1 + std::count(text.begin(), found, '\n'), static_cast<int>(*found)));
+}
+
+/// "1.012", "12.345.678": a number, or in a table with decimal commas perhaps a thousand times as
+/// much.
+bool may_have_thousands(std::string_view cell) {
+  static const std::regex kGroups("[+-]?[1-9][0-9]{0,2}(\\.[0-9]{3})+");
+  return std::regex_match(cell.begin(), cell.end(), kGroups);
+}
+
+/// The first row of these columns with a decimal comma in a number; null when there is none.
+const TableRow* row_with_comma(const Table& table, std::span<const std::size_t> columns) {
+  if (!table.has_decimal_comma) return nullptr;
+  for (const TableRow& row : table.rows) {
+    for (const std::size_t column : columns) {
+      const std::string& cell = row.cells[column];
+      if (cell.find(',') != std::string::npos && number_of(table, cell)) return &row;
+    }
+  }
+  return nullptr;
+}
+
+/// What is wrong with a cell that must be a number, after its place; empty: nothing.
+std::string problem_of(const std::string& cell, bool is_number, const TableRow* comma) {
+  if (!is_number) {
+    return fmt::format("\"{}\", which is no finite number. Fix: write a number, or delete the row.",
+                       cell);
+  }
+  if (comma != nullptr && may_have_thousands(cell)) {
+    return fmt::format(
+        "\"{}\", which may mean thousands: line {} has a decimal comma. Fix: write "
+        "all numbers with a decimal comma and without points.",
+        cell, comma->line);
+  }
+  return {};
+}
+
 void check_header(const Table& table, int line, base::ErrorList& errors) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -116,6 +168,7 @@ std::optional<std::size_t> Table::column(std::string_view wanted) const {
 
 Table parse_table(const std::string& name, std::string_view text) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  check_letters(name, text);
   const char delimiter = delimiter_of(text);
   std::vector<TableRow> rows = rows_of(name, text, delimiter);
   if (rows.empty()) {
@@ -131,12 +184,15 @@ Table parse_table(const std::string& name, std::string_view text) {
   check_header(table, rows.front().line, errors);
   errors.require(!table.rows.empty(),
                  name + ": has no rows below its header. Fix: add a row for each reading or run.");
+  base::ErrorList ragged(kMostRowErrors);
   for (const TableRow& row : table.rows) {
-    errors.require(row.cells.size() == table.columns.size(),
-                   fmt::format("{}:{}: the row has {} cells, the header {}. Fix: give each row a "
-                               "cell for each column.",
-                               name, row.line, row.cells.size(), table.columns.size()));
+    if (row.cells.size() == table.columns.size()) continue;
+    ragged.add(
+        fmt::format("{}:{}: the row has {} cells, the header {}. Fix: give each row a cell "
+                    "for each column.",
+                    name, row.line, row.cells.size(), table.columns.size()));
   }
+  errors.add(ragged);
   errors.throw_if_any();
   return table;
 }
@@ -161,27 +217,34 @@ std::optional<double> number_of(const Table& table, std::string_view cell) {
 
 std::vector<std::vector<double>> numbers_of(const Table& table,
                                             std::span<const std::string> columns) {
-  std::vector<std::vector<double>> numbers(columns.size());
+  std::vector<std::size_t> places;
   base::ErrorList errors;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto column = table.column(columns[i]);
-    if (!column) {
-      const std::string guess = base::closest_word(columns[i], table.columns);
-      errors.add(fmt::format("{}: has no column {}. {}Fix: it has {}.", table.name, columns[i],
-                             guess.empty() ? "" : fmt::format("Did you mean {}? ", guess),
-                             fmt::join(table.columns, ", ")));
+  for (const std::string& wanted : columns) {
+    if (const auto column = table.column(wanted)) {
+      places.push_back(*column);
       continue;
     }
+    const std::string guess = base::closest_word(wanted, table.columns);
+    errors.add(fmt::format("{}: has no column {}. {}Fix: it has {}.", table.name, wanted,
+                           guess.empty() ? "" : fmt::format("Did you mean {}? ", guess),
+                           fmt::join(table.columns, ", ")));
+  }
+  const TableRow* comma = row_with_comma(table, places);
+  base::ErrorList cells(kMostRowErrors);
+  std::vector<std::vector<double>> numbers(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
     for (const TableRow& row : table.rows) {
-      const std::string& cell = row.cells[*column];
+      const std::string& cell = row.cells[places[i]];
       const auto number = number_of(table, cell);
-      errors.require(number.has_value(),
-                     fmt::format("{}:{}: {} is \"{}\", which is no finite number. Fix: write a "
-                                 "number, or delete the row.",
-                                 table.name, row.line, columns[i], cell));
+      const std::string problem = problem_of(cell, number.has_value(), comma);
+      if (!problem.empty()) {
+        cells.add(fmt::format("{}:{}: {} is {}", table.name, row.line, table.columns[places[i]],
+                              problem));
+      }
       numbers[i].push_back(number.value_or(0));
     }
   }
+  errors.add(cells);
   errors.throw_if_any();
   return numbers;
 }

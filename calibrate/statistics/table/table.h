@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -9,6 +10,9 @@
 
 /// Tables with a header, from spreadsheets: CSV.
 namespace repose::calibrate {
+
+/// Of errors in rows, this many are listed; the others are counted.
+inline constexpr std::size_t kMostRowErrors = 10;
 
 struct TableRow {
   int line = 0;  ///< of the file, from 1
@@ -30,7 +34,7 @@ struct Table {
 ///
 /// @throws std::invalid_argument  every error, a line each: "NAME:LINE: ... Fix: ...": no header,
 /// no rows, columns without a name or with the same name, rows with too few or too many cells,
-/// quotes that do not match.
+/// quotes that do not match, bytes that are no letters.
 Table parse_table(const std::string& name, std::string_view text);
 
 /// parse_table of a file's content.
@@ -42,7 +46,8 @@ std::optional<double> number_of(const Table& table, std::string_view cell);
 /// The numbers of some columns: [column][row].
 ///
 /// @throws std::invalid_argument  every error: columns that are not there, cells that are no finite
-/// numbers, each with its line.
+/// numbers, or that may have a point between thousands where other numbers have a decimal comma,
+/// each with its line.
 std::vector<std::vector<double>> numbers_of(const Table& table,
                                             std::span<const std::string> columns);
 

@@ -2,13 +2,16 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/whole_file.h"
 #include "dem/shape/clump/sphere_groups.h"
+#include "dem/shape/scan/scan.h"
 
 namespace repose::dem {
 namespace {
@@ -169,6 +172,29 @@ void read_gyration(const Json& root, Reader& reader, ClumpShape& shape) {
   }
 }
 
+/// Lengths in mm where the file has m are possible spheres, and grains a thousand times too large.
+void check_sizes(const ClumpShape& shape, const std::string& name) {
+  const double reach = shape.reach_m();
+  if (!(2 * reach >= kSmallestGrain_m && reach <= kLargestGrain_m)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: spheres: they reach {:.4g} m from the centre. Rule: grains are from {:g} to {:g} m "
+        "long. Fix: the file counts in m; divide lengths in mm by 1000.",
+        name, reach, kSmallestGrain_m, kLargestGrain_m));
+  }
+  // A body may be slender, and longer than its spheres; it is not another body.
+  constexpr double kFourThirdsPi = 4.0 / 3 * std::numbers::pi;
+  const double ball_m3 = kFourThirdsPi * reach * reach * reach;
+  const double moments = shape.gyration_m2.sum() / (reach * reach);
+  const bool is_one_body = shape.volume_m3 > 1e-7 * ball_m3 && shape.volume_m3 < 4 * ball_m3 &&
+                           moments > 1e-3 && moments < 20;
+  if (is_one_body) return;
+  throw std::invalid_argument(
+      fmt::format("{}: spheres: they reach {:.4g} m, which does not fit to volume_m3 = {:.4g} and "
+                  "gyration_m2. Rule: lengths in m, volumes in m^3, moments in m^2. Fix: write the "
+                  "file again with repose shape.",
+                  name, reach, shape.volume_m3));
+}
+
 void read_surface(const Json& root, Reader& reader, Mesh& surface) {
   const Json& json = reader.value(root, "surface");
   const Json& vertices = reader.list(reader.value(json, "vertices_m"), "surface.vertices_m");
@@ -242,7 +268,9 @@ ClumpFile parse_clump_json(const std::string& text, const std::string& name) {
 }
 
 ClumpFile read_clump_file(const std::filesystem::path& file) {
-  return parse_clump_json(base::read_whole_file(file), file.string());
+  ClumpFile clump = parse_clump_json(base::read_whole_file(file), file.string());
+  check_sizes(clump.shape, file.string());
+  return clump;
 }
 
 }  // namespace repose::dem

@@ -39,6 +39,18 @@ std::vector<SphereFit::Guard> guards_above(const Mesh& mesh,
   return guards;
 }
 
+/// Spheres to begin with, one at least: those inside that are large enough; in a thin body, where
+/// none is, what there is of them, to be enlarged by the fit.
+std::vector<ClumpSphere> first_spheres(const Mesh& mesh, int count, double smallest_radius,
+                                       const Vector& centroid) {
+  const std::vector<ClumpSphere> inside = inscribed_spheres(mesh, count);
+  std::vector<ClumpSphere> spheres = inside;
+  std::erase_if(spheres, [&](const ClumpSphere& s) { return s.radius < smallest_radius; });
+  if (!spheres.empty()) return spheres;
+  if (!inside.empty()) return inside;
+  return {{.centre = centroid, .radius = smallest_radius}};
+}
+
 std::vector<ClumpSphere> fitted_spheres(const Mesh& mesh, int count,
                                         double smallest_radius_fraction) {
   const MassProperties body = mass_properties(mesh);
@@ -47,8 +59,7 @@ std::vector<ClumpSphere> fitted_spheres(const Mesh& mesh, int count,
   const std::vector<SurfaceSample> samples = sample_surface(mesh, samples_for(count));
   const double smallest_radius = smallest_radius_fraction * equal_radius;
   const SphereFit fit(samples, guards_above(mesh, samples, equal_radius), smallest_radius);
-  std::vector<ClumpSphere> spheres = inscribed_spheres(mesh, count);
-  std::erase_if(spheres, [&](const ClumpSphere& s) { return s.radius < smallest_radius; });
+  std::vector<ClumpSphere> spheres = first_spheres(mesh, count, smallest_radius, body.centroid);
   relocate_and_fit(fit, samples, static_cast<std::size_t>(count), spheres);
   return spheres;
 }
@@ -90,6 +101,12 @@ FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_
   return best;
 }
 
+/// What to do when so many spheres are not enough for a surface.
+std::string fix_for(std::size_t spheres) {
+  return spheres < kMaxSpheres ? "Fix: more spheres"
+                               : "Fix: a thicker body; more spheres than these are not made";
+}
+
 /// The fit of few spheres to a slender body may end in ones that the body could lie in.
 void check_sizes(const Mesh& mesh, const FillReport& report) {
   const Vector centroid = mass_properties(mesh).centroid;
@@ -97,9 +114,10 @@ void check_sizes(const Mesh& mesh, const FillReport& report) {
   for (const Vector& vertex : mesh.vertices) reach = std::max(reach, (vertex - centroid).norm());
   for (const ClumpSphere& sphere : report.spheres) {
     if (sphere.radius <= reach) continue;
-    throw std::invalid_argument("spheres: " + std::to_string(report.spheres.size()) +
-                                " cannot follow this surface, one came out larger than all of it. "
-                                "Fix: more spheres.");
+    throw std::invalid_argument(
+        "spheres: " + std::to_string(report.spheres.size()) +
+        " cannot follow this surface, one came out larger than all of it. " +
+        fix_for(report.spheres.size()) + '.');
   }
 }
 
@@ -109,8 +127,8 @@ void check_hangs_together(const FillReport& report) {
   throw std::invalid_argument(
       "spheres: these " + std::to_string(report.spheres.size()) + " fall into " +
       std::to_string(groups) +
-      " groups that do not touch each other; other grains could pass between them. Fix: more "
-      "spheres, or a smaller volume error.");
+      " groups that do not touch each other; other grains could pass between them. " +
+      fix_for(report.spheres.size()) + ", or a smaller volume error.");
 }
 
 }  // namespace

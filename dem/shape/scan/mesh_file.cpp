@@ -4,18 +4,29 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
+#include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include "base/whole_file.h"
+#include "dem/shape/scan/ply_file.h"
 
 namespace repose::dem {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 5'000'000;
+/// Corners of one face. Cutting a polygon into triangles takes time with the cube of its corners.
+constexpr std::size_t kMaxCorners = 256;
 constexpr double kLargestCoordinate =
     1e9;  // in any unit; beyond, single precision has no shape left
 
@@ -23,21 +34,37 @@ constexpr double kLargestCoordinate =
   throw std::invalid_argument(file.string() + ": " + error);
 }
 
-void check_is_readable(const std::filesystem::path& file) {
+[[noreturn]] void refuse_unreadable(const std::filesystem::path& file, const std::string& reason) {
+  refuse(file, fmt::format("cannot be read as a surface ({}). Fix: save the scan again; or open it "
+                           "in MeshLab and export it as binary STL.",
+                           reason));
+}
+
+void check_corners(const std::filesystem::path& file, std::size_t corners) {
+  if (corners <= kMaxCorners) return;
+  refuse(file,
+         fmt::format("holds a face with {} corners. Rule: at most {}. Fix: export the scan as "
+                     "triangles (Blender: Triangulate Faces when exporting).",
+                     corners, kMaxCorners));
+}
+
+std::string lower_case_ending(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  if (!std::filesystem::exists(file)) refuse(file, "there is no such file. Fix: check the name.");
-  if (std::filesystem::is_directory(file)) refuse(file, "is a folder. Fix: name one scan.");
-  constexpr std::array<const char*, 3> kEndings = {".stl", ".obj", ".ply"};
-  if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
+  return ending;
+}
+
+std::string content_of(const std::filesystem::path& file, const std::string& ending) {
+  constexpr std::array<std::string_view, 3> kEndings = {".stl", ".obj", ".ply"};
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(file, ignored) && std::filesystem::exists(file, ignored) &&
+      std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
     refuse(file, "is no STL, OBJ or PLY by its name. Fix: save the scan as one of these.");
   }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(file, "cannot be read. Fix: check who may read it.");
-  if (stream.peek() == std::ifstream::traits_type::eof()) {
-    refuse(file, "is empty. Fix: save the scan again.");
-  }
+  std::string content = base::read_whole_file(file);
+  if (content.empty()) refuse(file, "is empty. Fix: save the scan again.");
+  return content;
 }
 
 Vector vector_of(const aiVector3D& from) {
@@ -72,18 +99,71 @@ void check_coordinates(const std::filesystem::path& file, const Mesh& mesh) {
   }
 }
 
+/// STL and OBJ through assimp, which sees these bytes and no file: what an OBJ refers to, such as a
+/// library of materials, is never opened.
+Mesh read_by_assimp(const std::filesystem::path& file, std::string_view bytes,
+                    const std::string& ending) {
+  Assimp::Importer importer;
+  importer.SetIOHandler(new Assimp::MemoryIOSystem(
+      reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), nullptr));
+  const aiScene* scene = importer.ReadFile(AI_MEMORYIO_MAGIC_FILENAME + ending, 0);
+  if (scene == nullptr) refuse_unreadable(file, importer.GetErrorString());
+  for (const aiMesh* part : std::span(scene->mMeshes, scene->mNumMeshes)) {
+    for (const aiFace& face : std::span(part->mFaces, part->mNumFaces)) {
+      check_corners(file, face.mNumIndices);
+      for (const unsigned corner : std::span(face.mIndices, face.mNumIndices)) {
+        if (corner >= part->mNumVertices) refuse_unreadable(file, "a face names no corner");
+      }
+    }
+  }
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (scene == nullptr) refuse_unreadable(file, importer.GetErrorString());
+  Mesh mesh;
+  for (const aiMesh* part : std::span(scene->mMeshes, scene->mNumMeshes)) append(*part, mesh);
+  return mesh;
+}
+
+/// For assimp to cut faces of more than three corners.
+std::string obj_of(const PlySurface& surface) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (const auto& [x, y, z] : surface.corners) fmt::format_to(out, "v {} {} {}\n", x, y, z);
+  for (const std::vector<int>& face : surface.faces) {
+    text += 'f';
+    for (const int corner : face) fmt::format_to(out, " {}", corner + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+Mesh read_ply(const std::filesystem::path& file, std::string_view bytes) {
+  PlySurface surface;
+  try {
+    surface = parse_ply(bytes);
+  } catch (const std::invalid_argument& error) {
+    refuse_unreadable(file, error.what());
+  }
+  std::size_t most = 0;
+  for (const std::vector<int>& face : surface.faces) most = std::max(most, face.size());
+  check_corners(file, most);
+  if (most > 3) return read_by_assimp(file, obj_of(surface), ".obj");
+  Mesh mesh;
+  for (const auto& [x, y, z] : surface.corners) {
+    mesh.vertices.emplace_back(static_cast<double>(x), static_cast<double>(y),
+                               static_cast<double>(z));
+  }
+  for (const std::vector<int>& face : surface.faces) {
+    mesh.triangles.push_back({face[0], face[1], face[2]});
+  }
+  return mesh;
+}
+
 }  // namespace
 
 Mesh read_mesh_file(const std::filesystem::path& file) {
-  check_is_readable(file);
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
-  if (scene == nullptr) {
-    refuse(file, std::string("cannot be read as a surface (") + importer.GetErrorString() +
-                     "). Fix: open it in MeshLab and export it as binary STL.");
-  }
-  Mesh mesh;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], mesh);
+  const std::string ending = lower_case_ending(file);
+  const std::string bytes = content_of(file, ending);
+  const Mesh mesh = ending == ".ply" ? read_ply(file, bytes) : read_by_assimp(file, bytes, ending);
   if (mesh.triangles.empty()) {
     refuse(file,
            "holds no triangles. Fix: if it is a cloud of points, make a surface of it (MeshLab: "

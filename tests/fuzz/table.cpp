@@ -1,0 +1,12 @@
+#include "calibrate/statistics/table/table.h"
+
+#include "tests/fuzz/scratch_file.h"
+
+namespace repose::fuzz {
+
+void read_table(Bytes bytes) {
+  const calibrate::Table table = calibrate::parse_table("table.csv", text_of(bytes));
+  calibrate::numbers_of(table, table.columns);
+}
+
+}  // namespace repose::fuzz
