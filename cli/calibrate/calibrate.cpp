@@ -42,10 +42,11 @@ void write_results(const CalibratePlan& plan, const calibrate::StudyResult& resu
                    const std::string& table) {
   const std::string json = to_json(result);
   set_aside_old_result(plan);
-  write_output((plan.out_folder / "result.json").string(), json);
-  if (!plan.json_file.empty()) write_output(plan.json_file, json);
-  if (plan.json_file == kStandardOutput) return;
-  write_output(std::string(kStandardOutput), table);
+  Outputs outputs;
+  outputs.add((plan.out_folder / "result.json").string(), json);
+  outputs.add(plan.json_file, json);
+  outputs.show(table);
+  outputs.write();
 }
 
 /// The heap of the fitted coefficients, to look at and to compare with a photograph.
@@ -73,10 +74,10 @@ calibrate::StudySimulator simulator_of(const CalibratePlan& plan,
 }
 
 ExitCode interrupted(const calibrate::RunFolder& folder) {
-  fmt::print(stderr,
-             "repose: interrupted, no result was written. The same command again goes on from "
-             "here: what was simulated is in {}.\n",
-             folder.runs().string());
+  print_line(
+      fmt::format("interrupted, no result was written. The same command again goes on from here: "
+                  "what was simulated is in {}.",
+                  folder.runs().string()));
   return ExitCode::interrupted;
 }
 

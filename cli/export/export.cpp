@@ -117,11 +117,12 @@ ExitCode run_export(const ExportArguments& arguments) {
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
   calibrate::write_export(plan.out_folder, plan.made.files);
+  Outputs outputs;
+  outputs.add(arguments.json_file, export_json(plan));
+  outputs.show(export_table(plan, columns_of(stdout)));
+  outputs.write_files();
   print_lines(plan.made.warnings);
-  if (!arguments.json_file.empty()) write_output(arguments.json_file, export_json(plan));
-  if (arguments.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput), export_table(plan, columns_of(stdout)));
-  }
+  outputs.write();
   return ExitCode::done;
 }
 

@@ -48,7 +48,9 @@ ExitCode run_report(const ReportArguments& arguments) {
     }
   }
   base::write_whole_file(page, report.html);
-  write_output(std::string(kStandardOutput), page.string() + '\n');
+  Outputs outputs;
+  outputs.show(page.string() + '\n');
+  outputs.write();
   return ExitCode::done;
 }
 

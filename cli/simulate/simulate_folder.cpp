@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/whole_file.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/experiment/simulator_version.h"
 #include "cli/common/output.h"
@@ -97,7 +98,7 @@ std::string saved_text(const SimulatePlan& plan) {
 
 void save_identity(const SimulatePlan& plan) {
   if (plan.out_folder.empty()) return;
-  write_output(identity_file(plan).string(), identity_of(plan).dump(2) + '\n');
+  base::write_whole_file(identity_file(plan), identity_of(plan).dump(2) + '\n');
 }
 
 }  // namespace repose::cli
