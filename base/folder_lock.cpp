@@ -31,9 +31,8 @@ std::string owner_of(int descriptor) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& file)
+FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file)
     : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAsUsual)) {
-  const std::string folder = file.parent_path().string();
   if (descriptor_ < 0) {
     throw std::invalid_argument(
         fmt::format("{}: cannot be written ({}). Fix: choose a folder you may write to, or free "
@@ -48,7 +47,7 @@ FolderLock::FolderLock(const std::filesystem::path& file)
   throw std::invalid_argument(
       fmt::format("{}: {} works in it at this moment. Fix: wait until it has ended, or choose "
                   "another folder.",
-                  folder, owner));
+                  folder.string(), owner));
 }
 
 FolderLock::~FolderLock() {

@@ -8,9 +8,9 @@ namespace repose::base {
 /// ends; the file stays, empty.
 class FolderLock {
  public:
-  /// @param file  whose lock stands for its folder, which must be there
+  /// @param file  whose lock stands for the folder; it may be deeper in it
   /// @throws std::invalid_argument  another process has it, which is named.
-  explicit FolderLock(const std::filesystem::path& file);
+  FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;

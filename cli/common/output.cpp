@@ -2,6 +2,8 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/error_list.h"
+#include "base/printable.h"
 #include "base/whole_file.h"
 
 namespace repose::cli {
@@ -28,6 +31,8 @@ void print(std::string_view text) {
 void prepare_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  // The library that writes films prints what cli/render says in words.
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before threads
   // What is opened takes the lowest free number. Nothing can be written to these three.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", O_RDONLY);
@@ -79,9 +84,11 @@ void print_error_text(std::string_view text) noexcept {
 }
 
 void print_line(std::string_view line) noexcept {
-  print_error_text("repose: ");
-  print_error_text(line);
-  print_error_text("\n");
+  try {
+    print_error_text("repose: " + base::printable(line) + '\n');
+  } catch (const std::bad_alloc&) {
+    print_error_text("repose: there is no memory left to say what is wrong\n");
+  }
 }
 
 void print_lines(const std::vector<std::string>& lines) noexcept {

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 /// The program in a shell, whose redirections a user's are.
@@ -84,6 +84,37 @@ TEST_F(OutputsOf, AFileThatCannotBeWrittenDoesNotKeepTheOthers) {
   EXPECT_FALSE(exists("x.json"));
   EXPECT_THAT(text("x.csv"), StartsWith("file,status"));
   EXPECT_THAT(full.out, HasSubstr("heap.png"));
+}
+
+TEST_F(OutputsOf, PicturesThatReposeDidNotMakeStay) {
+  std::filesystem::create_directory(path("photos"));
+  std::filesystem::copy(path("heap.png"), path("photos/heap.jpg"));
+  folder_.write("photos/heap.png", std::string("somebody's photograph"));
+  for (int k = 0; k < 2; ++k) {
+    const Finished done = shell("repose measure photos/heap.jpg --overlay photos");
+    EXPECT_EQ(done.exit_code, 0);
+    EXPECT_THAT(done.err, HasSubstr("its overlay is photos/heap-2.png"));
+  }
+  EXPECT_FALSE(exists("photos/heap-3.png")) << "its own pictures it replaces";
+  const Finished refused = shell("repose compare heap.png heap.png --overlay photos/heap.png");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("no picture of repose"), HasSubstr("Fix: ")));
+  EXPECT_EQ(text("photos/heap.png"), "somebody's photograph");
+}
+
+TEST_F(OutputsOf, AnOptionThatIsGivenNothingIsRefused) {
+  for (const std::string words : {"measure heap.png --json ''", "calibrate study.toml --out ''",
+                                  "measure ''", "export study --to yade --out ''"}) {
+    const Finished refused = shell("repose " + words);
+    EXPECT_EQ(refused.exit_code, 2) << words;
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("nothing is given for it"), HasSubstr("Fix: ")));
+  }
+}
+
+TEST_F(OutputsOf, NamesDoNotControlTheTerminal) {
+  const Finished done = shell("repose measure $'no\\033]0;x\\007.jpg' heap.png");
+  EXPECT_THAT(done.err, AllOf(HasSubstr("no\\x1B]0;x\\x07.jpg"), Not(HasSubstr("\033"))));
+  EXPECT_THAT(done.out, Not(HasSubstr("\033")));
 }
 
 }  // namespace
