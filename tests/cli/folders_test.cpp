@@ -17,7 +17,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
@@ -231,6 +230,78 @@ TEST_F(Folders, TwoAtOnceInOneFolderAreToldApart) {
   EXPECT_EQ(run({"report", "d"}).exit_code, 0) << "looking at it is no work in it";
   interrupt_when_there(first, "d");
   EXPECT_EQ(run({"calibrate", "study.toml", "--out", "d"}).exit_code, 0) << "a kill leaves no lock";
+}
+
+TEST_F(Folders, SignalsEndAStudyInGoodOrder) {
+  write_long_study("long.toml");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::filesystem::remove_all(path("d"));
+    const pid_t program = start_repose(folder_, {"calibrate", "long.toml", "--out", "d"});
+    for (int k = 0; k < 2000 && !exists("d/study.json"); ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it is simulating now
+    ::kill(program, signal);
+    int status = 0;
+    ::waitpid(program, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status)) << signal;
+    EXPECT_EQ(WEXITSTATUS(status), 130) << signal;
+    EXPECT_FALSE(exists("d/result.json"));
+  }
+}
+
+TEST_F(Folders, AStudyNeedsFewOpenFilesAndLittleMemory) {
+  std::string limits = "ulimit -n 256";
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  limits += " -v 1048576";  // KiB
+#endif
+  folder_.write("line.sh", limits + "; exec '" + program().string() +
+                               "' calibrate study.toml --out d --jobs 2\n");
+  const Finished done = run_program("bash", folder_, {"line.sh"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
+TEST_F(Folders, ClocksDoNotMatter) {
+  const Words words = {"calibrate", "study.toml", "--out", "d"};
+  ASSERT_EQ(run(words).exit_code, 0);
+  const std::string result = text("d/result.json");
+  std::filesystem::remove(path("d/result.json"));
+  int years = -30;
+  for (const auto& file : stored("d", ".json")) {
+    const auto now = std::filesystem::file_time_type::clock::now();
+    std::filesystem::last_write_time(file, now + std::chrono::hours(24 * 365 * years++));
+  }
+  const Finished again = run(words);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.err, Not(HasSubstr("round 1")));
+  EXPECT_EQ(text("d/result.json"), result);
+}
+
+TEST_F(Folders, ADiskWithoutInodesAndThenWithLosesNothing) {
+  ASSERT_EQ(run({"calibrate", "study.toml", "--out", "whole"}).exit_code, 0);
+  const std::string repose = "'" + program().string() + "' calibrate study.toml --out disk/d\n";
+  folder_.write("disk.sh",
+                "mkdir disk && mount -t tmpfs -o size=8m,nr_inodes=14 none disk || exit 77\n" +
+                    repose + "echo $? >first\nmount -o remount,nr_inodes=1000 disk\n" + repose +
+                    "echo $? >second\ncp disk/d/result.json .\n");
+  const Finished done = run_program("unshare", folder_, {"-m", "sh", "disk.sh"});
+  if (!exists("first")) GTEST_SKIP() << "nothing can be mounted here";
+  EXPECT_EQ(text("first"), "2\n");
+  EXPECT_EQ(text("second"), "0\n");
+  EXPECT_THAT(done.err, AllOf(HasSubstr("No space left on device"), HasSubstr("Fix: "),
+                              HasSubstr("simulations were there already")));
+  EXPECT_EQ(text("result.json"), text("whole/result.json"));
+}
+
+TEST_F(Folders, AReadOnlyDiskIsSaidBeforeAnyWork) {
+  folder_.write("disk.sh", "mkdir disk && mount -t tmpfs -o ro none disk || exit 77\n'" +
+                               program().string() +
+                               "' calibrate study.toml --out disk/d --json disk/x.json\n"
+                               "echo $? >first\n");
+  const Finished done = run_program("unshare", folder_, {"-m", "sh", "disk.sh"});
+  if (!exists("first")) GTEST_SKIP() << "nothing can be mounted here";
+  EXPECT_EQ(text("first"), "2\n");
+  EXPECT_THAT(done.err, AllOf(HasSubstr("Read-only file system"), HasSubstr("Fix: ")));
 }
 
 TEST_F(Folders, AnExportLeavesFilesOfTheUsersAndTakesItsOwnAway) {
