@@ -1,8 +1,29 @@
 #include "base/csv.h"
 
+#include <charconv>
+#include <system_error>
+
 namespace repose::base {
 
+namespace {
+
+bool is_number(std::string_view text) {
+  double number = 0;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Spreadsheets take such a text for a formula and carry it out.
+bool is_formula(std::string_view text) {
+  constexpr std::string_view kBegins = "=+-@\t\r";
+  return !text.empty() && kBegins.find(text.front()) != kBegins.npos && !is_number(text);
+}
+
+}  // namespace
+
 std::string csv_cell(std::string_view text) {
+  if (is_formula(text)) return csv_cell("'" + std::string(text));
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char letter : text) {

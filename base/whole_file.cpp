@@ -1,11 +1,9 @@
 #include "base/whole_file.h"
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -23,17 +21,12 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// Devices and pipes (/dev/null, a named pipe) are written to; renaming would replace them.
+/// Devices and pipes (/dev/null, a named pipe) are written to; renaming would replace them. So are
+/// names of open streams such as /dev/stdout, whatever these are.
 bool is_device(const fs::path& file) {
   std::error_code ignored;
-  return fs::is_other(file, ignored);
-}
-
-/// A name of its own for each process and call: two of them may write the same file at once.
-fs::path temporary_name(const fs::path& file) {
-  static std::atomic<unsigned> count{0};
-  return folder_of(file) /
-         fmt::format(".{}.{}-{}.part", file.filename().string(), ::getpid(), count++);
+  const fs::path folder = fs::weakly_canonical(folder_of(file), ignored);
+  return fs::is_other(file, ignored) || folder == "/dev" || folder.string().starts_with("/proc/");
 }
 
 void check_place(const fs::path& file) {
@@ -45,12 +38,16 @@ void check_place(const fs::path& file) {
     refuse(file, fmt::format("there is no folder {}", folder_of(file).string()),
            "create the folder or correct the name.");
   }
+  if (fs::exists(file, ignored) && ::access(file.c_str(), W_OK) != 0) {
+    refuse(file, "is there already and must not be written to",
+           "choose another name, or allow yourself to write it.");
+  }
 }
 
-/// Writes `content` to a file that `mode` opens; the reason when it failed.
-std::error_code write(const fs::path& file, const char* mode, std::span<const std::byte> content) {
+/// Writes `content` to what is no file; the reason when it failed.
+std::error_code write_to_device(const fs::path& file, std::span<const std::byte> content) {
   const auto system_error = [] { return std::error_code(errno, std::generic_category()); };
-  std::FILE* out = std::fopen(file.c_str(), mode);
+  std::FILE* out = std::fopen(file.c_str(), "wb");
   if (!out) return system_error();
   std::error_code error;
   if (!content.empty() &&  // empty content may have no memory at all
@@ -61,41 +58,43 @@ std::error_code write(const fs::path& file, const char* mode, std::span<const st
   return error;
 }
 
-/// Removes the temporary file, whatever happens.
-class Temporary {
- public:
-  explicit Temporary(fs::path file) : file_(std::move(file)) {}
-  ~Temporary() {
-    std::error_code ignored;
-    fs::remove(file_, ignored);
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  Temporary(Temporary&&) = delete;
-  Temporary& operator=(Temporary&&) = delete;
-
-  const fs::path& file() const { return file_; }
-
- private:
-  fs::path file_;
-};
-
-constexpr const char* kFixPlace = "choose a folder you may write to, or free some space there.";
+[[noreturn]] void refuse_writing(const fs::path& file, const std::error_code& error) {
+  refuse(file, fmt::format("cannot be written ({})", error.message()),
+         "choose a folder you may write to, or free some space there.");
+}
 
 }  // namespace
+
+std::unique_ptr<PartFile> part_of(const fs::path& file) {
+  check_place(file);
+  try {
+    return std::make_unique<PartFile>(file);
+  } catch (const std::system_error& error) {
+    refuse_writing(file, error.code());
+  }
+}
+
+void put_in_place(PartFile& part, const fs::path& file) {
+  try {
+    part.put_in_place();
+  } catch (const std::system_error& error) {
+    refuse_writing(file, error.code());
+  }
+}
 
 void write_whole_file(const fs::path& file, std::span<const std::byte> content) {
   check_place(file);
   if (is_device(file)) {
-    if (const auto error = write(file, "wb", content)) {
-      refuse(file, fmt::format("cannot be written ({})", error.message()), kFixPlace);
-    }
+    if (const auto error = write_to_device(file, content)) refuse_writing(file, error);
     return;
   }
-  const Temporary temporary(temporary_name(file));
-  std::error_code error = write(temporary.file(), "wbx", content);
-  if (!error) fs::rename(temporary.file(), file, error);
-  if (error) refuse(file, fmt::format("cannot be written ({})", error.message()), kFixPlace);
+  try {
+    PartFile part(file);
+    part.write(content);
+    part.put_in_place();
+  } catch (const std::system_error& error) {
+    refuse_writing(file, error.code());
+  }
 }
 
 void write_whole_file(const fs::path& file, std::string_view text) {
@@ -105,9 +104,11 @@ void write_whole_file(const fs::path& file, std::string_view text) {
 void check_can_write(const fs::path& file) {
   check_place(file);
   if (is_device(file)) return;
-  const Temporary temporary(temporary_name(file));
-  if (const auto error = write(temporary.file(), "wbx", {})) {
-    refuse(file, fmt::format("cannot be written ({})", error.message()), kFixPlace);
+  remove_leftovers_of(file);
+  try {
+    const PartFile part(file);
+  } catch (const std::system_error& error) {
+    refuse_writing(file, error.code());
   }
 }
 

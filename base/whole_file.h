@@ -3,13 +3,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-/// Files that are there whole or not at all: written beside their place and then renamed, so that
-/// a full disk or a kill leaves the earlier file as it was.
+#include "base/part_file.h"
+
+/// Files that are there whole or not at all: written beside their place, to the disk, and then
+/// renamed, so that a full disk, a kill or a power cut leaves the earlier file as it was. Links and
+/// the rights of the earlier file stay.
 namespace repose::base {
 
 /// More than this no file that is read whole may have, unless its reader allows less.
@@ -31,7 +35,13 @@ std::optional<std::string> read_file_if_there(const std::filesystem::path& file,
 void write_whole_file(const std::filesystem::path& file, std::span<const std::byte> content);
 void write_whole_file(const std::filesystem::path& file, std::string_view text);
 
-/// Finds out before long work whether write_whole_file would succeed; changes nothing.
+/// For libraries that write by name; then to be put in place.
+/// @throws std::invalid_argument  both: "FILE: what. Fix: ..." when the place cannot be written.
+std::unique_ptr<PartFile> part_of(const std::filesystem::path& file);
+void put_in_place(PartFile& part, const std::filesystem::path& file);
+
+/// Finds out before long work whether write_whole_file would succeed; changes nothing but what a
+/// killed process left of the same file.
 /// @throws std::invalid_argument  as write_whole_file.
 void check_can_write(const std::filesystem::path& file);
 

@@ -115,6 +115,20 @@ std::string error_of(const CLI::App& app, const Registered* parsed, const CLI::P
   return fmt::format("{}. Fix: see {} --help.", error.what(), usage);
 }
 
+/// An option that was given nothing is not one that was left out.
+std::string empty_value(const Registered& parsed) {
+  for (const CLI::Option* option : parsed.app->get_options()) {
+    const auto& given = option->results();
+    if (std::find(given.begin(), given.end(), "") == given.end()) continue;
+    const std::string name = option->get_name();
+    const std::string typed = option->get_positional() ? "" : name + ' ';
+    return fmt::format("{} {}: nothing is given for it. Fix: give {}{}{}.", parsed.command.name,
+                       name, typed, option->get_option_text(),
+                       option->get_required() ? "" : ", or leave it out");
+  }
+  return {};
+}
+
 }  // namespace
 
 Arguments parse_arguments(int count, const char* const* words) {
@@ -134,6 +148,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   try {
     app.parse(count, words);
     if (const Registered* found = parsed()) {
+      arguments.error = empty_value(*found);
       arguments.run = found->command.run;
       arguments.option_names = found->command.option_names;
     } else {

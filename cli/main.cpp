@@ -1,5 +1,7 @@
 #include <exception>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,7 +15,7 @@ namespace {
 ExitCode run(int count, const char* const* words) {
   const Arguments arguments = parse_arguments(count, words);
   if (!arguments.error.empty()) {
-    fmt::print(stderr, "repose: {}\n", arguments.error);
+    print_line(arguments.error);
     return ExitCode::bad_input;
   }
   if (arguments.run) {
@@ -23,7 +25,9 @@ ExitCode run(int count, const char* const* words) {
       throw std::invalid_argument(naming_options(error.what(), arguments.option_names));
     }
   }
-  write_output(std::string(kStandardOutput), arguments.text);
+  Outputs outputs;
+  outputs.show(arguments.text);
+  outputs.write();
   return ExitCode::done;
 }
 
@@ -32,14 +36,18 @@ ExitCode run(int count, const char* const* words) {
 
 int main(int count, char** words) {
   using repose::cli::ExitCode;
+  repose::cli::prepare_streams();
   ExitCode code = ExitCode::internal_error;
   try {
     code = repose::cli::run(count, words);
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "repose: {}\n", error.what());
+    std::vector<std::string> lines;
+    repose::cli::add_lines(error.what(), lines);
+    repose::cli::print_lines(lines);
     code = ExitCode::bad_input;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "repose: internal error: {}. Fix: please report it.\n", error.what());
+    repose::cli::print_line(
+        fmt::format("internal error: {}. Fix: please report it.", error.what()));
   }
   return static_cast<int>(code);
 }

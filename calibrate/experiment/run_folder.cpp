@@ -1,6 +1,9 @@
 #include "calibrate/experiment/run_folder.h"
 
+#include <mutex>
 #include <optional>
+#include <regex>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -10,6 +13,7 @@
 
 #include "base/whole_file.h"
 #include "calibrate/experiment/restart_text.h"
+#include "calibrate/experiment/stored_run.h"
 #include "dem/state/state_file.h"
 
 namespace repose::calibrate {
@@ -17,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kChanged = "it is cut short, was changed, or is of an earlier version";
 
 bool is_there(const fs::path& file) {
   std::error_code ignored;
@@ -30,7 +36,14 @@ bool is_there(const fs::path& file) {
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
+/// Any thread may find something.
+struct RunFolder::Damaged {
+  std::mutex mutex;
+  std::set<std::string> files;
+};
+
+RunFolder::RunFolder(fs::path folder)
+    : folder_(std::move(folder)), damaged_(std::make_shared<Damaged>()) {
   std::error_code error;
   fs::create_directories(runs(), error);
   if (error) {
@@ -39,6 +52,7 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
                     runs().string(), error.message()));
   }
   base::check_can_write(runs() / "run.json");
+  base::remove_leftovers_in(runs());
 }
 
 fs::path RunFolder::file(const RunSpec& spec, std::uint64_t seed, const char* ending) const {
@@ -49,12 +63,28 @@ std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t s
   const fs::path place = file(spec, seed, ".json");
   const std::optional<std::string> text = base::read_file_if_there(place);
   if (!text) return std::nullopt;
-  const Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() ||
-      json.value("simulated", Json()) != Json::parse(description_of(spec, seed))) {
+  try {
+    StoredRun stored = stored_run_in(*text);
+    if (stored.run.seed != seed ||
+        Json::parse(stored.description) != Json::parse(description_of(spec, seed))) {
+      throw std::invalid_argument("it is of another run");
+    }
+    return std::move(stored.run);
+  } catch (const std::invalid_argument& error) {
+    note_damaged(place, error.what());
     return std::nullopt;
   }
-  return run_in(*text);
+}
+
+void RunFolder::note_damaged(const fs::path& file, const std::string& reason) const {
+  const std::lock_guard lock(damaged_->mutex);
+  damaged_->files.insert(
+      fmt::format("{}: {}. It is not used; its run is simulated anew.", file.string(), reason));
+}
+
+std::vector<std::string> RunFolder::damaged() const {
+  const std::lock_guard lock(damaged_->mutex);
+  return {damaged_->files.begin(), damaged_->files.end()};
 }
 
 std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint64_t seed) const {
@@ -68,9 +98,8 @@ std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint
 }
 
 void RunFolder::save(const RunSpec& spec, const SimulatedRun& run) const {
-  Json json{{"simulated", Json::parse(description_of(spec, run.seed))}};
-  json.update(Json::parse(run_text(run)));
-  base::write_whole_file(file(spec, run.seed, ".json"), json.dump(2) + '\n');
+  base::write_whole_file(file(spec, run.seed, ".json"),
+                         text_of({.description = description_of(spec, run.seed), .run = run}));
 }
 
 fs::path RunFolder::state_file(const RunSpec& spec, std::uint64_t seed) const {
@@ -78,13 +107,17 @@ fs::path RunFolder::state_file(const RunSpec& spec, std::uint64_t seed) const {
 }
 
 bool RunFolder::has_state(const RunSpec& spec, std::uint64_t seed) const {
-  return is_there(state_file(spec, seed));
+  const fs::path place = state_file(spec, seed);
+  if (!is_there(place)) return false;
+  if (dem::is_as_written(place)) return true;
+  note_damaged(place, kChanged);
+  return false;
 }
 
 bool RunFolder::copy_state(const RunSpec& spec, std::uint64_t seed, const std::string& name) const {
-  std::error_code error;
-  return fs::copy_file(state_file(spec, seed), folder_ / name, fs::copy_options::overwrite_existing,
-                       error);
+  if (!has_state(spec, seed)) return false;
+  base::write_whole_file(folder_ / name, base::read_whole_file(state_file(spec, seed)));
+  return true;
 }
 
 bool RunFolder::has_restart(const RunSpec& spec, std::uint64_t seed) const {
@@ -94,11 +127,12 @@ bool RunFolder::has_restart(const RunSpec& spec, std::uint64_t seed) const {
 std::optional<SavedRestart> RunFolder::find_restart(const RunSpec& spec, std::uint64_t seed) const {
   const fs::path place = file(spec, seed, ".restart.vtp");
   if (!is_there(place)) return std::nullopt;
+  if (!dem::is_as_written(place)) refuse(place, kChanged);
   dem::SavedState state = [&] {
     try {
       return dem::read_state(place);
     } catch (const std::invalid_argument&) {
-      refuse(place, "it is cut short or was changed");
+      refuse(place, kChanged);
     }
   }();
   const RestartRecord record = [&] {
@@ -118,6 +152,19 @@ void RunFolder::save_restart(const RunSpec& spec, std::uint64_t seed,
                              const dem::Simulation& simulation, const RestartRecord& record) const {
   dem::write_state(file(spec, seed, ".restart.vtp"), simulation,
                    restart_text(description_of(spec, seed), record));
+}
+
+fs::path lock_file_in(const fs::path& folder) { return folder / "runs" / ".lock"; }
+
+bool is_run_folder(const fs::path& folder) {
+  if (is_there(lock_file_in(folder))) return true;
+  static const std::regex key("[a-z]+-[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}[.].+");
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / "runs", error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (std::regex_match(entry->path().filename().string(), key)) return true;
+  }
+  return false;
 }
 
 void RunFolder::remove_restart(const RunSpec& spec, std::uint64_t seed) const {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calibrate/experiment/run_spec.h"
 #include "calibrate/experiment/simulated_run.h"
@@ -35,9 +37,9 @@ class RunFolder {
 
   std::filesystem::path runs() const { return folder_ / "runs"; }
 
-  /// None when it was not saved; a file that is damaged or of something else counts as not saved,
-  /// and is overwritten when the run has been made again. Its views may be of another number than
-  /// asked for.
+  /// None when it was not saved; a file that is damaged (see damaged()) or of something else counts
+  /// as not saved, and is overwritten when the run has been made again. Its views may be of another
+  /// number than asked for.
   std::optional<SimulatedRun> find(const RunSpec& spec, std::uint64_t seed) const;
 
   /// The same, but none when something is missing that was asked for: its pictures.
@@ -46,9 +48,14 @@ class RunFolder {
   /// @throws std::invalid_argument  it cannot be written; what was saved before stays.
   void save(const RunSpec& spec, const SimulatedRun& run) const;
 
+  /// What was found damaged so far and counts as not saved: "FILE: what ...", sorted.
+  std::vector<std::string> damaged() const;
+
   std::filesystem::path state_file(const RunSpec& spec, std::uint64_t seed) const;
+  /// Whether it is there and as it was written.
   bool has_state(const RunSpec& spec, std::uint64_t seed) const;
-  /// Copies the final state of a run to FOLDER/NAME, over an older one; false when it is not there.
+  /// Copies the final state of a run to FOLDER/NAME, over an older one; false when has_state is.
+  /// @throws std::invalid_argument  it cannot be written.
   bool copy_state(const RunSpec& spec, std::uint64_t seed, const std::string& name) const;
 
   bool has_restart(const RunSpec& spec, std::uint64_t seed) const;
@@ -62,7 +69,17 @@ class RunFolder {
  private:
   std::filesystem::path file(const RunSpec& spec, std::uint64_t seed, const char* ending) const;
 
+  void note_damaged(const std::filesystem::path& file, const std::string& reason) const;
+
+  struct Damaged;
   std::filesystem::path folder_;
+  std::shared_ptr<Damaged> damaged_;
 };
+
+/// Whether a folder is one that repose has simulated into, of this version or an earlier one.
+bool is_run_folder(const std::filesystem::path& folder);
+
+/// The file whose lock a process has that writes into the folder: FOLDER/runs/.lock.
+std::filesystem::path lock_file_in(const std::filesystem::path& folder);
 
 }  // namespace repose::calibrate

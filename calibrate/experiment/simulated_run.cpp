@@ -1,5 +1,6 @@
 #include "calibrate/experiment/simulated_run.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -28,6 +29,20 @@ vision::MeasureStatus status_named(const std::string& name) {
     if (name == name_of(status)) return status;
   }
   return vision::MeasureStatus::refused;
+}
+
+/// Degrees, millimetres and counts of a bench are far less. A fit does not end with such numbers.
+constexpr double kMostReading = 1e9;
+
+bool is_possible(double reading) { return !(std::abs(reading) > kMostReading); }
+
+/// What holds for each run that was made.
+bool holds_together(const SimulatedRun& run) {
+  const auto is_reading = [](const auto& reading) { return is_possible(reading.second); };
+  return is_possible(run.value) &&
+         std::all_of(run.readings.begin(), run.readings.end(), is_reading) && run.steps >= 0 &&
+         run.clump_steps >= 0 && run.timestep_s >= 0 && run.wall_s >= 0 &&
+         (!run.failure.empty() || (!run.readings.empty() && run.timestep_s > 0));
 }
 
 SimulatedRun run_in(const Json& json) {
@@ -105,7 +120,9 @@ std::string run_text(const SimulatedRun& run) {
 
 std::optional<SimulatedRun> run_in(const std::string& text) {
   try {
-    return run_in(Json::parse(text));
+    SimulatedRun run = run_in(Json::parse(text));
+    if (holds_together(run)) return run;
+    return std::nullopt;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }

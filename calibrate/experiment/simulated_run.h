@@ -48,7 +48,7 @@ std::map<std::string, double> readings_of(const SimulatedRun& run);
 
 /// As JSON, to be stored or sent to another process: every number comes back to the last bit.
 std::string run_text(const SimulatedRun& run);
-/// None for a text that is not one of run_text.
+/// None for a text that is not one of run_text, or has numbers that no run gives.
 std::optional<SimulatedRun> run_in(const std::string& text);
 
 }  // namespace repose::calibrate

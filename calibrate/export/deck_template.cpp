@@ -1,11 +1,13 @@
 #include "calibrate/export/deck_template.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
 #include <ctemplate/template.h>
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "calibrate/export/templates.h"
 
 namespace repose::calibrate {
@@ -21,7 +23,14 @@ void fill(const DeckFields& fields, ctemplate::TemplateDictionary& dictionary) {
 }  // namespace
 
 void DeckFields::set(const std::string& field, const std::string& value) {
-  values.emplace_back(field, value);
+  std::string line = base::printable(value);
+  std::replace_if(
+      line.begin(), line.end(), [](char letter) { return letter == '\n' || letter == '\t'; }, ' ');
+  values.emplace_back(field, line);
+}
+
+void DeckFields::set_lines(const std::string& field, const std::string& text) {
+  values.emplace_back(field, text);
 }
 
 void DeckFields::set(const std::string& field, double value) { set(field, number(value)); }
@@ -36,7 +45,7 @@ std::string number(double value) { return fmt::format("{}", value); }
 
 std::string sanitized(std::string_view name) {
   constexpr std::string_view kKept = " _-.,+%";
-  std::string saved(name);
+  std::string saved = base::printable(name);
   for (char& letter : saved) {
     const auto byte = static_cast<unsigned char>(letter);
     const bool is_letter = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');

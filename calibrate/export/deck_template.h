@@ -14,7 +14,10 @@ struct DeckFields {
   std::vector<std::pair<std::string, std::string>> values;
   std::vector<DeckFields> sections;
 
+  /// A text of one line: whatever would end the line becomes a blank.
   void set(const std::string& field, const std::string& value);
+  /// A text of our own, as it is.
+  void set_lines(const std::string& field, const std::string& text);
   /// As short as it can be to come back to the last bit.
   void set(const std::string& field, double value);
   void set(const std::string& field, int value);
@@ -26,7 +29,7 @@ struct DeckFields {
 std::string number(double value);
 
 /// A name that cannot break a deck: letters, digits, blanks and "_-.,+%" stay, bytes of letters
-/// beyond ASCII too; all else becomes "_".
+/// beyond ASCII too; all else, and bytes that are no UTF-8, becomes "_".
 std::string sanitized(std::string_view name);
 
 /// A template (of calibrate/export/templates, by its name there) filled in. Blank lines are left

@@ -1,12 +1,9 @@
 #include "calibrate/export/export.h"
 
-#include <stdexcept>
-#include <system_error>
-
 #include <fmt/format.h>
 
 #include "base/error_list.h"
-#include "base/whole_file.h"
+#include "base/file_set.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/facts.h"
 #include "calibrate/export/readme.h"
@@ -89,15 +86,11 @@ StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
   return made;
 }
 
-void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder, error)) {
-    throw std::invalid_argument(fmt::format(
-        "{}: the folder cannot be made. Fix: another place with --out.", folder.string()));
-  }
-  for (const ExportedFile& file : files) base::check_can_write(folder / file.name);
-  for (const ExportedFile& file : files) base::write_whole_file(folder / file.name, file.text);
+void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files,
+                  bool is_ours) {
+  std::vector<base::NamedText> texts;
+  for (const ExportedFile& file : files) texts.push_back({file.name, file.text});
+  base::write_file_set(folder, texts, is_ours ? base::Unlisted::ours : base::Unlisted::users);
 }
 
 }  // namespace repose::calibrate

@@ -87,8 +87,11 @@ struct ExportRequest {
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<FittedValue>& fitted, const ExportRequest& request);
 
-/// Writes each file whole or not at all; makes the folder.
-/// @throws std::invalid_argument  the folder or a file cannot be written.
-void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files);
+/// Writes each file whole or not at all, in place of those of an earlier export; makes the folder.
+/// @param is_ours  files of these names that are there are of an earlier version of repose
+/// @throws std::invalid_argument  the folder or a file cannot be written, or files of a user's
+///   would be lost. Nothing is written then.
+void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files,
+                  bool is_ours = false);
 
 }  // namespace repose::calibrate

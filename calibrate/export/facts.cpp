@@ -170,19 +170,19 @@ DeckFields common_fields(const ExportFacts& facts) {
   DeckFields fields;
   fields.set("PROGRAM", base::kProgram);
   fields.set("STUDY", sanitized(study.file.filename().string()));
-  fields.set("HASH", study.hash);
+  fields.set("HASH", sanitized(study.hash));
   fields.set("GRAIN_NAME", sanitized(study.model.grain_material.name));
   fields.set("WALL_NAME", sanitized(study.model.wall_material.name));
   fields.set("GRAVITY", dem::kStandardGravity_m_s2);
   fields.set("MASS", facts.mass_kg());
   for (const FittedValue& value : facts.fitted()) {
     DeckFields& fitted = fields.add_section("FITTED");
-    fitted.set("NAME", value.name);
+    fitted.set("NAME", sanitized(value.name));
     fitted.set("VALUE", fmt::format("{:.4g}", value.value));
     fitted.set("INTERVAL", value.high > value.low ? fmt::format("95 % interval {:.3g} to {:.3g}",
                                                                 value.low, value.high)
                                                   : std::string("no interval"));
-    fitted.set("VERDICT", value.verdict.empty() ? "not judged" : value.verdict);
+    fitted.set("VERDICT", value.verdict.empty() ? "not judged" : sanitized(value.verdict));
   }
   return fields;
 }

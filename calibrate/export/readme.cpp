@@ -61,8 +61,8 @@ ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
   fields.set("STIFFNESS_HEAP", facts.has(dem::Experiment::heap)
                                    ? number(facts.stiffness(dem::Experiment::heap))
                                    : std::string("no heap"));
-  fields.set("RUNNING", text_of(target, "running.txt"));
-  fields.set("LIMITS", text_of(target, "limits.txt"));
+  fields.set_lines("RUNNING", text_of(target, "running.txt"));
+  fields.set_lines("LIMITS", text_of(target, "limits.txt"));
   for (const Conversion& conversion : conversions) add_conversion(conversion, fields);
   return {.name = "README.txt", .text = filled("readme.txt", fields)};
 }

@@ -189,7 +189,11 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
   const std::optional<MeasuredHeap> photograph = show_photographs(study, shown);
   if (!study.result) return shown;
   if (study.heap.empty()) {
-    shown.remarks.emplace_back("There is no simulated heap (heap.vtp) to be shown.");
+    shown.remarks.emplace_back(study.has_other_heap
+                                   ? "The simulated heap in the folder (heap.vtp) is of other "
+                                     "coefficients, and not shown. "
+                                     "The same repose calibrate again makes that of these."
+                                   : "There is no simulated heap (heap.vtp) to be shown.");
     return shown;
   }
   try {

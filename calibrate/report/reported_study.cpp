@@ -9,7 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/whole_file.h"
+#include "calibrate/experiment/stored_run.h"
+#include "calibrate/study/study_folder.h"
 #include "calibrate/study/study_problem.h"
+#include "dem/state/state_file.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -53,12 +56,13 @@ std::vector<MeasuredNumber> measured_in(const JointResult& joint) {
 /// A run as RunFolder saves it; none where the file is damaged.
 std::optional<SavedRun> run_in(const fs::path& file) {
   try {
-    const auto json = nlohmann::json::parse(base::read_whole_file(file));
-    const auto& simulated = json.at("simulated");
+    const StoredRun stored = stored_run_in(base::read_whole_file(file));
+    const auto simulated = nlohmann::json::parse(stored.description);
     SavedRun run{.experiment = simulated.at("experiment"),
                  .values = {},
-                 .readings = json.at("readings"),
-                 .failure = json.at("failure")};
+                 .readings = stored.run.readings,
+                 .failure = stored.run.failure};
+    std::erase_if(run.readings, [](const auto& reading) { return !std::isfinite(reading.second); });
     for (const char* pair : {"particle_wall", "particle_particle"}) {
       const auto contact = simulated.value(pair, nlohmann::json::object());
       for (const auto& [name, value] : contact.items()) {
@@ -110,6 +114,38 @@ std::vector<MeasuredNumber> measured_of_record(const fs::path& folder) {
   return numbers;
 }
 
+/// "contact.PAIR.KEY" and its value, of each coefficient that was found.
+std::map<std::string, double> values_found(const StudyResult& result) {
+  std::map<std::string, double> values;
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    for (const auto& parameter : joint->parameters) values[parameter.name] = parameter.value;
+  } else {
+    const auto& published = std::get<PublishedResult>(result.found);
+    values.insert(published.values.begin(), published.values.end());
+  }
+  return values;
+}
+
+/// Whether a heap was simulated with the coefficients found. Unknown is not otherwise.
+bool is_heap_of(const fs::path& heap, const StudyResult& result) {
+  try {
+    const auto simulated = nlohmann::json::parse(dem::read_state(heap).provenance_json);
+    for (const auto& [name, value] : values_found(result)) {
+      std::string place = name.substr(name.find('.'));
+      std::replace(place.begin(), place.end(), '.', '/');
+      const nlohmann::json::json_pointer pointer(place);
+      constexpr double kSame = 1e-9;
+      if (!simulated.contains(pointer)) continue;
+      if (std::abs(simulated.at(pointer).get<double>() - value) > kSame) return false;
+    }
+  } catch (const nlohmann::json::exception&) {
+    return true;
+  } catch (const std::invalid_argument&) {
+    return true;  // who draws it says what is wrong with it
+  }
+  return true;
+}
+
 }  // namespace
 
 ReportedStudy reported(const StudyResult& result, const std::vector<PictureReading>& pictures,
@@ -147,8 +183,11 @@ ReportedStudy read_reported_study(const fs::path& folder) {
       notes ? notes->pictures : decltype(notes->pictures){};
   ReportedStudy study;
   if (result && (!notes || is_same_study(result->provenance.study, notes->study))) {
-    const fs::path heap = folder / "heap.vtp";
-    study = reported(*result, pictures, fs::exists(heap, ignored) ? heap : fs::path());
+    const fs::path heap = folder / kHeapFile;
+    const bool has_heap = fs::exists(heap, ignored);
+    const bool is_its = has_heap && is_heap_of(heap, *result);
+    study = reported(*result, pictures, is_its ? heap : fs::path());
+    study.has_other_heap = has_heap && !is_its;
   } else {
     study.has_other_result = result.has_value();
     if (notes) study.study = notes->study;

@@ -39,6 +39,7 @@ struct ReportedStudy {
   std::vector<MeasuredNumber> measured;
   std::vector<PictureReading> pictures;  ///< of the bench's heaps
   std::filesystem::path heap;            ///< state of the simulated one; empty: none
+  bool has_other_heap = false;           ///< the folder has one, of other coefficients
 };
 
 ReportedStudy reported(const StudyResult& result, const std::vector<PictureReading>& pictures,

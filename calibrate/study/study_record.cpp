@@ -7,19 +7,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/fingerprint.h"
 #include "base/version.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/picture_angles.h"
+#include "calibrate/study/study_folder.h"
 
 namespace repose::calibrate {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kStudy = "study.toml";
-constexpr const char* kClump = "clump.json";
-constexpr const char* kRecord = "study.json";
 
 /// Names of files need not be UTF-8, JSON must be.
 std::string json_text(const Json& json) {
@@ -56,7 +54,8 @@ Json notes_json(const StudyNotes& notes) {
           {"study", {{"file", study.file}, {"hash", study.hash}, {"settings", study.settings}}},
           {"method", study.method},
           {"budget", {{"name", study.budget}, {"description", study.budget_description}}},
-          {"pictures", pictures_json(notes.pictures)}};
+          {"pictures", pictures_json(notes.pictures)},
+          {"files", notes.fingerprints}};
 }
 
 StudyNotes notes_in(const Json& json) {
@@ -69,7 +68,8 @@ StudyNotes notes_in(const Json& json) {
                     .method = json.at("method"),
                     .budget = budget.at("name"),
                     .budget_description = budget.at("description")},
-          .pictures = pictures_in(json.at("pictures"))};
+          .pictures = pictures_in(json.at("pictures")),
+          .fingerprints = json.value("files", std::map<std::string, std::string>())};
 }
 
 }  // namespace
@@ -103,6 +103,20 @@ dem::Study as_simulated(dem::Study study, const Budget& budget,
 
 namespace {
 
+/// The file, which must be the one that study.json was written with. Earlier versions do not say.
+fs::path kept(const fs::path& folder, const char* name, const StudyNotes& notes) {
+  const auto fingerprint = notes.fingerprints.find(name);
+  if (fingerprint == notes.fingerprints.end()) return folder / name;
+  if (base::fingerprint({base::read_whole_file(folder / name)}) != fingerprint->second) {
+    throw std::invalid_argument(
+        fmt::format("{}: does not belong to {} in the same folder: it was changed, or its writing "
+                    "was interrupted. Fix: the same repose calibrate again writes both anew; what "
+                    "was simulated is kept.",
+                    (folder / name).string(), kNotesFile));
+  }
+  return folder / name;
+}
+
 /// A file that is there already need not be written: a full disk does not stop what goes on.
 void keep(const fs::path& file, const std::string& text) {
   if (base::read_file_if_there(file) != text) base::write_whole_file(file, text);
@@ -111,13 +125,19 @@ void keep(const fs::path& file, const std::string& text) {
 }  // namespace
 
 void write_study_record(const fs::path& folder, const StudyRecord& record) {
-  keep(folder / kStudy, base::read_whole_file(record.study.file));
-  keep(folder / kClump, dem::clump_json(record.grain));
-  keep(folder / kRecord, json_text(notes_json({identity_of(record), record.pictures})));
+  const std::string study = base::read_whole_file(record.study.file);
+  const std::string clump = dem::clump_json(record.grain);
+  const StudyNotes notes{.study = identity_of(record),
+                         .pictures = record.pictures,
+                         .fingerprints = {{kStudyCopy, base::fingerprint({study})},
+                                          {kClumpCopy, base::fingerprint({clump})}}};
+  keep(folder / kStudyCopy, study);
+  keep(folder / kClumpCopy, clump);
+  keep(folder / kNotesFile, json_text(notes_json(notes)));
 }
 
 std::optional<StudyNotes> read_study_notes(const fs::path& folder) {
-  const fs::path file = folder / kRecord;
+  const fs::path file = folder / kNotesFile;
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return std::nullopt;
   try {
@@ -136,18 +156,19 @@ StudyRecord read_study_record(const fs::path& folder) {
     throw std::invalid_argument(
         fmt::format("{}: is no folder of a study, there is no {} in it. Fix: name the output "
                     "folder of repose calibrate.",
-                    folder.string(), kRecord));
+                    folder.string(), kNotesFile));
   }
   StudyRecord record;
   record.settings = notes->study.settings;
   record.method = notes->study.method;
   record.budget = budget_named(notes->study.budget);
   record.pictures = notes->pictures;
-  record.study = as_simulated(dem::read_study_copy(folder / kStudy, record.settings), record.budget,
-                              record.pictures);
+  record.study =
+      as_simulated(dem::read_study_copy(kept(folder, kStudyCopy, *notes), record.settings),
+                   record.budget, record.pictures);
   record.study.file = notes->study.file;
   record.study.hash = notes->study.hash;
-  record.grain = dem::read_clump_file(folder / kClump);
+  record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));
   return record;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ bool is_same_study(const StudyIdentity& one, const StudyIdentity& other);
 struct StudyNotes {
   StudyIdentity study;
   std::vector<PictureReading> pictures;
+  /// Of study.toml and clump.json, by name; those of earlier versions have none.
+  std::map<std::string, std::string> fingerprints;
 };
 
 /// What a study folder is about: enough to know, from the folder alone, what was sought, of what,
@@ -66,7 +69,8 @@ void write_study_record(const std::filesystem::path& folder, const StudyRecord& 
 std::optional<StudyNotes> read_study_notes(const std::filesystem::path& folder);
 
 /// Reads them back. Scans and pictures that the study names need not be there any more.
-/// @throws std::invalid_argument  the folder is none of a study, or a file is damaged.
+/// @throws std::invalid_argument  the folder is none of a study, a file is damaged, or they do not
+/// belong together.
 StudyRecord read_study_record(const std::filesystem::path& folder);
 
 }  // namespace repose::calibrate

@@ -2,16 +2,20 @@
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/folder_lock.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/result/result.h"
 #include "calibrate/study/rank_executor.h"
+#include "calibrate/study/study_folder.h"
 #include "calibrate/study/study_run.h"
 #include "calibrate/study/thread_executor.h"
 #include "cli/calibrate/calibrate_options.h"
@@ -25,43 +29,69 @@
 namespace repose::cli {
 namespace {
 
-/// The result of another study, method or budget stays, as "result_quick_1b9d6bcd.json".
+namespace fs = std::filesystem;
+
+/// What of a result tells whose it is, for the name of a file.
+std::string name_of(const std::optional<calibrate::StudyIdentity>& study) {
+  if (!study) return "unknown";
+  return fmt::format("{}{}_{}", study->method == "joint" ? std::string() : study->method + '_',
+                     study->budget, study->hash.substr(0, study->hash.find('-')));
+}
+
+/// Before the folder is this study's: the result of another study, method or budget stays, as
+/// "result_quick_1b9d6bcd.json", and the heap that belongs to it.
 void set_aside_old_result(const CalibratePlan& plan) {
-  const std::filesystem::path file = plan.out_folder / "result.json";
-  const auto old = calibrate::study_in_result(base::read_file_if_there(file).value_or(""));
-  if (!old || is_same_study(*old, identity_of(plan.record))) return;
-  const std::string name =
-      fmt::format("result_{}{}_{}.json", old->method == "joint" ? std::string() : old->method + '_',
-                  old->budget, old->hash.substr(0, old->hash.find('-')));
-  std::filesystem::rename(file, plan.out_folder / name);
-  print_lines({fmt::format("{}: was of another study, its settings or budget; it is now {}",
-                           file.string(), name)});
+  const fs::path file = plan.out_folder / calibrate::kResultFile;
+  const auto text = base::read_file_if_there(file);
+  if (!text) return;
+  const auto old = calibrate::study_in_result(*text);
+  if (old && is_same_study(*old, identity_of(plan.record))) return;
+  const std::string name = fmt::format("result_{}.json", name_of(old));
+  const fs::path heap = plan.out_folder / calibrate::kHeapFile;
+  std::error_code error;
+  if (fs::exists(heap, error)) {
+    fs::rename(heap, plan.out_folder / fmt::format("heap_{}.vtp", name_of(old)), error);
+  }
+  if (!error) fs::rename(file, plan.out_folder / name, error);
+  if (error) {
+    throw std::invalid_argument(
+        fmt::format("{}: is of another study and cannot be renamed ({}). Fix: choose another "
+                    "folder.",
+                    file.string(), error.message()));
+  }
+  print_line(fmt::format("{}: was of another study, its settings or budget; it is now {}",
+                         file.string(), name));
+}
+
+/// The folder becomes this study's.
+void enter_folder(const CalibratePlan& plan) {
+  set_aside_old_result(plan);
+  calibrate::write_study_record(plan.out_folder, plan.record);
 }
 
 void write_results(const CalibratePlan& plan, const calibrate::StudyResult& result,
                    const std::string& table) {
   const std::string json = to_json(result);
-  set_aside_old_result(plan);
-  write_output((plan.out_folder / "result.json").string(), json);
-  if (!plan.json_file.empty()) write_output(plan.json_file, json);
-  if (plan.json_file == kStandardOutput) return;
-  write_output(std::string(kStandardOutput), table);
+  Outputs outputs;
+  outputs.add((plan.out_folder / calibrate::kResultFile).string(), json);
+  outputs.add(plan.json_file, json);
+  outputs.show(table);
+  outputs.write();
 }
 
 /// The heap of the fitted coefficients, to look at and to compare with a photograph.
 void save_heap(const CalibratePlan& plan, const calibrate::StudyContext& context,
                const std::vector<calibrate::Run>& checks) {
-  constexpr const char* kHeap = "heap.vtp";
   for (const calibrate::Run& run : checks) {
     const bool is_heap = run.job.experiment == "heap" && run.failure.empty();
-    if (is_heap &&
-        context.folder.copy_state(context.simulator.spec(run.job), run.job.seed, kHeap)) {
+    if (is_heap && context.folder.copy_state(context.simulator.spec(run.job), run.job.seed,
+                                             calibrate::kHeapFile)) {
       return;
     }
   }
   // That of other coefficients must not stand for these.
   std::error_code ignored;
-  std::filesystem::remove(plan.out_folder / kHeap, ignored);
+  fs::remove(plan.out_folder / calibrate::kHeapFile, ignored);
 }
 
 calibrate::StudySimulator simulator_of(const CalibratePlan& plan,
@@ -73,19 +103,23 @@ calibrate::StudySimulator simulator_of(const CalibratePlan& plan,
 }
 
 ExitCode interrupted(const calibrate::RunFolder& folder) {
-  fmt::print(stderr,
-             "repose: interrupted, no result was written. The same command again goes on from "
-             "here: what was simulated is in {}.\n",
-             folder.runs().string());
+  print_line(
+      fmt::format("interrupted, no result was written. The same command again goes on from here: "
+                  "what was simulated is in {}.",
+                  folder.runs().string()));
   return ExitCode::interrupted;
 }
 
 /// What `study` returns; its progress is shown meanwhile.
 template <class Study>
 auto with_progress(calibrate::StudyContext context, Study study) {
-  StudyProgressLine line;
-  context.report = [&](const calibrate::StudyProgress& progress) { line.report(progress); };
-  return study(context);
+  auto outcome = [&] {
+    StudyProgressLine line;
+    context.report = [&](const calibrate::StudyProgress& progress) { line.report(progress); };
+    return study(context);
+  }();
+  print_lines(context.folder.damaged());
+  return outcome;
 }
 
 ExitCode run_as_published(const CalibratePlan& plan, const calibrate::StudyContext& context) {
@@ -137,7 +171,8 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
     return ExitCode::done;
   }
   print_lines(plan.notes);
-  calibrate::write_study_record(plan.out_folder, plan.record);
+  const base::FolderLock lock(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
+  enter_folder(plan);
   calibrate::RankExecutor executor(session, simulator);
   return run_study_with(plan, {simulator, folder, executor, is_interrupted});
 }
@@ -158,7 +193,8 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
   const calibrate::RunFolder folder(plan.out_folder);
-  calibrate::write_study_record(plan.out_folder, plan.record);
+  const base::FolderLock lock(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
+  enter_folder(plan);
   const calibrate::StudySimulator simulator = simulator_of(plan, folder);
   calibrate::ThreadExecutor executor(simulator, plan.jobs);
   return run_study_with(plan, {simulator, folder, executor, watch_for_interrupt()});

@@ -6,13 +6,15 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "base/whole_file.h"
 #include "calibrate/experiment/picture_angles.h"
+#include "calibrate/study/study_folder.h"
 #include "cli/common/degrees.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/output.h"
+#include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/repose_angle.h"
@@ -96,12 +98,23 @@ void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
   plan.jobs = *jobs;
 }
 
+/// Nothing of the user's may be written over.
 void check_places(CalibratePlan& plan) {
-  if (plan.out_folder.empty()) {
-    plan.out_folder = plan.record.study.file.stem().string() + "_calibration";
+  const dem::Study& study = plan.record.study;
+  if (plan.out_folder.empty()) plan.out_folder = study.file.stem().string() + "_calibration";
+  const std::vector<std::string> foreign = calibrate::foreign_files(plan.out_folder, study.file);
+  if (!foreign.empty()) {
+    plan.errors.push_back(
+        fmt::format("--out {}: is no folder of repose calibrate, and files of yours there would be "
+                    "overwritten: {}. Fix: choose another folder, or move them away.",
+                    plan.out_folder.string(), fmt::join(foreign, ", ")));
   }
-  if (plan.json_file.empty() || plan.json_file == kStandardOutput) return;
-  attempt(plan.errors, [&] { base::check_can_write(plan.json_file); });
+  std::vector<std::filesystem::path> read = files_of(study);
+  for (const char* name : {calibrate::kStudyCopy, calibrate::kClumpCopy, calibrate::kNotesFile,
+                           calibrate::kResultFile, calibrate::kHeapFile}) {
+    read.push_back(plan.out_folder / name);
+  }
+  check_output_places({{"--json", plan.json_file}}, read, plan.errors);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/common/output.h"
+
 namespace repose::cli {
 
 void StudyProgressLine::report(const calibrate::StudyProgress& progress) {
@@ -11,7 +13,7 @@ void StudyProgressLine::report(const calibrate::StudyProgress& progress) {
     stage_ = progress.stage;
     line_.begin_stage();
     if (!line_.is_shown()) {
-      fmt::print(stderr, "{}: {} simulations\n", progress.stage, progress.of);
+      print_error_text(fmt::format("{}: {} simulations\n", progress.stage, progress.of));
     }
   }
   line_.report(fmt::format("{}: {} of {} simulations", progress.stage, progress.done, progress.of),

@@ -1,26 +1,76 @@
 #include "cli/common/output.h"
 
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
+#include "base/error_list.h"
+#include "base/printable.h"
 #include "base/whole_file.h"
 
 namespace repose::cli {
+namespace {
 
-void write_output(const std::string& file, std::string_view text) {
-  if (file != kStandardOutput) {
-    base::write_whole_file(file, text);
-    return;
-  }
+void print(std::string_view text) {
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!is_written || std::fflush(stdout) != 0) {
-    throw std::invalid_argument(
-        "standard output: cannot be written. Fix: look whether the disk is full or the program "
-        "that reads it has ended.");
+  if (is_written && std::fflush(stdout) == 0) return;
+  throw std::invalid_argument(
+      "standard output: cannot be written. Fix: look whether the disk is full or the program "
+      "that reads it has ended.");
+}
+
+}  // namespace
+
+void prepare_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  // The library that writes films prints what cli/render says in words.
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before threads
+  // What is opened takes the lowest free number. Nothing can be written to these three.
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", O_RDONLY);
   }
+}
+
+void Outputs::add(const std::string& file, std::string text) {
+  if (file.empty()) return;
+  if (file == kStandardOutput) {
+    printed_ = std::move(text);
+    has_printed_ = true;
+  } else {
+    files_.push_back({file, std::move(text)});
+  }
+}
+
+void Outputs::show(std::string text) { shown_ = std::move(text); }
+
+void Outputs::write_files() {
+  for (const auto& [file, text] : std::exchange(files_, {})) {
+    try {
+      base::write_whole_file(file, text);
+    } catch (const std::invalid_argument& error) {
+      errors_.emplace_back(error.what());
+    }
+  }
+}
+
+void Outputs::write() {
+  write_files();
+  try {
+    print(has_printed_ ? printed_ : shown_);
+  } catch (const std::invalid_argument& error) {
+    errors_.emplace_back(error.what());
+  }
+  base::ErrorList errors;
+  for (const std::string& error : std::exchange(errors_, {})) errors.add(error);
+  errors.throw_if_any();
 }
 
 void add_lines(const std::string& text, std::vector<std::string>& lines) {
@@ -28,8 +78,21 @@ void add_lines(const std::string& text, std::vector<std::string>& lines) {
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
 }
 
-void print_lines(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) fmt::print(stderr, "repose: {}\n", line);
+void print_error_text(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+void print_line(std::string_view line) noexcept {
+  try {
+    print_error_text("repose: " + base::printable(line) + '\n');
+  } catch (const std::bad_alloc&) {
+    print_error_text("repose: there is no memory left to say what is wrong\n");
+  }
+}
+
+void print_lines(const std::vector<std::string>& lines) noexcept {
+  for (const std::string& line : lines) print_line(line);
 }
 
 }  // namespace repose::cli

@@ -9,14 +9,48 @@ namespace repose::cli {
 /// The name that stands for standard output.
 inline constexpr std::string_view kStandardOutput = "-";
 
-/// Writes to a file, whole or not at all, or to standard output.
-/// @throws std::invalid_argument  when it cannot be written.
-void write_output(const std::string& file, std::string_view text);
+/// To be called before anything is opened or written: an output that fails is an error to be told
+/// and never a signal, and a stream that was closed stays closed instead of becoming the next file.
+void prepare_streams();
+
+/// What a command gives: files that were asked for, and what people read on standard output.
+class Outputs {
+ public:
+  /// `file` may be "-", or empty: not asked for.
+  void add(const std::string& file, std::string text);
+
+  /// For people, where no file takes standard output.
+  void show(std::string text);
+
+  /// All files but standard output, each whole or not at all. One that cannot be written does not
+  /// keep the others from it.
+  void write_files();
+
+  /// The files, if they were not yet written, then standard output.
+  /// @throws std::invalid_argument  what could not be written, a line each.
+  void write();
+
+ private:
+  struct Output {
+    std::string file;
+    std::string text;
+  };
+  std::vector<Output> files_;
+  std::string shown_;
+  std::string printed_;
+  bool has_printed_ = false;
+  std::vector<std::string> errors_;
+};
 
 /// Adds each line of a text, such as an exception's that tells several errors.
 void add_lines(const std::string& text, std::vector<std::string>& lines);
 
+/// To standard error, as it is. Where that is closed or full, nothing happens: what a command
+/// measured does not depend on who listens.
+void print_error_text(std::string_view text) noexcept;
+
 /// Errors and notes: to standard error, each with the program's name before it.
-void print_lines(const std::vector<std::string>& lines);
+void print_line(std::string_view line) noexcept;
+void print_lines(const std::vector<std::string>& lines) noexcept;
 
 }  // namespace repose::cli

@@ -8,6 +8,7 @@
 #include "base/whole_file.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
+#include "vision/picture/made_here.h"
 
 namespace repose::cli {
 namespace {
@@ -29,6 +30,12 @@ void check_output_places(const std::vector<OutputPlace>& places,
                                    places[j].option, option, file));
     }
     if (file == kStandardOutput) continue;
+    if (has_picture_ending(file) && !vision::is_made_here(file)) {
+      errors.push_back(fmt::format(
+          "{} {}: is there already, and no picture of repose. Fix: choose another name, or move it "
+          "away.",
+          option, file));
+    }
     for (const fs::path& input : inputs) {
       if (input.empty() || !same_file(input, file)) continue;
       errors.push_back(fmt::format(

@@ -12,8 +12,8 @@ struct OutputPlace {
   std::string file;
 };
 
-/// Adds an error for two outputs in one place, an input that would be overwritten, and a place that
-/// cannot be written.
+/// Adds an error for two outputs in one place, an input or somebody's picture that would be
+/// overwritten, and a place that cannot be written.
 void check_output_places(const std::vector<OutputPlace>& places,
                          const std::vector<std::filesystem::path>& inputs,
                          std::vector<std::string>& errors);

@@ -9,19 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "vision/picture/made_here.h"
+
 namespace repose::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_picture_ending(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  constexpr std::array<std::string_view, 8> kEndings{".jpg",  ".jpeg", ".png",  ".tif",
-                                                     ".tiff", ".bmp",  ".webp", ".heic"};
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
-}
 
 void add_folder(const fs::path& folder, PictureList& list) {
   std::error_code error;
@@ -58,6 +51,15 @@ void drop_repeated(PictureList& list) {
 
 }  // namespace
 
+bool has_picture_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  constexpr std::array<std::string_view, 8> kEndings{".jpg",  ".jpeg", ".png",  ".tif",
+                                                     ".tiff", ".bmp",  ".webp", ".heic"};
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
 std::string naming_file(const std::string& file, const std::string& error) {
   return error.starts_with(file + ": ") ? error : file + ": " + error;
 }
@@ -90,7 +92,8 @@ OverlayFiles name_overlays(const std::vector<fs::path>& pictures, const fs::path
   for (const fs::path& picture : pictures) {
     const std::string name = picture.stem().string();
     fs::path file = folder / (name + ".png");
-    for (int number = 2; !taken.insert(identity(file)).second; ++number) {
+    for (int number = 2; !vision::is_made_here(file) || !taken.insert(identity(file)).second;
+         ++number) {
       file = folder / fmt::format("{}-{}.png", name, number);
     }
     if (file.stem() != picture.stem()) {

@@ -12,6 +12,9 @@ std::filesystem::path identity(const std::filesystem::path& file);
 /// "FILE: what. Fix: ...": errors of measuring a picture do not name it, those of reading it do.
 std::string naming_file(const std::string& file, const std::string& error);
 
+/// By its name.
+bool has_picture_ending(const std::filesystem::path& file);
+
 /// What the names on the command line come down to.
 struct PictureList {
   std::vector<std::filesystem::path> files;
@@ -30,7 +33,7 @@ struct OverlayFiles {
 };
 
 /// FOLDER/NAME.png; pictures of the same name, and names that would overwrite a picture that is
-/// read, get a number.
+/// read or that repose did not make, get a number.
 OverlayFiles name_overlays(const std::vector<std::filesystem::path>& pictures,
                            const std::filesystem::path& folder);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/common/output.h"
 #include "cli/common/terminal.h"
 
 namespace repose::cli {
@@ -25,7 +26,7 @@ std::string time_text(double seconds) {
 ProgressLine::ProgressLine() : is_shown_(is_terminal(stderr)) {}
 
 ProgressLine::~ProgressLine() {
-  if (is_shown_) fmt::print(stderr, "{}", kClearLine);
+  if (is_shown_) print_error_text(kClearLine);
 }
 
 void ProgressLine::report(const std::string& done, double fraction) {
@@ -39,8 +40,7 @@ void ProgressLine::report(const std::string& done, double fraction) {
     const std::chrono::duration<double> spent = now - start_;
     line += fmt::format(", {} left", time_text(spent.count() * (1 - fraction) / fraction));
   }
-  fmt::print(stderr, "{}", line);
-  std::fflush(stderr);
+  print_error_text(line);
 }
 
 void ProgressLine::begin_stage() {

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/printable.h"
 #include "base/text.h"
 
 namespace repose::cli {
@@ -18,21 +19,22 @@ std::size_t usable(int terminal_columns) {
   return static_cast<std::size_t>(std::max(kNarrowestTerminal, terminal_columns));
 }
 
-/// Letters that are seen: a colour is written "ESC [ ... m".
-std::size_t visible(std::string_view text) {
-  std::size_t count = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    if (text[at] == '\033') {
-      at = std::min(text.find('m', at), text.size());
-    } else if (base::starts_a_letter(text[at])) {
-      ++count;
-    }
+std::string coloured(const std::string& text, Colour colour) {
+  switch (colour) {
+    case Colour::green:
+      return "\033[32m" + text + "\033[0m";
+    case Colour::yellow:
+      return "\033[33m" + text + "\033[0m";
+    case Colour::red:
+      return "\033[31m" + text + "\033[0m";
+    case Colour::none:
+      break;
   }
-  return count;
+  return text;
 }
 
 std::string aligned(const std::string& cell, const Column& column, std::size_t width) {
-  const std::string blanks(width - std::min(width, visible(cell)), ' ');
+  const std::string blanks(width - std::min(width, base::letters(cell)), ' ');
   return column.align == Align::right ? blanks + cell : cell + blanks;
 }
 
@@ -43,9 +45,14 @@ void add_line(std::string line, std::string& text) {
 
 }  // namespace
 
-void Table::add_row(std::vector<std::string> cells) {
+Table::Table(std::vector<Column> columns) : columns_(std::move(columns)) {
+  for (Column& column : columns_) column.heading = base::printable(column.heading);
+}
+
+void Table::add_row(std::vector<std::string> cells, Colour last) {
   cells.resize(columns_.size());
-  rows_.push_back({.cells = std::move(cells), .mark = {}, .note = {}});
+  for (std::string& cell : cells) cell = base::printable(cell);
+  rows_.push_back({.cells = std::move(cells), .last = last, .mark = {}, .note = {}});
 }
 
 void Table::add_note(std::string mark, std::string text) {
@@ -55,9 +62,9 @@ void Table::add_note(std::string mark, std::string text) {
 std::vector<std::size_t> Table::widths(std::size_t available) const {
   std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    std::size_t width = std::max(columns_[i].min_width, visible(columns_[i].heading));
+    std::size_t width = std::max(columns_[i].min_width, base::letters(columns_[i].heading));
     for (const Row& row : rows_) {
-      if (!row.is_note) width = std::max(width, visible(row.cells[i]));
+      if (!row.is_note) width = std::max(width, base::letters(row.cells[i]));
     }
     widths.push_back(width);
   }
@@ -71,29 +78,29 @@ std::vector<std::size_t> Table::widths(std::size_t available) const {
   }
   const std::size_t most = std::max(left_for(0), columns_.front().min_width);
   if (widths.front() <= most) return widths;
-  widths.front() =
-      std::max({kNarrowestFirst, columns_.front().min_width, visible(columns_.front().heading)});
+  widths.front() = std::max(
+      {kNarrowestFirst, columns_.front().min_width, base::letters(columns_.front().heading)});
   for (const Row& row : rows_) {
-    const std::size_t width = row.is_note ? 0 : visible(row.cells.front());
+    const std::size_t width = row.is_note ? 0 : base::letters(row.cells.front());
     if (width <= most) widths.front() = std::max(widths.front(), width);
   }
   return widths;
 }
 
-void Table::add_lines(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
-                      std::string& text) const {
+void Table::add_lines(const std::vector<std::string>& cells, Colour last,
+                      const std::vector<std::size_t>& widths, std::string& text) const {
   std::string line;
-  const bool fits = visible(cells.front()) <= widths.front();
+  const bool fits = base::letters(cells.front()) <= widths.front();
   if (!fits) add_line(cells.front(), text);
   for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
     line += aligned(i > 0 || fits ? cells[i] : "", columns_[i], widths[i]);
     line += std::string(kGap, ' ');
   }
-  if (visible(cells.back()) <= widths.back()) {
-    add_line(line + aligned(cells.back(), columns_.back(), widths.back()), text);
+  if (base::letters(cells.back()) <= widths.back()) {
+    add_line(line + coloured(aligned(cells.back(), columns_.back(), widths.back()), last), text);
     return;
   }
-  const std::string below(visible(line), ' ');
+  const std::string below(base::letters(line), ' ');
   for (const std::string& part : base::wrapped(cells.back(), widths.back())) {
     add_line(std::exchange(line, below) + part, text);
   }
@@ -105,12 +112,12 @@ std::string Table::text(int terminal_columns) const {
   for (const Column& column : columns_) headings.push_back(column.heading);
   std::string text;
   if (std::any_of(headings.begin(), headings.end(), [](const auto& name) { return !name.empty(); }))
-    add_lines(headings, widest, text);
+    add_lines(headings, Colour::none, widest, text);
   for (const Row& row : rows_) {
     if (row.is_note) {
       text += paragraph(row.mark, row.note, terminal_columns);
     } else {
-      add_lines(row.cells, widest, text);
+      add_lines(row.cells, row.last, widest, text);
     }
   }
   return text;
@@ -119,8 +126,9 @@ std::string Table::text(int terminal_columns) const {
 std::string paragraph(std::string_view mark, std::string_view text, int terminal_columns) {
   const std::size_t indent = base::letters(mark);
   std::string before(mark), lines;
-  for (const std::string& line : base::wrapped(
-           text, usable(terminal_columns) - std::min(indent, usable(terminal_columns) / 2))) {
+  for (const std::string& line :
+       base::wrapped(base::printable(text),
+                     usable(terminal_columns) - std::min(indent, usable(terminal_columns) / 2))) {
     add_line(before + line, lines);
     before = std::string(indent, ' ');
   }

@@ -7,13 +7,14 @@
 #include <vector>
 
 /// What people read on a terminal: tables and paragraphs, as wide as it is. Letters are counted as
-/// UTF-8; colours count for nothing.
+/// UTF-8. What would control the terminal is spelt out, whatever a text comes from.
 namespace repose::cli {
 
 /// Stands where a number does not exist.
 inline constexpr const char* kNothing = "–";
 
 enum class Align { left, right };
+enum class Colour { none, green, yellow, red };
 
 struct Column {
   std::string heading;
@@ -29,10 +30,11 @@ inline Column number_column(std::string heading) {
 /// wrapped if it is aligned left, and a cell of the first that does not fit has a line of its own.
 class Table {
  public:
-  explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+  explicit Table(std::vector<Column> columns);
 
-  /// Cells that are left out at the end are empty.
-  void add_row(std::vector<std::string> cells);
+  /// Cells that are left out at the end are empty. The last one may have a colour, which takes no
+  /// room.
+  void add_row(std::vector<std::string> cells, Colour last = Colour::none);
 
   /// A paragraph below the last row.
   void add_note(std::string mark, std::string text);
@@ -43,13 +45,14 @@ class Table {
  private:
   struct Row {
     std::vector<std::string> cells;
+    Colour last = Colour::none;
     std::string mark = {}, note = {};
     bool is_note = false;
   };
 
   std::vector<std::size_t> widths(std::size_t available) const;
-  void add_lines(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
-                 std::string& text) const;
+  void add_lines(const std::vector<std::string>& cells, Colour last,
+                 const std::vector<std::size_t>& widths, std::string& text) const;
 
   std::vector<Column> columns_;
   std::vector<Row> rows_;

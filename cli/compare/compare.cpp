@@ -4,7 +4,6 @@
 #include <array>
 #include <stdexcept>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "cli/common/interrupt.h"
@@ -61,8 +60,7 @@ void write_overlay(const ComparePlan& plan, const MeasuredHeap& first,
                    const vision::HeapComparison& comparison) {
   if (plan.overlay_file.empty()) return;
   if (comparison.status == vision::MeasureStatus::refused) {
-    fmt::print(stderr, "repose: {}: not drawn, as there is nothing to compare\n",
-               plan.overlay_file);
+    print_line(plan.overlay_file + ": not drawn, as there is nothing to compare");
     return;
   }
   const vision::ComparisonOverlayNotes notes{
@@ -73,10 +71,10 @@ void write_overlay(const ComparePlan& plan, const MeasuredHeap& first,
 }
 
 void write_results(const ComparePlan& plan, const vision::HeapComparison& comparison) {
-  if (plan.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput), compare_table(plan, comparison, columns_of(stdout)));
-  }
-  if (!plan.json_file.empty()) write_output(plan.json_file, compare_json(plan, comparison));
+  Outputs outputs;
+  outputs.add(plan.json_file, compare_json(plan, comparison));
+  outputs.show(compare_table(plan, comparison, columns_of(stdout)));
+  outputs.write();
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const std::array<MeasuredHeap, 2> heaps = measure_both(plan);
   if (is_interrupted) {
-    fmt::print(stderr, "repose: interrupted, no results were written\n");
+    print_line("interrupted, no results were written");
     return ExitCode::interrupted;
   }
   std::vector<std::string> errors;

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "calibrate/export/export.h"
 #include "calibrate/result/result.h"
+#include "calibrate/study/study_folder.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/output.h"
@@ -44,6 +46,12 @@ std::string known_targets() {
 StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& request) {
   const calibrate::StudyRecord record = calibrate::read_study_record(folder);
   const auto result = calibrate::read_result(folder);
+  if (result && !is_same_study(result->provenance.study, identity_of(record))) {
+    throw std::invalid_argument(fmt::format(
+        "{}: {} is not of the study in {}: the study was changed, and is not finished. Fix: run "
+        "the same repose calibrate command again; it resumes.",
+        folder.string(), calibrate::kResultFile, calibrate::kNotesFile));
+  }
   if (!result) {
     throw std::invalid_argument(
         fmt::format("{}: there is no result.json in it: the study is not finished. Fix: run "
@@ -61,7 +69,12 @@ ExportPlan plan_export(const ExportArguments& arguments) {
     plan.errors.push_back(fmt::format("--to {}: must be one of {}. Fix: --to liggghts.",
                                       arguments.target, known_targets()));
   }
-  check_output_places({{"--json", arguments.json_file}}, {}, plan.errors);
+  std::vector<fs::path> read;
+  for (const char* name : {calibrate::kStudyCopy, calibrate::kClumpCopy, calibrate::kNotesFile,
+                           calibrate::kResultFile, calibrate::kHeapFile}) {
+    read.push_back(fs::path(arguments.folder) / name);
+  }
+  check_output_places({{"--json", arguments.json_file}}, read, plan.errors);
   plan.request = {.target = target.value_or(calibrate::ExportTarget::liggghts),
                   .takes_approximate = arguments.takes_approximate || !target};
   plan.out_folder = arguments.out_folder.empty()
@@ -107,7 +120,7 @@ std::string export_table(const ExportPlan& plan, int columns) {
   }
   return table.text(columns) +
          fmt::format("\n{}: {} files.\nREADME.txt says what carries over and what does not.\n",
-                     plan.out_folder.string(), plan.made.files.size());
+                     base::printable(plan.out_folder.string()), plan.made.files.size());
 }
 
 }  // namespace
@@ -116,12 +129,13 @@ ExitCode run_export(const ExportArguments& arguments) {
   const ExportPlan plan = plan_export(arguments);
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
-  calibrate::write_export(plan.out_folder, plan.made.files);
+  calibrate::write_export(plan.out_folder, plan.made.files, arguments.out_folder.empty());
+  Outputs outputs;
+  outputs.add(arguments.json_file, export_json(plan));
+  outputs.show(export_table(plan, columns_of(stdout)));
+  outputs.write_files();
   print_lines(plan.made.warnings);
-  if (!arguments.json_file.empty()) write_output(arguments.json_file, export_json(plan));
-  if (arguments.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput), export_table(plan, columns_of(stdout)));
-  }
+  outputs.write();
   return ExitCode::done;
 }
 

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "calibrate/report/measure_report.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
@@ -23,9 +21,9 @@ namespace {
 
 void print_errors(const std::vector<MeasuredPicture>& pictures) {
   for (const MeasuredPicture& picture : pictures) {
-    const char* whose = picture.outcome == Outcome::internal_error ? "internal error: " : "";
-    if (!picture.error.empty()) fmt::print(stderr, "repose: {}{}\n", whose, picture.error);
-    if (!picture.overlay_error.empty()) fmt::print(stderr, "repose: {}\n", picture.overlay_error);
+    const std::string whose = picture.outcome == Outcome::internal_error ? "internal error: " : "";
+    if (!picture.error.empty()) print_line(whose + picture.error);
+    if (!picture.overlay_error.empty()) print_line(picture.overlay_error);
   }
 }
 
@@ -52,20 +50,15 @@ std::string report_page(const std::vector<MeasuredPicture>& pictures) {
   return calibrate::report::measure_report(shown).html;
 }
 
-void write_results(const std::vector<MeasuredPicture>& pictures,
+Outputs results_of(const std::vector<MeasuredPicture>& pictures,
                    const MeasureArguments& arguments) {
-  const std::string& json = arguments.json_file;
-  const std::string& csv = arguments.csv_file;
-  const std::string& summary = arguments.summary_file;
-  const bool stdout_is_taken =
-      json == kStandardOutput || csv == kStandardOutput || summary == kStandardOutput;
-  if (!stdout_is_taken) {
-    write_output(std::string(kStandardOutput), human_text(pictures, arguments));
-  }
-  if (!json.empty()) write_output(json, measure_json(pictures));
-  if (!csv.empty()) write_output(csv, measure_csv(pictures));
-  if (!summary.empty()) write_output(summary, summary_json(summarise(pictures)));
-  if (!arguments.report_file.empty()) write_output(arguments.report_file, report_page(pictures));
+  Outputs outputs;
+  outputs.show(human_text(pictures, arguments));
+  outputs.add(arguments.json_file, measure_json(pictures));
+  outputs.add(arguments.csv_file, measure_csv(pictures));
+  outputs.add(arguments.summary_file, summary_json(summarise(pictures)));
+  if (!arguments.report_file.empty()) outputs.add(arguments.report_file, report_page(pictures));
+  return outputs;
 }
 
 ExitCode exit_code(const std::vector<MeasuredPicture>& pictures) {
@@ -96,11 +89,13 @@ ExitCode run_measure(const MeasureArguments& arguments) {
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const std::vector<MeasuredPicture> pictures = measure_batch(plan, is_interrupted);
   if (is_interrupted) {
-    fmt::print(stderr, "repose: interrupted, no results were written\n");
+    print_line("interrupted, no results were written");
     return ExitCode::interrupted;
   }
+  Outputs outputs = results_of(pictures, arguments);
+  outputs.write_files();
   print_errors(pictures);
-  write_results(pictures, arguments);
+  outputs.write();
   return exit_code(pictures);
 }
 

@@ -25,16 +25,18 @@ std::string flank_cell(const vision::Flank& flank, vision::MeasureStatus status)
   return status == vision::MeasureStatus::refused ? kNothing : name_of(flank.status);
 }
 
-std::string status_cell(const MeasuredPicture& picture, bool has_colour) {
-  const bool is_measured = picture.outcome == Outcome::measured;
-  const auto status = picture.angle.status;
-  std::string name = is_measured ? name_of(status) : "not read";
-  if (!has_colour) return name;
-  constexpr const char *kGreen = "\033[32m", *kYellow = "\033[33m", *kRed = "\033[31m";
-  const char* colour = is_measured && status == vision::MeasureStatus::ok        ? kGreen
-                       : is_measured && status == vision::MeasureStatus::flagged ? kYellow
-                                                                                 : kRed;
-  return fmt::format("{}{}\033[0m", colour, name);
+Colour colour_of(const MeasuredPicture& picture, bool has_colour) {
+  if (!has_colour) return Colour::none;
+  if (picture.outcome != Outcome::measured) return Colour::red;
+  switch (picture.angle.status) {
+    case vision::MeasureStatus::ok:
+      return Colour::green;
+    case vision::MeasureStatus::flagged:
+      return Colour::yellow;
+    case vision::MeasureStatus::refused:
+      break;
+  }
+  return Colour::red;
 }
 
 constexpr const char* kBelow = "  ";  // before what is said below a row
@@ -73,16 +75,18 @@ std::string proposal_text(const std::string& file, const vision::Proposal& propo
 
 void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
   const vision::ReposeAngle& angle = picture.angle;
-  const std::string status = status_cell(picture, style.has_colour);
+  const Colour colour = colour_of(picture, style.has_colour);
   if (picture.outcome != Outcome::measured) {
-    table.add_row({picture.file, kNothing, kNothing, kNothing, kNothing, kNothing, status});
+    table.add_row({picture.file, kNothing, kNothing, kNothing, kNothing, kNothing, "not read"},
+                  colour);
     return;
   }
   table.add_row(
       {picture.file, angle_cell(angle.angle_rad, angle.uncertainty_rad),
        flank_cell(angle.left, angle.status), flank_cell(angle.right, angle.status),
        angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
-       fmt::format("{:.2f}", angle.confidence), status});
+       fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
+      colour);
   if (angle.status == vision::MeasureStatus::refused) {
     table.add_note(fmt::format("{}refused: ", kBelow), angle.reason);
     if (picture.proposal) {

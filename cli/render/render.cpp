@@ -57,7 +57,9 @@ void render_picture(const RenderArguments& arguments, const RenderPlan& plan,
   }
   if (!arguments.truth_file.empty()) {
     const render::Truth truth = render::truth_of(scene, camera, plan.size, shown_in(plan.style));
-    write_output(arguments.truth_file, truth_json(truth));
+    Outputs outputs;
+    outputs.add(arguments.truth_file, truth_json(truth));
+    outputs.write();
   }
 }
 
@@ -124,8 +126,10 @@ ExitCode run_render(const RenderArguments& arguments) {
       break;
     case RenderOutput::model: {
       const auto content = render::glb_of(scene, shown_in(plan.style));
-      write_output(arguments.out_file,
-                   {reinterpret_cast<const char*>(content.data()), content.size()});
+      Outputs outputs;
+      outputs.add(arguments.out_file,
+                  {reinterpret_cast<const char*>(content.data()), content.size()});
+      outputs.write();
       break;
     }
     case RenderOutput::film:

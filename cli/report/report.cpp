@@ -1,33 +1,50 @@
 #include "cli/report/report.h"
 
 #include <filesystem>
-#include <stdexcept>
+#include <string>
 #include <system_error>
+#include <vector>
 
-#include <fmt/format.h>
-
+#include "base/error_list.h"
+#include "base/file_set.h"
+#include "base/printable.h"
 #include "base/whole_file.h"
 #include "calibrate/report/study_report.h"
+#include "calibrate/study/study_folder.h"
 #include "cli/common/output.h"
+#include "cli/common/output_places.h"
 
 namespace repose::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Before the long work: where the page and its tables would go can be written.
-void check_places(const fs::path& page, const fs::path& tables) {
-  base::check_can_write(page);
-  if (tables.empty()) return;
-  std::error_code error;
-  fs::create_directories(tables, error);
-  if (std::error_code ignored; error || !fs::is_directory(tables, ignored)) {
-    throw std::invalid_argument(
-        fmt::format("--tables {}: the folder cannot be made ({}). Fix: choose a place you may "
-                    "write to, or none.",
-                    tables.string(), error ? error.message() : "there is a file of that name"));
+/// What a page is made from: it must not be written over.
+std::vector<fs::path> files_read(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const char* name : {calibrate::kStudyCopy, calibrate::kClumpCopy, calibrate::kNotesFile,
+                           calibrate::kResultFile, calibrate::kHeapFile}) {
+    files.push_back(folder / name);
   }
-  base::check_can_write(tables / "table.csv");
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / "runs", error), end; !error && entry != end;
+       entry.increment(error)) {
+    files.push_back(entry->path());
+  }
+  if (const auto notes = calibrate::read_study_notes(folder)) {
+    for (const calibrate::PictureReading& picture : notes->pictures) files.push_back(picture.file);
+  }
+  return files;
+}
+
+/// Before the long work: where the page and its tables would go can be written.
+void check_places(const fs::path& folder, const fs::path& page, const fs::path& tables) {
+  std::vector<std::string> errors;
+  check_output_places({{"--out", page.string()}}, files_read(folder), errors);
+  if (!tables.empty()) make_output_folder("--tables", tables, errors);
+  base::ErrorList all;
+  for (const std::string& error : errors) all.add(error);
+  all.throw_if_any();
 }
 
 }  // namespace
@@ -40,15 +57,20 @@ ExitCode run_report(const ReportArguments& arguments) {
       arguments.tables_folder.empty() ? folder / "tables" : fs::path(arguments.tables_folder);
   if (arguments.tables_folder == "none") tables.clear();
   std::error_code ignored;
-  if (fs::is_directory(folder, ignored)) check_places(page, tables);
+  if (fs::is_directory(folder, ignored)) check_places(folder, page, tables);
   const calibrate::report::Report report = calibrate::report::study_report(folder);
   if (!tables.empty()) {
+    std::vector<base::NamedText> files;
     for (const calibrate::report::CsvFile& table : report.tables) {
-      base::write_whole_file(tables / table.name, table.text);
+      files.push_back({table.name, table.text});
     }
+    const bool is_ours = arguments.tables_folder.empty();
+    base::write_file_set(tables, files, is_ours ? base::Unlisted::ours : base::Unlisted::users);
   }
   base::write_whole_file(page, report.html);
-  write_output(std::string(kStandardOutput), page.string() + '\n');
+  Outputs outputs;
+  outputs.show(base::printable(page.string()) + '\n');
+  outputs.write();
   return ExitCode::done;
 }
 

@@ -33,30 +33,24 @@ void warn_of_unit(const ShapeArguments& arguments, const dem::ClumpShape& shape)
   if (arguments.scan.empty() || !arguments.unit.empty()) return;
   const double reach = shape.reach_m();
   if (2 * reach >= kDoubtfulLength_m) return;
-  fmt::print(stderr,
-             "repose: {}: is about {:.2g} mm long, taken in mm. If the scan is in metres, pass "
-             "--unit m.\n",
-             arguments.scan, 2e3 * reach);
+  print_line(
+      fmt::format("{}: is about {:.2g} mm long, taken in mm. If the scan is in metres, pass "
+                  "--unit m.",
+                  arguments.scan, 2e3 * reach));
 }
 
 void write_results(const dem::ClumpFile& clump, const ShapeArguments& arguments,
                    const ShapePlan& plan) {
-  if (!arguments.out_file.empty()) write_output(arguments.out_file, dem::clump_json(clump));
+  Outputs outputs;
+  outputs.add(arguments.out_file, dem::clump_json(clump));
   if (!arguments.mesh_file.empty()) {
     const auto content = dem::export_shape(clump.shape, plan.mesh_format);
-    write_output(arguments.mesh_file,
-                 {reinterpret_cast<const char*>(content.data()), content.size()});
+    outputs.add(arguments.mesh_file,
+                {reinterpret_cast<const char*>(content.data()), content.size()});
   }
-  if (!arguments.json_file.empty()) {
-    write_output(arguments.json_file, shape_json(clump, plan.density_kg_m3));
-  }
-  const bool stdout_is_taken = arguments.json_file == kStandardOutput ||
-                               arguments.out_file == kStandardOutput ||
-                               arguments.mesh_file == kStandardOutput;
-  if (!stdout_is_taken) {
-    write_output(std::string(kStandardOutput),
-                 shape_table(clump, plan.density_kg_m3, columns_of(stdout)));
-  }
+  outputs.add(arguments.json_file, shape_json(clump, plan.density_kg_m3));
+  outputs.show(shape_table(clump, plan.density_kg_m3, columns_of(stdout)));
+  outputs.write();
 }
 
 }  // namespace

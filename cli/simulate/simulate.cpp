@@ -49,20 +49,21 @@ ExitCode fail(const SimulatePlan& plan, const std::vector<Run>& runs) {
     if (run.outcome == RunOutcome::internal_error) whose += "internal error: ";
     if (run.outcome == RunOutcome::bad_input) whose.clear();
     const std::string line = whose + run.error;
-    if (!run.error.empty() && told.insert(line).second) fmt::print(stderr, "repose: {}\n", line);
+    if (!run.error.empty() && told.insert(line).second) print_line(line);
   }
-  fmt::print(stderr, "repose: no result; {}\n", finished_text(plan, runs));
+  print_line("no result; " + finished_text(plan, runs));
   if (count(runs, RunOutcome::internal_error) > 0) return ExitCode::internal_error;
   return count(runs, RunOutcome::bad_input) > 0 ? ExitCode::bad_input
                                                 : ExitCode::nothing_measurable;
 }
 
-void write_results(const SimulatePlan& plan, const std::vector<Run>& runs) {
+Outputs results_of(const SimulatePlan& plan, const std::vector<Run>& runs) {
   const std::string json = simulate_json(plan, runs);
-  if (!plan.out_folder.empty()) write_output(result_file(plan).string(), json);
-  if (!plan.json_file.empty()) write_output(plan.json_file, json);
-  if (plan.json_file == kStandardOutput) return;
-  write_output(std::string(kStandardOutput), simulate_table(plan, runs, columns_of(stdout)));
+  Outputs outputs;
+  if (!plan.out_folder.empty()) outputs.add(result_file(plan).string(), json);
+  outputs.add(plan.json_file, json);
+  outputs.show(simulate_table(plan, runs, columns_of(stdout)));
+  return outputs;
 }
 
 }  // namespace
@@ -77,16 +78,17 @@ ExitCode run_simulate(const SimulateArguments& arguments) {
   const std::vector<Run> runs = run_repeats(plan, is_interrupted);
   const bool is_all_done = count(runs, RunOutcome::done) == runs.size();
   if (is_interrupted && !is_all_done) {
-    fmt::print(stderr, "repose: interrupted, no result was written; {}. {}\n",
-               finished_text(plan, runs), continue_text(plan));
+    print_line(fmt::format("interrupted, no result was written; {}. {}", finished_text(plan, runs),
+                           continue_text(plan)));
     return ExitCode::interrupted;
   }
   if (!is_all_done) return fail(plan, runs);
+  Outputs outputs = results_of(plan, runs);
+  outputs.write_files();
   for (const RunWarning& warning : warnings_of(plan, runs)) {
-    fmt::print(stderr, "repose: {}{}\n",
-               warning.seed ? fmt::format("seed {}: ", *warning.seed) : "", warning.message);
+    print_line((warning.seed ? fmt::format("seed {}: ", *warning.seed) : "") + warning.message);
   }
-  write_results(plan, runs);
+  outputs.write();
   return summarise(runs) ? ExitCode::done : ExitCode::nothing_measurable;
 }
 

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/whole_file.h"
@@ -46,6 +47,22 @@ std::string difference(const Json& saved, const Json& asked) {
   return "the study, its scan or the --set settings were other ones";
 }
 
+/// Names that this run writes and that are there, in a folder that is none of repose: "a, b".
+std::string foreign_files(const SimulatePlan& plan) {
+  if (calibrate::is_run_folder(plan.out_folder) || is_there(plan.out_folder / "study.json")) {
+    return {};
+  }
+  std::vector<std::string> foreign;
+  if (is_there(result_file(plan))) foreign.push_back(result_file(plan).filename().string());
+  for (const std::uint64_t seed : plan.seeds) {
+    for (const char* ending : {".vtp", ".overlay.png", ""}) {
+      const fs::path file = place_of(plan, seed).string() + ending;
+      if (is_there(file)) foreign.push_back(file.filename().string());
+    }
+  }
+  return fmt::format("{}", fmt::join(foreign, ", "));
+}
+
 }  // namespace
 
 fs::path place_of(const SimulatePlan& plan, std::uint64_t seed) {
@@ -60,7 +77,15 @@ fs::path result_file(const SimulatePlan& plan) {
 
 std::string error_of_saved(const SimulatePlan& plan) {
   const fs::path file = identity_file(plan);
-  if (plan.out_folder.empty() || !is_there(file)) return {};
+  if (plan.out_folder.empty()) return {};
+  if (!is_there(file)) {
+    const std::string foreign = foreign_files(plan);
+    if (foreign.empty()) return {};
+    return fmt::format(
+        "--out {}: no repose simulate wrote there, and files of yours would be overwritten: {}. "
+        "Fix: choose another folder, or move them away.",
+        plan.out_folder.string(), foreign);
+  }
   const Json saved = Json::parse(base::read_whole_file(file), nullptr, false);
   const Json asked = identity_of(plan);
   if (saved == asked) return {};
@@ -70,7 +95,7 @@ std::string error_of_saved(const SimulatePlan& plan) {
       saved.is_object() ? difference(saved, asked) : "run.json was changed");
 }
 
-std::string saved_text(const SimulatePlan& plan) {
+std::vector<std::string> notes_on_saved(const SimulatePlan& plan) {
   if (plan.out_folder.empty()) return {};
   const calibrate::RunFolder folder(plan.out_folder);
   std::size_t finished = 0, begun = 0;
@@ -81,17 +106,19 @@ std::string saved_text(const SimulatePlan& plan) {
       ++begun;
     }
   }
-  if (finished + begun == 0) return {};
-  return fmt::format(
+  std::vector<std::string> notes = folder.damaged();
+  if (finished + begun == 0) return notes;
+  notes.push_back(fmt::format(
       "{}: resumes an earlier run: of {} {} {} finished already, {} under way. (To start "
       "anew, delete the folder.)",
       plan.out_folder.string(), plan.seeds.size(), plan.seeds.size() == 1 ? "repeat" : "repeats",
-      finished, begun);
+      finished, begun));
+  return notes;
 }
 
 void save_identity(const SimulatePlan& plan) {
   if (plan.out_folder.empty()) return;
-  write_output(identity_file(plan).string(), identity_of(plan).dump(2) + '\n');
+  base::write_whole_file(identity_file(plan), identity_of(plan).dump(2) + '\n');
 }
 
 }  // namespace repose::cli

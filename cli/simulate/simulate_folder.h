@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/simulate/simulate_options.h"
 
@@ -21,8 +22,8 @@ std::filesystem::path result_file(const SimulatePlan& plan);
 /// mixed with those of this one. Empty: nothing is.
 std::string error_of_saved(const SimulatePlan& plan);
 
-/// What there is to go on from, as a sentence; empty when there is nothing.
-std::string saved_text(const SimulatePlan& plan);
+/// What there is to go on from, and what of it is damaged: a sentence each.
+std::vector<std::string> notes_on_saved(const SimulatePlan& plan);
 
 /// Says in the folder what its files belong to.
 void save_identity(const SimulatePlan& plan);

@@ -5,17 +5,17 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <type_traits>
 
 #include <fmt/format.h>
 
-#include "base/whole_file.h"
 #include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/run_folder.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/output.h"
+#include "cli/common/output_places.h"
 #include "cli/simulate/simulate_folder.h"
 
 namespace repose::cli {
@@ -98,24 +98,23 @@ void check_study(SimulatePlan& plan) {
 }
 
 void check_places(SimulatePlan& plan) {
-  const auto check = [&plan](const std::string& option, const fs::path& file) {
-    try {
-      base::check_can_write(file);
-    } catch (const std::invalid_argument& error) {
-      plan.errors.push_back(fmt::format("{} {}", option, error.what()));
-    }
-  };
-  if (!plan.json_file.empty() && plan.json_file != kStandardOutput) check("--json", plan.json_file);
-  if (plan.out_folder.empty()) return;
-  std::error_code error;
-  fs::create_directories(plan.out_folder, error);
-  if (error) {
-    plan.errors.push_back(fmt::format(
-        "--out {}: the folder cannot be made ({}). Fix: choose a place you may write to.",
-        plan.out_folder.string(), error.message()));
-    return;
+  std::vector<OutputPlace> places = {{"--json", plan.json_file}};
+  if (!plan.out_folder.empty() && make_output_folder("--out", plan.out_folder, plan.errors)) {
+    places.push_back({"--out", result_file(plan).string()});
+    places.push_back({"--out", (plan.out_folder / "run.json").string()});
   }
-  check("--out", result_file(plan));
+  check_output_places(places, dem::files_of(plan.study), plan.errors);
+}
+
+/// From here on no other process writes into the folder.
+void lock_folder(SimulatePlan& plan) {
+  if (plan.out_folder.empty() || !plan.errors.empty()) return;
+  try {
+    const calibrate::RunFolder folder(plan.out_folder);
+    plan.lock.emplace(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
+  } catch (const std::invalid_argument& error) {
+    plan.errors.push_back(fmt::format("--out {}", error.what()));
+  }
 }
 
 /// What the folder holds may be gone on with, if it is of the same run.
@@ -136,8 +135,8 @@ void build_bench(SimulatePlan& plan) {
   }
   plan.spec = calibrate::spec_of(plan.study, plan.experiment, calibrate::NamedGrain(plan.grain),
                                  plan.views);
-  const std::string saved = saved_text(plan);
-  if (!saved.empty()) plan.notes.push_back(saved);
+  const std::vector<std::string> saved = notes_on_saved(plan);
+  plan.notes.insert(plan.notes.end(), saved.begin(), saved.end());
 }
 
 }  // namespace
@@ -166,6 +165,9 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   if (is_read && experiment != nullptr) check_study(plan);
   check_places(plan);
   if (is_read && experiment != nullptr) check_saved(plan);
+  lock_folder(plan);
+  // Another process may have ended meanwhile.
+  if (plan.lock) check_saved(plan);
   if (plan.errors.empty()) build_bench(plan);
   return plan;
 }

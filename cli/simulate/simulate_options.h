@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/folder_lock.h"
 #include "calibrate/experiment/run_spec.h"
 #include "cli/simulate/simulate.h"
 #include "dem/study/study.h"
@@ -25,6 +26,9 @@ struct SimulatePlan {
   std::string json_file;
   std::optional<double> trajectory_s;
   int views = 0;  ///< pictures of each heap
+
+  /// On the folder, from before it was looked at until the results are in it.
+  std::optional<base::FolderLock> lock;
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know

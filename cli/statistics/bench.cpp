@@ -12,12 +12,10 @@ ExitCode run_bench(const BenchArguments& arguments) {
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
 
-  if (plan.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput),
-                 bench_table(arguments.test, plan.result, columns_of(stdout)));
-  }
-  if (!plan.json_file.empty())
-    write_output(plan.json_file, bench_json(arguments.test, plan.result));
+  Outputs outputs;
+  outputs.add(plan.json_file, bench_json(arguments.test, plan.result));
+  outputs.show(bench_table(arguments.test, plan.result, columns_of(stdout)));
+  outputs.write();
   return ExitCode::done;
 }
 

@@ -11,7 +11,9 @@ ExitCode run_design(const DesignArguments& arguments) {
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
-  write_output(plan.out_file, design_csv(plan.design, plan.csv));
+  Outputs outputs;
+  outputs.add(plan.out_file, design_csv(plan.design, plan.csv));
+  outputs.write();
   return ExitCode::done;
 }
 

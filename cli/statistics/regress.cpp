@@ -13,10 +13,10 @@ ExitCode run_regress(const RegressArguments& arguments) {
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
 
-  if (plan.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput), regress_table(plan.report, columns_of(stdout)));
-  }
-  if (!plan.json_file.empty()) write_output(plan.json_file, to_json(summary_of(plan.report)));
+  Outputs outputs;
+  outputs.add(plan.json_file, to_json(summary_of(plan.report)));
+  outputs.show(regress_table(plan.report, columns_of(stdout)));
+  outputs.write();
   return ExitCode::done;
 }
 

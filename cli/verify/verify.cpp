@@ -69,10 +69,10 @@ ExitCode run_verify(const VerifyArguments& arguments) {
     results = dem::run_cases(
         [&progress](std::size_t /*done*/, std::size_t /*count*/) { progress.advance(); });
   }
-  if (arguments.json_file != kStandardOutput) {
-    write_output(std::string(kStandardOutput), verify_table(results, columns_of(stdout)));
-  }
-  if (!arguments.json_file.empty()) write_output(arguments.json_file, verify_json(results));
+  Outputs outputs;
+  outputs.add(arguments.json_file, verify_json(results));
+  outputs.show(verify_table(results, columns_of(stdout)));
+  outputs.write();
   const bool all_hold = std::all_of(results.begin(), results.end(),
                                     [](const dem::CaseResult& result) { return result.holds; });
   return all_hold ? ExitCode::done : ExitCode::internal_error;

@@ -1,10 +1,12 @@
 #include "dem/state/state_file.h"
 
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/fingerprint.h"
 #include "base/whole_file.h"
 #include "dem/state/checkpoint_arrays.h"
 #include "dem/state/setup_arrays.h"
@@ -27,6 +29,21 @@ void check_format(const ArrayReader& fields) {
   }
 }
 
+/// A comment behind the document, with the fingerprint of all before it.
+constexpr std::string_view kSealBegins = "<!-- fingerprint ", kSealEnds = " -->\n";
+
+std::string seal_of(const std::string& text) {
+  return fmt::format("{}{}{}", kSealBegins, base::fingerprint({text}), kSealEnds);
+}
+
+enum class Seal { none, whole, broken };
+
+Seal seal_in(const std::string& text) {
+  const std::size_t at = text.rfind(kSealBegins);
+  if (at == std::string::npos) return Seal::none;
+  return text.substr(at) == seal_of(text.substr(0, at)) ? Seal::whole : Seal::broken;
+}
+
 }  // namespace
 
 std::string state_text(const Simulation& simulation, const std::string& provenance_json) {
@@ -38,7 +55,8 @@ std::string state_text(const Simulation& simulation, const std::string& provenan
   add_setup(fields, simulation.setup());
   add_checkpoint(simulation.checkpoint(), simulation, points, fields);
   points.field_arrays = fields.take();
-  return vtk_text(points);
+  std::string text = vtk_text(points);
+  return text + seal_of(text);
 }
 
 void write_state(const fs::path& file, const Simulation& simulation,
@@ -46,8 +64,18 @@ void write_state(const fs::path& file, const Simulation& simulation,
   base::write_whole_file(file, state_text(simulation, provenance_json));
 }
 
+bool is_as_written(const fs::path& file) {
+  const auto text = base::read_file_if_there(file);
+  return text && seal_in(*text) == Seal::whole;
+}
+
 SavedState read_state(const fs::path& file) {
-  const VtkPoints points = parse_vtk(file.string(), base::read_whole_file(file));
+  const std::string text = base::read_whole_file(file);
+  if (seal_in(text) == Seal::broken) {
+    throw std::invalid_argument(
+        fmt::format("{}: was changed since repose wrote it. Fix: {}", file.string(), kFix));
+  }
+  const VtkPoints points = parse_vtk(file.string(), text);
   try {
     const ArrayReader fields(points.field_arrays);
     check_format(fields);

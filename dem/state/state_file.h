@@ -28,6 +28,10 @@ std::string state_text(const Simulation& simulation, const std::string& provenan
 void write_state(const std::filesystem::path& file, const Simulation& simulation,
                  const std::string& provenance_json);
 
+/// Whether a file is to the last byte what write_state once wrote there: its end has a fingerprint
+/// of all else. False too where there is no such file, and for states of earlier versions.
+bool is_as_written(const std::filesystem::path& file);
+
 /// `Simulation(state.setup, state.checkpoint)` then goes on bit for bit.
 /// @throws std::invalid_argument  no such file, no state of repose, cut short, or edited so that it
 /// does not hold together.

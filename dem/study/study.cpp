@@ -120,6 +120,18 @@ Study read_study_copy(const fs::path& file, const std::vector<std::string>& sett
                    {.folder = file.parent_path(), .must_exist = false});
 }
 
+std::vector<std::filesystem::path> files_of(const Study& study) {
+  std::vector<std::filesystem::path> files = {study.file};
+  for (const auto& named : {study.grain.scan, study.grain.clump}) {
+    if (named) files.push_back(*named);
+  }
+  for (const auto& [experiment, described] : study.experiments) {
+    const auto& pictures = described.measured.pictures;
+    files.insert(files.end(), pictures.begin(), pictures.end());
+  }
+  return files;
+}
+
 bool has_protocol(const Study& study, Experiment experiment) {
   return study.experiments.contains(experiment);
 }

@@ -102,6 +102,9 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 Study read_study_copy(const std::filesystem::path& file,
                       const std::vector<std::string>& settings = {});
 
+/// The study's own file and all that it names: its scan or clump, and pictures.
+std::vector<std::filesystem::path> files_of(const Study& study);
+
 /// Whether the study describes the experiment, and what the bench gave for it: nothing where it
 /// does not.
 bool has_protocol(const Study& study, Experiment experiment);

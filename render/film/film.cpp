@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -12,7 +11,8 @@
 #include <gif_lib.h>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/videoio.hpp>
-#include <unistd.h>
+
+#include "base/whole_file.h"
 
 namespace repose::render {
 namespace {
@@ -45,7 +45,8 @@ class Film::Writer {
 class Film::Mp4Writer : public Film::Writer {
  public:
   Mp4Writer(const fs::path& file, double frames_per_s, int width, int height)
-      : size_(width & ~1, height & ~1),  // H.264 halves the colours' resolution
+      : file_(file),
+        size_(width & ~1, height & ~1),  // H.264 halves the colours' resolution
         writer_(file.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
                 frames_per_s, size_) {}
 
@@ -54,16 +55,23 @@ class Film::Mp4Writer : public Film::Writer {
     const cv::Mat whole(picture.height, picture.width, CV_8UC3,
                         const_cast<std::uint8_t*>(picture.bgr.data()));
     writer_.write(whole(cv::Rect({0, 0}, size_)));
+    ++frames_;
     return true;
   }
+  /// The library does not say that a disk was full: what can be read again was written.
   bool close() override {
     writer_.release();
-    return true;
+    cv::VideoCapture film(file_.string(), cv::CAP_FFMPEG);
+    int frames = 0;
+    while (film.grab()) ++frames;
+    return frames == frames_;
   }
 
  private:
+  fs::path file_;
   cv::Size size_;
   cv::VideoWriter writer_;
+  int frames_ = 0;
 };
 
 class Film::GifWriter : public Film::Writer {
@@ -138,15 +146,17 @@ Film::Film(fs::path file, double frames_per_s)
     refuse(file_, "no film can be written as \"" + ending + '"',
            "let the name end in .mp4 or .gif.");
   }
-  // The libraries know the kind by the ending.
-  temporary_ =
-      file_.parent_path() / fmt::format(".{}.{}.part{}", file_.stem().string(), ::getpid(), ending);
 }
 
-Film::~Film() {
-  writer_.reset();
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
+Film::~Film() = default;
+
+void Film::open_writer() {
+  part_ = base::part_of(file_);
+  if (file_.extension() == ".gif") {
+    writer_ = std::make_unique<GifWriter>(part_->path(), frames_per_s_, width_, height_);
+  } else {
+    writer_ = std::make_unique<Mp4Writer>(part_->path(), frames_per_s_, width_, height_);
+  }
 }
 
 void Film::add(const vision::Picture& picture) {
@@ -155,11 +165,7 @@ void Film::add(const vision::Picture& picture) {
     height_ = picture.height;
     if (width_ < 2 || height_ < 2)
       refuse(file_, "its picture size is too small", "640 x 480 pixels.");
-    if (file_.extension() == ".gif") {
-      writer_ = std::make_unique<GifWriter>(temporary_, frames_per_s_, width_, height_);
-    } else {
-      writer_ = std::make_unique<Mp4Writer>(temporary_, frames_per_s_, width_, height_);
-    }
+    open_writer();
   }
   if (picture.width != width_ || picture.height != height_) {
     refuse(file_, "its pictures are not all of one size", "draw them alike.");
@@ -170,15 +176,7 @@ void Film::add(const vision::Picture& picture) {
 void Film::close() {
   if (!writer_) refuse(file_, "it has no pictures", "add one.");
   if (!writer_->close()) refuse(file_, "cannot be written", kFixPlace);
-  writer_.reset();
-  std::error_code error;
-  const auto bytes = fs::file_size(temporary_, error);
-  // One of the libraries makes files that only their owner may read.
-  const auto readable = fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read |
-                        fs::perms::others_read;
-  if (!error && file_.extension() == ".gif") fs::permissions(temporary_, readable, error);
-  if (!error && bytes > 0) fs::rename(temporary_, file_, error);
-  if (error || bytes == 0) refuse(file_, "cannot be written", kFixPlace);
+  base::put_in_place(*part_, file_);
 }
 
 }  // namespace repose::render

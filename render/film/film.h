@@ -5,9 +5,14 @@
 
 #include "vision/picture/picture.h"
 
+namespace repose::base {
+class PartFile;
+}  // namespace repose::base
+
 namespace repose::render {
 
-/// Pictures one after the other in an MP4 (H.264) or GIF file, which is there whole or not at all.
+/// Pictures one after the other in an MP4 (H.264) or GIF file, which is there whole or not at all:
+/// until then the earlier one is.
 class Film {
  public:
   /// By the name's ending.
@@ -32,8 +37,10 @@ class Film {
   class Writer;
   class Mp4Writer;
   class GifWriter;
+  void open_writer();
+
   std::filesystem::path file_;
-  std::filesystem::path temporary_;
+  std::unique_ptr<base::PartFile> part_;  ///< from the first picture on
   double frames_per_s_;
   std::unique_ptr<Writer> writer_;
   int width_ = 0;

@@ -2,12 +2,29 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
+
+namespace {
+
+/// What is looked at whenever something is flushed to the disk.
+std::filesystem::path watched;                  // NOLINT(cert-err58-cpp)
+std::vector<std::string> content_when_flushed;  // NOLINT(cert-err58-cpp)
+
+}  // namespace
+
+/// Stands before that of the C library.
+extern "C" int fsync(int descriptor) {
+  if (!watched.empty()) content_when_flushed.push_back(repose::testing::text_of(watched));
+  return static_cast<int>(::syscall(SYS_fsync, descriptor));
+}
 
 namespace repose::base {
 namespace {
@@ -17,6 +34,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
+using ::testing::UnorderedElementsAre;
 
 TEST(WholeFile, ReplacesTheOldContentAndLeavesNothingElse) {
   const testing::TemporaryFolder folder;
@@ -71,6 +89,62 @@ TEST(WholeFile, AFullDiskIsSaidAndTheDeviceStays) {
               ThrowsMessage<std::invalid_argument>(
                   AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("Fix: "))));
   EXPECT_FALSE(std::filesystem::is_regular_file("/dev/full"));
+}
+
+TEST(WholeFile, IsOnTheDiskBeforeItIsInItsPlaceAndThenItsNameIs) {
+  const testing::TemporaryFolder folder;
+  watched = folder.write("table.csv", std::string("old"));
+  write_whole_file(watched, "new");
+  watched.clear();
+  EXPECT_THAT(content_when_flushed, ElementsAre("old", "new"));
+}
+
+TEST(WholeFile, LinksStayAndLeadToTheNewContent) {
+  const testing::TemporaryFolder folder;
+  const auto real = folder.write("real.csv", std::string("old"));
+  std::filesystem::create_symlink("real.csv", folder.path() / "link.csv");
+  std::filesystem::create_symlink("later.csv", folder.path() / "open.csv");
+  write_whole_file(folder.path() / "link.csv", "new");
+  write_whole_file(folder.path() / "open.csv", "first");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link.csv"));
+  EXPECT_EQ(testing::text_of(real), "new");
+  EXPECT_EQ(testing::text_of(folder.path() / "later.csv"), "first");
+}
+
+TEST(WholeFile, TheRightsOfTheEarlierFileStay) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("table.csv", std::string("old"));
+  constexpr auto kPrivate =
+      std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
+  std::filesystem::permissions(file, kPrivate);
+  write_whole_file(file, "new");
+  EXPECT_EQ(std::filesystem::status(file).permissions(), kPrivate);
+}
+
+TEST(WholeFile, AProtectedFileIsNotReplaced) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("table.csv", std::string("old"));
+  std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+  EXPECT_THAT([&] { write_whole_file(file, "new"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("must not be written to")));
+  EXPECT_EQ(testing::text_of(file), "old");
+}
+
+TEST(WholeFile, WhatAKilledProcessLeftGoesAwayAndWhatIsBeingWrittenStays) {
+  const testing::TemporaryFolder folder;
+  folder.write(".table.csv.1234-0.part.csv", std::string("half a ta"));
+  folder.write(".table.csv.mine", std::string("not ours"));
+  const PartFile busy(folder.path() / "table.csv");
+  check_can_write(folder.path() / "table.csv");
+  EXPECT_THAT(folder.names(), UnorderedElementsAre(".table.csv.mine", busy.path().filename()));
+}
+
+TEST(WholeFile, NamesMayBeAsLongAsTheSystemAllows) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / std::string(255, 'x');
+  write_whole_file(file, "new");
+  EXPECT_EQ(testing::text_of(file), "new");
 }
 
 TEST(WholeFile, CheckingLeavesNothingBehind) {

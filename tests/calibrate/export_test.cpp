@@ -20,6 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
+using ::testing::StartsWith;
 
 constexpr const char* kWallRolling = "contact.particle_wall.rolling_friction";
 
@@ -196,6 +197,28 @@ TEST(ExportStudy, TheSameStudyGivesTheSameBytes) {
     const StudyExport other = exported(hazelnuts(), target);
     for (std::size_t k = 0; k < one.files.size(); ++k) {
       EXPECT_EQ(one.files[k].text, other.files[k].text) << name;
+    }
+  }
+}
+
+TEST(ExportStudy, NoTextOfAStudyBecomesALineOfADeck) {
+  dem::Study study = hazelnuts();
+  study.hash = "h\nimport os";
+  study.file = "a\r\nimport os.toml";
+  study.model.grain_material.name = "nut\n\"import os";
+  const std::vector<FittedValue> fitted = {{.name = "contact.particle_wall.restitution",
+                                            .value = .5,
+                                            .verdict = "determined &\nimport os #"}};
+  for (const auto& [target, name] : kExportTargets) {
+    for (const ExportedFile& file : export_study(study, study.model.grain, fitted,
+                                                 {.target = target, .takes_approximate = true})
+                                        .files) {
+      std::istringstream lines(file.text);
+      for (std::string line; std::getline(lines, line);) {
+        EXPECT_THAT(line, Not(StartsWith("import os"))) << file.name;
+        EXPECT_THAT(line, Not(HasSubstr("&import"))) << file.name;
+        EXPECT_THAT(line, Not(HasSubstr("\r"))) << file.name;
+      }
     }
   }
 }

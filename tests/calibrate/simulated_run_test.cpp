@@ -64,6 +64,7 @@ TEST(SimulatedRun, ComesBackFromItsText) {
   run.seed = ~0ULL;
   run.clump_steps = 1e15 / 7;
   run.trajectory_s = .05;
+  run.timestep_s = 1e-6;
   const auto back = run_in(run_text(run));
   ASSERT_TRUE(back);
   EXPECT_EQ(run_text(*back), run_text(run));
@@ -72,6 +73,22 @@ TEST(SimulatedRun, ComesBackFromItsText) {
   EXPECT_TRUE(std::isnan(back->readings.at("angle_xz_deg")));
   EXPECT_FALSE(run_in("{}"));
   EXPECT_FALSE(run_in("[1"));
+}
+
+TEST(SimulatedRun, WhatNoRunGivesIsNone) {
+  SimulatedRun run = heap_of({});
+  run.timestep_s = 1e-6;
+  ASSERT_TRUE(run_in(run_text(run)));
+  SimulatedRun huge = run, none = run, backwards = run, still = run;
+  huge.value = 1e200;
+  none.readings.clear();
+  backwards.steps = -1;
+  still.timestep_s = 0;
+  for (const SimulatedRun& wrong : {huge, none, backwards, still}) {
+    EXPECT_FALSE(run_in(run_text(wrong))) << run_text(wrong);
+  }
+  none.failure = "the grains stay in the tube";
+  EXPECT_TRUE(run_in(run_text(none)));
 }
 
 }  // namespace

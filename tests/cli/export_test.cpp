@@ -28,10 +28,16 @@ class Export : public CommandTest {
     std::filesystem::create_directory(study);
     std::filesystem::copy(path("study.toml"), study / "study.toml");
     std::filesystem::copy(path("ball.json"), study / "clump.json");
-    folder_.write("study/study.json", std::string(R"({"program": "repose 0", "method": "joint",
-                      "study": {"file": "study.toml", "hash": "h", "settings": []},
-                      "budget": {"name": "standard", "description": ""}, "pictures": []})"));
-    folder_.write("study/result.json", to_json(calibrate::test::joint_result()));
+    calibrate::StudyResult result = calibrate::test::joint_result();
+    result.provenance.study.settings.clear();
+    const calibrate::StudyIdentity& of = result.provenance.study;
+    const json notes{{"program", of.program},
+                     {"method", of.method},
+                     {"study", {{"file", of.file}, {"hash", of.hash}, {"settings", json::array()}}},
+                     {"budget", {{"name", of.budget}, {"description", of.budget_description}}},
+                     {"pictures", json::array()}};
+    folder_.write("study/study.json", notes.dump());
+    folder_.write("study/result.json", to_json(result));
   }
 };
 

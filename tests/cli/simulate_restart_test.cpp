@@ -83,7 +83,7 @@ class SimulateRestart : public CommandTest {
       std::string text = text_of(entry.path());
       if (entry.path().extension() == ".json") {
         json content = json::parse(text);
-        content.erase("wall_s");
+        for (const char* key : {"wall_s", "fingerprint"}) content.erase(key);
         if (content.contains("repeats")) {
           for (json& repeat : content["repeats"]) {
             for (const char* key : {"wall_s", "clump_steps_per_s", "state", "overlay"})
@@ -191,7 +191,20 @@ TEST_F(SimulateRestart, ARestartPointOfAnotherSeedIsRefused) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("it belongs to another run"));
   folder_.write(other.lexically_relative(folder_.path()), std::string("<VTKFile"));
-  EXPECT_THAT(run(second).err, HasSubstr("it is cut short or was changed. Fix: delete it"));
+  EXPECT_THAT(run(second).err, HasSubstr("earlier version. Fix: delete it"));
+}
+
+TEST_F(SimulateRestart, ARestartPointThatWasChangedIsRefused) {
+  ASSERT_EQ(run_until("frame_00010.vtp", kHeap), 130);
+  const std::filesystem::path file = stored(".restart.vtp").front();
+  std::string state = text_of(file);
+  char& letter = state[state.find("Name=\"velocity\"") + 100];
+  letter = letter == 'A' ? 'B' : 'A';
+  folder_.write(file.lexically_relative(folder_.path()), state);
+  const Finished refused = run(kHeap);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr(file.filename().string()), HasSubstr("was changed"),
+                                 HasSubstr("Fix: delete it")));
 }
 
 TEST_F(SimulateRestart, RunsAreFoundAgainInAnotherStudy) {

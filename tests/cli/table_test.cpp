@@ -17,9 +17,19 @@ TEST(Table, ColumnsAreAsWideAsTheirWidestCell) {
 
 TEST(Table, ColoursTakeNoRoom) {
   Table table({{.heading = ""}, {.heading = "", .align = Align::right}});
-  table.add_row({"\033[32mok\033[0m", "1"});
-  table.add_row({"refused", "2"});
-  EXPECT_EQ(table.text(80), "\033[32mok\033[0m       1\nrefused  2\n");
+  table.add_row({"1", "ok"}, Colour::green);
+  table.add_row({"2", "refused"});
+  EXPECT_EQ(table.text(80), "1  \033[32m     ok\033[0m\n2  refused\n");
+}
+
+TEST(Table, NothingInItControlsTheTerminal) {
+  Table table({{.heading = "a\033[2J"}, {.heading = "b"}});
+  table.add_row({"name\033]0;x\007", "\033[31mred"});
+  table.add_note("! ", "note\rover");
+  const std::string text = table.text(80) + paragraph("", "said\033c", 80);
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("\033")));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("\r")));
+  EXPECT_THAT(text, testing::HasSubstr("\\x1B[31mred"));
 }
 
 TEST(Table, NamesThatDoNotFitHaveALineOfTheirOwn) {

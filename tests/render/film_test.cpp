@@ -1,8 +1,11 @@
 #include "render/film/film.h"
 
+#include <csignal>
+
 #include <gmock/gmock.h>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/videoio.hpp>
+#include <sys/resource.h>
 
 #include "tests/render/drawn.h"
 #include "tests/support/temporary_folder.h"
@@ -12,6 +15,8 @@ namespace {
 
 using repose::testing::TemporaryFolder;
 using repose::testing::text_of;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -55,6 +60,26 @@ TEST(Film, WithoutAnEndNothingIsLeft) {
     film.add(grey_picture(64, 48, 100));
   }
   EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Film, AFullDiskLeavesTheEarlierFilm) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("film.mp4", std::string("the earlier film"));
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit usual = {};
+  ::getrlimit(RLIMIT_FSIZE, &usual);
+  rlimit small = usual;
+  small.rlim_cur = 2000;  // bytes: what is beyond them cannot be written, as on a full disk
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const std::string error = error_of([&] {
+    Film film(file, 10);
+    for (int k = 0; k < 50; ++k) film.add(grey_picture(320, 240, (37 * k) % 256));
+    film.close();
+  });
+  ::setrlimit(RLIMIT_FSIZE, &usual);
+  EXPECT_THAT(error, AllOf(HasSubstr("film.mp4: cannot be written"), HasSubstr("Fix: ")));
+  EXPECT_EQ(text_of(file), "the earlier film");
+  EXPECT_THAT(folder.names(), ElementsAre("film.mp4"));
 }
 
 TEST(Film, ErrorsAreNamed) {

@@ -15,6 +15,7 @@
 #include "base/whole_file.h"
 #include "vision/picture/bmp.h"
 #include "vision/picture/jpeg.h"
+#include "vision/picture/made_here.h"
 #include "vision/picture/mat_of_picture.h"
 #include "vision/picture/png.h"
 #include "vision/picture/tiff.h"
@@ -116,6 +117,7 @@ void write_picture(const fs::path& file, const Picture& picture) {
   cv::imencode(is_jpeg ? ".jpg" : ".png", mat_of(picture), content,
                is_jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, kJpegQuality}
                        : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, kPngCompression});
+  mark_as_made_here(content);
   base::write_whole_file(file, std::as_bytes(std::span(content)));
 }
 

@@ -1,0 +1,60 @@
+#include "base/folder_lock.h"
+
+#include <cerrno>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace repose::base {
+namespace {
+
+constexpr mode_t kAsUsual = 0666;  // less what the process's mask takes away
+
+struct flock whole_file() {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
+/// "process 4711"; on another machine its number says nothing.
+std::string owner_of(int descriptor) {
+  struct flock lock = whole_file();
+  const bool is_known = ::fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  return is_known && lock.l_pid > 0 ? fmt::format("process {}", lock.l_pid) : "another process";
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file)
+    : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAsUsual)) {
+  if (descriptor_ < 0) {
+    throw std::invalid_argument(
+        fmt::format("{}: cannot be written ({}). Fix: choose a folder you may write to, or free "
+                    "some space there.",
+                    file.string(), std::generic_category().message(errno)));
+  }
+  const struct flock lock = whole_file();
+  if (::fcntl(descriptor_, F_SETLK, &lock) == 0) return;
+  if (errno != EACCES && errno != EAGAIN) return;  // a file system that knows no locks
+  const std::string owner = owner_of(descriptor_);
+  ::close(descriptor_);
+  throw std::invalid_argument(
+      fmt::format("{}: {} works in it at this moment. Fix: wait until it has ended, or choose "
+                  "another folder.",
+                  folder.string(), owner));
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+}  // namespace repose::base

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+
+namespace repose::base {
+
+/// As long as it is there no other process has the same. It ends with the process, however that
+/// ends; the file stays, empty.
+class FolderLock {
+ public:
+  /// @param file  whose lock stands for the folder; it may be deeper in it
+  /// @throws std::invalid_argument  another process has it, which is named.
+  FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file);
+  ~FolderLock();
+  FolderLock(FolderLock&& other) noexcept;
+  FolderLock& operator=(FolderLock&&) = delete;
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace repose::base

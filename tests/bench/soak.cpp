@@ -1,0 +1,169 @@
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "base/random.h"
+#include "dem/contact/rolling_name.h"
+#include "dem/engine/unstable_run.h"
+#include "dem/shape/clump/fill.h"
+#include "dem/shape/scan/calliper.h"
+#include "dem/study/experiment_table.h"
+
+// Experiments of a few grains with random settings, all of them such as a study may have. Each must
+// end: with finite readings, or with a reason why there are none. What does not is printed with its
+// number, by which it can be made again: --first N --count 1.
+
+namespace {
+
+using namespace repose;
+using Clock = std::chrono::steady_clock;
+
+struct Soak {
+  std::uint64_t seed = 1;
+  int first = 0;
+  int count = 100;
+  double longest_s = 20;  ///< of one run
+};
+
+/// As often in each power of ten.
+double spread(base::Random& random, double low, double high) {
+  return low * std::pow(high / low, random.uniform());
+}
+
+int whole(base::Random& random, int low, int high) {
+  return low + static_cast<int>(random.uniform() * (high - low + 1));
+}
+
+dem::ClumpShape grain(base::Random& random) {
+  const double length_m = spread(random, 1e-3, 3e-2);
+  const double width_m = length_m * random.between(.6, 1);
+  const dem::CalliperSizes sizes{.length_m = length_m,
+                                 .width_m = width_m,
+                                 .thickness_m = width_m * random.between(.6, 1),
+                                 .tip_fraction = random.between(0, .6)};
+  return dem::clump_of(dem::calliper_surface(sizes), {.spheres = whole(random, 1, 5)}).shape;
+}
+
+dem::PairCoefficients pair(base::Random& random) {
+  return {.restitution = random.between(.05, .95),
+          .sliding_friction = random.between(.05, 1.2),
+          .rolling_friction = random.between(0, .3)};
+}
+
+/// Soft enough for a run to take a second or so, stiff enough not to be squashed.
+dem::Model model(base::Random& random) {
+  dem::Model model;
+  model.grain = grain(random);
+  const double density = spread(random, 300, 5000);
+  model.grain_material = {.name = "grain",
+                          .density_kg_m3 = density,
+                          .young_modulus_pa = spread(random, 1e6, 1e8),
+                          .poisson_ratio = random.between(.1, .45)};
+  model.wall_material = {.name = "wall",
+                         .density_kg_m3 = 7800,
+                         .young_modulus_pa = spread(random, 1e7, 1e11),
+                         .poisson_ratio = random.between(.1, .45)};
+  model.grain_wall = pair(random);
+  model.grain_grain = pair(random);
+  model.rolling = dem::kRollingNames.at(static_cast<std::size_t>(whole(random, 0, 3))).first;
+  return model;
+}
+
+dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base::Random& random) {
+  const double reach_m = model.grain.reach_m();
+  switch (experiment) {
+    case dem::Experiment::drop:
+      return dem::DropProtocol{.height_m = spread(random, .01, .5), .grains = whole(random, 1, 2)};
+    case dem::Experiment::tilt:
+      return dem::TiltProtocol{.bonded = whole(random, 2, 4), .rate_deg_s = spread(random, 4, 10)};
+    case dem::Experiment::roll:
+      return dem::RollProtocol{.incline_deg = random.between(5, 45),
+                               .release_m = reach_m * random.between(3, 10)};
+    case dem::Experiment::heap:
+      break;
+  }
+  return dem::HeapProtocol{.tube_diameter_m = reach_m * random.between(8, 12),
+                           .tube_height_m = reach_m * random.between(20, 40),
+                           .lift_speed_m_s = spread(random, .05, .5),
+                           .plate_m = reach_m * random.between(40, 60),
+                           .grains = whole(random, 5, 30),
+                           .may_be_fewer = true};
+}
+
+bool is_finite(const dem::Repeat& repeat) {
+  bool is_good = repeat.timestep_s > 0 && std::isfinite(repeat.clump_steps) &&
+                 (std::isfinite(repeat.value) || !repeat.envelopes.empty());
+  for (const auto& [name, value] : repeat.readings) {
+    // A heap has no angle from a side where nothing lies.
+    is_good = is_good && (std::isfinite(value) || name.ends_with("_deg"));
+  }
+  return is_good;
+}
+
+/// How a run ended, in a word or two.
+std::string ending(dem::Experiment experiment, std::uint64_t number, const Soak& soak,
+                   std::string& why) {
+  base::Random random(soak.seed * 1'000'003 + number);
+  const Clock::time_point start = Clock::now();
+  const auto report = [&](double, const dem::Simulation&) {
+    return std::chrono::duration<double>(Clock::now() - start).count() < soak.longest_s;
+  };
+  try {
+    const dem::Model simulated = model(random);
+    const dem::Protocol done = protocol(experiment, simulated, random);
+    const dem::Repeat repeat =
+        dem::entry_of(experiment).run(simulated, done, number + 1, report, {});
+    return is_finite(repeat) ? "readings" : "NOT FINITE";
+  } catch (const dem::NoReading&) {
+    return "no reading";
+  } catch (const dem::UnstableRun& error) {
+    why = error.what();
+    return "UNSTABLE";
+  } catch (const dem::Interrupted&) {
+    return "too long";
+  } catch (const std::invalid_argument& error) {
+    why = error.what();
+    return "refused";
+  } catch (const std::exception& error) {
+    why = error.what();
+    return "FAILED";
+  }
+}
+
+void soak_all(dem::Experiment experiment, const Soak& soak) {
+  std::map<std::string, int> endings;
+  for (int k = soak.first; k < soak.first + soak.count; ++k) {
+    std::string why;
+    const std::string how = ending(experiment, static_cast<std::uint64_t>(k), soak, why);
+    ++endings[how];
+    if (how != "readings" && how != "no reading") {
+      fmt::print("{} {}: {} {}\n", dem::name_of(experiment), k, how, why);
+    }
+  }
+  fmt::print("{}:", dem::name_of(experiment));
+  for (const auto& [how, count] : endings) fmt::print(" {} {};", count, how);
+  fmt::print(" of {}\n", soak.count);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  Soak soak;
+  std::string only;
+  CLI::App app("Many experiments with random settings");
+  app.add_option("--only", only, "drop, tilt, roll or heap");
+  app.add_option("--count", soak.count, "of each experiment (100)");
+  app.add_option("--first", soak.first, "number of the first (0)");
+  app.add_option("--seed", soak.seed, "another seed, other settings (1)");
+  app.add_option("--longest-s", soak.longest_s, "of one run (20)");
+  CLI11_PARSE(app, count, words);
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (only.empty() || entry.name == only) soak_all(entry.experiment, soak);
+  }
+}
