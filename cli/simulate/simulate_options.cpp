@@ -21,8 +21,6 @@
 namespace repose::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kMaxRepeats = 100'000;
 constexpr int kMaxThreads = 1024;
 constexpr std::array kNames{OptionName{.value = "setting", .option = "--set"}};

@@ -21,6 +21,7 @@ std::vector<std::string> content_when_flushed;  // NOLINT(cert-err58-cpp)
 }  // namespace
 
 /// Stands before that of the C library.
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): theirs is reserved
 extern "C" int fsync(int descriptor) {
   if (!watched.empty()) content_when_flushed.push_back(repose::testing::text_of(watched));
   return static_cast<int>(::syscall(SYS_fsync, descriptor));

@@ -64,9 +64,9 @@ class Folders : public CommandTest {
   }
 };
 
-const Words kDrop = {"simulate", "drop", "study.toml", "--set",
-                     "contact.particle_wall={restitution=0.5,sliding_friction=0.4,"
-                     "rolling_friction=0.01}"};
+constexpr const char* kWall =
+    "contact.particle_wall={restitution=0.5,sliding_friction=0.4,rolling_friction=0.01}";
+const Words kDrop = {"simulate", "drop", "study.toml", "--set", kWall};
 
 Words with(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
