@@ -29,10 +29,10 @@ BodyTexture texture_in(Shade shade) {
   return texture_of(body, kHigh, work_of(picture));
 }
 
-TEST(BodyTexture, OneColourHasNeitherNoiseNorSpread) {
+TEST(BodyTexture, OneColourIsEven) {
   const BodyTexture plain = texture_in([](int, int) { return 60; });
   EXPECT_EQ(plain.noise, 0);
-  EXPECT_EQ(plain.spread, 0);
+  EXPECT_EQ(plain.even, 1);
   EXPECT_EQ(plain.straight, 0);
   EXPECT_EQ(plain.patchy, 0);
 }
@@ -45,10 +45,17 @@ TEST(BodyTexture, GrainsByChancePointAnywhereAndRepeatNowhere) {
   const BodyTexture texture =
       texture_in([&](int row, int col) { return 120 + 300 * grains(row, col); });
   EXPECT_GT(texture.noise, 2);
-  EXPECT_GT(texture.spread, 5);
+  EXPECT_LT(texture.even, 0.1);
   EXPECT_LT(texture.aligned, 0.1);
   EXPECT_LT(texture.crossed, 0.1);
   EXPECT_LT(texture.regular, 0.1);
+}
+
+TEST(BodyTexture, GapsBetweenGrainsLeaveASilhouetteEven) {
+  const BodyTexture silhouette =
+      texture_in([](int row, int col) { return row % 40 < 3 && (col + row) % 91 < 3 ? 255 : 0; });
+  EXPECT_GT(silhouette.even, 0.99);
+  EXPECT_GT(silhouette.noise, 0.1);
 }
 
 TEST(BodyTexture, BoardsRunOneWay) {
@@ -89,7 +96,7 @@ TEST(BodyTexture, ABodyThatIsAllRimHasNone) {
   body(cv::Rect(10, 10, 8, 8)) = 255;
   const BodyTexture none = texture_of(body, 8, work_of(cv::Mat3b(60, 60, cv::Vec3b(9, 9, 9))));
   EXPECT_EQ(none.noise, 0);
-  EXPECT_EQ(none.spread, 0);
+  EXPECT_EQ(none.even, 0);
   EXPECT_EQ(none.aligned, 0);
 }
 

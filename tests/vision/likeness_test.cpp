@@ -157,7 +157,7 @@ TEST(ReasonAgainstHeap, AnEdgeIsAsRoughAsItsGrains) {
 
 TEST(ReasonAgainstHeap, ASilhouetteShowsNoGrainsButItsEdgeDoes) {
   Likeness silhouette;
-  silhouette.inside = {.noise = 0, .spread = 0, .aligned = 0.9, .crossed = 0.9, .regular = 0.9};
+  silhouette.inside = {.noise = 0, .even = 1, .aligned = 0.9, .crossed = 0.9, .regular = 0.9};
   silhouette.rough_px = 0.15;
   EXPECT_THAT(reason_against_heap(silhouette, std::nullopt), IsEmpty());
   silhouette.rough_px = 0.05;

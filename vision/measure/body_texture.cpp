@@ -17,6 +17,7 @@ constexpr double kCoarser = 4;           // pixels of the picture in one that is
 constexpr double kPatchChange = 9;       // distance in L*a*b* that is another part
 constexpr double kGradientBlur_px = 1;   // single pixels have no direction
 constexpr float kFaintestGradient = 1e-3F;
+constexpr float kEven = 0.05F;      // step of lightness that is none
 constexpr std::size_t kRings = 32;  // of wavelengths
 constexpr double kStrong = 8;       // times the mean of the ring: by chance one in 3000
 
@@ -40,33 +41,21 @@ Inside inside_of(const cv::Mat1b& body, const WorkingPicture& work) {
   return inside;
 }
 
-double noise_of(const Inside& inside) {
+void add_steps(BodyTexture& texture, const Inside& inside) {
   double sum = 0;
+  int even = 0;
   int pairs = 0;
   for (int row = 0; row < inside.core.rows; row += 2) {
     for (int col = 0; col + 1 < inside.core.cols; col += 2) {
       if (inside.core(row, col) == 0 || inside.core(row, col + 1) == 0) continue;
-      sum += std::abs(inside.lightness(row, col + 1) - inside.lightness(row, col));
+      const float step = std::abs(inside.lightness(row, col + 1) - inside.lightness(row, col));
+      sum += step;
+      even += step < kEven ? 1 : 0;
       ++pairs;
     }
   }
-  return pairs > 0 ? sum / pairs : 0;
-}
-
-double spread_of(const Inside& inside) {
-  std::vector<float> values;
-  for (int row = 0; row < inside.core.rows; row += 2) {
-    for (int col = 0; col < inside.core.cols; col += 2) {
-      if (inside.core(row, col) != 0) values.push_back(inside.lightness(row, col));
-    }
-  }
-  if (values.empty()) return 0;
-  const auto at = [&](double part) {
-    const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + place, values.end());
-    return values[static_cast<std::size_t>(place)];
-  };
-  return at(0.75) - at(0.25);
+  texture.noise = sum / std::max(1, pairs);
+  texture.even = static_cast<double>(even) / std::max(1, pairs);
 }
 
 double longest_edge_in(const Inside& inside) {
@@ -205,10 +194,10 @@ double regular_part(const Inside& inside) {
 
 BodyTexture texture_of(const cv::Mat1b& body, double crest_height, const WorkingPicture& work) {
   const Inside inside = inside_of(body, work);
-  BodyTexture texture{.noise = noise_of(inside),
-                      .spread = spread_of(inside),
-                      .straight = longest_edge_in(inside) / std::max(1.0, crest_height),
-                      .patchy = patchy_part(inside, crest_height)};
+  BodyTexture texture;
+  add_steps(texture, inside);
+  texture.straight = longest_edge_in(inside) / std::max(1.0, crest_height);
+  texture.patchy = patchy_part(inside, crest_height);
   texture.regular = regular_part(inside);
   add_directions(texture, inside);
   return texture;

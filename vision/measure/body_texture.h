@@ -9,7 +9,8 @@ namespace repose::vision {
 /// What a body looks like inside, away from its rim.
 struct BodyTexture {
   double noise = 1;     ///< mean step of lightness (L 0 to 100) from pixel to pixel
-  double spread = 1;    ///< between the quartiles of lightness: 0 in silhouettes
+  double even = 0;      ///< part of the pixels that are as light as the next: 1 in silhouettes but
+                        ///< for gaps between the grains
   double straight = 0;  ///< longest straight edge, of the body's height
   double patchy = 0;    ///< part of the body where its colour changes within a tenth of its height:
                         ///< a thing of several parts, not one material
