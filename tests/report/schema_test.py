@@ -16,6 +16,7 @@ size_mm = [20, 20, 20]
 spheres = 1
 density_kg_m3 = 1000
 young_modulus_pa = 2e5
+allow = ["young_modulus_pa"]
 poisson_ratio = 0.3
 [wall]
 young_modulus_pa = 1e8
