@@ -78,7 +78,7 @@ TEST(ExportFacts, TwoLikeBodiesHaveThePairsModuli) {
 TEST(HarmlessName, KeepsWordsAndTakesOutWhatBreaksDecks) {
   EXPECT_EQ(sanitized("hazel nut 2.0 (dry)"), "hazel nut 2.0 _dry_");
   EXPECT_EQ(sanitized("No\xC3\xBCsse"), "No\xC3\xBCsse");
-  EXPECT_EQ(sanitized("a\nrun 1\r\t\"'`$&\\{}#*/"), "a_run 1_____________");
+  EXPECT_EQ(sanitized("a\nrun 1\r\t\"'`$&\\{}#*/"), "a_run 1_x0D____________");
   EXPECT_EQ(sanitized(""), "");
 }
 

@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/experiment/stored_run.h"
 #include "calibrate/report/study_report.h"
 #include "tests/calibrate/made_up_result.h"
 #include "tests/support/temporary_folder.h"
@@ -24,9 +25,9 @@ constexpr const char* kRecord = R"({"program": "repose 0", "method": "joint",
  "study": {"file": "nuts.toml", "hash": "abc-1", "settings": ["a.b=1"]},
  "budget": {"name": "standard", "description": "long"}, "pictures": []})";
 
-constexpr const char* kRun = R"({"simulated": {"experiment": "drop",
+constexpr const char* kDrop = R"({"experiment": "drop",
   "particle_wall": {"restitution": 0.%d, "sliding_friction": 0.3, "rolling_friction": 0.1},
-  "particle_particle": {}}, "readings": {"value": %d}, "failure": "", "wall_s": 1})";
+  "particle_particle": {}})";
 
 /// "a" with every `from` replaced.
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -163,9 +164,11 @@ TEST_F(StudyReport, TablesOfAlikeNamesHaveFilesOfTheirOwn) {
 TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
   folder_.write("study.json", std::string(kRecord));
   std::filesystem::create_directory(folder_.path() / "runs");
-  for (const auto& [number, value] : {std::pair("2", "7"), {"5", "30"}}) {
-    folder_.write(std::string("runs/") + number + ".json",
-                  replaced(replaced(kRun, "0.%d", std::string("0.") + number), "%d", value));
+  for (const auto& [number, value] : {std::pair("2", 7.0), {"5", 30.0}}) {
+    const StoredRun stored{
+        .description = replaced(kDrop, "%d", number),
+        .run = {.value = value, .readings = {{"value", value}}, .timestep_s = 1e-6}};
+    folder_.write(std::string("runs/") + number + ".json", text_of(stored));
   }
   folder_.write("runs/damaged.json", std::string("{\"simulated\": "));
   const Report report = made();

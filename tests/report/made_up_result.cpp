@@ -1,10 +1,14 @@
 // Writes a result.json that has everything a report can show, with names that try to be markup:
-// made_up_result FILE
+// made_up_result RESULT.json [RUN.json]
+// and a run of a name of that kind.
 #include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "calibrate/experiment/stored_run.h"
 #include "calibrate/result/result.h"
 
 namespace repose::calibrate {
@@ -198,11 +202,20 @@ StudyResult result() {
   return result;
 }
 
+StoredRun run() {
+  const nlohmann::json description = {{"experiment", kHostile},
+                                      {"particle_wall", {{"restitution", .1}}}};
+  StoredRun stored{.description = description.dump(), .run = {.value = 1, .timestep_s = 1e-6}};
+  stored.run.readings = {{"value", 1}};
+  return stored;
+}
+
 }  // namespace
 }  // namespace repose::calibrate
 
 int main(int count, char* arguments[]) {
-  if (count != 2) return 2;
+  if (count < 2 || count > 3) return 2;
   std::ofstream(arguments[1]) << to_json(repose::calibrate::result());
+  if (count == 3) std::ofstream(arguments[2]) << text_of(repose::calibrate::run());
   return 0;
 }
