@@ -165,9 +165,11 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
   folder_.write("study.json", std::string(kRecord));
   std::filesystem::create_directory(folder_.path() / "runs");
   for (const auto& [number, value] : {std::pair("2", 7.0), {"5", 30.0}}) {
-    const StoredRun stored{
-        .description = replaced(kDrop, "%d", number),
-        .run = {.value = value, .readings = {{"value", value}}, .timestep_s = 1e-6}};
+    StoredRun stored;
+    stored.description = replaced(kDrop, "%d", number);
+    stored.run.value = value;
+    stored.run.readings = {{"value", value}};
+    stored.run.timestep_s = 1e-6;
     folder_.write(std::string("runs/") + number + ".json", text_of(stored));
   }
   folder_.write("runs/damaged.json", std::string("{\"simulated\": "));

@@ -205,7 +205,10 @@ StudyResult result() {
 StoredRun run() {
   const nlohmann::json description = {{"experiment", kHostile},
                                       {"particle_wall", {{"restitution", .1}}}};
-  StoredRun stored{.description = description.dump(), .run = {.value = 1, .timestep_s = 1e-6}};
+  StoredRun stored;
+  stored.description = description.dump();
+  stored.run.value = 1;
+  stored.run.timestep_s = 1e-6;
   stored.run.readings = {{"value", 1}};
   return stored;
 }

@@ -11,7 +11,6 @@
 
 #include "tests/support/heap_random.h"
 #include "tests/vision/pictures.h"
-#include "vision/measure/choice.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
@@ -22,10 +21,6 @@ using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-Likeness likeness_in(const Picture& picture) {
-  return choose_reading(working_picture(picture, {}), {}).likeness;
-}
 
 /// A light picture with camera noise in which `draw` has painted something dark.
 template <class Draw>
@@ -117,7 +112,10 @@ TEST(Likeness, TreadsOfStairsAreLevelAndASlopeIsNot) {
   flank.robust.slope = -0.5;
   for (int i = 0; i < 200; ++i) flank.height.push_back(100 - 0.5 * i);
   EXPECT_EQ(likeness_of(reading, work).level, 0);
-  for (int i = 0; i < 200; ++i) flank.height.at(i) = 100 - 10 * (i / 20);
+  for (int i = 0; i < 200; ++i) {
+    const int risers = i / 20;
+    flank.height.at(i) = 100 - 10 * risers;
+  }
   EXPECT_NEAR(likeness_of(reading, work).level, 1 - 5.0 / 20, 0.03);  // but for five at each riser
 }
 
