@@ -120,8 +120,11 @@ REPOSE_INLINE Number size_of(const Number& x) {
   return greatest(x, -x);
 }
 
-/// Four numbers anywhere in memory. (memcpy would move them in halves.)
-using FourNumbers = double __attribute__((vector_size(32), aligned(8), may_alias));
+/// Four numbers anywhere in memory. (memcpy would move them in halves. `using` would lose the
+/// alignment with Clang, which then takes them for aligned ones.)
+// NOLINTNEXTLINE(modernize-use-using)
+typedef double FourNumbers __attribute__((vector_size(32), aligned(8), may_alias));
+static_assert(alignof(FourNumbers) == alignof(double));
 
 REPOSE_INLINE Lanes load(const double* from) {
   return Lanes(Lanes::Vector4(*reinterpret_cast<const FourNumbers*>(from)));
