@@ -17,11 +17,17 @@ constexpr int kSmallestStray = 9;        // px: smaller specks are noise
 
 /// What lies above the ground line, of a mask whose corner is at `corner` in the picture.
 cv::Mat1b cut_below(const cv::Mat1b& mask, const PictureLine& ground, cv::Point corner = {}) {
-  cv::Mat1b above = mask.clone();
+  std::vector<int> first(static_cast<std::size_t>(mask.cols));
   for (int col = 0; col < mask.cols; ++col) {
     const double surface = ground.y(corner.x + col + 0.5) - corner.y;
-    const int first = std::clamp(static_cast<int>(std::lround(surface)), 0, mask.rows);
-    if (first < mask.rows) above(cv::Range(first, mask.rows), cv::Range(col, col + 1)) = 0;
+    first[col] = std::clamp(static_cast<int>(std::lround(surface)), 0, mask.rows);
+  }
+  cv::Mat1b above = mask.clone();
+  for (int row = *std::min_element(first.begin(), first.end()); row < mask.rows; ++row) {
+    std::uint8_t* pixels = above[row];
+    for (std::size_t col = 0; col < first.size(); ++col) {
+      pixels[col] = row < first[col] ? pixels[col] : 0;
+    }
   }
   return above;
 }
@@ -114,11 +120,14 @@ Body body_on(const Body& known, const Segmentation& segmentation, const WorkingP
 }
 
 int count_strays(const Body& body, const Segmentation& segmentation, const WorkingPicture& work) {
-  const Pieces pieces(cut_below(solid_mask(segmentation, work), body.ground));
+  const cv::Mat1b above = cut_below(solid_mask(segmentation, work), body.ground);
+  const cv::Rect shown = cv::boundingRect(above);
+  if (shown.empty()) return 0;
+  const Pieces pieces(above(shown));
   const double largest = kLargestStray * cv::countNonZero(body.mask);
   int strays = 0;
   for (int i = 1; i < pieces.count; ++i) {
-    const cv::Rect box = pieces.box(i);
+    const cv::Rect box = pieces.box(i) + shown.tl();
     const double gap = body.ground.y(box.x + box.width / 2.0) - box.br().y;
     if (pieces.area(i) >= kSmallestStray && pieces.area(i) < largest && gap < box.height) ++strays;
   }

@@ -94,11 +94,11 @@ const Reading& middle_of_best(const std::vector<Reading>& readings) {
   return lower->score > upper->score ? *lower : *upper;
 }
 
-/// Whether what the lower reading takes for a heap begins below the middle of the upper one's: the
+/// Whether what another reading takes for a heap begins below the middle of the upper one's: the
 /// heap stands on it, or the upper reading sees both.
-bool stands_on(const Reading& upper, const Reading& lower) {
-  if (upper.body.mask.empty() || lower.body.mask.empty()) return false;
-  const Spans below = spans_of(lower.body.mask);
+/// @param below  the other's body, column by column; of no columns where it has none
+bool stands_on(const Reading& upper, const Spans& below) {
+  if (upper.body.mask.empty() || below.top.empty()) return false;
   const GroundFrame ground(upper.body.ground);
   const Profile& profile = upper.profile;
   int columns = 0;
@@ -119,9 +119,10 @@ bool stands_on(const Reading& upper, const Reading& lower) {
 void leave_out_plates(std::vector<Reading>& readings) {
   std::vector<Reading> heaps;
   for (const Reading& reading : readings) {
+    const Spans spans = spans_of(reading.body.mask);
     const bool carries = std::any_of(readings.begin(), readings.end(), [&](const Reading& other) {
       return other.score >= kSeesTheHeap * reading.score && other.score > kHardlyAnEdge &&
-             !other.profile.leaves_frame_top && stands_on(other, reading);
+             !other.profile.leaves_frame_top && stands_on(other, spans);
     });
     if (!carries) heaps.push_back(reading);
   }

@@ -25,7 +25,7 @@ struct Likeness {
 Likeness likeness_of(const Reading& reading, const WorkingPicture& work);
 
 /// Why it may be no heap; empty when nothing speaks against it. The limits lie where
-/// drawn, rendered and real heaps pass and nine of ten other things do not.
+/// drawn, rendered and real heaps pass and ninety-nine of a hundred other things do not.
 /// Proved by Likeness.* in tests/vision/likeness_test.cpp; tests/bench/photo_accuracy counts both.
 /// @param grain  size that the body's pattern shows [working px]; empty: no pattern
 std::string reason_against_heap(const Likeness& likeness, std::optional<double> grain);

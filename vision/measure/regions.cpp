@@ -6,37 +6,55 @@
 
 namespace repose::vision {
 
-static_assert(Pieces::kArea == cv::CC_STAT_AREA && cv::CC_STAT_LEFT == 0 && cv::CC_STAT_TOP == 1 &&
-              cv::CC_STAT_WIDTH == 2 && cv::CC_STAT_HEIGHT == 3);
-
 Spans spans_of(const cv::Mat1b& mask) {
   const auto columns = static_cast<std::size_t>(mask.cols);
-  Spans spans{std::vector<int>(columns, -1), std::vector<int>(columns, -1)};
-  for (int row = 0; row < mask.rows; ++row) {
+  Spans spans{std::vector<int>(columns, mask.rows), std::vector<int>(columns, -1)};
+  const cv::Rect box = cv::boundingRect(mask);
+  for (int row = box.y; row < box.br().y; ++row) {
     const std::uint8_t* pixels = mask[row];
-    for (std::size_t col = 0; col < columns; ++col) {
-      if (pixels[col] == 0) continue;
-      if (spans.top[col] < 0) spans.top[col] = row;
-      spans.bottom[col] = row;
+    for (auto col = static_cast<std::size_t>(box.x); col < static_cast<std::size_t>(box.br().x);
+         ++col) {  // without a branch, eight columns at a time
+      spans.top[col] = std::min(spans.top[col], pixels[col] != 0 ? row : mask.rows);
+      spans.bottom[col] = pixels[col] != 0 ? row : spans.bottom[col];
     }
   }
+  for (int& top : spans.top) top = top == mask.rows ? -1 : top;
   return spans;
 }
 
 cv::Mat1b holes_filled(const cv::Mat1b& mask) {
+  const cv::Rect box = cv::boundingRect(mask);
+  cv::Mat1b filled = mask.clone();
+  if (box.empty()) return filled;
   cv::Mat1b padded;
   // One pixel of padding lets the flood run around a heap that touches the frame.
-  cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::copyMakeBorder(mask(box), padded, 1, 1, 1, 1, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED, 0);
   cv::floodFill(padded, {0, 0}, 255);
-  const cv::Mat1b reached = padded(cv::Rect(1, 1, mask.cols, mask.rows));
-  return mask | ~reached;
+  const cv::Mat1b reached = padded(cv::Rect(1, 1, box.width, box.height));
+  filled(box) |= ~reached;
+  return filled;
 }
 
-Pieces::Pieces(const cv::Mat1b& mask) {
-  cv::Mat centroids;
-  cv::Mat all;
-  count = cv::connectedComponentsWithStats(mask, labels, all, centroids, 4, CV_32S);
-  stats = all;
+// Areas and boxes by runs of one piece: pixel by pixel, as OpenCV counts them with the centroids,
+// they take longer than the labels.
+Pieces::Pieces(const cv::Mat1b& mask) : count(cv::connectedComponents(mask, labels, 4, CV_32S)) {
+  areas_.resize(static_cast<std::size_t>(count));
+  boxes_.resize(static_cast<std::size_t>(count));
+  for (int row = 0; row < labels.rows; ++row) {
+    const int* piece = labels[row];
+    for (int from = 0; from < labels.cols;) {
+      int to = from + 1;
+      while (to < labels.cols && piece[to] == piece[from]) ++to;
+      add_run(row, from, to);
+      from = to;
+    }
+  }
+}
+
+void Pieces::add_run(int row, int from, int to) {
+  const auto piece = static_cast<std::size_t>(labels(row, from));
+  areas_[piece] += to - from;
+  boxes_[piece] |= cv::Rect(from, row, to - from, 1);
 }
 
 std::vector<int> largest_pieces(const Pieces& pieces, int smallest) {

@@ -21,16 +21,17 @@ cv::Mat1b holes_filled(const cv::Mat1b& mask);
 /// The connected pieces of a mask; piece 0 is the background.
 struct Pieces {
   cv::Mat1i labels;  ///< number of the piece that each pixel belongs to
-  cv::Mat1i stats;
   int count = 0;
 
   explicit Pieces(const cv::Mat1b& mask);
-  int area(int piece) const { return stats(piece, kArea); }
-  cv::Rect box(int piece) const {
-    return {stats(piece, 0), stats(piece, 1), stats(piece, 2), stats(piece, 3)};
-  }
+  int area(int piece) const { return areas_[static_cast<std::size_t>(piece)]; }
+  cv::Rect box(int piece) const { return boxes_[static_cast<std::size_t>(piece)]; }
 
-  static constexpr int kArea = 4;  ///< columns of `stats`: left, top, width, height, area
+ private:
+  void add_run(int row, int from, int to);
+
+  std::vector<int> areas_;
+  std::vector<cv::Rect> boxes_;
 };
 
 /// The three largest pieces of at least `smallest` pixels, largest first.
