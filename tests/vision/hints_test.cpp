@@ -74,6 +74,26 @@ TEST(Hints, TheCrestThatABoxCutsOffIsFlagged) {
   EXPECT_NEAR(*result.angle_rad, *heap.mean_rad(), 1 * kDegree);
 }
 
+TEST(Hints, WhatFillsLittleOfTheBoxIsNotMeant) {
+  const auto heap = drawn("clean", 2, 640);
+  cv::Mat3b painted = mat_of(heap.picture).clone();
+  // A small black roof hangs in the box: nothing has a sharper edge.
+  const auto roof_foot = static_cast<int>(heap.ground.from.y - 0.75 * heap.height_px);
+  const int roof_left = static_cast<int>(heap.ground.from.x) + 5;
+  const std::vector<cv::Point> roof = {
+      {roof_left, roof_foot}, {roof_left + 60, roof_foot}, {roof_left + 30, roof_foot - 30}};
+  cv::fillConvexPoly(painted, roof, cv::Scalar::all(0));
+  MeasureOptions options;
+  const int top = static_cast<int>(heap.ground.from.y - 1.1 * heap.height_px);
+  options.hints.heap = Box{.x = roof_left - 5,
+                           .y = top,
+                           .width = static_cast<int>(heap.ground.to.x) - roof_left,
+                           .height = static_cast<int>(heap.ground.from.y) + 10 - top};
+  const ReposeAngle result = measure_repose_angle(picture_of(painted), options);
+  ASSERT_TRUE(result.angle_rad) << result.reason;
+  EXPECT_NEAR(*result.angle_rad, *heap.mean_rad(), 1 * kDegree);
+}
+
 TEST(Hints, AMaskSaysItAll) {
   const auto heap = drawn("clean", 2, 640);
   std::vector<cv::Point> corners = {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <opencv2/core.hpp>
+
 #include "vision/measure/refinement.h"
 #include "vision/measure/regions.h"
 #include "vision/measure/segmentation.h"
@@ -76,6 +78,15 @@ bool is_settled(const Reading& best, const std::vector<Reading>& readings) {
 const Reading& best_of(const std::vector<Reading>& readings) {
   return *std::max_element(readings.begin(), readings.end(),
                            [](const Reading& a, const Reading& b) { return a.score < b.score; });
+}
+
+/// The one that finds most of what a person has drawn a box around.
+const Reading& largest_of(const std::vector<Reading>& readings) {
+  const auto area = [](const Reading& reading) {
+    return reading.body.mask.empty() ? 0 : cv::countNonZero(reading.body.mask);
+  };
+  return *std::max_element(readings.begin(), readings.end(),
+                           [&](const Reading& a, const Reading& b) { return area(a) < area(b); });
 }
 
 /// Of the readings that only chance ranks, the one whose angle lies in the middle: a flip of their
@@ -250,7 +261,10 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
     prefer_seen_feet(readings);
   }
   Choice choice;
-  if (best_of(readings).score < kHardlyAnEdge) {
+  if (best_of(readings).score < kHardlyAnEdge && work.told.has_box) {
+    choice.best = largest_of(readings);  // says best why there is no angle
+    if (!choice.best.has_flank()) return choice;
+  } else if (best_of(readings).score < kHardlyAnEdge) {
     const auto upright = std::find_if(readings.begin(), readings.end(), is_upright);
     if (upright != readings.end()) {
       choice.best = *upright;

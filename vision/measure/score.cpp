@@ -9,10 +9,11 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kBandNear = 2;          // px from the edge at which the bands beside it begin
-constexpr int kBandFar = 8;           // and end
-constexpr double kUsualBase = 0.25;   // of the frame's width: smaller things are hardly the subject
-constexpr double kCrestUnseen = 0.3;  // a body that hangs from the top is hardly the heap
+constexpr int kBandNear = 2;         // px from the edge at which the bands beside it begin
+constexpr int kBandFar = 8;          // and end
+constexpr double kUsualBase = 0.25;  // of the frame's width: smaller things are hardly the subject
+constexpr double kUsualPartOfBox = 0.4;  // along its width or its height
+constexpr double kCrestUnseen = 0.3;     // a body that hangs from the top is hardly the heap
 constexpr std::size_t kChunks = 10;
 
 struct EdgePoint {
@@ -80,8 +81,12 @@ double agreement_with(const Told& told, const Body& body) {
 
 /// What a heap's place in the frame says of it being the subject.
 double subject_score(const Reading& reading, const WorkingPicture& work) {
-  if (work.told.has_box) return 1;
   const double base = reading.profile.along.back() - reading.profile.along.front();
+  if (work.told.has_box) {
+    const double part =
+        std::max(base / work.frame.width, reading.profile.crest_height / work.frame.height);
+    return std::pow(std::min(1.0, part / kUsualPartOfBox), 4);
+  }
   const double fraction = std::min(1.0, base / (kUsualBase * work.frame.width));
   return fraction * fraction * (reading.profile.leaves_frame_top ? kCrestUnseen : 1);
 }
