@@ -11,14 +11,15 @@
 #include "dem/engine/bodies.h"
 #include "dem/engine/interactions.h"
 #include "dem/engine/neighbour_list.h"
+#include "dem/engine/overlap_watch.h"
 #include "dem/engine/parallel.h"
 #include "dem/engine/unstable_run.h"
 
 namespace repose::dem {
 namespace {
 
-/// Spheres overlap by less than this fraction of their radius in any run worth reporting.
-constexpr double kDeepestOverlap = .3;
+/// Steps of this fraction of the stable one are short enough for whatever the contacts do.
+constexpr double kShortStep = .5;
 /// Energy that may appear between two audits, as a fraction of what is in motion and in springs.
 constexpr double kEnergyTolerance = .05;
 
@@ -71,6 +72,10 @@ class Simulation::State {
   void take_step();
   void leave_through_floor();
   void audit();
+  void audit_contacts();
+  void audit_overlap_at_rest();
+  void audit_energy();
+  [[noreturn]] void stop(const std::string& what, const std::string& fix) const;
   /// Energy jumps that the run itself did not make: grains and walls put in or taken out.
   void restart_energy_audit() { has_energy_mark = false; }
 
@@ -82,6 +87,7 @@ class Simulation::State {
   Neighbours neighbours;
   Interactions interactions;
   ContactTally tally;
+  OverlapWatch overlaps;
   bool has_energy_mark = false;
   double energy_mark_j = 0;
   double wall_work_j = 0;
@@ -114,26 +120,55 @@ void Simulation::State::leave_through_floor() {
   }
 }
 
+void Simulation::State::stop(const std::string& what, const std::string& fix) const {
+  throw UnstableRun(
+      fmt::format("the run went unstable at {:.6f} s (step {} of {:.3g} s): {}. "
+                  "Fix: {}.",
+                  time_s(), step, setup.timestep_s, what, fix));
+}
+
+/// At regular intervals.
 void Simulation::State::audit() {
-  const auto stop = [this](const std::string& what) {
-    throw UnstableRun(
-        fmt::format("the run went unstable at {:.6f} s (step {} of {:.3g} s): {}. "
-                    "Fix: a shorter time step, or slower impacts.",
-                    time_s(), step, setup.timestep_s, what));
-  };
-  if (tally.deepest_overlap > kDeepestOverlap) {
-    const auto body = static_cast<std::size_t>(tally.deepest_body);
-    const Vector at = bodies.position[body].xyz;
+  audit_contacts();
+  audit_overlap_at_rest();
+  audit_energy();
+}
+
+/// At regular intervals, and whenever contacts are deeper than any before.
+void Simulation::State::audit_contacts() {
+  const auto frequency = highest_frequency(bodies, walls, setup.contacts, neighbours.list());
+  const double step_of_stable = frequency ? setup.timestep_s * *frequency / 2 : 0;
+  const double depth = tally.deepest_overlap;
+  if (depth > OverlapWatch::kDeepest) {
+    const Vector at = bodies.position[static_cast<std::size_t>(tally.deepest_body)].xyz;
     stop(fmt::format("grain {} at ({:.4f}, {:.4f}, {:.4f}) m overlaps by {:.0f} % of a radius",
-                     body, at.x(), at.y(), at.z(), 100 * tally.deepest_overlap));
+                     tally.deepest_body, at.x(), at.y(), at.z(), 100 * depth),
+         step_of_stable > kShortStep ? "a shorter time step"
+                                     : "a larger young_modulus_pa or stiffness_factor, or slower "
+                                       "impacts");
   }
+  if (step_of_stable >= 1) {
+    stop(fmt::format("its contacts need a time step below {:.3g} s", 2 / *frequency),
+         "a shorter time step, or slower impacts");
+  }
+}
+
+void Simulation::State::audit_overlap_at_rest() {
+  const double depth = overlaps.take_lasting();
+  if (depth <= OverlapWatch::kDeepestAtRest) return;
+  // By Hertz's law the weight that a contact carries goes with its overlap to the power of 3/2.
+  const double stiffer = 2 * std::pow(depth / OverlapWatch::kDeepestAtRest, 1.5);
+  stop(fmt::format("grain {} has sunk into what it lies on by {:.0f} % of a radius",
+                   tally.deepest_body, 100 * depth),
+       fmt::format("a young_modulus_pa or stiffness_factor at least {:.2g} times as large",
+                   stiffer));
+}
+
+void Simulation::State::audit_energy() {
   const auto& list = neighbours.list();
-  const auto frequency = highest_frequency(bodies, walls, setup.contacts, list);
-  if (frequency && setup.timestep_s * *frequency >= 2) {
-    stop(fmt::format("its contacts need a time step below {:.3g} s", 2 / *frequency));
-  }
+  const std::string fix = "a shorter time step, or slower impacts";
   const Energies now = energies_of(bodies, walls, setup.contacts, list, setup.gravity);
-  if (!std::isfinite(now.sum_j())) stop("its energy is no number");
+  if (!std::isfinite(now.sum_j())) stop("its energy is no number", fix);
   const double made = now.sum_j() - energy_mark_j - wall_work_j;
   double falls = 0;  // what a fall by a grain's size sets free
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -141,7 +176,8 @@ void Simulation::State::audit() {
       falls += bodies.mass[k] * setup.gravity.norm() * bodies.bounding_radius[k];
   }
   if (has_energy_mark && made > kEnergyTolerance * (now.kinetic_j + now.elastic_j + falls)) {
-    stop(fmt::format("{:.3g} J came from nowhere ({:.3g} J are in motion)", made, now.kinetic_j));
+    stop(fmt::format("{:.3g} J came from nowhere ({:.3g} J are in motion)", made, now.kinetic_j),
+         fix);
   }
   has_energy_mark = true;
   energy_mark_j = now.sum_j();
@@ -226,6 +262,7 @@ void Simulation::advance(std::int64_t steps) {
   s.arena.execute([&s, steps] {
     for (std::int64_t k = 0; k < steps; ++k) {
       s.take_step();
+      if (s.overlaps.see(s.tally.deepest_overlap)) s.audit_contacts();
       if (s.step % s.setup.audit_steps == 0) s.audit();
     }
   });

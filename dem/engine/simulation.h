@@ -37,7 +37,7 @@ struct SimulationSetup {
   int threads = 1;
   /// Grains whose centre falls below this height leave the simulation, m.
   double floor_m = -1e300;
-  /// Steps between two audits of energy, overlap and time step.
+  /// Steps between two audits of energy, time step and overlap; deep contacts are seen at once.
   int audit_steps = 500;
 };
 

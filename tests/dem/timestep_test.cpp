@@ -1,6 +1,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -147,6 +148,62 @@ TEST(Audit, DeepOverlapIsCaught) {
   ball.position.z() = .6 * kBallRadius_m;
   simulation.add(ball);
   EXPECT_THAT(instability(simulation, 1), HasSubstr("% of a radius"));
+}
+
+/// A ball just above the plane, at 1 m/s.
+Simulation falling_ball(SimulationSetup setup) {
+  Grain ball;
+  ball.position.z() = 1.001 * kBallRadius_m;
+  ball.velocity.z() = -1;
+  Simulation simulation(std::move(setup));
+  simulation.add(ball);
+  return simulation;
+}
+
+SimulationSetup ball_as_stiff_as(double young_pa) {
+  const SimulationSetup usual = ball_on_plane(.5);
+  Material material = usual.contacts.material(0);
+  material.young_modulus_pa = young_pa;
+  SimulationSetup setup =
+      scene_of(usual.kinds[0].shape, material, material, usual.contacts.pair(0, 0));
+  setup.walls = usual.walls;
+  setup.timestep_s = accurate_timestep_s(setup, 1);
+  return setup;
+}
+
+TEST(Audit, AnImpactBetweenTwoAuditsIsSeen) {
+  Simulation stiff = falling_ball(ball_as_stiff_as(1e7));
+  EXPECT_EQ(instability(stiff, 200), "");
+  Simulation soft = falling_ball(ball_as_stiff_as(1e3));
+  EXPECT_THAT(instability(soft, 200),
+              AllOf(HasSubstr("% of a radius"), HasSubstr("Fix: a larger young_modulus_pa")));
+}
+
+TEST(Audit, ATooLongStepIsSeenAtAnImpactBetweenTwoAudits) {
+  SimulationSetup setup = ball_as_stiff_as(1e7);
+  setup.timestep_s *= 20;
+  Simulation simulation = falling_ball(setup);
+  EXPECT_THAT(instability(simulation, 200), HasSubstr("Fix: a shorter time step"));
+}
+
+/// A ball that rests on the plane, so heavy that it is pressed in by this fraction of its radius.
+Simulation ball_pressed_in(double fraction) {
+  SimulationSetup setup = ball_on_plane(.5);
+  const double usual = 1 - resting_sphere(setup, 0).position.z() / kBallRadius_m;
+  setup.gravity *= std::pow(fraction / usual, 1.5);
+  setup.audit_steps = 20;
+  Simulation simulation(setup);
+  simulation.add(resting_sphere(setup, 0));
+  return simulation;
+}
+
+TEST(Audit, AGrainThatHasSunkIntoWhatItLiesOnIsSeen) {
+  Simulation shallow = ball_pressed_in(.09);
+  EXPECT_EQ(instability(shallow, 200), "");
+  Simulation deep = ball_pressed_in(.11);
+  EXPECT_THAT(instability(deep, 200),
+              AllOf(HasSubstr("has sunk into what it lies on by 11 % of a radius"),
+                    HasSubstr("Fix: a young_modulus_pa or stiffness_factor at least 2.3 times")));
 }
 
 TEST(Audit, QuietRunPasses) {
