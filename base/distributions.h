@@ -1,7 +1,7 @@
 #pragma once
 
-/// Student's t and Fisher's F, for intervals and tests. They are in one source of their own: the
-/// library that computes them takes long to compile.
+/// Student's t, Fisher's F and chi-square, for intervals and tests. They are in one source of their
+/// own: the library that computes them takes long to compile.
 namespace repose::base {
 
 /// The t below which a variable of `df` > 0 degrees of freedom lies with `probability` (0 ... 1).
@@ -12,5 +12,11 @@ double student_t_above(double t, double df);
 
 /// The probability of a variable of `df1` and `df2` > 0 degrees of freedom above f >= 0.
 double fisher_f_above(double f, double df1, double df2);
+
+/// The probability of a sum of `df` > 0 squared standard normal variables above x >= 0.
+double chi_square_above(double x, double df);
+
+/// The x that such a sum exceeds with `probability` (above 0, at most 1).
+double chi_square_exceeded(double probability, double df);
 
 }  // namespace repose::base

@@ -29,6 +29,8 @@ std::vector<Minimum> within_limit(const Solution& solution) {
 
 }  // namespace
 
+bool are_alike(const Point& a, const Point& b) { return distance2(a, b) < kDistinct * kDistinct; }
+
 std::vector<Minimum> equivalence_family(const Solution& solution) {
   const std::vector<Minimum> candidates = within_limit(solution);
   std::vector<double> distance(candidates.size(), std::numeric_limits<double>::infinity());

@@ -10,4 +10,7 @@ namespace repose::calibrate {
 /// other, the farthest first; none where all such points are close together.
 std::vector<Minimum> equivalence_family(const Solution& solution);
 
+/// So close in the unit box that a family has one of them only.
+bool are_alike(const Point& a, const Point& b);
+
 }  // namespace repose::calibrate

@@ -67,6 +67,18 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
   return fitted;
 }
 
+PredictedSet predicted(const Problem& problem, const Solution& solution,
+                       const std::vector<double>& values) {
+  const Point point = to_unit(problem, values);
+  PredictedSet set;
+  set.values = values;
+  set.chi2 = std::max(0., solution.misfit.chi2(point) - solution.best.chi2);
+  for (const Surrogate& surrogate : solution.misfit.surrogates()) {
+    set.simulated.push_back(surrogate.simulated(point));
+  }
+  return set;
+}
+
 SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs,
                             const Surrogate& surrogate, const Observable& observable) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
@@ -101,7 +113,8 @@ std::vector<std::vector<double>> correlation_of(const std::vector<Point>& points
 
 }  // namespace
 
-JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs) {
+JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
+                     const std::vector<std::vector<double>>& asked) {
   require_sound(problem);
   const std::vector<Run> sorted = in_order(problem, runs);
   const Solution solution = solve(problem, sorted);
@@ -120,6 +133,9 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs) {
   for (const Minimum& member : equivalence_family(solution)) {
     fit.equivalence_family.push_back(
         {to_values(problem, member.point), std::max(0., member.chi2 - solution.best.chi2)});
+  }
+  for (const std::vector<double>& values : asked) {
+    fit.asked.push_back(predicted(problem, solution, values));
   }
   fit.curves = response_curves(problem, solution);
   fit.surfaces = response_surfaces(problem, solution);

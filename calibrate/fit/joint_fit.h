@@ -53,6 +53,11 @@ struct ParameterSet {
   double chi2 = 0;             ///< above that of the best fit
 };
 
+/// A set that was asked about, as the surrogates see it.
+struct PredictedSet : ParameterSet {
+  std::vector<double> simulated;  ///< each observable there
+};
+
 /// An observable as the surrogate gives it along one parameter, the others at the best fit.
 struct ResponseCurve {
   std::size_t observable = 0;  ///< place in Problem::observables
@@ -99,6 +104,7 @@ struct JointFit {
   std::vector<FittedObservable> observables;     ///< in Problem's order
   std::vector<std::vector<double>> correlation;  ///< of the parameters, near the best fit
   std::vector<ParameterSet> equivalence_family;  ///< the best fit not included
+  std::vector<PredictedSet> asked;               ///< in the order of the question
   std::vector<SurrogateQuality> surrogates;      ///< in order of the observables
   std::vector<ResponseCurve> curves;
   std::vector<ResponseSurface> surfaces;
@@ -111,8 +117,10 @@ struct JointFit {
 ///
 /// Each observable gets a surrogate of its runs (see THEORY.md), the fit minimises the sum of
 /// ((simulated - measured) / sigma)^2 within the bounds. All runs count, proposed by propose() or
-/// not; their order does not matter. Throws std::invalid_argument with every error of the problem,
-/// and when fewer than three runs of an experiment have the reading.
-JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs);
+/// not; their order does not matter. `asked`: sets of parameters to be looked at, too. Throws
+/// std::invalid_argument with every error of the problem, and when fewer than three runs of an
+/// experiment have the reading.
+JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
+                     const std::vector<std::vector<double>>& asked = {});
 
 }  // namespace repose::calibrate

@@ -116,6 +116,13 @@ void check_observable(const Problem& problem, const Observable& observable, Erro
     errors.push_back(
         fmt::format("{}: n = {} must be 1 or more. Fix: count the readings", name, observable.n));
   }
+  if (observable.tolerance &&
+      !(*observable.tolerance > 0 && std::isfinite(*observable.tolerance))) {
+    errors.push_back(fmt::format(
+        "{}: tolerance = {} must be a number above 0: no two means are ever equal. Fix: "
+        "the difference that does not matter to you, or leave it out",
+        name, *observable.tolerance));
+  }
   check_scatter(observable, errors);
 }
 

@@ -46,6 +46,8 @@ struct Observable {
   /// In place of `sd` where none is known: the sd of single readings as a fraction of |mean|.
   /// Assumed by the caller, and said in the result.
   std::optional<double> assumed_sd_fraction;
+  /// A difference between bench and simulation up to this does not matter; see tolerance_of().
+  std::optional<double> tolerance = {};
 };
 
 /// How much may be spent, and how the fit is made.

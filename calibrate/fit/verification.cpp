@@ -7,62 +7,106 @@
 
 #include <fmt/core.h>
 
-#include "base/distributions.h"
+#include "calibrate/fit/check_sample.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
 namespace {
 
-// Seeds of checks begin here; a study never has so many jobs.
-constexpr std::uint64_t kFirstSeed = 1'000'000'000;
 constexpr std::uint64_t kSeedsPerSet = 1'000'000;
+constexpr double kLevel = .05;
+constexpr double kCheapFraction = .25;  // of the time that the dearest experiment's repeats take
+constexpr int kMostRepeats = 30;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-struct Sample {
-  std::vector<double> readings;
-  int failed = 0;
-
-  double mean() const {
-    double sum = 0;
-    for (const double reading : readings) sum += reading;
-    return sum / static_cast<double>(readings.size());
-  }
-  double count() const { return static_cast<double>(readings.size()); }
-  /// Of single readings; NaN from one.
-  double sd() const {
-    const double middle = mean();
-    double squares = 0;
-    for (const double reading : readings) squares += (reading - middle) * (reading - middle);
-    return std::sqrt(squares / (count() - 1));
-  }
-};
-
-Sample sample_of(const Job& at, const Experiment& experiment, const std::string& reading,
-                 const std::vector<Run>& runs) {
-  Sample sample;
-  for (const Run& run : runs) {
-    if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
-    if (experiment.is_stochastic && run.job.seed < kFirstSeed) continue;
-    const auto found = run.readings.find(reading);
-    if (run.failure.empty() && found != run.readings.end() && std::isfinite(found->second)) {
-      sample.readings.push_back(found->second);
-    } else {
-      ++sample.failed;
-    }
-  }
-  return sample;
+/// Cheap experiments are repeated as often as hardly lengthens the check.
+int repeats_of(const Experiment& experiment, double dearest_s, int repeats) {
+  if (!experiment.is_stochastic) return 1;
+  const double affordable = kCheapFraction * repeats * dearest_s / experiment.run_s;
+  const int most = std::max(kMostRepeats, repeats);
+  return affordable < most ? std::max(static_cast<int>(affordable), repeats) : most;
 }
 
-/// Welch and Satterthwaite's degrees of freedom of the difference of two means (Welch 1947,
-/// Biometrika 34, 28); infinite ones are left out.
-double degrees_of_freedom(const Observable& observable, const Agreement& agreement,
-                          double of_simulated) {
-  const double measured = agreement.measured_uncertainty;
-  const double simulated = agreement.simulated_uncertainty;
-  const double sum = measured * measured + simulated * simulated;
-  double spread = 0;
-  if (observable.sd) spread += std::pow(measured, 4) / (observable.n - 1);
-  if (simulated > 0) spread += std::pow(simulated, 4) / of_simulated;
-  return spread > 0 ? std::min(sum * sum / spread, 1e6) : 1e6;
+UncertainMean mean_of(const CheckSample& sample, bool is_stochastic, const JointFit* fit,
+                      std::size_t observable) {
+  if (sample.count() == 0) return {kNone, is_stochastic ? kNone : 0, 1};
+  if (!is_stochastic) return {sample.mean(), 0, 1};
+  if (sample.count() < 2) return {sample.mean(), kNone, 1};
+  const RunScatter scatter = scatter_of(sample, fit, observable);
+  return {sample.mean(), scatter.sd / std::sqrt(sample.count()), static_cast<double>(scatter.df)};
+}
+
+/// Everything about one observable but whether it disagrees: that depends on the others, too.
+Agreement compared(const Observable& observable, const CheckSample& sample,
+                   const UncertainMean& simulated, double measured_uncertainty, double level) {
+  const double measured_df = observable.sd ? observable.n - 1 : kInfinite;
+  const MeanDifference difference =
+      difference_of(simulated, {observable.mean, measured_uncertainty, measured_df});
+  Agreement agreement{.observable = observable.name,
+                      .measured = observable.mean,
+                      .measured_uncertainty = measured_uncertainty,
+                      .simulated = simulated.value,
+                      .simulated_uncertainty = simulated.uncertainty,
+                      .difference_sigma = difference.value / difference.uncertainty,
+                      .chance = kNone,
+                      .tolerance = tolerance_of(observable, measured_uncertainty),
+                      .difference = {kNone, kNone},
+                      .detectable = kNone,
+                      .runs_to_decide = {},
+                      .verdict = AgreementVerdict::cannot_tell,
+                      .runs = sample.count(),
+                      .failed_runs = sample.failed};
+  if (!std::isfinite(agreement.difference_sigma)) return agreement;
+  agreement.chance = chance_of(difference);
+  agreement.difference = not_ruled_out(difference);
+  agreement.detectable = detectable_difference(difference, level);
+  const bool is_within = agreement.difference.low >= -agreement.tolerance &&
+                         agreement.difference.high <= agreement.tolerance;
+  // A set that gives no reading now and then is not what the bench has.
+  if (is_within && sample.failed == 0) agreement.verdict = AgreementVerdict::agrees;
+  agreement.runs_to_decide =
+      runs_to_decide(difference, measured_uncertainty, sample.count(), agreement.tolerance, level);
+  return agreement;
+}
+
+bool gives_nothing(const Agreement& agreement) {
+  return agreement.runs == 0 && agreement.failed_runs > 0;
+}
+
+/// Those that differ too much by themselves, at 5 % over all of them (Bonferroni), and only where
+/// all together do: so that one and all never contradict each other.
+void find_disagreement(Verification& verification, double level) {
+  for (Agreement& agreement : verification.observables) {
+    const bool is_found = verification.chance < kLevel && agreement.chance < level;
+    const bool is_open = agreement.verdict == AgreementVerdict::cannot_tell;
+    if ((is_open && is_found) || gives_nothing(agreement)) {
+      agreement.verdict = AgreementVerdict::disagrees;
+    }
+    if (agreement.verdict != AgreementVerdict::cannot_tell) agreement.runs_to_decide.reset();
+  }
+}
+
+AgreementVerdict verdict_of(const Verification& verification) {
+  const std::vector<Agreement>& all = verification.observables;
+  if (std::all_of(all.begin(), all.end(), [](const Agreement& agreement) {
+        return agreement.verdict == AgreementVerdict::agrees;
+      })) {
+    return AgreementVerdict::agrees;
+  }
+  const bool is_seen = verification.chance < kLevel;
+  return is_seen || std::any_of(all.begin(), all.end(), gives_nothing)
+             ? AgreementVerdict::disagrees
+             : AgreementVerdict::cannot_tell;
+}
+
+/// Of those with a reading.
+double joint_chance_of(const std::vector<Agreement>& observables) {
+  std::vector<double> chances;
+  for (const Agreement& agreement : observables) {
+    if (std::isfinite(agreement.chance)) chances.push_back(agreement.chance);
+  }
+  return chances.empty() ? kNone : joint_chance(chances);
 }
 
 }  // namespace
@@ -76,10 +120,15 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
                     "each, 2 repeats or more, sets from 0",
                     values.size(), problem.parameters.size(), repeats, set));
   }
+  const std::vector<Experiment> experiments = measured_experiments(problem);
+  double dearest_s = 0;
+  for (const Experiment& experiment : experiments) {
+    dearest_s = std::max(dearest_s, experiment.run_s);
+  }
   std::vector<Job> jobs;
-  for (const Experiment& experiment : measured_experiments(problem)) {
-    for (int k = 0; k < (experiment.is_stochastic ? repeats : 1); ++k) {
-      const std::uint64_t seed = problem.settings.seed + kFirstSeed +
+  for (const Experiment& experiment : experiments) {
+    for (int k = 0; k < repeats_of(experiment, dearest_s, repeats); ++k) {
+      const std::uint64_t seed = problem.settings.seed + kFirstCheckSeed +
                                  kSeedsPerSet * static_cast<std::uint64_t>(set) +
                                  static_cast<std::uint64_t>(k);
       jobs.push_back(job_at(problem, experiment, to_unit(problem, values), seed));
@@ -88,56 +137,24 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
   return jobs;
 }
 
-namespace {
-
-/// Mean and uncertainty of the repeats. Returns the degrees of freedom of the uncertainty.
-double add_repeats(const Sample& sample, bool has_chance, const FittedObservable* fitted, int runs,
-                   Agreement& agreement) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  agreement.runs = static_cast<int>(sample.readings.size());
-  agreement.failed_runs = sample.failed;
-  agreement.simulated = sample.readings.empty() ? kNone : sample.mean();
-  agreement.simulated_uncertainty = has_chance ? kNone : 0;
-  if (!has_chance || agreement.runs < 2) return 1;
-  const double sd = sample.sd();
-  const bool is_known_better = fitted != nullptr && fitted->simulated_sd > sd;
-  agreement.simulated_uncertainty =
-      (is_known_better ? fitted->simulated_sd : sd) / std::sqrt(sample.count());
-  return is_known_better ? std::max(runs - 1, 1) : agreement.runs - 1;
-}
-
-}  // namespace
-
 Verification verify(const Problem& problem, const std::vector<double>& values,
                     const std::vector<Run>& runs, const JointFit* fit) {
   require_sound(problem);
-  Verification verification{values, {}, true};
-  const double level = 1 - .025 / static_cast<double>(problem.observables.size());
+  Verification verification{.values = values, .observables = {}};
+  const double level = kLevel / static_cast<double>(problem.observables.size());
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     const Observable& observable = problem.observables[i];
-    const FittedObservable* fitted = fit != nullptr ? &fit->observables[i] : nullptr;
-    const Experiment& experiment = experiment_named(problem, observable.experiment);
-    const Job at = job_at(problem, experiment, to_unit(problem, values), 0);
-    const Sample sample = sample_of(at, experiment, observable.reading, runs);
-    Agreement agreement;
-    agreement.observable = observable.name;
-    agreement.measured = observable.mean;
-    agreement.measured_uncertainty =
-        fitted != nullptr ? fitted->measured_uncertainty : standard_uncertainty(observable);
-    const double of_simulated =
-        add_repeats(sample, experiment.is_stochastic, fitted,
-                    fit != nullptr ? fit->surrogates[i].runs : 0, agreement);
-    agreement.difference_sigma =
-        (agreement.simulated - agreement.measured) /
-        std::hypot(agreement.measured_uncertainty, agreement.simulated_uncertainty);
-    bool within = false;
-    if (std::isfinite(agreement.difference_sigma)) {
-      const double df = degrees_of_freedom(observable, agreement, of_simulated);
-      within = std::abs(agreement.difference_sigma) <= base::student_t_quantile(level, df);
-    }
-    verification.agrees = verification.agrees && within;
-    verification.observables.push_back(agreement);
+    const bool is_stochastic = experiment_named(problem, observable.experiment).is_stochastic;
+    const CheckSample sample = check_sample(problem, values, observable, runs);
+    verification.observables.push_back(
+        compared(observable, sample, mean_of(sample, is_stochastic, fit, i),
+                 fit != nullptr ? fit->observables[i].measured_uncertainty
+                                : standard_uncertainty(observable),
+                 level));
   }
+  verification.chance = joint_chance_of(verification.observables);
+  find_disagreement(verification, level);
+  verification.verdict = verdict_of(verification);
   return verification;
 }
 

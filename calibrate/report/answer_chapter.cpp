@@ -28,10 +28,11 @@ std::string verdicts_text(const JointResult& joint) {
     text +=
         fmt::format(" {} cannot be told from these data: any value of the interval fits.", open);
   }
-  return text + (joint.verified
-                     ? " Simulated again with fresh seeds, they agree with the bench."
-                     : " Simulated again with fresh seeds, they do not agree with the bench: do "
-                       "not use them before you know why.");
+  text += fmt::format(" Simulated again with fresh seeds, {}.", joint.agreement.text);
+  if (joint.verdict == AgreementVerdict::disagrees) {
+    text += " Do not use these coefficients before you know why.";
+  }
+  return text;
 }
 
 Table coefficients_table(const JointResult& joint) {

@@ -78,9 +78,7 @@ Table family_table(const JointResult& joint) {
     std::vector<Cell> row = {fmt::format("{}", ++number)};
     for (const double value : set.values) row.push_back(cell(value));
     row.push_back(cell(set.chi2));
-    row.emplace_back(std::string(!set.verified   ? "not checked"
-                                 : *set.verified ? "agrees"
-                                                 : "does not agree"));
+    row.emplace_back(set.verdict ? name_of(*set.verdict) : std::string("not checked"));
     table.data.add(std::move(row));
   }
   return table;

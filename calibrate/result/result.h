@@ -33,6 +33,13 @@ inline constexpr std::array<std::pair<Verdict, std::string_view>, 3> kVerdictNam
 
 std::string name_of(Verdict verdict);
 
+inline constexpr std::array<std::pair<AgreementVerdict, std::string_view>, 3> kAgreementNames = {
+    {{AgreementVerdict::agrees, "agrees"},
+     {AgreementVerdict::disagrees, "disagrees"},
+     {AgreementVerdict::cannot_tell, "cannot tell"}}};
+
+std::string name_of(AgreementVerdict verdict);
+
 struct ClumpFacts {
   std::string source;  ///< the scan, or the sizes it was made from
   std::size_t spheres = 0;
@@ -57,23 +64,23 @@ struct ResultParameter : FittedParameter {
   std::optional<Prior> known_before;
 };
 
-/// An observable in simulations of the fitted parameters with fresh seeds.
-struct ObservableCheck {
-  double simulated = 0;         ///< mean of the runs
-  double uncertainty = 0;       ///< standard uncertainty of that
-  double difference_sigma = 0;  ///< (simulated - measured) / both uncertainties
-  int runs = 0;                 ///< with a reading
-  int failed_runs = 0;
+struct ResultObservable : FittedObservable {
+  Agreement verification;    ///< in simulations with fresh seeds; its name and measured are these
+  SurrogateCheck surrogate;  ///< what had been expected of them; its name likewise
 };
 
-struct ResultObservable : FittedObservable {
-  ObservableCheck verification;
+/// How bench and simulation agree, over all observables.
+struct OverallAgreement {
+  std::string text;            ///< the verdict in plain words, a sentence
+  double chance = 0;           ///< that all observables together differ so much by chance
+  int rounds = 0;              ///< of check and refit
+  std::vector<double> values;  ///< the parameters checked last
 };
 
 /// A set of parameters that fits as well as the best one.
 struct EquivalentSet : ParameterSet {
-  std::optional<bool> verified;   ///< by simulation; none: not simulated
-  std::vector<double> simulated;  ///< each observable there; empty: not simulated
+  std::optional<AgreementVerdict> verdict;  ///< by simulation; none: not simulated
+  std::vector<double> simulated;            ///< each observable there; empty: not simulated
 };
 
 /// A polynomial through the runs of an observable; none where there are too few for one.
@@ -87,7 +94,9 @@ struct ObservableSurface {
 struct JointResult {
   std::vector<ResultParameter> parameters;
   std::vector<ResultObservable> observables;
-  bool verified = false;  ///< the fitted parameters, simulated with fresh seeds, agree
+  /// Of the last check with fresh seeds; which parameters it was of is in `agreement`.
+  AgreementVerdict verdict = AgreementVerdict::cannot_tell;
+  OverallAgreement agreement;
   double chi2 = 0;
   std::vector<std::vector<double>> correlation;
   std::vector<EquivalentSet> equivalence_family;

@@ -13,6 +13,7 @@ template <>
 inline constexpr bool kIsPair<ProfilePoint> = true;
 
 inline constexpr const auto& names_for(Verdict) { return kVerdictNames; }
+inline constexpr const auto& names_for(AgreementVerdict) { return kAgreementNames; }
 
 template <typename Io>
 void fields(Io& io, Held<Io, StudyIdentity>& study) {
@@ -69,12 +70,34 @@ void fields(Io& io, Held<Io, ResultParameter>& parameter) {
 }
 
 template <typename Io>
-void fields(Io& io, Held<Io, ObservableCheck>& check) {
+void fields(Io& io, Held<Io, Agreement>& check) {
+  io("verdict", check.verdict);
   io("simulated", check.simulated);
-  io("uncertainty", check.uncertainty);
+  io("uncertainty", check.simulated_uncertainty);
   io("difference_sigma", check.difference_sigma);
+  io("p", check.chance);
+  io("tolerance", check.tolerance);
+  io("difference_90", check.difference);
+  io("detectable", check.detectable);
+  io("runs_to_decide", check.runs_to_decide);
   io("runs", check.runs);
   io("failed_runs", check.failed_runs);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurrogateCheck>& check) {
+  io("predicted", check.predicted);
+  io("uncertainty", check.uncertainty);
+  io("p", check.chance);
+  io("misses", check.misses);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, OverallAgreement>& agreement) {
+  io("text", agreement.text);
+  io("p", agreement.chance);
+  io("rounds", agreement.rounds);
+  by_name(io, "checked_at", io.names().parameters, agreement.values);
 }
 
 template <typename Io>
@@ -91,13 +114,20 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("difference_sigma", observable.difference_sigma);
   io("reachable", observable.reachable);
   io("verification", observable.verification);
+  io("surrogate_check", observable.surrogate);
+  if constexpr (Io::kReads) {
+    observable.verification.observable = observable.surrogate.observable = observable.name;
+    observable.verification.measured = observable.measured;
+    observable.verification.measured_uncertainty = observable.measured_uncertainty;
+    observable.surrogate.simulated = observable.verification.simulated;
+  }
 }
 
 template <typename Io>
 void fields(Io& io, Held<Io, EquivalentSet>& set) {
   by_name(io, "parameters", io.names().parameters, set.values);
   io("chi2_above_best", set.chi2);
-  io("verified", set.verified);
+  io("verdict", set.verdict);
   if (io.has("simulated", !set.simulated.empty())) {
     by_name(io, "simulated", io.names().observables, set.simulated);
   }
@@ -169,7 +199,8 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   io("parameters", joint.parameters);
   io("observables", joint.observables);
   io.names() = {names_of(joint.parameters), names_of(joint.observables), {}};
-  io("verified", joint.verified);
+  io("verdict", joint.verdict);
+  io("agreement", joint.agreement);
   io("chi2", joint.chi2);
   io("correlation", joint.correlation);
   io("equivalence_family", joint.equivalence_family);

@@ -95,6 +95,13 @@ bool operator==(const StudyResult& one, const StudyResult& other) {
   return to_json(one) == to_json(other);
 }
 
+std::string name_of(AgreementVerdict verdict) {
+  for (const auto& [known, name] : kAgreementNames) {
+    if (known == verdict) return std::string(name);
+  }
+  return {};
+}
+
 std::string name_of(Verdict verdict) {
   for (const auto& [known, name] : kVerdictNames) {
     if (known == verdict) return std::string(name);

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/family.h"
+#include "calibrate/fit/unit_box.h"
+#include "calibrate/result/agreement_text.h"
 #include "calibrate/result/result.h"
 #include "calibrate/result/runs_surface.h"
 #include "calibrate/statistics/summary.h"
@@ -31,27 +34,38 @@ std::vector<ResultParameter> parameters_of(const Problem& problem, const JointFi
 std::vector<ResultObservable> observables_of(const StudyOutcome& outcome) {
   std::vector<ResultObservable> observables;
   for (std::size_t k = 0; k < outcome.fit.observables.size(); ++k) {
-    const Agreement& checked = outcome.best.observables[k];
-    observables.push_back({outcome.fit.observables[k],
-                           {.simulated = checked.simulated,
-                            .uncertainty = checked.simulated_uncertainty,
-                            .difference_sigma = checked.difference_sigma,
-                            .runs = checked.runs,
-                            .failed_runs = checked.failed_runs}});
+    observables.push_back(
+        {outcome.fit.observables[k], outcome.best.observables[k], outcome.surrogates[k]});
   }
   return observables;
 }
 
-std::vector<EquivalentSet> family_of(const StudyOutcome& outcome) {
+OverallAgreement agreement_of(const StudyOutcome& outcome) {
+  return {.text = agreement_text(outcome.best),
+          .chance = outcome.best.chance,
+          .rounds = outcome.check_rounds,
+          .values = outcome.best.values};
+}
+
+/// Sets that were simulated first; then those of the last fit that are not close to one of them.
+std::vector<EquivalentSet> family_of(const Problem& problem, const StudyOutcome& outcome) {
   std::vector<EquivalentSet> family;
-  for (const ParameterSet& set : outcome.fit.equivalence_family) {
-    family.push_back({set, std::nullopt, {}});
-  }
-  for (std::size_t k = 0; k < outcome.family.size(); ++k) {
-    family[k].verified = outcome.family[k].agrees;
-    for (const Agreement& agreement : outcome.family[k].observables) {
-      family[k].simulated.push_back(agreement.simulated);
+  std::vector<Point> told;
+  for (const auto& [check, chi2] : outcome.family) {
+    EquivalentSet& set = family.emplace_back();
+    set.values = check.values;
+    set.chi2 = chi2;
+    set.verdict = check.verdict;
+    for (const Agreement& agreement : check.observables) {
+      set.simulated.push_back(agreement.simulated);
     }
+    told.push_back(to_unit(problem, check.values));
+  }
+  for (const ParameterSet& set : outcome.fit.equivalence_family) {
+    const Point point = to_unit(problem, set.values);
+    const bool is_told = std::any_of(told.begin(), told.end(),
+                                     [&](const Point& other) { return are_alike(point, other); });
+    if (!is_told) family.push_back({set, std::nullopt, {}});
   }
   return family;
 }
@@ -126,10 +140,11 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
   const JointFit& fit = outcome.fit;
   JointResult joint{.parameters = parameters_of(problem.problem, fit),
                     .observables = observables_of(outcome),
-                    .verified = outcome.best.agrees,
+                    .verdict = outcome.best.verdict,
+                    .agreement = agreement_of(outcome),
                     .chi2 = fit.chi2,
                     .correlation = fit.correlation,
-                    .equivalence_family = family_of(outcome),
+                    .equivalence_family = family_of(problem.problem, outcome),
                     .warnings = problem.notes,
                     .surrogates = fit.surrogates,
                     .rounds = fit.rounds,

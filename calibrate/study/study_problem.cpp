@@ -64,6 +64,7 @@ Observable observable_of(const dem::Measured& measured) {
   Observable observable;
   observable.n = measured.count.value_or(1);
   observable.sd = measured.sd;
+  observable.tolerance = measured.tolerance;
   observable.mean = measured.mean.value_or(0);
   if (measured.values.empty()) return observable;
   const calibrate::Summary repeats = calibrate::summarise(measured.values);
@@ -131,6 +132,7 @@ class Maker {
       observable.mean = reading.mean;
       observable.sd = reading.sd;
       observable.n = reading.count.value_or(1);
+      observable.tolerance = reading.tolerance;
       add(observable, entry, reading.name);
     }
   }

@@ -1,10 +1,13 @@
 #include "calibrate/study/study_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/profile.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/study/job_runner.h"
 
@@ -12,7 +15,8 @@ namespace repose::calibrate {
 namespace {
 
 constexpr int kFamilyRepeats = 2;
-constexpr int kMaxFits = 3;
+constexpr int kMostCheckRounds = 3;
+constexpr double kNear = .5;  // of the uncertainty of measurement: a step that hardly matters
 
 std::vector<double> values_of(const JointFit& fit) {
   std::vector<double> values;
@@ -47,42 +51,107 @@ bool run_rounds(const Problem& problem, JobRunner& runner, std::vector<Run>& run
   }
 }
 
-/// Fits, and checks the fit with fresh seeds. A fit that fails was led by curves that are wrong
-/// just there: its checks join the runs, and the next fit knows better. False when interrupted.
-bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runner,
-                   StudyOutcome& outcome) {
-  for (int attempt = 0; attempt < kMaxFits; ++attempt) {
-    outcome.runs.insert(outcome.runs.end(), outcome.checks.begin(), outcome.checks.end());
-    outcome.fit = fit_jointly(problem, outcome.runs);
-    const std::vector<double> values = values_of(outcome.fit);
-    const auto checks = runner.get(
-        attempt == 0 ? "checking the result" : fmt::format("checking fit {}", attempt + 1),
-        verification_jobs(problem, values, budget.verification_repeats, attempt));
-    if (!checks) return false;
-    outcome.checks = *checks;
-    outcome.best = verify(problem, values, outcome.checks, &outcome.fit);
-    if (outcome.best.agrees) break;
+std::vector<Run> joined(std::vector<Run> runs, const std::vector<Run>& more) {
+  runs.insert(runs.end(), more.begin(), more.end());
+  return runs;
+}
+
+/// Simulates some of the sets that fit as well as the best, for what the surrogates do not know:
+/// the fit that follows has learned from them. False when interrupted.
+bool try_family(const Problem& problem, const Budget& budget, JobRunner& runner,
+                std::vector<std::vector<double>>& tried, StudyOutcome& outcome) {
+  if (budget.family_sets < 1) return true;
+  const std::vector<ParameterSet> family = fit_jointly(problem, outcome.runs).equivalence_family;
+  std::vector<Job> jobs;
+  for (const ParameterSet& set : family) {
+    if (tried.size() >= static_cast<std::size_t>(budget.family_sets)) break;
+    const int number = kMostCheckRounds + static_cast<int>(tried.size());
+    const auto of_set = verification_jobs(problem, set.values, kFamilyRepeats, number);
+    jobs.insert(jobs.end(), of_set.begin(), of_set.end());
+    tried.push_back(set.values);
+  }
+  const auto checks = runner.get("checking equally good sets", jobs);
+  if (!checks) return false;
+  outcome.runs = joined(std::move(outcome.runs), *checks);
+  return true;
+}
+
+/// The readings at the fitted coefficients are those at the ones checked, as far as it matters.
+bool is_near(const JointFit& fit, const PredictedSet& checked) {
+  for (std::size_t i = 0; i < fit.observables.size(); ++i) {
+    const FittedObservable& fitted = fit.observables[i];
+    const double step = std::abs(fitted.simulated - checked.simulated[i]);
+    if (step > kNear * fitted.measured_uncertainty) return false;
   }
   return true;
 }
 
-/// Simulates some of the equally good sets. False when interrupted.
-bool check_family(const Problem& problem, const Budget& budget, JobRunner& runner,
-                  StudyOutcome& outcome) {
-  const std::vector<ParameterSet>& family = outcome.fit.equivalence_family;
-  const auto count = std::min(family.size(), static_cast<std::size_t>(budget.family_sets));
-  std::vector<Job> jobs;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto of_set = verification_jobs(problem, family[k].values, kFamilyRepeats,
-                                          kMaxFits + static_cast<int>(k));
-    jobs.insert(jobs.end(), of_set.begin(), of_set.end());
-  }
-  const auto checks = runner.get("checking equally good sets", jobs);
-  if (!checks) return false;
-  for (std::size_t k = 0; k < count; ++k) {
-    outcome.family.push_back(verify(problem, family[k].values, *checks, &outcome.fit));
+/// Simulates the fit with fresh seeds and fits again with these runs, until that changes nothing
+/// any more or there were enough rounds. Whether bench and simulation agree plays no part in it:
+/// a fit is not chosen because it does. False when interrupted.
+bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runner,
+                   const std::vector<std::vector<double>>& tried, StudyOutcome& outcome) {
+  outcome.fit = fit_jointly(problem, outcome.runs);
+  bool is_settled = false;
+  while (!is_settled && outcome.check_rounds < kMostCheckRounds) {
+    const std::vector<double> values = values_of(outcome.fit);
+    const auto checks = runner.get(
+        fmt::format("check {}", outcome.check_rounds + 1),
+        verification_jobs(problem, values, budget.verification_repeats, outcome.check_rounds));
+    if (!checks) return false;
+    ++outcome.check_rounds;
+    outcome.checks = *checks;
+    outcome.surrogates = check_surrogates(problem, outcome.fit, *checks);
+    outcome.runs = joined(std::move(outcome.runs), *checks);
+    std::vector<std::vector<double>> asked = {values};
+    asked.insert(asked.end(), tried.begin(), tried.end());
+    outcome.fit = fit_jointly(problem, outcome.runs, asked);
+    outcome.best = verify(problem, values, *checks, &outcome.fit);
+    is_settled = is_near(outcome.fit, outcome.fit.asked.front());
   }
   return true;
+}
+
+/// Those of the sets that were simulated and still fit as well as the best.
+void judge_family(const Problem& problem, StudyOutcome& outcome) {
+  int ruled_out = 0;
+  for (std::size_t k = 1; k < outcome.fit.asked.size(); ++k) {
+    const PredictedSet& set = outcome.fit.asked[k];
+    if (set.chi2 > kChi2Limit) {
+      ++ruled_out;
+    } else {
+      outcome.family.push_back({verify(problem, set.values, outcome.runs, &outcome.fit), set.chi2});
+    }
+  }
+  if (ruled_out == 0) return;
+  outcome.notes.push_back(
+      fmt::format("{} of {} sets that had seemed to fit as well as the best were simulated and are "
+                  "ruled out now",
+                  ruled_out, outcome.fit.asked.size() - 1));
+}
+
+void note_checks(const Problem& problem, StudyOutcome& outcome) {
+  for (const SurrogateCheck& check : outcome.surrogates) {
+    if (!check.misses) continue;
+    outcome.notes.push_back(fmt::format(
+        "{}: the surrogate missed its own check: it expected {:.4g} ± {:.2g} and fresh runs gave "
+        "{:.4g}, by chance in {:.2g} % of cases only. These runs are in the fit now; a larger "
+        "budget "
+        "would show how well it knows the rest.",
+        check.observable, check.predicted, check.uncertainty, check.simulated, 100 * check.chance));
+  }
+  const PredictedSet& checked = outcome.fit.asked.front();
+  if (is_near(outcome.fit, checked)) return;
+  std::string moved;
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    const FittedObservable& fitted = outcome.fit.observables[i];
+    moved += fmt::format("{}{} {:+.3g} {}", moved.empty() ? "" : ", ", fitted.name,
+                         fitted.simulated - checked.simulated[i], fitted.unit);
+  }
+  outcome.notes.push_back(fmt::format(
+      "after {} rounds of checks the coefficients still move: those reported differ from those "
+      "checked last, by what the surrogates say so: {}. A larger budget settles them.",
+      outcome.check_rounds, moved));
 }
 
 }  // namespace
@@ -92,8 +161,11 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
   JobRunner runner(problem, context);
   StudyOutcome outcome;
   if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
-  if (!fit_and_check(problem, budget, runner, outcome)) return std::nullopt;
-  if (!check_family(problem, budget, runner, outcome)) return std::nullopt;
+  std::vector<std::vector<double>> tried;
+  if (!try_family(problem, budget, runner, tried, outcome)) return std::nullopt;
+  if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
+  judge_family(problem, outcome);
+  note_checks(problem, outcome);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();
   outcome.reused = runner.reused();

@@ -5,22 +5,31 @@
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_context.h"
 #include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate {
 
+/// An equally good set of parameters that was simulated.
+struct CheckedSet {
+  Verification check;
+  double chi2 = 0;  ///< above that of the best fit
+};
+
 /// A study that came to its end.
 struct StudyOutcome {
-  JointFit fit;
-  Verification best;                 ///< the fitted parameters, simulated with fresh seeds
-  std::vector<Verification> family;  ///< equally good parameter sets, simulated
-  std::vector<Run> runs;             ///< those that the fit was made from
-  std::vector<Run> checks;           ///< those of the fitted parameters with fresh seeds
-  std::vector<std::string> notes;    ///< what a reader of the fit must know of its runs
-  int simulated = 0;                 ///< runs made by this call
-  int reused = 0;                    ///< runs found in the folder
+  JointFit fit;       ///< the last one: of all runs, those of the checks included
+  Verification best;  ///< the last check: `fit`'s parameters, or those nearest to it
+  int check_rounds = 0;
+  std::vector<SurrogateCheck> surrogates;  ///< what was expected of that check before
+  std::vector<CheckedSet> family;          ///< those simulated and not ruled out by it
+  std::vector<Run> runs;                   ///< those that the fit was made from
+  std::vector<Run> checks;                 ///< those of the last check
+  std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs
+  int simulated = 0;                       ///< runs made by this call
+  int reused = 0;                          ///< runs found in the folder
 };
 
 /// Runs a study to its end, going on from what the folder holds. The outcome does not depend on how

@@ -12,7 +12,9 @@ STUDY is a study file in which contact coefficients have bounds instead of a
 value, as in restitution = { min = 0.1, max = 0.6 }, and experiments state what
 was measured. All unknowns are fitted to all measurements at once; each gets an
 interval and a verdict: determined, one-sided, or undetermined by these data.
-The fitted values are then verified by simulations with new seeds.
+The fitted values are then simulated with new seeds, all of these runs enter the
+fit too, and a verdict says whether bench and simulation agree: agrees,
+disagrees, or cannot tell.
 
 Simulations are saved in --out: the same command resumes an interrupted study,
 and a study with other bounds or measurements reuses them. The same study gives

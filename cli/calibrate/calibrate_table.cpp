@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/result/agreement_text.h"
 #include "cli/common/page.h"
 
 namespace repose::cli {
@@ -47,18 +48,34 @@ Table observables_table(const calibrate::JointResult& joint) {
   Table table({{.heading = "observable"},
                number_column("measured"),
                number_column("simulated"),
-               number_column("difference / σ")});
+               number_column("difference / σ"),
+               {.heading = "verdict"}});
   for (const calibrate::ResultObservable& observable : joint.observables) {
-    const calibrate::ObservableCheck& checked = observable.verification;
+    const calibrate::Agreement& checked = observable.verification;
     table.add_row(
         {observable.unit.empty() ? observable.name
                                  : fmt::format("{} [{}]", observable.name, observable.unit),
          pair(observable.measured, observable.measured_uncertainty),
-         pair(checked.simulated, checked.uncertainty),
+         pair(checked.simulated, checked.simulated_uncertainty),
          std::isfinite(checked.difference_sigma) ? fmt::format("{:+.1f}", checked.difference_sigma)
-                                                 : kNothing});
+                                                 : kNothing,
+         name_of(checked.verdict)});
   }
   return table;
+}
+
+/// The verdict, and of each experiment that is not decided what would decide it.
+void add_agreement(const calibrate::JointResult& joint, Page& page) {
+  page.add_gap();
+  page.add(fmt::format(
+      "Simulated again with fresh seeds ({}), {}.",
+      joint.agreement.rounds == 1 ? "1 round" : fmt::format("{} rounds", joint.agreement.rounds),
+      joint.agreement.text));
+  for (const calibrate::ResultObservable& observable : joint.observables) {
+    if (observable.verification.verdict == calibrate::AgreementVerdict::agrees) continue;
+    page.add(fmt::format("{}: {}.", observable.name,
+                         agreement_text(observable.verification, observable.unit)));
+  }
 }
 
 void add_family(const calibrate::JointResult& joint, Page& page) {
@@ -69,9 +86,7 @@ void add_family(const calibrate::JointResult& joint, Page& page) {
   for (const calibrate::EquivalentSet& set : joint.equivalence_family) {
     std::vector<std::string> cells;
     for (const double value : set.values) cells.push_back(number(value));
-    if (set.verified) {
-      cells.emplace_back(*set.verified ? "simulated: agrees" : "simulated: does not agree");
-    }
+    if (set.verdict) cells.push_back("simulated: " + name_of(*set.verdict));
     table.add_row(std::move(cells));
   }
   page.add_gap();
@@ -113,9 +128,8 @@ std::string joint_table(const calibrate::JointResult& joint,
   page.add(parameters_table(joint));
   page.add_gap();
   page.add(observables_table(joint));
-  page.add(
-      fmt::format("(± is the standard uncertainty of the mean; simulated with fresh seeds: {})",
-                  joint.verified ? "agrees with the bench" : "does NOT agree with the bench"));
+  page.add("(± is the standard uncertainty of the mean; simulated with fresh seeds)");
+  add_agreement(joint, page);
   add_family(joint, page);
   add_advice(joint, page);
   page.add_gap();

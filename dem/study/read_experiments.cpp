@@ -29,6 +29,11 @@ void check_ways(Section& measured) {
                         std::string("for example ") + kMeasured);
 }
 
+/// How far bench and simulation may be apart and still agree.
+std::optional<double> read_tolerance(Section& measured) {
+  return measured.number("tolerance", above(0, 1e6), "tolerance = 2");
+}
+
 Measured read_measured(Section& experiment, bool has_pictures, const NamedFiles& files) {
   Measured result;
   Section measured = experiment.section("measured");
@@ -41,6 +46,7 @@ Measured read_measured(Section& experiment, bool has_pictures, const NamedFiles&
   if (const auto n = measured.integer("n", 1, 1'000'000, "n = 10")) {
     result.count = static_cast<int>(*n);
   }
+  result.tolerance = read_tolerance(measured);
   for (const char* key : {"sd", "n"}) {
     if (!measured.has(key) || measured.has("mean")) continue;
     measured.wrong(*measured.value(key), "sd and n belong to a mean", "add mean or take it out");
@@ -67,7 +73,8 @@ void read_also(Section& experiment, const std::vector<std::string>& names, Measu
     MeasuredReading read{.name = name,
                          .mean = reading.needed_number("mean", kAny, "mean = 120"),
                          .sd = reading.number("sd", from_to(0, 1e6), "sd = 4"),
-                         .count = {}};
+                         .count = {},
+                         .tolerance = read_tolerance(reading)};
     if (const auto n = reading.integer("n", 1, 1'000'000, "n = 10")) {
       read.count = static_cast<int>(*n);
     }

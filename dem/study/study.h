@@ -39,6 +39,7 @@ struct MeasuredReading {
   double mean = 0;
   std::optional<double> sd;
   std::optional<int> count;
+  std::optional<double> tolerance;  ///< as Measured::tolerance
 };
 
 /// What was measured on the bench: readings, or their mean and scatter, or pictures to measure.
@@ -48,6 +49,8 @@ struct Measured {
   std::optional<double> mean;
   std::optional<double> sd;
   std::optional<int> count;
+  /// A difference between bench and simulation up to this does not matter.
+  std::optional<double> tolerance;
   std::vector<std::filesystem::path> pictures;
   std::vector<MeasuredReading> also;
 };

@@ -5,13 +5,15 @@
 namespace repose::base {
 namespace {
 
-// Montgomery, Design and Analysis of Experiments, appendix: tables of t and F.
+// Montgomery, Design and Analysis of Experiments, appendix: tables of t, F and chi-square.
 TEST(Distributions, GiveWhatTheTablesGive) {
   EXPECT_NEAR(student_t_quantile(.975, 1), 12.706, 1e-3);
   EXPECT_NEAR(student_t_quantile(.975, 10), 2.228, 1e-3);
   EXPECT_NEAR(student_t_above(2.228, 10), .025, 1e-4);
   EXPECT_NEAR(fisher_f_above(4.96, 1, 10), .05, 1e-4);
   EXPECT_NEAR(fisher_f_above(3.33, 5, 10), .05, 1e-3);
+  EXPECT_NEAR(chi_square_above(9.488, 4), .05, 1e-4);
+  EXPECT_NEAR(chi_square_exceeded(.05, 4), 9.488, 1e-3);
 }
 
 TEST(Distributions, ASquareOfTIsAnF) {

@@ -151,6 +151,8 @@ MadeUpStudy plate() {
   outcome.runs = run(propose(problem, {}));
   outcome.fit = fit_jointly(problem, outcome.runs);
   const std::vector<double> best = {outcome.fit.parameters[0].value};
+  outcome.surrogates.resize(1);
+  outcome.check_rounds = 1;
   outcome.best = verify(problem, best, run(verification_jobs(problem, best, 2, 0)), &outcome.fit);
   outcome.notes = {"another note"};
   return made;
@@ -165,7 +167,11 @@ TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
   EXPECT_EQ(joint.parameters[0].bounds.high, .8);
   EXPECT_EQ(joint.parameters[0].known_before->mean, .4);
   EXPECT_EQ(joint.observables[0].verification.runs, 1) << "there is no chance in it";
-  EXPECT_TRUE(joint.verified);
+  EXPECT_EQ(joint.verdict, AgreementVerdict::agrees);
+  EXPECT_EQ(joint.observables[0].verification.tolerance, 2) << "an angle";
+  EXPECT_EQ(joint.agreement.rounds, 1);
+  EXPECT_EQ(joint.agreement.values[0], made.outcome.fit.parameters[0].value);
+  EXPECT_THAT(joint.agreement.text, HasSubstr("bench and simulation agree"));
   EXPECT_EQ(joint.warnings[0], "a note");
   EXPECT_EQ(joint.warnings[1], "another note");
   EXPECT_EQ(joint.runs.size(), made.outcome.runs.size());

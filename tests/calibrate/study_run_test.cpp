@@ -1,10 +1,12 @@
 #include "calibrate/study/study_run.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "calibrate/experiment/run_folder.h"
@@ -21,6 +23,7 @@ using repose::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 class StudyRun : public ::testing::Test {
@@ -49,8 +52,9 @@ class StudyRun : public ::testing::Test {
   }
 
   /// The fitted values of a study run in a folder; breaks it off before job number `stop`.
-  std::optional<StudyOutcome> run(const std::string& folder, int threads, int stop = -1) const {
-    const dem::Study study = read();
+  std::optional<StudyOutcome> run(const std::string& folder, int threads, int stop = -1,
+                                  const std::vector<std::string>& settings = {}) const {
+    const dem::Study study = read(settings);
     StudySimulator simulator = simulator_of(study);
     const RunFolder runs(folder_.path() / folder);
     simulator.store_in(runs);
@@ -95,6 +99,13 @@ TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));
   EXPECT_EQ(made.problem.observables[0].assumed_sd_fraction, kAssumedSdFraction);
+}
+
+TEST_F(StudyRun, TheToleranceIsTheStudys) {
+  const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5, tolerance = 3 }"});
+  const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));
+  EXPECT_EQ(made.problem.observables[0].tolerance, 3);
+  EXPECT_FALSE(made.problem.observables[1].tolerance);
 }
 
 TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
@@ -159,8 +170,34 @@ TEST_F(StudyRun, FindsTheCoefficientsOfTheBench) {
   EXPECT_LT(restitution.interval.low, restitution.value);
   EXPECT_GT(restitution.interval.high, restitution.value);
   EXPECT_NEAR(outcome->fit.parameters[1].value, std::tan(20.475 / 180 * 3.141592653589793), .01);
-  EXPECT_TRUE(outcome->best.agrees);
+  EXPECT_EQ(outcome->best.verdict, AgreementVerdict::agrees);
   EXPECT_EQ(outcome->reused, 0);
+}
+
+TEST_F(StudyRun, EveryCheckEntersTheFitWhetherItAgreesOrNot) {
+  for (const char* tilted : {"20.5", "70"}) {  // the second is out of reach
+    const auto outcome =
+        run("runs", 2, -1,
+            {fmt::format("experiment.tilt.measured = {{ mean = {}, sd = 1, n = 4 }}", tilted)});
+    ASSERT_TRUE(outcome);
+    EXPECT_EQ(outcome->best.verdict,
+              tilted == std::string("70") ? AgreementVerdict::disagrees : AgreementVerdict::agrees);
+    EXPECT_GE(outcome->check_rounds, 1);
+    ASSERT_THAT(outcome->checks, Not(IsEmpty()));
+    for (const auto& check : outcome->checks) {
+      EXPECT_TRUE(std::any_of(outcome->runs.begin(), outcome->runs.end(),
+                              [&](const auto& known) { return known.job == check.job; }));
+      EXPECT_TRUE(check.job.experiment == "tilt" || check.job.seed >= 1'000'000'000U);
+    }
+    // What is reported is the fit of all of them, and the check is of coefficients close to it.
+    EXPECT_EQ(
+        fit_jointly(small_problem(read({fmt::format(
+                        "experiment.tilt.measured = {{ mean = {}, sd = 1, n = 4 }}", tilted)})),
+                    outcome->runs)
+            .chi2,
+        outcome->fit.chi2);
+    EXPECT_NEAR(outcome->best.values[1], outcome->fit.parameters[1].value, .01);
+  }
 }
 
 TEST_F(StudyRun, IsTheSameWithAnyNumberOfThreadsAndInterruptions) {

@@ -81,11 +81,26 @@ ResultObservable observable(const Made& made) {
            .simulated_sd = .05 * measured,
            .difference_sigma = 0,
            .reachable = {.1 * measured, 3 * measured}},
-          {.simulated = measured,
-           .uncertainty = .1,
+          {.observable = made.name,
+           .measured = measured,
+           .measured_uncertainty = .03 * measured,
+           .simulated = measured,
+           .simulated_uncertainty = .1,
            .difference_sigma = .2,
+           .chance = .8,
+           .tolerance = .05 * measured,
+           .difference = {-1, 1},
+           .detectable = .1 * measured,
+           .runs_to_decide = {},
+           .verdict = AgreementVerdict::agrees,
            .runs = 3,
-           .failed_runs = 0}};
+           .failed_runs = 0},
+          {.observable = made.name,
+           .predicted = measured,
+           .uncertainty = .1,
+           .simulated = measured,
+           .chance = .7,
+           .misses = false}};
 }
 
 void add_responses(std::size_t observable, JointResult& joint) {
@@ -157,7 +172,8 @@ std::vector<Run> runs() {
 JointResult joint() {
   JointResult joint;
   joint.parameters = parameters();
-  joint.verified = true;
+  joint.verdict = AgreementVerdict::agrees;
+  joint.agreement = {"agrees with " + kHostile, .5, 1, kBest};
   for (std::size_t k = 0; k < kMade.size(); ++k) {
     joint.observables.push_back(observable(kMade[k]));
     add_responses(k, joint);
@@ -170,7 +186,7 @@ JointResult joint() {
     EquivalentSet& set = joint.equivalence_family.emplace_back();
     set.values.assign(kNames.size(), value);
     set.chi2 = 1;
-    set.verified = true;
+    set.verdict = AgreementVerdict::agrees;
     set.simulated.assign(kMade.size(), 9);
   }
   for (int round = 0; round < 3; ++round) {

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/problem.h"
+
+namespace repose::calibrate {
+
+/// agrees: the difference is shown to be within the tolerance. disagrees: it is more than chance
+/// makes. cannot_tell: neither.
+enum class AgreementVerdict { agrees, disagrees, cannot_tell };
+
+/// A mean, how uncertain it is, and by how many readings that is known.
+struct UncertainMean {
+  double value = 0;
+  double uncertainty = 0;  ///< standard uncertainty; 0: exact
+  double df = 0;           ///< degrees of freedom of the uncertainty; infinite: known
+};
+
+/// What is known of simulated minus measured.
+struct MeanDifference {
+  double value = 0;
+  double uncertainty = 0;
+  double df = 0;
+};
+
+/// With Welch and Satterthwaite's degrees of freedom: Welch (1947), Biometrika 34, 28.
+MeanDifference difference_of(const UncertainMean& simulated, const UncertainMean& measured);
+
+/// The probability that chance alone makes a difference as large, to either side.
+double chance_of(const MeanDifference& difference);
+
+/// The values that two one-sided tests at 5 % do not rule out (Schuirmann 1987, J. Pharmacokinet.
+/// Biopharm. 15, 657): within the tolerance, both means are as good as equal.
+Interval not_ruled_out(const MeanDifference& difference);
+
+/// The true difference that a test at `level` sees in four of five such checks.
+double detectable_difference(const MeanDifference& difference, double level);
+
+/// How many runs would decide between agreement and a difference shown at `level`, in four of five
+/// cases, were the true difference the one found. None: no number of runs does, as the measured
+/// mean alone leaves too much open.
+std::optional<int> runs_to_decide(const MeanDifference& difference, double measured_uncertainty,
+                                  int runs, double tolerance, double level);
+
+/// The probability that chance alone makes independent experiments differ as much as all of them
+/// together do: Lancaster (1961), Aust. J. Stat. 3, 20. Each p is turned into the square of a
+/// normal variable that has it, whatever distribution it came from; their sum is a chi-square.
+double joint_chance(const std::vector<double>& chances);
+
+/// What the study states; else 2 for an angle in degrees, and for others 5 % of the measured value
+/// or the half-width of its mean's 95 % interval, whichever is larger.
+double tolerance_of(const Observable& observable, double measured_uncertainty);
+
+}  // namespace repose::calibrate

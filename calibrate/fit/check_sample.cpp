@@ -1,0 +1,49 @@
+#include "calibrate/fit/check_sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/fit/unit_box.h"
+
+namespace repose::calibrate {
+
+double CheckSample::mean() const {
+  double sum = 0;
+  for (const double reading : readings) sum += reading;
+  return sum / count();
+}
+
+double CheckSample::sd() const {
+  const double middle = mean();
+  double squares = 0;
+  for (const double reading : readings) squares += (reading - middle) * (reading - middle);
+  return std::sqrt(squares / (count() - 1));
+}
+
+CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
+                         const Observable& observable, const std::vector<Run>& runs) {
+  const Experiment& experiment = experiment_named(problem, observable.experiment);
+  const Job at = job_at(problem, experiment, to_unit(problem, values), 0);
+  CheckSample sample;
+  for (const Run& run : runs) {
+    if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
+    if (experiment.is_stochastic && run.job.seed < kFirstCheckSeed) continue;
+    const auto found = run.readings.find(observable.reading);
+    if (run.failure.empty() && found != run.readings.end() && std::isfinite(found->second)) {
+      sample.readings.push_back(found->second);
+    } else {
+      ++sample.failed;
+    }
+  }
+  return sample;
+}
+
+RunScatter scatter_of(const CheckSample& sample, const JointFit* fit, std::size_t observable) {
+  const RunScatter seen{sample.sd(), sample.count() - 1};
+  if (fit == nullptr || sample.count() < 2) return seen;
+  const RunScatter known{fit->observables[observable].simulated_sd,
+                         std::max(fit->surrogates[observable].runs - 1, 1)};
+  return known.sd > seen.sd ? known : seen;
+}
+
+}  // namespace repose::calibrate

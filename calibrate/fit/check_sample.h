@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/problem.h"
+
+// Internal: what the runs of a check gave.
+namespace repose::calibrate {
+
+/// Seeds of checks begin here; a study never has so many jobs.
+inline constexpr std::uint64_t kFirstCheckSeed = 1'000'000'000;
+
+/// The readings of one observable in the fresh runs of one set of parameters.
+struct CheckSample {
+  std::vector<double> readings;
+  int failed = 0;
+
+  int count() const { return static_cast<int>(readings.size()); }
+  double mean() const;
+  double sd() const;  ///< of single readings; NaN from one
+};
+
+CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
+                         const Observable& observable, const std::vector<Run>& runs);
+
+/// How much a single run scatters, and by how many runs that is known.
+struct RunScatter {
+  double sd = 0;
+  int df = 1;
+};
+
+/// The larger of what the sample shows and, where there is a fit, of what all runs show: a handful
+/// that happens to agree is not trusted over them. NaN from one run.
+RunScatter scatter_of(const CheckSample& sample, const JointFit* fit, std::size_t observable);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,91 @@
+#include "calibrate/result/agreement_text.h"
+
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace repose::calibrate {
+namespace {
+
+std::vector<const Agreement*> with(const Verification& verification, AgreementVerdict verdict) {
+  std::vector<const Agreement*> found;
+  for (const Agreement& agreement : verification.observables) {
+    if (agreement.verdict == verdict) found.push_back(&agreement);
+  }
+  return found;
+}
+
+std::string names_of(const std::vector<const Agreement*>& agreements) {
+  std::string names;
+  for (const Agreement* agreement : agreements) {
+    names += (names.empty() ? "" : ", ") + agreement->observable;
+  }
+  return names;
+}
+
+std::string percent(double chance) {
+  return chance < 1e-4 ? "less than 0.01 %" : fmt::format("{:.2g} %", 100 * chance);
+}
+
+/// What would decide it.
+std::string way_out(const Agreement& agreement) {
+  if (agreement.runs < 2 && !std::isfinite(agreement.detectable)) {
+    return "too few of its runs gave a reading";
+  }
+  if (agreement.runs_to_decide) {
+    return fmt::format("about {} runs of it would tell, {} were made", *agreement.runs_to_decide,
+                       agreement.runs);
+  }
+  const bool is_off = std::abs(agreement.simulated - agreement.measured) >= agreement.tolerance;
+  return is_off ? "more runs would not tell: measure it more often"
+                : "more runs would hardly tell: measure it more often, or state a wider tolerance";
+}
+
+std::string disagreement(const Verification& verification) {
+  std::string text = "bench and simulation disagree:";
+  if (std::isfinite(verification.chance)) {
+    text +=
+        fmt::format(" chance makes differences as large as all of these together in {} of cases",
+                    percent(verification.chance));
+  }
+  std::vector<const Agreement*> found = with(verification, AgreementVerdict::disagrees);
+  if (found.empty()) return text + "; no single experiment shows it alone";
+  return text + fmt::format("; it is {} that {}", names_of(found),
+                            found.size() == 1 ? "differs" : "differ");
+}
+
+}  // namespace
+
+std::string agreement_text(const Agreement& agreement, const std::string& unit) {
+  const std::string in_unit = unit.empty() ? "" : ' ' + unit;
+  if (agreement.runs == 0) return "no run gave a reading";
+  if (agreement.verdict == AgreementVerdict::agrees) {
+    return fmt::format("within {:.3g}{} of each other", agreement.tolerance, in_unit);
+  }
+  if (agreement.verdict == AgreementVerdict::disagrees) {
+    return fmt::format("chance makes as large a difference in {} of cases",
+                       percent(agreement.chance));
+  }
+  if (!std::isfinite(agreement.detectable)) return way_out(agreement);
+  return fmt::format("a difference of {:.3g}{} would have been seen, {:.3g}{} is the tolerance; {}",
+                     agreement.detectable, in_unit, agreement.tolerance, in_unit,
+                     way_out(agreement));
+}
+
+std::string agreement_text(const Verification& verification) {
+  switch (verification.verdict) {
+    case AgreementVerdict::agrees:
+      return "bench and simulation agree: every experiment is shown to be within its tolerance";
+    case AgreementVerdict::disagrees:
+      return disagreement(verification);
+    case AgreementVerdict::cannot_tell:
+      break;
+  }
+  return fmt::format(
+      "whether bench and simulation agree cannot be told: no difference is shown (chance makes as "
+      "large ones in {} of cases), but neither is agreement within the tolerance for {}",
+      percent(verification.chance), names_of(with(verification, AgreementVerdict::cannot_tell)));
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,148 @@
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/fit/agreement.h"
+#include "calibrate/fit/random.h"
+#include "calibrate/fit/verification.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Plates that slide at once where the bench's did, or `off` standard uncertainties of a mean known
+/// by many readings away: each an experiment of its own, without chance.
+struct Plates {
+  Problem problem;
+  std::vector<Run> runs;
+};
+
+Plates plates(const std::vector<double>& off, double uncertainty) {
+  constexpr int kReadings = 10'000;
+  Plates made;
+  made.problem.parameters = {{"friction", 0, 1, {}}};
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    const std::string name = "plate " + std::to_string(k);
+    made.problem.experiments.push_back({name, {0}, 1, false, {"value"}});
+    made.problem.observables.push_back(
+        {name, name, "value", "deg", 20, 100 * uncertainty, kReadings, {}});
+    made.runs.push_back({{name, {.5}, 1}, {{"value", 20 + off[k] * uncertainty}}, ""});
+  }
+  return made;
+}
+
+Verification checked(const Plates& made) { return verify(made.problem, {.5}, made.runs); }
+
+TEST(Agreement, SmallDifferencesAreADisagreementTogether) {
+  // None is beyond 2.5, the limit of each alone at 5 % over four. The tolerance is 2 degrees.
+  const Verification one = checked(plates({-.4, 0, 2.4, 2.1}, 1.1));
+  EXPECT_EQ(one.verdict, AgreementVerdict::disagrees);
+  EXPECT_NEAR(one.chance, .035, .001);  // of .16 + 0 + 5.76 + 4.41, a chi-square of 4
+  for (const Agreement& agreement : one.observables) {
+    EXPECT_NE(agreement.verdict, AgreementVerdict::disagrees) << agreement.observable;
+  }
+}
+
+TEST(Agreement, OneThatDiffersByItselfIsNamed) {
+  const Verification one = checked(plates({.1, 0, 4, -.2}, 1));
+  EXPECT_EQ(one.verdict, AgreementVerdict::disagrees);
+  EXPECT_EQ(one.observables[2].verdict, AgreementVerdict::disagrees);
+  EXPECT_EQ(one.observables[0].verdict, AgreementVerdict::agrees);
+}
+
+TEST(Agreement, WithinTheToleranceTheyAgreeHoweverSureTheDifference) {
+  const Plates made = plates({9, -9}, .1);
+  EXPECT_EQ(checked(made).verdict, AgreementVerdict::agrees) << "0.9 of 2 degrees";
+  Plates strict = made;
+  strict.problem.observables[0].tolerance = .5;
+  EXPECT_EQ(checked(strict).observables[0].verdict, AgreementVerdict::disagrees);
+  EXPECT_EQ(checked(strict).verdict, AgreementVerdict::disagrees);
+}
+
+TEST(Agreement, WhatLeavesMoreOpenThanTheToleranceCannotBeTold) {
+  const Verification one = checked(plates({.1, .2}, 3));
+  EXPECT_EQ(one.verdict, AgreementVerdict::cannot_tell);
+  EXPECT_NEAR(one.observables[0].detectable, 3 * (2.2414 + .8416), .01);  // at 2.5 % each
+  EXPECT_FALSE(one.observables[0].runs_to_decide) << "the bench's own readings leave it open";
+}
+
+TEST(Agreement, OneAndAllNeverContradictEachOther) {
+  Random random(5);
+  for (int k = 0; k < 300; ++k) {
+    const Verification one = checked(plates({2 * random.normal(), random.normal()}, 1));
+    for (const Agreement& agreement : one.observables) {
+      if (agreement.verdict != AgreementVerdict::disagrees) continue;
+      EXPECT_EQ(one.verdict, AgreementVerdict::disagrees);
+    }
+  }
+}
+
+TEST(Agreement, EqualMeansAreRarelyCalledDifferentAndFarOnesRarelyAlike) {
+  Random random(3);
+  int wrong = 0;
+  int alike = 0;
+  for (int k = 0; k < 400; ++k) {
+    const auto at = [&](double mean) { return mean + random.normal(); };
+    wrong += checked(plates({at(0), at(0), at(0)}, 1)).verdict == AgreementVerdict::disagrees;
+    // Just the tolerance apart: agreement may be claimed in 5 % of cases.
+    alike += checked(plates({at(5)}, .4)).verdict == AgreementVerdict::agrees;
+  }
+  EXPECT_LE(wrong, 33);  // 20 +- 4.4 expected
+  EXPECT_LE(alike, 33);
+  EXPECT_GT(wrong, 6);
+  EXPECT_GT(alike, 6);
+}
+
+TEST(Agreement, AnExperimentThatNeverGivesAReadingDisagrees) {
+  Plates made = plates({0, 0}, .1);
+  made.runs[1] = {made.runs[1].job, {}, "it does not slide"};
+  const Verification one = checked(made);
+  EXPECT_EQ(one.observables[1].verdict, AgreementVerdict::disagrees);
+  EXPECT_EQ(one.verdict, AgreementVerdict::disagrees);
+  made.runs.pop_back();
+  EXPECT_EQ(checked(made).verdict, AgreementVerdict::cannot_tell) << "it was not run";
+}
+
+TEST(Agreement, RunsToDecideDecide) {
+  // Bench 0 +- .3, runs that scatter by 2.5, three of them, a degree off; tolerance 2.
+  const UncertainMean measured{0, .3, kInfinite};
+  const auto after = [&](int runs) {
+    return difference_of({1, 2.5 / std::sqrt(runs), 40}, measured);
+  };
+  EXPECT_GT(not_ruled_out(after(3)).high, 2);
+  const std::optional<int> needed = runs_to_decide(after(3), .3, 3, 2, .05);
+  ASSERT_TRUE(needed);
+  EXPECT_GT(*needed, 30);
+  EXPECT_LT(*needed, 90);
+  EXPECT_LT(not_ruled_out(after(*needed)).high, 2);
+  EXPECT_FALSE(runs_to_decide(after(3), 1.5, 3, 2, .05)) << "the bench is too unsure";
+}
+
+TEST(Agreement, FewRunsCountAsStudentSays) {
+  const MeanDifference few = difference_of({1, 1, 2}, {0, 0, kInfinite});
+  EXPECT_NEAR(not_ruled_out(few).high, 1 + 2.91999, 1e-4);
+  EXPECT_NEAR(chance_of(few), .42265, 1e-4);
+  EXPECT_NEAR(difference_of({1, 3, 4}, {0, 3, 4}).df, 8, 1e-9) << "alike: both together";
+}
+
+TEST(Agreement, TolerancesAreTheStudysOrThoseOfTheUnit) {
+  Observable observable{"a", "drop", "value", "mm", 400, 1, 10, {}};
+  EXPECT_EQ(tolerance_of(observable, 1), 20);
+  EXPECT_NEAR(tolerance_of(observable, 100), 226.2, .1) << "the bench's own 95 % interval";
+  observable.unit = "deg";
+  EXPECT_EQ(tolerance_of(observable, 100), 2);
+  observable.tolerance = 3;
+  EXPECT_EQ(tolerance_of(observable, 1), 3);
+}
+
+TEST(Agreement, AToleranceMustBeAboveZero) {
+  Problem problem = plates({0}, 1).problem;
+  problem.observables[0].tolerance = 0;
+  EXPECT_THAT(errors_of(problem),
+              testing::Contains(testing::HasSubstr("tolerance = 0 must be a number above 0")));
+}
+
+}  // namespace
+}  // namespace repose::calibrate
