@@ -4,7 +4,7 @@
 #   ./setup.sh [--tests] [PRESET [TARGET]...]
 #
 #   --tests   also install what only the tests need, and build them: GoogleTest, clang-format,
-#             clang-tidy, a compiler cache, MPI, Chromium
+#             clang-tidy, a compiler cache, MPI, Chromium, zsh, groff
 #   PRESET    release (default), dev, sanitize or thread
 #   TARGET    build only this, not everything
 #
@@ -24,7 +24,7 @@ node_packages=calibrate/report
 tests=OFF
 if [ "${1-}" = --tests ]; then
   needed="$needed libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-22 ccache
-    libopenmpi-dev openmpi-bin chromium python3-jsonschema"
+    libopenmpi-dev openmpi-bin chromium python3-jsonschema zsh groff-base"
   tests=ON
   node_packages="$node_packages tests/report"
   shift

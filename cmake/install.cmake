@@ -19,6 +19,10 @@ endforeach()
 install(TARGETS repose_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+set(help_folder ${PROJECT_BINARY_DIR}/help)
+install(FILES ${help_folder}/repose DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${help_folder}/_repose DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(DIRECTORY ${help_folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
 
 configure_package_config_file(cmake/reposeConfig.cmake.in reposeConfig.cmake
   INSTALL_DESTINATION ${package_folder})
