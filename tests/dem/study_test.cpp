@@ -314,7 +314,7 @@ TEST_F(StudyFile, SaysHowFarBenchAndSimulationMayBeApart) {
   const std::string tilt =
       kStudy + "[experiment.tilt]\nmeasured = { values = [9, 10], tolerance = ";
   EXPECT_EQ(measured_in(read(tilt + "1.5 }\n"), Experiment::tilt).tolerance, 1.5);
-  EXPECT_FALSE(measured_in(read(), Experiment::drop).tolerance) << "unless told";
+  EXPECT_FALSE(measured_in(read(kStudy), Experiment::drop).tolerance) << "unless told";
   EXPECT_THAT(errors(tilt + "0 }\n"), HasSubstr("experiment.tilt.measured.tolerance = 0"));
   const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
   const Study study = read(heap + "height_mm = { mean = 40, tolerance = 3 }\n");
