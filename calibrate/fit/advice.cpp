@@ -51,7 +51,8 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
         const double slope = surrogate.warp().slope(w.mean);
         const double scatter = surrogate.warp().scatter(w.mean);
         unmeasured.readings.push_back(surrogate.warp().expected(w.mean));
-        unmeasured.noise2 += slope * slope * w.variance + scatter * scatter / kReadings;
+        unmeasured.noise2 += slope * slope * w.variance +
+                             scatter * scatter * experiment.readings_per_run / kReadings;
       }
       unmeasured.noise2 /= static_cast<double>(solution.sets.points.size());
       unmeasured_.push_back(std::move(unmeasured));

@@ -62,12 +62,14 @@ std::optional<int> runs_to_decide(const MeanDifference& difference, double measu
   return std::max(static_cast<int>(std::ceil(run2 / left2)), runs + 1);
 }
 
-double joint_chance(const std::vector<double>& chances) {
+double joint_chance(const std::vector<ExperimentChance>& experiments) {
   double sum = 0;
-  for (const double chance : chances) {
-    sum += base::chi_square_exceeded(std::max(chance, kSmallestChance), 1);
+  int readings = 0;
+  for (const ExperimentChance& one : experiments) {
+    sum += base::chi_square_exceeded(std::max(one.chance, kSmallestChance), one.readings);
+    readings += one.readings;
   }
-  return base::chi_square_above(sum, static_cast<double>(chances.size()));
+  return base::chi_square_above(sum, readings);
 }
 
 double tolerance_of(const Observable& observable, double measured_uncertainty) {

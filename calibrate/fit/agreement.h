@@ -26,6 +26,12 @@ struct MeanDifference {
   double df = 0;
 };
 
+/// That chance alone makes one experiment differ so much, in all of its readings together.
+struct ExperimentChance {
+  double chance = 1;
+  int readings = 1;
+};
+
 /// With Welch and Satterthwaite's degrees of freedom: Welch (1947), Biometrika 34, 28.
 MeanDifference difference_of(const UncertainMean& simulated, const UncertainMean& measured);
 
@@ -46,9 +52,10 @@ std::optional<int> runs_to_decide(const MeanDifference& difference, double measu
                                   int runs, double tolerance, double level);
 
 /// The probability that chance alone makes independent experiments differ as much as all of them
-/// together do: Lancaster (1961), Aust. J. Stat. 3, 20. Each p is turned into the square of a
-/// normal variable that has it, whatever distribution it came from; their sum is a chi-square.
-double joint_chance(const std::vector<double>& chances);
+/// together do: Lancaster (1961), Aust. J. Stat. 3, 20. Each chance is turned into the chi-square
+/// that has it, of as many degrees of freedom as it has readings, whatever distribution it came
+/// from; their sum is a chi-square, too.
+double joint_chance(const std::vector<ExperimentChance>& experiments);
 
 /// What the study states; else 2 for an angle in degrees, and for others 5 % of the measured value
 /// or the half-width of its mean's 95 % interval, whichever is larger.

@@ -61,6 +61,9 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
   fitted.simulated = surrogate.simulated(best);
   fitted.simulated_uncertainty = surrogate.uncertainty(best);
   fitted.simulated_sd = surrogate.warp().scatter(surrogate.at(best, false).mean);
+  fitted.predicted_sd =
+      std::sqrt(experiment_named(problem, observable.experiment).readings_per_run) *
+      fitted.simulated_sd;
   fitted.difference_sigma = solution.misfit.difference(i, best);
   fitted.reachable = {extreme_of(surrogate, dimensions, false).reading,
                       extreme_of(surrogate, dimensions, true).reading};
@@ -130,6 +133,7 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
         quality_of(problem, sorted, solution.misfit.surrogates()[i], problem.observables[i]));
   }
   fit.correlation = correlation_of(solution.sets.points);
+  fit.reading_correlation = solution.misfit.reading_correlation();
   for (const Minimum& member : equivalence_family(solution)) {
     fit.equivalence_family.push_back(
         {to_values(problem, member.point), std::max(0., member.chi2 - solution.best.chi2)});

@@ -43,6 +43,7 @@ struct FittedObservable {
   double simulated = 0;             ///< expected, by the surrogate
   double simulated_uncertainty = 0;
   double simulated_sd = 0;      ///< scatter from seed to seed
+  double predicted_sd = 0;      ///< scatter that it expects of single bench readings
   double difference_sigma = 0;  ///< (simulated - measured) / sigma of the fit
   Interval reachable;           ///< of the simulated mean, over all parameters in their bounds
 };
@@ -103,6 +104,8 @@ struct JointFit {
   std::vector<FittedParameter> parameters;       ///< in Problem's order
   std::vector<FittedObservable> observables;     ///< in Problem's order
   std::vector<std::vector<double>> correlation;  ///< of the parameters, near the best fit
+  /// Of the observables, from run to run of one experiment (reading_correlation.h).
+  std::vector<std::vector<double>> reading_correlation;
   std::vector<ParameterSet> equivalence_family;  ///< the best fit not included
   std::vector<PredictedSet> asked;               ///< in the order of the question
   std::vector<SurrogateQuality> surrogates;      ///< in order of the observables

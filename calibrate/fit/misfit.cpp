@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "base/distributions.h"
+#include "calibrate/fit/reading_correlation.h"
 #include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
@@ -27,6 +28,7 @@ std::pair<double, double> robust_residual(double z) {
   return {value, std::abs(value) > 1e-9 ? z / (value * (1 + fraction)) : 1};
 }
 
+/// `scatter_by_chance`: of single readings.
 double uncertainty_of_mean(const Observable& observable, double scatter_by_chance) {
   const double known = standard_uncertainty(observable);
   if (observable.sd) return known;
@@ -80,10 +82,15 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     surrogates_.emplace_back(training_set, start, thorough);
     const AsinhWarp& warp = surrogates_.back().warp();
     const double w = warp.of_expected(observable.mean);
-    measured_.push_back(uncertainty_of_mean(observable, warp.scatter(w)));
+    const double runs_to_reading = std::sqrt(
+        static_cast<double>(experiment_named(problem, observable.experiment).readings_per_run));
+    measured_.push_back(uncertainty_of_mean(observable, runs_to_reading * warp.scatter(w)));
     targets_.push_back({w, few_readings_factor(observable) * measured_.back() / warp.slope(w)});
   }
   if (!errors.empty()) throw std::invalid_argument(errors);
+  together_ = by_experiment(problem);
+  correlation_ = reading_correlation_of(problem, surrogates_);
+  for (const Observable& observable : problem.observables) counts_.push_back(observable.n);
   for (const Experiment& experiment : measured_experiments(problem)) {
     FailureRisk risk(attempts_of(problem, experiment, runs));
     if (risk.any()) risks_.push_back(std::move(risk));
@@ -118,24 +125,31 @@ double Misfit::chi2(const Point& point) const {
   return sum;
 }
 
-void Misfit::add_observable(std::size_t i, const Point& point, bool with_jacobian,
-                            Residuals& all) const {
-  const Expectation w = surrogates_[i].at(point, with_jacobian);
-  const Target& target = targets_[i];
-  const double sigma2 = target.sd * target.sd + w.variance;
-  const double sigma = std::sqrt(sigma2);
-  const double z = (w.mean - target.value) / sigma;
-  const auto [value, slope] = robust_ ? robust_residual(z) : std::pair{z, 1.};
-  all.values[i] = value;
-  const std::size_t penalty = all.values.size() - surrogates_.size() - parameters_.size() + i;
-  const double distrust = std::sqrt(w.variance / sigma2);
-  all.values[penalty] = kDistrust * distrust;
-  for (std::size_t j = 0; with_jacobian && j < point.size(); ++j) {
-    all.jacobian[i][j] =
-        slope * (w.mean_gradient[j] / sigma - z * w.variance_gradient[j] / (2 * sigma2));
-    if (distrust > 0) {
-      all.jacobian[penalty][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
-                                 (2 * distrust * sigma2 * sigma2);
+void Misfit::add_together(const std::vector<std::size_t>& observables, const Point& point,
+                          bool with_jacobian, Residuals& all) const {
+  const std::size_t penalties = all.values.size() - surrogates_.size() - parameters_.size();
+  std::vector<CorrelatedPart> parts;
+  for (const std::size_t i : observables) {
+    const Expectation w = surrogates_[i].at(point, with_jacobian);
+    const Target& target = targets_[i];
+    parts.push_back({w.mean - target.value, target.sd, w.variance, counts_[i], w.mean_gradient,
+                     w.variance_gradient});
+    const double sigma2 = target.sd * target.sd + w.variance;
+    const double distrust = std::sqrt(w.variance / sigma2);
+    all.values[penalties + i] = kDistrust * distrust;
+    for (std::size_t j = 0; with_jacobian && distrust > 0 && j < point.size(); ++j) {
+      all.jacobian[penalties + i][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
+                                       (2 * distrust * sigma2 * sigma2);
+    }
+  }
+  const Residuals independent =
+      made_independent(parts, part_of(correlation_, observables), with_jacobian);
+  for (std::size_t k = 0; k < observables.size(); ++k) {
+    const auto [value, slope] =
+        robust_ ? robust_residual(independent.values[k]) : std::pair{independent.values[k], 1.};
+    all.values[observables[k]] = value;
+    for (std::size_t j = 0; with_jacobian && j < point.size(); ++j) {
+      all.jacobian[observables[k]][j] = slope * independent.jacobian[k][j];
     }
   }
 }
@@ -159,7 +173,7 @@ Residuals Misfit::residuals(const Point& point, bool with_jacobian) const {
   const std::size_t count = 2 * surrogates_.size() + risks_.size() + 2 * parameters_.size();
   Residuals all{std::vector<double>(count, 0), {}};
   if (with_jacobian) all.jacobian.assign(count, Point(point.size(), 0));
-  for (std::size_t i = 0; i < surrogates_.size(); ++i) add_observable(i, point, with_jacobian, all);
+  for (const auto& observables : together_) add_together(observables, point, with_jacobian, all);
   for (std::size_t i = 0; i < risks_.size(); ++i) {
     const Risk risk = risks_[i].at(point);
     all.values[surrogates_.size() + i] = kFailure * risk.fraction;

@@ -6,15 +6,10 @@
 #include "calibrate/fit/failure_risk.h"
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/problem.h"
+#include "calibrate/fit/residuals.h"
 #include "calibrate/fit/surrogate.h"
 
 namespace repose::calibrate {
-
-/// Residuals and their derivatives: jacobian[i][j] of residual i with coordinate j.
-struct Residuals {
-  std::vector<double> values;
-  std::vector<Point> jacobian;
-};
 
 /// How badly a set of parameters fits, from everything that is known.
 ///
@@ -38,9 +33,11 @@ class Misfit {
   /// Squares of the surrogate's sd over the measured uncertainty.
   double surrogate_variance_fraction(std::size_t observable, const Point& point) const;
   /// Standard uncertainty of an observable's measured mean, in its unit. A scatter that was not
-  /// measured is taken to be no less than what chance does in the simulation there: a bench has the
-  /// same chance, and more.
+  /// measured is taken to be no less than what chance does to single readings in the simulation
+  /// there (Experiment::readings_per_run): a bench has the same chance, and more.
   double measured_uncertainty(std::size_t observable) const { return measured_[observable]; }
+  /// Of the observables, in what chance does to them together.
+  const std::vector<std::vector<double>>& reading_correlation() const { return correlation_; }
   /// 1 over the variance of the measured mean, in the units of the observable's surrogate.
   double weight(std::size_t observable) const;
   /// What a search minimises: those of chi2(), and small ones that choose among equals.
@@ -52,13 +49,18 @@ class Misfit {
     double value = 0;
     double sd = 0;
   };
-  void add_observable(std::size_t i, const Point& point, bool with_jacobian, Residuals& all) const;
+  /// Observables of one experiment: their residuals, made independent of each other.
+  void add_together(const std::vector<std::size_t>& observables, const Point& point,
+                    bool with_jacobian, Residuals& all) const;
   void add_priors(const Point& point, bool with_jacobian, Residuals& all) const;
 
   std::vector<Parameter> parameters_;
   std::vector<Surrogate> surrogates_;
   std::vector<Target> targets_;
   std::vector<double> measured_;  ///< standard uncertainties
+  std::vector<int> counts_;       ///< readings of the bench
+  std::vector<std::vector<double>> correlation_;
+  std::vector<std::vector<std::size_t>> together_;  ///< observables by experiment
   std::vector<FailureRisk> risks_;
   bool robust_ = false;
 };

@@ -47,6 +47,10 @@ void check_experiment(const Problem& problem, const Experiment& experiment, Erro
     errors.push_back(fmt::format("{}: run_s = {} must be a number above 0. Fix: estimate it", where,
                                  experiment.run_s));
   }
+  if (experiment.readings_per_run < 1) {
+    errors.push_back(fmt::format("{}: readings_per_run = {} must be 1 or more. Fix: count them",
+                                 where, experiment.readings_per_run));
+  }
   std::set<std::size_t> seen;
   for (const std::size_t i : experiment.parameters) {
     if (i >= problem.parameters.size()) {

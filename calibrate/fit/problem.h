@@ -32,6 +32,9 @@ struct Experiment {
   bool is_stochastic = true;  ///< false: the seed changes nothing, one run says it all
   /// Readings that a bench could give too. Those not measured are what the advice chooses from.
   std::vector<std::string> measurable = {"value"};
+  /// How many readings of a bench a run's reading is the mean of: ten for ten grains dropped. A
+  /// single one scatters by the root of that more.
+  int readings_per_run = 1;
 };
 
 /// One number measured on the bench: the mean of n readings.

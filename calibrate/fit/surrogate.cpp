@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/distributions.h"
+
 namespace repose::calibrate {
 namespace {
 
@@ -53,6 +55,19 @@ Surrogate::Surrogate(const TrainingSet& training_set, const std::optional<Surrog
   warp_.warp = best_warp(from);
   process_ = learned(warp_.warp, from, thorough ? 2 : 1, 1);
   warp_.noise_sd = process_->noise_sd();
+  few_runs_factor_ = factor_of_few_runs();
+}
+
+/// The runs' own scatter has n - tr H degrees of freedom, H being what takes their readings to what
+/// is expected at their places: 1 - H = noise^2 K^-1.
+double Surrogate::factor_of_few_runs() const {
+  if (!training_set_.is_stochastic) return 1;
+  constexpr double kNormal95 = 1.959963984540054;
+  constexpr double kFewest = 3;  // fewer would say more about the prior of the noise than of it
+  const double noise = process_->noise_sd();
+  double df = 0;
+  for (const LeaveOneOut& one : process_->leave_one_out()) df += noise * noise / (one.sd * one.sd);
+  return base::student_t_quantile(.975, std::max(df, kFewest)) / kNormal95;
 }
 
 GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparameters>& start,
@@ -104,7 +119,7 @@ Expectation Surrogate::at(const Point& point, bool with_gradients) const {
     return all;
   }
   const Expectation own = process_->at(seen(point), with_gradients);
-  const double inflation2 = inflation_ * inflation_;
+  const double inflation2 = std::pow(inflation_ * few_runs_factor_, 2);
   all.mean = own.mean;
   all.variance = inflation2 * own.variance;
   for (std::size_t i = 0; with_gradients && i < training_set_.parameters.size(); ++i) {
@@ -131,7 +146,7 @@ std::vector<double> Surrogate::covariance(const std::vector<Point>& points) cons
   std::vector<Point> places;
   for (const Point& point : points) places.push_back(seen(point));
   std::vector<double> all = process_->covariance(places);
-  for (double& value : all) value *= inflation_ * inflation_;
+  for (double& value : all) value *= std::pow(inflation_ * few_runs_factor_, 2);
   return all;
 }
 
@@ -156,13 +171,17 @@ void Surrogate::inflate_near(const Point& point) {
   inflation_ = std::max({1., leave_one_out_sigma(), root_mean_square(near)});
 }
 
-double Surrogate::leave_one_out_sigma() const {
-  if (!process_) return 0;
+std::vector<double> Surrogate::standardised_errors() const {
   std::vector<double> standardised;
+  if (!process_) return standardised;
   for (const LeaveOneOut& one : process_->leave_one_out()) {
     standardised.push_back(one.error / one.sd);
   }
-  return root_mean_square(standardised);
+  return standardised;
+}
+
+double Surrogate::leave_one_out_sigma() const {
+  return process_ ? root_mean_square(standardised_errors()) : 0;
 }
 
 double Surrogate::leave_one_out_error() const {

@@ -35,6 +35,7 @@ struct TrainingSet {
   bool is_stochastic = true;
   std::vector<Point> places;  ///< in the experiment's own coordinates
   std::vector<double> readings;
+  std::vector<std::size_t> runs = {};  ///< places of these in all runs
 };
 
 /// One reading as a function of all parameters, with its uncertainty.
@@ -46,7 +47,7 @@ class Surrogate {
   /// Every run gave the same number: nothing can be learned of it.
   bool constant() const { return !process_; }
   const AsinhWarp& warp() const { return warp_; }
-  /// Of w, at a point of all coordinates; variances inflated.
+  /// Of w, at a point of all coordinates; variances inflated, few runs accounted for.
   Expectation at(const Point& point, bool with_gradients) const;
   /// The expected reading, never below 0 where no run was, and its standard uncertainty.
   double simulated(const Point& point) const;
@@ -59,6 +60,12 @@ class Surrogate {
   void inflate_near(const Point& point);
 
   double inflation() const { return inflation_; }
+  /// Student's share by which the uncertainty is larger because the runs' noise is known from few:
+  /// see THEORY.md. 1 for experiments without chance.
+  double few_runs_factor() const { return few_runs_factor_; }
+  /// Leave-one-out errors over their sd's, in the order of the training set; empty when constant.
+  std::vector<double> standardised_errors() const;
+  const TrainingSet& training_set() const { return training_set_; }
   /// Root mean square of the standardised errors; not inflated.
   double leave_one_out_sigma() const;
   /// Root mean square error in the reading's unit.
@@ -69,12 +76,14 @@ class Surrogate {
   Point seen(const Point& point) const;
   GaussianProcess learned(double warp, const std::optional<Hyperparameters>& start, int starts,
                           std::size_t every) const;
+  double factor_of_few_runs() const;
   double best_warp(const std::optional<Hyperparameters>& start) const;
 
   TrainingSet training_set_;
   AsinhWarp warp_;
   std::optional<GaussianProcess> process_;
   double inflation_ = 1;
+  double few_runs_factor_ = 1;
 };
 
 }  // namespace repose::calibrate

@@ -49,12 +49,14 @@ std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) 
 TrainingSet training_set_of(const Problem& problem, const Experiment& experiment,
                             const std::string& reading, const std::vector<Run>& runs) {
   TrainingSet training_set{experiment.parameters, experiment.is_stochastic, {}, {}};
-  for (const Run& run : runs) {
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Run& run = runs[k];
     if (run.job.experiment != experiment.name || !run.failure.empty()) continue;
     const auto found = run.readings.find(reading);
     if (found == run.readings.end() || !std::isfinite(found->second)) continue;
     training_set.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
     training_set.readings.push_back(found->second);
+    training_set.runs.push_back(k);
   }
   return training_set;
 }

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/core.h>
 
 #include "calibrate/fit/check_sample.h"
+#include "calibrate/fit/hotelling.h"
+#include "calibrate/fit/reading_correlation.h"
+#include "calibrate/fit/residuals.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
@@ -100,13 +104,49 @@ AgreementVerdict verdict_of(const Verification& verification) {
              : AgreementVerdict::cannot_tell;
 }
 
-/// Of those with a reading.
-double joint_chance_of(const std::vector<Agreement>& observables) {
-  std::vector<double> chances;
-  for (const Agreement& agreement : observables) {
-    if (std::isfinite(agreement.chance)) chances.push_back(agreement.chance);
+/// The readings of one experiment together; those that no run has left out.
+std::optional<ExperimentChance> chance_together(const Problem& problem,
+                                                const std::vector<std::size_t>& own,
+                                                const std::vector<Agreement>& observables,
+                                                const std::vector<UncertainMean>& simulated,
+                                                const JointFit* fit) {
+  std::vector<std::size_t> there;
+  for (const std::size_t i : own) {
+    if (std::isfinite(observables[i].chance)) there.push_back(i);
   }
-  return chances.empty() ? kNone : joint_chance(chances);
+  if (there.empty()) return std::nullopt;
+  if (there.size() == 1) return ExperimentChance{observables[there.front()].chance, 1};
+  const auto count = static_cast<Eigen::Index>(there.size());
+  Eigen::VectorXd differences(count);
+  MeanCovariance runs{Eigen::MatrixXd(count, count), kInfinite};
+  MeanCovariance bench = runs;
+  for (Eigen::Index a = 0; a < count; ++a) {
+    const std::size_t i = there[static_cast<std::size_t>(a)];
+    const Observable& one = problem.observables[i];
+    differences(a) = observables[i].simulated - observables[i].measured;
+    if (simulated[i].uncertainty > 0) runs.df = std::min(runs.df, simulated[i].df);
+    if (one.sd) bench.df = std::min<double>(bench.df, one.n - 1);
+    for (Eigen::Index b = 0; b < count; ++b) {
+      const std::size_t k = there[static_cast<std::size_t>(b)];
+      const double alike = i == k ? 1 : fit == nullptr ? 0 : fit->reading_correlation[i][k];
+      runs.matrix(a, b) = alike * simulated[i].uncertainty * simulated[k].uncertainty;
+      bench.matrix(a, b) = alike * shared_readings(one.n, problem.observables[k].n) *
+                           observables[i].measured_uncertainty *
+                           observables[k].measured_uncertainty;
+    }
+  }
+  return ExperimentChance{chance_of(differences, runs, bench), static_cast<int>(count)};
+}
+
+/// Of the experiments with a reading.
+double joint_chance_of(const Problem& problem, const std::vector<Agreement>& observables,
+                       const std::vector<UncertainMean>& simulated, const JointFit* fit) {
+  std::vector<ExperimentChance> experiments;
+  for (const std::vector<std::size_t>& own : by_experiment(problem)) {
+    const auto chance = chance_together(problem, own, observables, simulated, fit);
+    if (chance) experiments.push_back(*chance);
+  }
+  return experiments.empty() ? kNone : joint_chance(experiments);
 }
 
 }  // namespace
@@ -142,17 +182,19 @@ Verification verify(const Problem& problem, const std::vector<double>& values,
   require_sound(problem);
   Verification verification{.values = values, .observables = {}};
   const double level = kLevel / static_cast<double>(problem.observables.size());
+  std::vector<UncertainMean> simulated;
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     const Observable& observable = problem.observables[i];
     const bool is_stochastic = experiment_named(problem, observable.experiment).is_stochastic;
     const CheckSample sample = check_sample(problem, values, observable, runs);
-    verification.observables.push_back(
-        compared(observable, sample, mean_of(sample, is_stochastic, fit, i),
-                 fit != nullptr ? fit->observables[i].measured_uncertainty
-                                : standard_uncertainty(observable),
-                 level));
+    simulated.push_back(mean_of(sample, is_stochastic, fit, i));
+    verification.observables.push_back(compared(observable, sample, simulated.back(),
+                                                fit != nullptr
+                                                    ? fit->observables[i].measured_uncertainty
+                                                    : standard_uncertainty(observable),
+                                                level));
   }
-  verification.chance = joint_chance_of(verification.observables);
+  verification.chance = joint_chance_of(problem, verification.observables, simulated, fit);
   find_disagreement(verification, level);
   verification.verdict = verdict_of(verification);
   return verification;

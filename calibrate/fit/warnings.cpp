@@ -56,7 +56,8 @@ void warn_of_scatter(const Observable& observable, const FittedObservable& fitte
       is_by_chance
           ? fmt::format(
                 "{}: its scatter was not measured; assumed: {:.3g} {}, as much as chance does "
-                "in the simulation. Every interval depends on it. Fix: measure the scatter",
+                "to single readings in the simulation. Every interval depends on it. Fix: measure "
+                "the scatter",
                 fitted.name, fitted.measured_sd, fitted.unit)
           : fmt::format("{}: its scatter was not measured; assumed: {:.3g} % of the mean. Every "
                         "interval depends on it. Fix: measure the scatter",

@@ -80,6 +80,24 @@ Table surrogate_table(const JointResult& joint) {
   return table;
 }
 
+Table scatter_table(const JointResult& joint) {
+  Table table{.name = "reading_scatter",
+              .title = "Scatter of single readings: standard deviations",
+              .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                                   {.name = "bench", .unit = {}},
+                                   {.name = "", .unit = {}},
+                                   {.name = "expected by the simulation", .unit = {}},
+                                   {.name = "one simulated run", .unit = {}}},
+                       .rows = {}}};
+  for (const ResultObservable& observable : joint.observables) {
+    table.data.add({axis_of_observable(observable.name, observable.unit),
+                    cell(observable.measured_sd),
+                    cell(std::string(observable.sd_assumed ? "assumed" : "measured")),
+                    cell(observable.predicted_sd), cell(observable.simulated_sd)});
+  }
+  return table;
+}
+
 std::string rounds_text(const JointResult& joint) {
   return fmt::format(
       "The coefficients found were simulated again with seeds that the fit had not seen, {}. All "
@@ -112,6 +130,13 @@ Chapter agreement_chapter(const JointResult& joint) {
       "none under runs to decide: it is decided, or the bench's own readings leave more open than "
       "any number of runs could settle."});
   chapter.blocks.push_back(surrogate_table(joint));
+  chapter.blocks.push_back(scatter_table(joint));
+  chapter.blocks.push_back(
+      Paragraph{"A run whose reading is the mean of several grains scatters less than one reading "
+                "of a bench: "
+                "by the root of their number. Readings of one experiment are judged by how its "
+                "runs move them "
+                "together, since what they share counts once."});
   return chapter;
 }
 

@@ -36,24 +36,12 @@ std::string latex_text(const std::string& text) {
                                                               {"}", "\\}"},
                                                               {"^", "\\^{}"},
                                                               {"~", "\\~{}"}};
-  static const std::array<std::pair<std::string, std::string>, 18> kSigns = {{{"χ²", "$\\chi^2$"},
-                                                                              {"μₛ", "$\\mu_s$"},
-                                                                              {"μᵣ", "$\\mu_r$"},
-                                                                              {"fᵢ", "$f_i$"},
-                                                                              {"vᵢ", "$v_i$"},
-                                                                              {"mᵢ", "$m_i$"},
-                                                                              {"sᵢ", "$s_i$"},
-                                                                              {"nᵢ", "$n_i$"},
-                                                                              {"xⱼ", "$x_j$"},
-                                                                              {"Fₙ", "$F_n$"},
-                                                                              {"é", "\\'e"},
-                                                                              {"μ", "$\\mu$"},
-                                                                              {"σ", "$\\sigma$"},
-                                                                              {"°", "$^\\circ$"},
-                                                                              {"×", "$\\times$"},
-                                                                              {"±", "$\\pm$"},
-                                                                              {"–", "--"},
-                                                                              {"−", "$-$"}}};
+  static const std::array<std::pair<std::string, std::string>, 20> kSigns = {
+      {{"χ²", "$\\chi^2$"}, {"T²", "$T^2$"}, {"μₛ", "$\\mu_s$"}, {"μᵣ", "$\\mu_r$"},
+       {"fᵢ", "$f_i$"},     {"vᵢ", "$v_i$"}, {"mᵢ", "$m_i$"},    {"sᵢ", "$s_i$"},
+       {"nᵢ", "$n_i$"},     {"xⱼ", "$x_j$"}, {"Fₙ", "$F_n$"},    {"é", "\\'e"},
+       {"ä", "\\\"a"},      {"μ", "$\\mu$"}, {"σ", "$\\sigma$"}, {"°", "$^\\circ$"},
+       {"×", "$\\times$"},  {"±", "$\\pm$"}, {"–", "--"},        {"−", "$-$"}}};
   std::string escaped;
   for (const char letter : text) {
     const auto spelled = kSpelled.find(std::string(1, letter));
@@ -139,7 +127,9 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}");
   methods.add(
       "where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
-      "is Student's quantile. Intervals are 95 % profile-likelihood intervals (Venzon and "
+      "is Student's quantile. Readings of one experiment enter with the covariance of the runs' "
+      "residuals (shrunk: Schäfer and Strimmer 2005). Intervals are 95 % profile-likelihood "
+      "intervals (Venzon and "
       "Moolgavkar 1988), the values xⱼ for which");
   methods.add_equation(
       "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
@@ -149,8 +139,10 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       "one-sided when one does, undetermined otherwise. The coefficients found were simulated "
       "again with seeds that the fit had not seen, and all of these runs entered the fit. "
       "Simulated "
-      "and measured means were compared by Welch's t, over all experiments by the sum of the "
-      "chi-squares with the same probabilities (Lancaster 1961), and for equivalence by two "
+      "and measured means were compared by Welch's t (several of one experiment by Hotelling's "
+      "T²), "
+      "over all experiments by the sum of the chi-squares with the same probabilities (Lancaster "
+      "1961), and for equivalence by two "
       "one-sided tests at 5 % (Schuirmann 1987).");
 }
 

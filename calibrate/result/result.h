@@ -99,6 +99,7 @@ struct JointResult {
   OverallAgreement agreement;
   double chi2 = 0;
   std::vector<std::vector<double>> correlation;
+  std::vector<std::vector<double>> reading_correlation;
   std::vector<EquivalentSet> equivalence_family;
   std::vector<std::string> warnings;
   std::vector<SurrogateQuality> surrogates;  ///< without warp and length scales

@@ -111,6 +111,7 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("simulated", observable.simulated);
   io("simulated_uncertainty", observable.simulated_uncertainty);
   io("simulated_sd", observable.simulated_sd);
+  io("predicted_sd", observable.predicted_sd);
   io("difference_sigma", observable.difference_sigma);
   io("reachable", observable.reachable);
   io("verification", observable.verification);
@@ -203,6 +204,7 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   io("agreement", joint.agreement);
   io("chi2", joint.chi2);
   io("correlation", joint.correlation);
+  io("reading_correlation", joint.reading_correlation);
   io("equivalence_family", joint.equivalence_family);
   io("warnings", joint.warnings);
   io("surrogates", joint.surrogates);

@@ -125,7 +125,8 @@ class Maker {
                                          .parameters = with_effect,
                                          .run_s = run_cost_s(study_, grain_.shape, entry),
                                          .is_stochastic = entry.is_stochastic,
-                                         .measurable = measurable(entry)});
+                                         .measurable = measurable(entry),
+                                         .readings_per_run = readings_per_run(entry)});
     if (is_measured) add(observable_of(measured), entry, "value");
     for (const dem::MeasuredReading& reading : measured.also) {
       Observable observable;
@@ -135,6 +136,11 @@ class Maker {
       observable.tolerance = reading.tolerance;
       add(observable, entry, reading.name);
     }
+  }
+
+  int readings_per_run(const dem::ExperimentEntry& entry) const {
+    if (entry.readings_per_run == nullptr) return 1;
+    return entry.readings_per_run(study_.experiments.at(entry.experiment).protocol);
   }
 
   /// A study of many grains costs more than a budget is made for.

@@ -28,6 +28,8 @@ ExperimentEntry drop_entry() {
                        {"sd_mm", "mm"},
                        {"never_rose", ""}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+          .readings_per_run =
+              [](const Protocol& protocol) { return std::get<DropProtocol>(protocol).grains; },
           .softening_effect = "rebounds less than one with the real stiffness",
           .usual = DropProtocol{},
           .keys = keys_of,

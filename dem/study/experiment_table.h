@@ -32,6 +32,8 @@ struct ExperimentEntry {
   std::vector<std::string_view> coefficients;
   bool is_stochastic = true;  ///< false: the seed changes nothing
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
+  /// How many readings of a bench a run's number is the mean of; null: one.
+  int (*readings_per_run)(const Protocol& protocol) = nullptr;
   /// What softened grains do to its value, to follow "a drop with stiffness_factor = 0.1"; empty:
   /// nothing that would matter.
   std::string_view softening_effect = "";

@@ -105,6 +105,25 @@ TEST(Agreement, AnExperimentThatNeverGivesAReadingDisagrees) {
   EXPECT_EQ(checked(made).verdict, AgreementVerdict::cannot_tell) << "it was not run";
 }
 
+TEST(Agreement, ReadingsOfOneHeapAreJudgedByWhatTheyShare) {
+  Plates made = plates({2, 2}, 1);
+  made.problem.experiments.pop_back();
+  made.problem.observables[1].experiment = made.problem.experiments[0].name;
+  made.problem.observables[1].reading = "radius";
+  made.runs = {{{"plate 0", {.5}, 1}, {{"value", 22}, {"radius", 22}}, ""}};
+  const auto chance_with = [&](double correlation) {
+    JointFit fit;
+    fit.observables.resize(2);
+    for (FittedObservable& fitted : fit.observables) fitted.measured_uncertainty = 1;
+    fit.surrogates.resize(2);
+    fit.reading_correlation = {{1, correlation}, {correlation, 1}};
+    return verify(made.problem, {.5}, made.runs, &fit).chance;
+  };
+  EXPECT_NEAR(chance_with(0), std::exp(-8 / 2.), 1e-4);  // a chi-square of 2
+  EXPECT_NEAR(chance_with(.9), std::exp(-8 / 1.9 / 2), 1e-4);
+  EXPECT_LT(chance_with(-.9), 1e-9);
+}
+
 TEST(Agreement, RunsToDecideDecide) {
   // Bench 0 +- .3, runs that scatter by 2.5, three of them, a degree off; tolerance 2.
   const UncertainMean measured{0, .3, kInfinite};

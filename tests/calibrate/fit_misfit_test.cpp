@@ -53,6 +53,84 @@ TEST(Misfit, DerivativesAreThoseOfItsValues) {
   }
 }
 
+/// The base radius, which repeats part of what the angle says, is measured of five of the heaps.
+Problem with_radius(const Problem& problem) {
+  Problem more = problem;
+  more.observables.push_back(
+      {"heap.base_radius_mm", "heap", "base_radius_mm", "mm", 100, 3, 5, {}});
+  return more;
+}
+
+/// Heaps whose radius follows the chance of their angle.
+fake::Runs heaps_of_one_volume(const Problem& problem) {
+  fake::Runs runs = fake::run_all(first_round(problem));
+  for (auto& run : runs) {
+    const auto angle = run.readings.find("value");
+    if (run.job.experiment != "heap") continue;
+    const double chance = angle->second - fake::expected("heap", "value", run.job.values);
+    run.readings["base_radius_mm"] =
+        fake::expected("heap", "base_radius_mm", run.job.values) - 2 * chance;
+  }
+  return runs;
+}
+
+TEST(Misfit, DerivativesOfReadingsThatVaryTogetherAreThoseOfTheirValues) {
+  const Problem problem = with_radius(full_problem(false));
+  const Misfit misfit(problem, in_order(problem, heaps_of_one_volume(problem)), {}, false);
+  ASSERT_LT(misfit.reading_correlation()[3][4], -.4);
+  const Point here = {.5, .3, .4, .6, .8, .7};
+  const Residuals all = misfit.residuals(here, true);
+  for (std::size_t j = 0; j < here.size(); ++j) {
+    constexpr double kStep = 1e-5;
+    Point up = here;
+    Point down = here;
+    up[j] += kStep;
+    down[j] -= kStep;
+    for (const std::size_t i : {3U, 4U}) {
+      const double slope =
+          (misfit.residuals(up, false).values[i] - misfit.residuals(down, false).values[i]) /
+          (2 * kStep);
+      EXPECT_NEAR(all.jacobian[i][j], slope, 2e-3 * std::max(1., std::abs(slope)));
+    }
+  }
+}
+
+TEST(ReadingCorrelation, IsSeenInTheRunsAndOnlyWithinAnExperiment) {
+  Problem problem = with_radius(full_problem(false));
+  problem.settings.budget_s = 3000;
+  const Misfit together(problem, in_order(problem, heaps_of_one_volume(problem)), {}, false);
+  EXPECT_LT(together.reading_correlation()[3][4], -.6);
+  EXPECT_EQ(together.reading_correlation()[4][3], together.reading_correlation()[3][4]);
+  EXPECT_EQ(together.reading_correlation()[0][3], 0);
+  const Misfit apart(problem, in_order(problem, fake::run_all(first_round(problem))), {}, false);
+  EXPECT_LT(std::abs(apart.reading_correlation()[3][4]), .3);
+}
+
+TEST(ReadingCorrelation, WhatTwoReadingsShareCountsOnce) {
+  // Both 2 sigma off: alike in sign and all but one reading, that is no more than one of them off.
+  const std::vector<CorrelatedPart> parts = {{2, 1, 0, 10, {}, {}}, {2, 1, 0, 10, {}, {}}};
+  const auto chi2 = [&](double correlation) {
+    const Residuals r = made_independent(parts, {{1, correlation}, {correlation, 1}}, false);
+    return r.values[0] * r.values[0] + r.values[1] * r.values[1];
+  };
+  EXPECT_NEAR(chi2(0), 8, 1e-9);
+  EXPECT_NEAR(chi2(.9), 8 / 1.9, 1e-9);
+  EXPECT_NEAR(chi2(-.9), 8 / .1, 1e-9) << "chance would have moved them apart";
+  EXPECT_NEAR(shared_readings(5, 10), std::sqrt(.5), 1e-12);
+}
+
+TEST(Misfit, AReadingOfOneGrainScattersMoreThanTheMeanOfTen) {
+  Problem problem = full_problem(false);
+  problem.observables[0].sd.reset();
+  problem.observables[0].assumed_sd_fraction = .001;  // less than chance does
+  const double one = misfit_of(problem, false).measured_uncertainty(0);
+  problem.experiments[0].readings_per_run = 10;
+  const double ten = misfit_of(problem, false).measured_uncertainty(0);
+  EXPECT_NEAR(ten / one, std::sqrt(10), 1e-9);
+  // 20 % of log-normal scatter from run to run, ten readings of the bench.
+  EXPECT_NEAR(one, .2 * problem.observables[0].mean / std::sqrt(10), .3 * one);
+}
+
 TEST(Misfit, FewReadingsCountAsStudentSays) {
   Observable observable{"a", "drop", "value", "mm", 10, 1, 10, {}};
   EXPECT_NEAR(few_readings_factor(observable), 2.262157 / 1.959964, 1e-6);

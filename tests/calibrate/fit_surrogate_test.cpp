@@ -85,6 +85,19 @@ TEST(Surrogate, IsLessSureWhereRunsScatterMoreThanElsewhere) {
   EXPECT_GT(surrogate.inflation(), 1.3 * calm);
 }
 
+TEST(Surrogate, NoiseKnownFromFewRunsCountsAsStudentSays) {
+  const auto noisy = [](const Point& x, Random& random) { return x[0] + .3 * random.normal(); };
+  const double few = Surrogate(training_set(8, noisy), {}, true).few_runs_factor();
+  const double many = Surrogate(training_set(100, noisy), {}, true).few_runs_factor();
+  EXPECT_GT(few, 1.15);  // 8 degrees of freedom at most: 2.306 / 1.960
+  EXPECT_LT(few, 1.63);
+  EXPECT_GT(many, 1.01);
+  EXPECT_LT(many, 1.02);
+  TrainingSet sure = training_set(8, noisy);
+  sure.is_stochastic = false;
+  EXPECT_EQ(Surrogate(sure, {}, true).few_runs_factor(), 1);
+}
+
 TEST(Surrogate, AConstantIsCalledOne) {
   const Surrogate surrogate(training_set(10, [](const Point&, Random&) { return 7.; }), {}, true);
   EXPECT_TRUE(surrogate.constant());

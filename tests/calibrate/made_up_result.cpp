@@ -51,6 +51,7 @@ FittedObservable drop() {
           .simulated = 25.1,
           .simulated_uncertainty = .2,
           .simulated_sd = .4,
+          .predicted_sd = 1.2,
           .difference_sigma = .1,
           .reachable = {1, 80}};
 }
@@ -135,6 +136,7 @@ StudyResult joint_result() {
                     .values = {.4, .3}},
       .chi2 = .5,
       .correlation = {{1, .25}, {.25, 1}},
+      .reading_correlation = {{1}},
       .equivalence_family = {{{{.41, .5}, 1.5}, AgreementVerdict::disagrees, {26}},
                              {{{.39, .7}, 2.5}, {}, {}}},
       .warnings = {"a <b>bold</b> warning"},

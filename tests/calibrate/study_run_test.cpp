@@ -101,6 +101,13 @@ TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
   EXPECT_EQ(made.problem.observables[0].assumed_sd_fraction, kAssumedSdFraction);
 }
 
+TEST_F(StudyRun, ADropIsTheMeanOfItsGrains) {
+  const dem::Study study = read({"experiment.drop.grains = 7"});
+  const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));
+  EXPECT_EQ(made.problem.experiments[0].readings_per_run, 7);
+  EXPECT_EQ(made.problem.experiments[1].readings_per_run, 1);
+}
+
 TEST_F(StudyRun, TheToleranceIsTheStudys) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5, tolerance = 3 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));

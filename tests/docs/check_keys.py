@@ -11,7 +11,7 @@ import documents
 import workplace
 
 # Objects whose keys are names of factors, coefficients, observables or experiments.
-OPEN = {"levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated",
+OPEN = {"levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated", "checked_at",
         "stiffness_factor", "shortest_timestep_s"}
 # Commands by the heading in json.md under which their output is described. (repose verify is left out:
 # it takes long.)

@@ -79,6 +79,7 @@ ResultObservable observable(const Made& made) {
            .simulated = measured,
            .simulated_uncertainty = .02 * measured,
            .simulated_sd = .05 * measured,
+           .predicted_sd = .1 * measured,
            .difference_sigma = 0,
            .reachable = {.1 * measured, 3 * measured}},
           {.observable = made.name,
@@ -182,6 +183,7 @@ JointResult joint() {
     surrogate.observable = kMade[k].name;
   }
   joint.correlation.assign(kNames.size(), std::vector<double>(kNames.size(), .2));
+  joint.reading_correlation = {{1, 0, 0}, {0, 1, -.7}, {0, -.7, 1}};
   for (const double value : {.3, .6, .8}) {
     EquivalentSet& set = joint.equivalence_family.emplace_back();
     set.values.assign(kNames.size(), value);

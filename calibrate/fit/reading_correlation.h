@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "calibrate/fit/problem.h"
+#include "calibrate/fit/surrogate.h"
+
+namespace repose::calibrate {
+
+/// Places of the observables of each experiment that has some, in the problem's order.
+std::vector<std::vector<std::size_t>> by_experiment(const Problem& problem);
+
+/// How chance moves observables together: correlation of the surrogates' leave-one-out errors over
+/// the runs that have both readings, shrunk towards none as Schaefer and Strimmer (2005), Stat.
+/// Appl. Genet. Mol. Biol. 4, 32 do, since the runs are few. 1 on the diagonal, 0 between
+/// experiments and where there is no chance. Proved by ReadingCorrelation.* in tests/calibrate.
+std::vector<std::vector<double>> reading_correlation_of(const Problem& problem,
+                                                        const std::vector<Surrogate>& surrogates);
+
+}  // namespace repose::calibrate
