@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/study/job_runner.h"
 
@@ -91,9 +92,14 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
                                       const StudyContext& context) {
   JobRunner runner(problem, context);
   StudyOutcome outcome;
-  if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
-  if (!fit_and_check(problem, budget, runner, outcome)) return std::nullopt;
-  if (!check_family(problem, budget, runner, outcome)) return std::nullopt;
+  try {
+    const FitWatch watch(context.is_interrupted);
+    if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
+    if (!fit_and_check(problem, budget, runner, outcome)) return std::nullopt;
+    if (!check_family(problem, budget, runner, outcome)) return std::nullopt;
+  } catch (const FitInterrupted&) {
+    return std::nullopt;
+  }
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();
   outcome.reused = runner.reused();
