@@ -7,6 +7,7 @@
 
 #include "cli/arguments.h"
 #include "cli/common/exit_code.h"
+#include "cli/common/memory.h"
 #include "cli/common/output.h"
 
 namespace repose::cli {
@@ -31,6 +32,18 @@ ExitCode run(int count, const char* const* words) {
   return ExitCode::done;
 }
 
+/// Says what nobody has foreseen.
+ExitCode report(const std::exception& error, const std::string& command) {
+  if (is_out_of_memory(error)) {
+    print_line(no_memory(command,
+                         "fewer --threads or --jobs at once, a smaller picture or scan, fewer "
+                         "grains or frames"));
+    return ExitCode::bad_input;
+  }
+  print_line(fmt::format("internal error: {}. Fix: please report it.", error.what()));
+  return ExitCode::internal_error;
+}
+
 }  // namespace
 }  // namespace repose::cli
 
@@ -46,8 +59,7 @@ int main(int count, char** words) {
     repose::cli::print_lines(lines);
     code = ExitCode::bad_input;
   } catch (const std::exception& error) {
-    repose::cli::print_line(
-        fmt::format("internal error: {}. Fix: please report it.", error.what()));
+    code = repose::cli::report(error, count > 1 ? words[1] : "repose");
   }
   return static_cast<int>(code);
 }

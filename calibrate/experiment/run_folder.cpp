@@ -77,9 +77,12 @@ std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t s
 }
 
 void RunFolder::note_damaged(const fs::path& file, const std::string& reason) const {
+  note(fmt::format("{}: {}. It is not used; its run is simulated anew.", file.string(), reason));
+}
+
+void RunFolder::note(const std::string& line) const {
   const std::lock_guard lock(damaged_->mutex);
-  damaged_->files.insert(
-      fmt::format("{}: {}. It is not used; its run is simulated anew.", file.string(), reason));
+  damaged_->files.insert(line);
 }
 
 std::vector<std::string> RunFolder::damaged() const {

@@ -48,8 +48,11 @@ class RunFolder {
   /// @throws std::invalid_argument  it cannot be written; what was saved before stays.
   void save(const RunSpec& spec, const SimulatedRun& run) const;
 
-  /// What was found damaged so far and counts as not saved: "FILE: what ...", sorted.
+  /// What was found damaged so far and counts as not saved ("FILE: what ..."), and what was noted
+  /// by others; sorted.
   std::vector<std::string> damaged() const;
+  /// What somebody must be told of a run. Any thread may note something.
+  void note(const std::string& line) const;
 
   std::filesystem::path state_file(const RunSpec& spec, std::uint64_t seed) const;
   /// Whether it is there and as it was written.

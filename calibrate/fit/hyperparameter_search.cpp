@@ -10,6 +10,7 @@
 #include <ceres/ceres.h>
 
 #include "calibrate/fit/covariance.h"
+#include "calibrate/fit/search_callback.h"
 
 namespace repose::calibrate {
 namespace {
@@ -97,12 +98,15 @@ SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::Vecto
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 40;
   options.function_tolerance = 1e-5;
+  SearchCallback callback;
+  options.callbacks.push_back(&callback);
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> best = to_logs(begins.front());
   for (const Hyperparameters& begin : begins) {
     std::vector<double> logs = to_logs(begin);
     ceres::GradientProblemSolver::Summary summary;
     ceres::Solve(options, problem, logs.data(), &summary);
+    stop_if_interrupted();
     if (summary.IsSolutionUsable() && summary.final_cost < least) {
       least = summary.final_cost;
       best = logs;

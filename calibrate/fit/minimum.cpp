@@ -6,6 +6,7 @@
 
 #include <ceres/ceres.h>
 
+#include "calibrate/fit/search_callback.h"
 #include "calibrate/fit/sequence.h"
 
 namespace repose::calibrate {
@@ -68,8 +69,11 @@ Minimum minimum_from(const Misfit& misfit, Point start, std::optional<std::size_
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 40;
   options.function_tolerance = 1e-5;
+  SearchCallback callback;
+  options.callbacks.push_back(&callback);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  stop_if_interrupted();
   return minimum_at(misfit, start);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/random.h"
 #include "calibrate/fit/sequence.h"
 
@@ -77,6 +78,7 @@ void resample(std::vector<Particle>& particles, double step, Random& random) {
 /// One try for each particle, at the misfit's weight `power`.
 void move(const Misfit& misfit, double power, double reach, std::vector<Particle>& particles,
           Random& random) {
+  stop_if_interrupted();
   const std::vector<Particle> others = particles;
   const double stride = reach * 2.38 / std::sqrt(2 * static_cast<double>(misfit.dimensions()));
   for (Particle& particle : particles) {

@@ -82,6 +82,10 @@ struct Job {
   bool operator==(const Job&) const = default;
 };
 
+/// No reading of a bench is larger: millimetres, degrees, counts. Far larger ones, squared, are no
+/// numbers any more, and a fit of such runs would never end.
+inline constexpr double kMostReading = 1e9;
+
 /// A job that is done.
 struct Run {
   Job job;

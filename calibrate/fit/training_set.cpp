@@ -32,6 +32,13 @@ void require_of(const Problem& problem, const Run& run) {
         job.experiment, job.seed, job.values.size(), numbers ? "all numbers" : "some not numbers",
         problem.parameters.size()));
   }
+  for (const auto& [name, reading] : run.readings) {
+    if (!(std::abs(reading) > kMostReading)) continue;
+    throw std::invalid_argument(fmt::format(
+        "a run of {} with seed {}: its reading \"{}\" is {:g}. Rule: at most {:g}. Fix: leave the "
+        "run out",
+        job.experiment, job.seed, name, reading, kMostReading));
+  }
 }
 
 }  // namespace

@@ -1,9 +1,32 @@
 #include "calibrate/study/job_runner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace repose::calibrate {
+namespace {
+
+/// What is wrong with the readings of a run, whoever made it; empty: they can be.
+std::string fault_of(const RunSpec& spec, const Run& run) {
+  if (!run.failure.empty()) return {};
+  const dem::ExperimentEntry& entry = spec.entry();
+  const double value = run.readings.at("value");
+  const dem::Range possible = entry.possible(spec.model, spec.protocol);
+  if (!possible.contains(value)) {
+    return fmt::format("its {} is {:.4g} {}. Rule: {}", entry.value_name, value, entry.unit,
+                       possible.rule());
+  }
+  for (const auto& [name, reading] : run.readings) {
+    if (std::abs(reading) <= kMostReading) continue;
+    return fmt::format("its {} is {:.4g}. Rule: at most {:g}", name, reading, kMostReading);
+  }
+  return {};
+}
+
+}  // namespace
 
 std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
                                                const std::vector<Job>& jobs) {
@@ -11,7 +34,7 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     auto saved = context_.folder.find_whole(context_.simulator.spec(jobs[k]), jobs[k].seed);
-    if (saved) runs[k] = run_of({.job = jobs[k], .run = *std::move(saved)});
+    if (saved) runs[k] = possible({.job = jobs[k], .run = *std::move(saved)});
     if (!runs[k]) open.push_back(k);
   }
   reused_ += static_cast<int>(jobs.size() - open.size());
@@ -40,7 +63,7 @@ void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
       missing,
       [&](std::size_t k, const SimulatedJob& done) {
         keep(done);
-        runs[open[k]] = run_of(done);
+        runs[open[k]] = possible(done);
         ++simulated_;
         ++progress.done;
         progress.seconds_done += cost_s(missing[k]);
@@ -53,6 +76,21 @@ void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
 void JobRunner::keep(const SimulatedJob& done) const {
   const RunSpec spec = context_.simulator.spec(done.job);
   if (!context_.folder.find_whole(spec, done.job.seed)) context_.folder.save(spec, done.run);
+}
+
+Run JobRunner::possible(const SimulatedJob& done) const {
+  Run run = run_of(done);
+  const RunSpec spec = context_.simulator.spec(done.job);
+  std::string fault = fault_of(spec, run);
+  if (fault.empty()) return run;
+  context_.folder.note(
+      fmt::format("{} with seed {}: {}. It counts as a run that failed. Fix: check the materials "
+                  "and the protocol of the study; its file is {}",
+                  run.job.experiment, run.job.seed, fault,
+                  (context_.folder.runs() / (key_of(spec, run.job.seed) + ".json")).string()));
+  run.readings.clear();
+  run.failure = std::move(fault);
+  return run;
 }
 
 double JobRunner::cost_s(const Job& job) const {

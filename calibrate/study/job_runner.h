@@ -26,6 +26,8 @@ class JobRunner {
  private:
   void simulate(const std::string& stage, const std::vector<Job>& jobs,
                 const std::vector<std::size_t>& open, std::vector<std::optional<Run>>& runs);
+  /// What a fit takes from it. Readings that cannot be make it a failed run, and are noted.
+  Run possible(const SimulatedJob& done) const;
   void keep(const SimulatedJob& done) const;
   double cost_s(const Job& job) const;
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/profile.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/study/job_runner.h"
@@ -160,11 +161,16 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
                                       const StudyContext& context) {
   JobRunner runner(problem, context);
   StudyOutcome outcome;
-  if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
   std::vector<std::vector<double>> tried;
-  if (!try_family(problem, budget, runner, tried, outcome)) return std::nullopt;
-  if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
-  judge_family(problem, outcome);
+  try {
+    const FitWatch watch(context.is_interrupted);
+    if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
+    if (!try_family(problem, budget, runner, tried, outcome)) return std::nullopt;
+    if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
+    judge_family(problem, outcome);
+  } catch (const FitInterrupted&) {
+    return std::nullopt;
+  }
   note_checks(problem, outcome);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();

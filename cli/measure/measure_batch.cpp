@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "cli/common/memory.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
 #include "cli/common/progress.h"
@@ -72,8 +73,12 @@ MeasuredPicture measure_one(const MeasurePlan& plan, std::size_t index) {
     measured.outcome = Outcome::bad_input;
     measured.error = naming_options(naming_file(measured.file, error.what()), kNames);
   } catch (const std::exception& error) {
-    measured.outcome = Outcome::internal_error;
-    measured.error = naming_file(measured.file, error.what());
+    const bool is_too_large = is_out_of_memory(error);
+    measured.outcome = is_too_large ? Outcome::bad_input : Outcome::internal_error;
+    measured.error = is_too_large ? no_memory(measured.file,
+                                              "a smaller picture (800 pixels a side are as good), "
+                                              "or fewer --threads")
+                                  : naming_file(measured.file, error.what());
   }
   return measured;
 }

@@ -10,6 +10,12 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
           count_key("grains", "10", kMaxGrains, drop.grains)};
 }
 
+/// From lying flat below to standing above, beside the height of the fall.
+Range possible(const Model& model, const Protocol& protocol) {
+  const double height_m = std::get<DropProtocol>(protocol).height_m;
+  return from_to(0, 1e3 * (height_m + 2 * model.grain.reach_m()));
+}
+
 double cost_s(const Model& model, const Protocol& protocol) {
   constexpr double kSpeed_m_s = 3, kBounce_s = .01;
   return kAloneStep_s * std::get<DropProtocol>(protocol).grains * kBounce_s /
@@ -38,6 +44,7 @@ ExperimentEntry drop_entry() {
                  const ProgressReport& report, const RunRecord& record) {
                 return run_drop(model, std::get<DropProtocol>(protocol), seed, report, record);
               },
+          .possible = possible,
           .cost_s = cost_s};
 }
 

@@ -9,6 +9,7 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/study/protocol_key.h"
+#include "dem/study/range.h"
 
 /// What there is to know about each experiment, an entry each. Study files, reports, the fit and
 /// the store of runs ask here; none of them knows an experiment by name.
@@ -46,6 +47,8 @@ struct ExperimentEntry {
   Repeat (*resume)(const Model& model, const Protocol& protocol, std::uint64_t seed,
                    const HeapRestart& from, const ProgressReport& report,
                    const RunRecord& record) = nullptr;
+  /// What its value may be, in its unit: anything else is no reading but a fault of the run.
+  Range (*possible)(const Model& model, const Protocol& protocol) = nullptr;
   /// About how long a run takes on a core of 2020 or so, s: from the model (all coefficients with a
   /// value) and the protocol alone, the same on every machine. Only ratios matter much.
   double (*cost_s)(const Model& model, const Protocol& protocol) = nullptr;

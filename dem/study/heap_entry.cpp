@@ -70,6 +70,8 @@ ExperimentEntry heap_entry() {
                 return resume_heap(model, std::get<HeapProtocol>(protocol), seed, from, report,
                                    record);
               },
+          .possible = [](const Model& /*model*/,
+                         const Protocol& /*protocol*/) { return from_to(-90, 90); },
           .cost_s = cost_s};
 }
 

@@ -10,6 +10,12 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
           length_key("release_mm", "150", roll.release_m)};
 }
 
+/// Nothing limits how far it may roll but the fit, see kMostReading.
+Range possible(const Model& model, const Protocol& protocol) {
+  const double release_m = std::get<RollProtocol>(protocol).release_m;
+  return {.from = -1e3 * (release_m + 2 * model.grain.reach_m())};
+}
+
 double cost_s(const Model& model, const Protocol& /*protocol*/) {
   constexpr double kSpeed_m_s = 1, kRun_s = 3;
   return kAloneStep_s * kRun_s / timestep_on_plane_s(model, kSpeed_m_s);
@@ -31,6 +37,7 @@ ExperimentEntry roll_entry() {
                  const ProgressReport& report, const RunRecord& record) {
                 return run_roll(model, std::get<RollProtocol>(protocol), seed, report, record);
               },
+          .possible = possible,
           .cost_s = cost_s};
 }
 

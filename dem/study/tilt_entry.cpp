@@ -35,6 +35,8 @@ ExperimentEntry tilt_entry() {
                  const ProgressReport& report, const RunRecord& record) {
                 return run_tilt(model, std::get<TiltProtocol>(protocol), seed, report, record);
               },
+          .possible = [](const Model& /*model*/,
+                         const Protocol& /*protocol*/) { return from_to(0, 90); },
           .cost_s = cost_s};
 }
 

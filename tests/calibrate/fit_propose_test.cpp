@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <set>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/propose.h"
 #include "tests/calibrate/fake_simulator.h"
 #include "tests/support/error_of.h"
@@ -146,6 +148,29 @@ TEST(Propose, AllFailedIsAErrorThatSaysWhy) {
   }
   EXPECT_THAT(error_of([&] { propose(problem, runs); }),
               testing::HasSubstr("the grains stay in the tube"));
+}
+
+TEST(Propose, ReadingsWithWhichAFitWouldNeverEndAreRefused) {
+  const Problem problem = quick();
+  fake::Runs runs = fake::run_all(propose(problem, {}));
+  runs.front().readings["value"] = 1e200;
+  EXPECT_THAT(error_of([&] { propose(problem, runs); }),
+              AllOf(testing::HasSubstr("its reading \"value\" is 1e+200"),
+                    testing::HasSubstr("Rule: at most 1e+09"), testing::HasSubstr("Fix:")));
+}
+
+TEST(Propose, EndsWhenItIsInterruptedAndOnlyThen) {
+  const Problem problem = quick();
+  const fake::Runs runs = fake::run_all(propose(problem, {}));
+  const std::vector<Job> next = propose(problem, runs);
+  std::atomic<bool> is_interrupted = false;
+  {
+    const FitWatch watch(is_interrupted);
+    EXPECT_EQ(propose(problem, runs), next);
+    is_interrupted = true;
+    EXPECT_THROW(propose(problem, runs), FitInterrupted);
+  }
+  EXPECT_EQ(propose(problem, runs), next);
 }
 
 TEST(Propose, AnErroryProblemIsRefused) { EXPECT_THROW(propose({}, {}), std::invalid_argument); }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ namespace repose::calibrate {
 namespace {
 
 using repose::testing::TemporaryFolder;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -239,6 +241,49 @@ TEST_F(StudyRun, AnExperimentWithoutAReadingIsAFailedRunNotAnError) {
       {.experiment = "tilt", .values = {.5, 90.}, .seed = 1}, is_interrupted);
   EXPECT_THAT(run_of(done).readings, IsEmpty());
   EXPECT_THAT(run_of(done).failure, HasSubstr("instead of sliding"));
+}
+
+/// As a broken machine would: the first drop rebounds as high as it says.
+class WrongExecutor : public Executor {
+ public:
+  WrongExecutor(const StudySimulator& simulator, double rebound_mm)
+      : right_(simulator, 2), rebound_mm_(rebound_mm) {}
+  int workers() const override { return right_.workers(); }
+  void run(const std::vector<Job>& jobs, const JobDone& done,
+           const std::atomic<bool>& is_interrupted) override {
+    right_.run(
+        jobs,
+        [&](std::size_t k, SimulatedJob job) {
+          if (job.job.experiment == "drop" && job.job.seed == 1) job.run.value = rebound_mm_;
+          done(k, job);
+        },
+        is_interrupted);
+  }
+
+ private:
+  ThreadExecutor right_;
+  double rebound_mm_;
+};
+
+TEST_F(StudyRun, AReadingThatCannotBeCountsAsAFailedRunAndIsNamed) {
+  const dem::Study study = read();
+  const StudySimulator simulator = simulator_of(study);
+  for (const auto& [name, rebound_mm] : {std::pair("huge", 1e200), std::pair("high", 200.)}) {
+    const RunFolder runs(folder_.path() / name);  // the ball falls 100 mm
+    WrongExecutor executor(simulator, rebound_mm);
+    const std::atomic<bool> is_interrupted = false;
+    const auto outcome =
+        run_study(small_problem(study), budget(), {simulator, runs, executor, is_interrupted});
+    ASSERT_TRUE(outcome);
+    const auto failed = std::find_if(
+        outcome->runs.begin(), outcome->runs.end(),
+        [](const auto& run) { return run.job.experiment == "drop" && run.job.seed == 1; });
+    ASSERT_NE(failed, outcome->runs.end());
+    EXPECT_THAT(failed->failure, HasSubstr("its rebound height is"));
+    EXPECT_THAT(failed->readings, IsEmpty());
+    EXPECT_THAT(runs.damaged(), Contains(AllOf(HasSubstr("drop with seed 1: its rebound height is"),
+                                               HasSubstr("at most 119.99"), HasSubstr("Fix:"))));
+  }
 }
 
 TEST_F(StudyRun, AFolderThatCannotBeMadeIsRefused) {

@@ -102,6 +102,21 @@ TEST_F(OutputsOf, PicturesThatReposeDidNotMakeStay) {
   EXPECT_EQ(text("photos/heap.png"), "somebody's photograph");
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(OutputsOf, WhatDoesNotFitIntoTheMemoryIsSaid) {
+  vision::Picture large{.width = 12000, .height = 9000, .bgr = {}};
+  large.bgr.assign(std::size_t{3} * 12000 * 9000, 128);
+  vision::write_picture(path("large.png"), large);
+  for (const std::string command : {"measure large.png", "compare large.png large.png"}) {
+    const Finished done = shell("ulimit -v 800000; repose " + command);
+    EXPECT_EQ(done.exit_code, 2) << command;
+    EXPECT_THAT(done.err, AllOf(HasSubstr("there is not enough memory"), HasSubstr("Fix: "),
+                                HasSubstr("a smaller picture"), Not(HasSubstr("internal error"))))
+        << command;
+  }
+}
+#endif
+
 TEST_F(OutputsOf, AnOptionThatIsGivenNothingIsRefused) {
   for (const std::string words : {"measure heap.png --json ''", "calibrate study.toml --out ''",
                                   "measure ''", "export study --to yade --out ''"}) {

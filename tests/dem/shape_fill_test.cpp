@@ -75,10 +75,21 @@ TEST(Fill, DiscsAndNeedlesEndInAClumpOrAMessage) {
       try {
         EXPECT_LT(dem::fill(body, {.spheres = spheres}).errors.volume_error, 1);
       } catch (const std::invalid_argument& error) {
-        EXPECT_THAT(error.what(), HasSubstr("Fix: more spheres"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr(width > thickness ? "Fix: a body at least" : "Fix: more spheres"));
       }
     }
   }
+}
+
+TEST(Fill, ADiscTooFlatForSpheresIsToldHowThickItMustBe) {
+  dem::CalliperSizes sizes{.length_m = .02, .width_m = .02, .thickness_m = .001};
+  EXPECT_THAT([&] { dem::fill(dem::calliper_surface(sizes), {.spheres = 11}); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("Fix: a body at least 3.1 mm thick (this one is 1 mm)")));
+  sizes.thickness_m = .0031;
+  EXPECT_THAT(dem::fill(dem::calliper_surface(sizes), {.spheres = 100}).spheres, SizeIs(100))
+      << "the fix helps";
 }
 
 TEST(Fill, FollowsTheNutWithinATenthOfAMillimetre) {

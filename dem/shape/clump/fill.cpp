@@ -13,6 +13,7 @@
 #include "dem/shape/clump/surface_distance.h"
 #include "dem/shape/clump/surface_samples.h"
 #include "dem/shape/scan/mass_properties.h"
+#include "dem/shape/scan/mesh_measure.h"
 
 namespace repose::dem {
 namespace {
@@ -101,9 +102,23 @@ FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_
   return best;
 }
 
+/// Width over thickness that a hundred spheres follow; twice as flat takes four times as many.
+constexpr double kFlattest = 6.5;
+
 /// What to do when so many spheres are not enough for a surface.
-std::string fix_for(std::size_t spheres) {
-  return spheres < kMaxSpheres ? "Fix: more spheres"
+std::string fix_for(const Mesh& mesh, std::size_t spheres) {
+  Vector extent_m = bounds_of(mesh).sizes();
+  std::sort(extent_m.begin(), extent_m.end());
+  const double thickness_m = extent_m[1] / kFlattest;
+  if (extent_m[0] < thickness_m) {
+    std::ostringstream fix;
+    fix.precision(2);
+    fix << "Fix: a body at least " << 1e3 * thickness_m << " mm thick (this one is "
+        << 1e3 * extent_m[0] << " mm): thinner ones take more spheres than the " << kMaxSpheres
+        << " that are made";
+    return fix.str();
+  }
+  return spheres < kMaxSpheres ? "Fix: more spheres, or a smaller volume error"
                                : "Fix: a thicker body; more spheres than these are not made";
 }
 
@@ -117,18 +132,18 @@ void check_sizes(const Mesh& mesh, const FillReport& report) {
     throw std::invalid_argument(
         "spheres: " + std::to_string(report.spheres.size()) +
         " cannot follow this surface, one came out larger than all of it. " +
-        fix_for(report.spheres.size()) + '.');
+        fix_for(mesh, report.spheres.size()) + '.');
   }
 }
 
-void check_hangs_together(const FillReport& report) {
+void check_hangs_together(const Mesh& mesh, const FillReport& report) {
   const int groups = sphere_groups(report.spheres);
   if (groups <= 1) return;
   throw std::invalid_argument(
       "spheres: these " + std::to_string(report.spheres.size()) + " fall into " +
       std::to_string(groups) +
       " groups that do not touch each other; other grains could pass between them. " +
-      fix_for(report.spheres.size()) + ", or a smaller volume error.");
+      fix_for(mesh, report.spheres.size()) + '.');
 }
 
 }  // namespace
@@ -162,7 +177,7 @@ FillReport fill(const Mesh& mesh, const FillOptions& options) {
           ? fill_to_error(mesh, *options.volume_error, options.smallest_radius_fraction)
           : filled(mesh, options.spheres, options.smallest_radius_fraction);
   check_sizes(mesh, report);
-  check_hangs_together(report);
+  check_hangs_together(mesh, report);
   return report;
 }
 

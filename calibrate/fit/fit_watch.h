@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <stdexcept>
+
+namespace repose::calibrate {
+
+/// Thrown by a fit that was told to stop.
+class FitInterrupted : public std::runtime_error {
+ public:
+  FitInterrupted() : std::runtime_error("the fit was interrupted") {}
+};
+
+/// As long as it is there, what fits and plans on this thread throws FitInterrupted soon after
+/// `is_interrupted` became true: between two steps of a search, which takes milliseconds.
+class FitWatch {
+ public:
+  explicit FitWatch(const std::atomic<bool>& is_interrupted);
+  ~FitWatch();
+  FitWatch(const FitWatch&) = delete;
+  FitWatch& operator=(const FitWatch&) = delete;
+  FitWatch(FitWatch&&) = delete;
+  FitWatch& operator=(FitWatch&&) = delete;
+
+ private:
+  const std::atomic<bool>* before_;
+};
+
+/// For the searches.
+bool is_fit_interrupted();
+/// @throws FitInterrupted
+void stop_if_interrupted();
+
+}  // namespace repose::calibrate
