@@ -1,6 +1,7 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -40,7 +41,9 @@ ExitCode report(const std::exception& error, const std::string& command) {
                          "grains or frames"));
     return ExitCode::bad_input;
   }
-  print_line(fmt::format("internal error: {}. Fix: please report it.", error.what()));
+  const std::string_view what = error.what();
+  const bool has_fix = what.find("Fix: ") != std::string_view::npos;
+  print_line(fmt::format("internal error: {}{}", what, has_fix ? "" : ". Fix: please report it."));
   return ExitCode::internal_error;
 }
 

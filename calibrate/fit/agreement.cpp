@@ -75,9 +75,10 @@ double joint_chance(const std::vector<ExperimentChance>& experiments) {
 double tolerance_of(const Observable& observable, double measured_uncertainty) {
   if (observable.tolerance) return *observable.tolerance;
   if (observable.unit == "deg") return kAngle_deg;
-  const double df = observable.sd ? observable.n - 1 : kKnown;
-  return std::max(kFraction * std::abs(observable.mean),
-                  base::student_t_quantile(.975, df) * measured_uncertainty);
+  const double fraction = kFraction * std::abs(observable.mean);
+  if (!observable.sd) return fraction;  // a scatter that is only assumed allows nothing
+  return std::max(fraction,
+                  base::student_t_quantile(.975, observable.n - 1) * measured_uncertainty);
 }
 
 }  // namespace repose::calibrate

@@ -58,7 +58,8 @@ std::optional<int> runs_to_decide(const MeanDifference& difference, double measu
 double joint_chance(const std::vector<ExperimentChance>& experiments);
 
 /// What the study states; else 2 for an angle in degrees, and for others 5 % of the measured value
-/// or the half-width of its mean's 95 % interval, whichever is larger.
+/// or the half-width of its mean's 95 % interval, where the scatter was measured, whichever is
+/// larger.
 double tolerance_of(const Observable& observable, double measured_uncertainty);
 
 }  // namespace repose::calibrate

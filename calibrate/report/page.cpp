@@ -162,7 +162,7 @@ std::string html_of(const Document& document) {
   if (!templates.StringToTemplateCache("report", html.data(), html.size(),
                                        ctemplate::DO_NOT_STRIP) ||
       !templates.ExpandWithData("report", ctemplate::DO_NOT_STRIP, &page, nullptr, &result)) {
-    throw std::runtime_error("the report's template is damaged");
+    throw std::runtime_error("the report's template is damaged. Fix: build repose anew.");
   }
   return result;
 }

@@ -31,7 +31,9 @@ std::string text_of(const SimulatedJob& done) {
 SimulatedJob simulated_job_in(const std::string& text) {
   const Json json = Json::parse(text);
   std::optional<SimulatedRun> run = run_in(json.at("run").get<std::string>());
-  if (!run) throw std::runtime_error("another process sent a run that cannot be read");
+  if (!run)
+    throw std::runtime_error(
+        "another process sent a run that cannot be read. Fix: start the same version everywhere.");
   return {.job = job_in(json.at("job")), .run = *std::move(run)};
 }
 

@@ -7,7 +7,9 @@ namespace repose::calibrate {
 
 bool has_ranks() { return false; }
 
-RankSession::RankSession() { throw std::runtime_error("repose was built without MPI"); }
+RankSession::RankSession() {
+  throw std::runtime_error("repose was built without MPI. Fix: start it without mpirun.");
+}
 RankSession::~RankSession() {}  // not of the class: elsewhere it ends MPI
 
 void RankSession::serve(const StudySimulator&, const std::atomic<bool>&) const {}

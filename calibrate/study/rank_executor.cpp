@@ -151,7 +151,9 @@ RankSession::RankSession() {
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   if (provided < MPI_THREAD_FUNNELED) {
-    throw std::runtime_error("MPI of this machine cannot be used by a program with threads");
+    throw std::runtime_error(
+        "MPI of this machine cannot be used by a program with threads. Fix: start it without "
+        "mpirun.");
   }
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks_);

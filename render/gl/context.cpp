@@ -12,11 +12,14 @@ namespace {
 /// OSMesa wants a picture of its own; everything is drawn to framebuffer objects instead.
 constexpr int kSide = 16;
 
+constexpr const char* kFix =
+    ". Fix: install Mesa 20 or newer with its off-screen library, libosmesa6.";
+
 template <typename Function>
 void load(Function*& function, const char* name) {
   const OSMESAproc found = OSMesaGetProcAddress(name);
   if (found == nullptr) {
-    throw std::runtime_error(std::string("render: the driver has no ") + name);
+    throw std::runtime_error(std::string("render: the driver has no ") + name + kFix);
   }
   function = reinterpret_cast<Function*>(found);
 }
@@ -40,7 +43,7 @@ Context::Context() : library_(std::make_unique<Library>()) {
                                      0};
   library_->context = OSMesaCreateContextAttribs(wishes.data(), nullptr);
   if (library_->context == nullptr) {
-    throw std::runtime_error("render: OSMesa gives no OpenGL 3.3 core context");
+    throw std::runtime_error(std::string("render: OSMesa gives no OpenGL 3.3 core context") + kFix);
   }
   try {
 #define REPOSE_GL_LOAD(name, type) load(functions_.name, "gl" #name);
@@ -57,7 +60,7 @@ Context::~Context() { OSMesaDestroyContext(library_->context); }
 const Functions& Context::use() {
   if (OSMesaMakeCurrent(library_->context, library_->pixels.data(), GL_UNSIGNED_BYTE, kSide,
                         kSide) == GL_FALSE) {
-    throw std::runtime_error("render: OSMesa's context cannot be used");
+    throw std::runtime_error(std::string("render: OSMesa's context cannot be used") + kFix);
   }
   return functions_;
 }

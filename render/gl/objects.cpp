@@ -130,7 +130,7 @@ Texture::Texture(const Functions& gl, PixelFormat format, int width, int height)
   if (gl.GetError() != GL_NO_ERROR) {
     gl.DeleteTextures(1, &id_);
     throw std::runtime_error("render: the driver has no memory for " + std::to_string(width) +
-                             " x " + std::to_string(height) + " pixels");
+                             " x " + std::to_string(height) + " pixels. Fix: a smaller picture.");
   }
 }
 

@@ -150,6 +150,8 @@ TEST(Agreement, TolerancesAreTheStudysOrThoseOfTheUnit) {
   Observable observable{"a", "drop", "value", "mm", 400, 1, 10, {}};
   EXPECT_EQ(tolerance_of(observable, 1), 20);
   EXPECT_NEAR(tolerance_of(observable, 100), 226.2, .1) << "the bench's own 95 % interval";
+  observable.sd = {};
+  EXPECT_EQ(tolerance_of(observable, 100), 20) << "an assumed scatter allows nothing";
   observable.unit = "deg";
   EXPECT_EQ(tolerance_of(observable, 100), 2);
   observable.tolerance = 3;

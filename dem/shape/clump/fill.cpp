@@ -114,8 +114,7 @@ std::string fix_for(const Mesh& mesh, std::size_t spheres) {
     std::ostringstream fix;
     fix.precision(2);
     fix << "Fix: a body at least " << 1e3 * thickness_m << " mm thick (this one is "
-        << 1e3 * extent_m[0] << " mm): thinner ones take more spheres than the " << kMaxSpheres
-        << " that are made";
+        << 1e3 * extent_m[0] << " mm), for which a hundred spheres do; thinner ones take many more";
     return fix.str();
   }
   return spheres < kMaxSpheres ? "Fix: more spheres, or a smaller volume error"
