@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,6 +32,16 @@ struct MeasuredHeap {
   vision::Picture picture;
   vision::ReposeAngle angle;
 };
+
+/// Whether the coefficients reported are others than those of the last check.
+bool has_moved(const StudyResult& result) {
+  const auto* joint = std::get_if<JointResult>(&result.found);
+  if (joint == nullptr) return false;
+  const std::vector<double>& checked = joint->agreement.values;
+  return !std::equal(joint->parameters.begin(), joint->parameters.end(), checked.begin(),
+                     checked.end(),
+                     [](const auto& parameter, double value) { return parameter.value == value; });
+}
 
 std::string angle_text(const vision::ReposeAngle& angle) {
   if (!angle.angle_rad) return "refused: " + angle.reason;
@@ -195,6 +207,11 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
                                      "The same repose calibrate again makes that of these."
                                    : "There is no simulated heap (heap.vtp) to be shown.");
     return shown;
+  }
+  if (has_moved(*study.result)) {
+    shown.remarks.emplace_back(
+        "The simulated heap has the coefficients of the last check; what the fit learned from that "
+        "check has moved them a little since.");
   }
   try {
     const render::Scene scene = render::scene_of(dem::read_state(study.heap));

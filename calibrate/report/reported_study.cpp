@@ -114,11 +114,14 @@ std::vector<MeasuredNumber> measured_of_record(const fs::path& folder) {
   return numbers;
 }
 
-/// "contact.PAIR.KEY" and its value, of each coefficient that was found.
-std::map<std::string, double> values_found(const StudyResult& result) {
+/// "contact.PAIR.KEY" and its value, of each coefficient that was found, as it was checked last:
+/// what the fit learned from that check is not in the heap that was simulated for it.
+std::map<std::string, double> values_checked(const StudyResult& result) {
   std::map<std::string, double> values;
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
-    for (const auto& parameter : joint->parameters) values[parameter.name] = parameter.value;
+    for (std::size_t i = 0; i < joint->parameters.size(); ++i) {
+      values[joint->parameters[i].name] = joint->agreement.values.at(i);
+    }
   } else {
     const auto& published = std::get<PublishedResult>(result.found);
     values.insert(published.values.begin(), published.values.end());
@@ -126,11 +129,11 @@ std::map<std::string, double> values_found(const StudyResult& result) {
   return values;
 }
 
-/// Whether a heap was simulated with the coefficients found. Unknown is not otherwise.
+/// Whether a heap was simulated with the coefficients checked. Unknown is not otherwise.
 bool is_heap_of(const fs::path& heap, const StudyResult& result) {
   try {
     const auto simulated = nlohmann::json::parse(dem::read_state(heap).provenance_json);
-    for (const auto& [name, value] : values_found(result)) {
+    for (const auto& [name, value] : values_checked(result)) {
       std::string place = name.substr(name.find('.'));
       std::replace(place.begin(), place.end(), '.', '/');
       const nlohmann::json::json_pointer pointer(place);

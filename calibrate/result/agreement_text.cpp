@@ -25,7 +25,9 @@ std::string names_of(const std::vector<const Agreement*>& agreements) {
 }
 
 std::string percent(double chance) {
-  return chance < 1e-4 ? "less than 0.01 %" : fmt::format("{:.2g} %", 100 * chance);
+  if (chance < 1e-4) return "less than 0.01 %";
+  return chance < .1 ? fmt::format("{:.2g} %", 100 * chance)
+                     : fmt::format("{:.0f} %", 100 * chance);
 }
 
 /// What would decide it.

@@ -11,7 +11,7 @@ class OverlapWatch {
   /// Hertz's law is one of small strains: no impact of a run worth reporting is as deep as that ...
   static constexpr double kDeepest = .3;
   /// ... and nothing lies as deep as that in what carries it.
-  static constexpr double kDeepestAtRest = .1;
+  static constexpr double kDeepestAtRest = .2;
 
   /// @param deepest  overlap of this step
   /// @return whether it is so much deeper than any before that the run must be looked at now

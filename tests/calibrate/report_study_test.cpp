@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "calibrate/experiment/stored_run.h"
 #include "calibrate/report/study_report.h"
+#include "dem/state/state_file.h"
 #include "tests/calibrate/made_up_result.h"
+#include "tests/dem/packing.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate::report {
@@ -65,6 +68,22 @@ class StudyReport : public ::testing::Test {
   TemporaryFolder folder_;
   StudyResult result_ = test::joint_result();
 };
+
+TEST_F(StudyReport, ShowsTheHeapOfTheLastCheckAndNoOther) {
+  JointResult& joint = joint_in(result_);
+  joint.agreement.values.front() = joint.parameters.front().value + .01;
+  write_result(result_);
+  const dem::Simulation heap = dem::loose_packing(dem::packing_setup(), 2);
+  const auto heap_with = [&](double restitution) {
+    dem::write_state(folder_.path() / "heap.vtp", heap,
+                     fmt::format(R"({{"particle_wall": {{"restitution": {}}}}})", restitution));
+    return shown(made());
+  };
+  const auto is_other = HasSubstr("(heap.vtp) is of other coefficients, and not shown");
+  EXPECT_THAT(heap_with(joint.agreement.values.front()),
+              AllOf(Not(is_other), HasSubstr("has the coefficients of the last check")));
+  EXPECT_THAT(heap_with(joint.parameters.front().value), is_other);
+}
 
 TEST_F(StudyReport, BeginsWithTheAnswer) {
   const std::string page = shown(study_report(result_));

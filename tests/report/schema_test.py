@@ -15,8 +15,7 @@ BALL = """
 size_mm = [20, 20, 20]
 spheres = 1
 density_kg_m3 = 1000
-young_modulus_pa = 2e5
-allow = ["young_modulus_pa"]
+young_modulus_pa = 2e6
 poisson_ratio = 0.3
 [wall]
 young_modulus_pa = 1e8
