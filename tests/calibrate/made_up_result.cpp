@@ -102,33 +102,38 @@ SurfaceSummary surface() {
       .warnings = {{.code = "ridge", .message = "a ridge"}}};
 }
 
+/// A drop as it was measured, fitted and checked.
+ResultObservable drop_result() {
+  return {drop(),
+          {.observable = "drop",
+           .measured = 25,
+           .measured_uncertainty = .5,
+           .simulated = 25.4,
+           .simulated_uncertainty = .3,
+           .difference_sigma = .6,
+           .chance = .55,
+           .tolerance = 1.25,
+           .difference = {-.6, 1.4},
+           .detectable = 1.75,
+           .runs_to_decide = 7,
+           .verdict = AgreementVerdict::cannot_tell,
+           .runs = 3,
+           .failed_runs = 1},
+          {.observable = "drop",
+           .predicted = 25.1,
+           .uncertainty = .2,
+           .simulated = 25.4,
+           .chance = .4,
+           .misses = false}};
+}
+
 }  // namespace
 
 StudyResult joint_result() {
   JointResult joint{
       .parameters = {{restitution(), {.1, .9}, Prior{.mean = .5, .sd = .2}},
                      {sliding(), {.1, .8}, {}}},
-      .observables = {{drop(),
-                       {.observable = "drop",
-                        .measured = 25,
-                        .measured_uncertainty = .5,
-                        .simulated = 25.4,
-                        .simulated_uncertainty = .3,
-                        .difference_sigma = .6,
-                        .chance = .55,
-                        .tolerance = 1.25,
-                        .difference = {-.6, 1.4},
-                        .detectable = 1.75,
-                        .runs_to_decide = 7,
-                        .verdict = AgreementVerdict::cannot_tell,
-                        .runs = 3,
-                        .failed_runs = 1},
-                       {.observable = "drop",
-                        .predicted = 25.1,
-                        .uncertainty = .2,
-                        .simulated = 25.4,
-                        .chance = .4,
-                        .misses = false}}},
+      .observables = {drop_result()},
       .verdict = AgreementVerdict::cannot_tell,
       .agreement = {.text = "whether bench and simulation agree cannot be told",
                     .chance = .55,
