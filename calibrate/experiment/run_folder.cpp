@@ -37,13 +37,13 @@ bool is_there(const fs::path& file) {
 }  // namespace
 
 /// Any thread may find something.
-struct RunFolder::Damaged {
+struct RunFolder::Remarks {
   std::mutex mutex;
-  std::set<std::string> files;
+  std::set<std::string> lines;
 };
 
 RunFolder::RunFolder(fs::path folder)
-    : folder_(std::move(folder)), damaged_(std::make_shared<Damaged>()) {
+    : folder_(std::move(folder)), remarks_(std::make_shared<Remarks>()) {
   std::error_code error;
   fs::create_directories(runs(), error);
   if (error) {
@@ -81,13 +81,13 @@ void RunFolder::note_damaged(const fs::path& file, const std::string& reason) co
 }
 
 void RunFolder::note(const std::string& line) const {
-  const std::lock_guard lock(damaged_->mutex);
-  damaged_->files.insert(line);
+  const std::lock_guard lock(remarks_->mutex);
+  remarks_->lines.insert(line);
 }
 
-std::vector<std::string> RunFolder::damaged() const {
-  const std::lock_guard lock(damaged_->mutex);
-  return {damaged_->files.begin(), damaged_->files.end()};
+std::vector<std::string> RunFolder::remarks() const {
+  const std::lock_guard lock(remarks_->mutex);
+  return {remarks_->lines.begin(), remarks_->lines.end()};
 }
 
 std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint64_t seed) const {

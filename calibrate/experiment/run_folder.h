@@ -37,7 +37,7 @@ class RunFolder {
 
   std::filesystem::path runs() const { return folder_ / "runs"; }
 
-  /// None when it was not saved; a file that is damaged (see damaged()) or of something else counts
+  /// None when it was not saved; a file that is damaged (see remarks()) or of something else counts
   /// as not saved, and is overwritten when the run has been made again. Its views may be of another
   /// number than asked for.
   std::optional<SimulatedRun> find(const RunSpec& spec, std::uint64_t seed) const;
@@ -50,7 +50,7 @@ class RunFolder {
 
   /// What was found damaged so far and counts as not saved ("FILE: what ..."), and what was noted
   /// by others; sorted.
-  std::vector<std::string> damaged() const;
+  std::vector<std::string> remarks() const;
   /// What somebody must be told of a run. Any thread may note something.
   void note(const std::string& line) const;
 
@@ -74,9 +74,9 @@ class RunFolder {
 
   void note_damaged(const std::filesystem::path& file, const std::string& reason) const;
 
-  struct Damaged;
+  struct Remarks;
   std::filesystem::path folder_;
-  std::shared_ptr<Damaged> damaged_;
+  std::shared_ptr<Remarks> remarks_;
 };
 
 /// Whether a folder is one that repose has simulated into, of this version or an earlier one.

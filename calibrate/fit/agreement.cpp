@@ -20,9 +20,9 @@ double normal_quantile(double probability) { return base::student_t_quantile(pro
 
 }  // namespace
 
-MeanDifference difference_of(const UncertainMean& simulated, const UncertainMean& measured) {
-  MeanDifference difference{simulated.value - measured.value,
-                            std::hypot(simulated.uncertainty, measured.uncertainty), kKnown};
+UncertainMean difference_of(const UncertainMean& simulated, const UncertainMean& measured) {
+  UncertainMean difference{simulated.value - measured.value,
+                           std::hypot(simulated.uncertainty, measured.uncertainty), kKnown};
   double spread = 0;
   for (const UncertainMean* mean : {&simulated, &measured}) {
     if (mean->uncertainty > 0) spread += std::pow(mean->uncertainty, 4) / mean->df;
@@ -31,24 +31,24 @@ MeanDifference difference_of(const UncertainMean& simulated, const UncertainMean
   return difference;
 }
 
-double chance_of(const MeanDifference& difference) {
+double chance_of(const UncertainMean& difference) {
   if (difference.uncertainty <= 0) return difference.value == 0 ? 1 : kSmallestChance;
   const double t = std::abs(difference.value) / difference.uncertainty;
   return std::max(2 * base::student_t_above(t, difference.df), kSmallestChance);
 }
 
-Interval not_ruled_out(const MeanDifference& difference) {
+Interval not_ruled_out(const UncertainMean& difference) {
   const double half = base::student_t_quantile(kOneSided, difference.df) * difference.uncertainty;
   return {difference.value - half, difference.value + half};
 }
 
-double detectable_difference(const MeanDifference& difference, double level) {
+double detectable_difference(const UncertainMean& difference, double level) {
   return (base::student_t_quantile(1 - level / 2, difference.df) +
           base::student_t_quantile(kPower, difference.df)) *
          difference.uncertainty;
 }
 
-std::optional<int> runs_to_decide(const MeanDifference& difference, double measured_uncertainty,
+std::optional<int> runs_to_decide(const UncertainMean& difference, double measured_uncertainty,
                                   int runs, double tolerance, double level) {
   const double measured2 = measured_uncertainty * measured_uncertainty;
   const double run2 = (difference.uncertainty * difference.uncertainty - measured2) * runs;

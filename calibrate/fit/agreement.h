@@ -12,18 +12,11 @@ namespace repose::calibrate {
 /// makes. cannot_tell: neither.
 enum class AgreementVerdict { agrees, disagrees, cannot_tell };
 
-/// A mean, how uncertain it is, and by how many readings that is known.
+/// A mean, or the difference of two, how uncertain it is, and by how many readings that is known.
 struct UncertainMean {
   double value = 0;
   double uncertainty = 0;  ///< standard uncertainty; 0: exact
   double df = 0;           ///< degrees of freedom of the uncertainty; infinite: known
-};
-
-/// What is known of simulated minus measured.
-struct MeanDifference {
-  double value = 0;
-  double uncertainty = 0;
-  double df = 0;
 };
 
 /// That chance alone makes one experiment differ so much, in all of its readings together.
@@ -33,22 +26,22 @@ struct ExperimentChance {
 };
 
 /// With Welch and Satterthwaite's degrees of freedom: Welch (1947), Biometrika 34, 28.
-MeanDifference difference_of(const UncertainMean& simulated, const UncertainMean& measured);
+UncertainMean difference_of(const UncertainMean& simulated, const UncertainMean& measured);
 
 /// The probability that chance alone makes a difference as large, to either side.
-double chance_of(const MeanDifference& difference);
+double chance_of(const UncertainMean& difference);
 
 /// The values that two one-sided tests at 5 % do not rule out (Schuirmann 1987, J. Pharmacokinet.
 /// Biopharm. 15, 657): within the tolerance, both means are as good as equal.
-Interval not_ruled_out(const MeanDifference& difference);
+Interval not_ruled_out(const UncertainMean& difference);
 
 /// The true difference that a test at `level` sees in four of five such checks.
-double detectable_difference(const MeanDifference& difference, double level);
+double detectable_difference(const UncertainMean& difference, double level);
 
 /// How many runs would decide between agreement and a difference shown at `level`, in four of five
 /// cases, were the true difference the one found. None: no number of runs does, as the measured
 /// mean alone leaves too much open.
-std::optional<int> runs_to_decide(const MeanDifference& difference, double measured_uncertainty,
+std::optional<int> runs_to_decide(const UncertainMean& difference, double measured_uncertainty,
                                   int runs, double tolerance, double level);
 
 /// The probability that chance alone makes independent experiments differ as much as all of them

@@ -29,7 +29,7 @@ SurrogateCheck check_of(const Problem& problem, const JointFit& fit, std::size_t
   const UncertainMean simulated{sample.mean(), scatter.sd / std::sqrt(sample.count()),
                                 static_cast<double>(scatter.df)};
   const double surrogate_df = std::max(fit.surrogates[i].runs - 1, 1);
-  const MeanDifference difference =
+  const UncertainMean difference =
       difference_of(simulated, {check.predicted, check.uncertainty, surrogate_df});
   check.chance = chance_of(difference);
   check.misses = check.chance < kLevel / static_cast<double>(fit.observables.size()) &&

@@ -45,7 +45,7 @@ UncertainMean mean_of(const CheckSample& sample, bool is_stochastic, const Joint
 Agreement compared(const Observable& observable, const CheckSample& sample,
                    const UncertainMean& simulated, double measured_uncertainty, double level) {
   const double measured_df = observable.sd ? observable.n - 1 : kInfinite;
-  const MeanDifference difference =
+  const UncertainMean difference =
       difference_of(simulated, {observable.mean, measured_uncertainty, measured_df});
   Agreement agreement{.observable = observable.name,
                       .measured = observable.mean,

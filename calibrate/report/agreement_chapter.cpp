@@ -123,7 +123,8 @@ Chapter agreement_chapter(const JointResult& joint) {
   chapter.blocks.push_back(Paragraph{
       "Agrees: two one-sided tests at 5 % show that the difference is within the tolerance, which "
       "the study states or which is 2° for angles and for others 5 % of the measured value or the "
-      "bench's own 95 % interval. Disagrees: all experiments together differ by more than chance "
+      "bench's own 95 % interval where its scatter was measured. Disagrees: all experiments "
+      "together differ by more than chance "
       "makes them in 5 % of cases, and this one does by itself. Cannot tell: neither is shown. "
       "What "
       "would have been seen is the true difference that such a check finds in four of five cases; "

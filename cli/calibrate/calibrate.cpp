@@ -79,7 +79,7 @@ void write_results(const CalibratePlan& plan, const calibrate::StudyResult& resu
   outputs.write();
 }
 
-/// The heap of the fitted coefficients, to look at and to compare with a photograph.
+/// A heap of the last check, to look at and to compare with a photograph.
 void save_heap(const CalibratePlan& plan, const calibrate::StudyContext& context,
                const std::vector<calibrate::Run>& checks) {
   for (const calibrate::Run& run : checks) {
@@ -118,7 +118,7 @@ auto with_progress(calibrate::StudyContext context, Study study) {
     context.report = [&](const calibrate::StudyProgress& progress) { line.report(progress); };
     return study(context);
   }();
-  print_lines(context.folder.damaged());
+  print_lines(context.folder.remarks());
   return outcome;
 }
 

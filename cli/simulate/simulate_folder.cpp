@@ -106,7 +106,7 @@ std::vector<std::string> notes_on_saved(const SimulatePlan& plan) {
       ++begun;
     }
   }
-  std::vector<std::string> notes = folder.damaged();
+  std::vector<std::string> notes = folder.remarks();
   if (finished + begun == 0) return notes;
   notes.push_back(fmt::format(
       "{}: resumes an earlier run: of {} {} {} finished already, {} under way. (To start "

@@ -140,7 +140,7 @@ TEST(Agreement, RunsToDecideDecide) {
 }
 
 TEST(Agreement, FewRunsCountAsStudentSays) {
-  const MeanDifference few = difference_of({1, 1, 2}, {0, 0, kInfinite});
+  const UncertainMean few = difference_of({1, 1, 2}, {0, 0, kInfinite});
   EXPECT_NEAR(not_ruled_out(few).high, 1 + 2.91999, 1e-4);
   EXPECT_NEAR(chance_of(few), .42265, 1e-4);
   EXPECT_NEAR(difference_of({1, 3, 4}, {0, 3, 4}).df, 8, 1e-9) << "alike: both together";

@@ -281,7 +281,7 @@ TEST_F(StudyRun, AReadingThatCannotBeCountsAsAFailedRunAndIsNamed) {
     ASSERT_NE(failed, outcome->runs.end());
     EXPECT_THAT(failed->failure, HasSubstr("its rebound height is"));
     EXPECT_THAT(failed->readings, IsEmpty());
-    EXPECT_THAT(runs.damaged(), Contains(AllOf(HasSubstr("drop with seed 1: its rebound height is"),
+    EXPECT_THAT(runs.remarks(), Contains(AllOf(HasSubstr("drop with seed 1: its rebound height is"),
                                                HasSubstr("at most 119.99"), HasSubstr("Fix:"))));
   }
 }
