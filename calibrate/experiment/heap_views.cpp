@@ -13,7 +13,6 @@
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/placing.h"
 #include "vision/drawing/overlay.h"
-#include "vision/picture/picture.h"
 
 namespace repose::calibrate {
 
@@ -33,18 +32,26 @@ HeapViewSession::HeapViewSession(render::Scene scene, int views)
   size_ = {.width = reduced(kLargest.width), .height = reduced(kLargest.height)};
 }
 
+double HeapViewSession::azimuth_rad(int view) const { return std::numbers::pi * view / views_; }
+
+TakenView HeapViewSession::take(render::Renderer& renderer, int view,
+                                const vision::MeasureOptions& options) const {
+  render::OrthographicCamera camera = camera_;
+  camera.azimuth_rad = azimuth_rad(view);
+  TakenView taken;
+  taken.picture = renderer.draw(scene_, camera, size_, render::SilhouetteStyle{}).picture;
+  taken.angle = vision::measure_repose_angle(taken.picture, options);
+  return taken;
+}
+
 HeapView HeapViewSession::measure(render::Renderer& renderer, int view,
                                   const std::filesystem::path& overlay_file) const {
-  render::OrthographicCamera camera = camera_;
-  camera.azimuth_rad = std::numbers::pi * view / views_;
-  const vision::Picture picture =
-      renderer.draw(scene_, camera, size_, render::SilhouetteStyle{}).picture;
-  const vision::ReposeAngle angle = vision::measure_repose_angle(picture);
+  const auto [picture, angle] = take(renderer, view);
   if (!overlay_file.empty()) {
     const vision::OverlayNotes notes{.title = overlay_file.filename().string(), .excluded = {}};
     vision::write_picture(overlay_file, vision::draw_overlay(picture, angle, notes));
   }
-  return {.azimuth_rad = camera.azimuth_rad,
+  return {.azimuth_rad = azimuth_rad(view),
           .picture = {.status = angle.status, .angle_rad = angle.angle_rad}};
 }
 

@@ -9,6 +9,8 @@
 #include "render/renderer.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
+#include "vision/measure/repose_angle.h"
+#include "vision/picture/picture.h"
 
 /// The angle of a simulated heap as a camera would give it: silhouettes from all around, each
 /// measured like a photograph.
@@ -24,6 +26,12 @@ struct HeapView {
   PictureAngle picture;
 };
 
+/// A picture of a heap, and what was measured in it.
+struct TakenView {
+  vision::Picture picture;
+  vision::ReposeAngle angle;
+};
+
 /// A heap, and how all pictures of it are taken: at one scale, with bare ground beside the grains.
 class HeapViewSession {
  public:
@@ -33,6 +41,10 @@ class HeapViewSession {
   HeapViewSession(render::Scene scene, int views);
 
   int views() const { return views_; }
+  double m_per_px() const { return *camera_.mm_per_px / 1000; }
+
+  TakenView take(render::Renderer& renderer, int view,
+                 const vision::MeasureOptions& options = {}) const;
 
   /// Draws one view and measures it; keeps it with what was measured where a file is named.
   /// Several views may be measured at once, each with its own renderer.
@@ -40,6 +52,8 @@ class HeapViewSession {
                    const std::filesystem::path& overlay_file = {}) const;
 
  private:
+  double azimuth_rad(int view) const;
+
   render::Scene scene_;
   int views_;
   render::OrthographicCamera camera_;

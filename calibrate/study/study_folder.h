@@ -14,6 +14,8 @@ inline constexpr const char* kClumpCopy = "clump.json";
 inline constexpr const char* kNotesFile = "study.json";
 inline constexpr const char* kResultFile = "result.json";
 inline constexpr const char* kHeapFile = "heap.vtp";
+/// The simulated heaps of the last check.
+inline constexpr const char* kHeapsFolder = "heaps";
 
 /// The names above that a folder has, and that no repose wrote there: all of them in a folder that
 /// was never a study's. A copy of the study itself is not among them.

@@ -21,6 +21,7 @@
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/calibrate/calibrate_progress.h"
 #include "cli/calibrate/calibrate_table.h"
+#include "cli/calibrate/check_heaps.h"
 #include "cli/calibrate/paper_table.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
@@ -79,21 +80,6 @@ void write_results(const CalibratePlan& plan, const calibrate::StudyResult& resu
   outputs.write();
 }
 
-/// A heap of the last check, to look at and to compare with a photograph.
-void save_heap(const CalibratePlan& plan, const calibrate::StudyContext& context,
-               const std::vector<calibrate::Run>& checks) {
-  for (const calibrate::Run& run : checks) {
-    const bool is_heap = run.job.experiment == "heap" && run.failure.empty();
-    if (is_heap && context.folder.copy_state(context.simulator.spec(run.job), run.job.seed,
-                                             calibrate::kHeapFile)) {
-      return;
-    }
-  }
-  // That of other coefficients must not stand for these.
-  std::error_code ignored;
-  fs::remove(plan.out_folder / calibrate::kHeapFile, ignored);
-}
-
 calibrate::StudySimulator simulator_of(const CalibratePlan& plan,
                                        const calibrate::RunFolder& folder) {
   calibrate::StudySimulator simulator(plan.record.study, plan.record.grain,
@@ -127,7 +113,7 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::StudyConte
     return calibrate_as_published(plan.problem.problem, shown);
   });
   if (!outcome) return interrupted(context.folder);
-  save_heap(plan, context, outcome->checks);
+  save_check_heaps(plan, context, outcome->checks);
   const calibrate::StudyResult result = result_of(plan.record, plan.problem, *outcome);
   write_results(plan, result,
                 paper_table(std::get<calibrate::PublishedResult>(result.found), plan.record.study,
@@ -149,7 +135,7 @@ ExitCode run_study_with(const CalibratePlan& plan, const calibrate::StudyContext
   }
   print_lines(outcome->notes);
   print_lines(outcome->fit.warnings);
-  save_heap(plan, context, outcome->checks);
+  save_check_heaps(plan, context, outcome->checks);
   const calibrate::StudyResult result = result_of(plan.record, plan.problem, *outcome);
   write_results(plan, result,
                 joint_table(std::get<calibrate::JointResult>(result.found), result.provenance,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -13,6 +14,7 @@
 #include "cli/common/terminal.h"
 #include "cli/compare/compare_json.h"
 #include "cli/compare/compare_options.h"
+#include "cli/compare/compare_sets.h"
 #include "cli/compare/compare_table.h"
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/hints/hint_file.h"
@@ -32,12 +34,12 @@ std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
   tbb::parallel_for(std::size_t{0}, heaps.size(), [&](std::size_t i) {
     const auto names = measuring_names(kExcludeOptions[i]);
     try {
-      heaps[i].picture = vision::read_picture(plan.pictures[i]);
-      heaps[i].used = vision::with_saved_hints(plan.measuring[i], plan.pictures[i]);
+      heaps[i].picture = vision::read_picture(plan.sources[i].pictures.front());
+      heaps[i].used = vision::with_saved_hints(plan.measuring[i], plan.sources[i].pictures.front());
       heaps[i].angle = vision::measure_repose_angle(heaps[i].picture, heaps[i].used);
       name_options(heaps[i].angle, names);
     } catch (const std::invalid_argument& error) {
-      heaps[i].error = naming_options(naming_file(plan.pictures[i].string(), error.what()), names);
+      heaps[i].error = naming_options(naming_file(plan.sources[i].name, error.what()), names);
     }
   });
   return heaps;
@@ -64,7 +66,8 @@ void write_overlay(const ComparePlan& plan, const MeasuredHeap& first,
     return;
   }
   const vision::ComparisonOverlayNotes notes{
-      .titles = {plan.pictures[0].filename().string(), plan.pictures[1].filename().string()},
+      .titles = {plan.sources[0].pictures.front().filename().string(),
+                 plan.sources[1].pictures.front().filename().string()},
       .margin_rad = plan.comparing.margin_rad};
   vision::write_picture(plan.overlay_file,
                         vision::draw_comparison(first.picture, first.angle, comparison, notes));
@@ -77,14 +80,7 @@ void write_results(const ComparePlan& plan, const vision::HeapComparison& compar
   outputs.write();
 }
 
-}  // namespace
-
-ExitCode run_compare(const CompareArguments& arguments) {
-  ComparePlan plan = plan_compare(arguments);
-  print_lines(plan.errors);
-  if (!plan.errors.empty()) return ExitCode::bad_input;
-
-  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
+ExitCode compare_pair(ComparePlan plan, const std::atomic<bool>& is_interrupted) {
   const std::array<MeasuredHeap, 2> heaps = measure_both(plan);
   if (is_interrupted) {
     print_line("interrupted, no results were written");
@@ -104,6 +100,17 @@ ExitCode run_compare(const CompareArguments& arguments) {
   write_results(plan, comparison);
   return comparison.status == vision::MeasureStatus::refused ? ExitCode::nothing_measurable
                                                              : ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode run_compare(const CompareArguments& arguments) {
+  ComparePlan plan = plan_compare(arguments);
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
+  if (plan.is_pair()) return compare_pair(std::move(plan), is_interrupted);
+  return compare_sets(plan, is_interrupted);
 }
 
 }  // namespace repose::cli

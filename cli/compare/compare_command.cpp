@@ -19,8 +19,11 @@ Verdict on the angles, from the 95 % interval of their difference:
   equivalent   the interval lies within the margin
   different    it does not, and it excludes 0
   cannot tell  otherwise
-The verdict is about these two heaps. Heaps of the same grains differ, too:
-pour and photograph several, and compare the means of repose measure.
+The verdict on two pictures is about these two heaps. Heaps of the same
+grains differ, too: name a folder instead of a picture, and sets of heaps are
+compared by their means, which is a verdict on the grains. A folder is of
+photographs, one for each heap, or of simulated heaps, as repose simulate heap
+--out and repose calibrate --out write them; a .vtp file is one such heap.
 
 Scale: mm per pixel, or the known width of the base. One value is for both
 pictures, A,B is one for each. Without a scale only shapes are compared, and
@@ -34,9 +37,11 @@ Command compare_command() {
   constexpr int kPictures = 2;
   return {
       .name = "compare",
-      .summary = "Compare the heaps in two pictures",
+      .summary = "Compare two heaps, or two sets of heaps",
       .options =
-          {{"pictures", "PICTURE PICTURE", "The two pictures", &given->pictures, true, kPictures},
+          {{"heaps", "HEAPS HEAPS",
+            "Each a picture, a folder of pictures or of simulated heaps, or a .vtp file",
+            &given->pictures, true, kPictures},
            {"--mm-per-px", "A[,B]", "Scale: mm per pixel", &given->mm_per_px},
            {"--base-mm", "A[,B]", "Scale: known width of the base", &given->base_mm},
            {"--grain-mm", "D", "Grain size, for lengths in grains", &given->grain_mm},
@@ -49,7 +54,9 @@ Command compare_command() {
            {"--overlay", "FILE.png", "Draw both outlines", &given->overlay_file},
            {"--json", "FILE|-", "All results, for programs", &given->json_file}},
       .notes = kNotes,
-      .missing = "two pictures are needed. Fix: repose compare PICTURE PICTURE.",
+      .missing =
+          "two pictures or folders are needed. Fix: repose compare photo.jpg render.png, or repose "
+          "compare photos heaps.",
       .run = [given] { return run_compare(*given); }};
 }
 

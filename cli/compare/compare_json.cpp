@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
+#include "cli/compare/angle_difference_json.h"
 #include "cli/compare/compare_names.h"
 #include "vision/measure/status_name.h"
 
@@ -40,15 +41,6 @@ Json degrees(const std::optional<double>& angle_rad) {
   return angle_rad ? Json(rounded_degrees(*angle_rad)) : Json(nullptr);
 }
 
-void add_angle(Json& json, const std::optional<vision::AngleDifference>& angle) {
-  json["angle_difference_deg"] = angle ? degrees(angle->difference_rad) : Json(nullptr);
-  json["angle_difference_interval"] =
-      angle
-          ? Json({rounded_degrees(angle->interval_rad[0]), rounded_degrees(angle->interval_rad[1])})
-          : Json(nullptr);
-  json["verdict"] = name_of(angle ? angle->verdict : vision::Agreement::cannot_tell);
-}
-
 Json side_json(const vision::SideComparison& side, const LengthJson& length) {
   Json json{{"compared", name_of(side.cover)},
             {"iou", number(side.iou)},
@@ -56,7 +48,7 @@ Json side_json(const vision::SideComparison& side, const LengthJson& length) {
             {"profile_mean", length(side.profile_mean)},
             {"run_out", length(side.run_out)},
             {"run_out_difference", length.difference(side.run_out)}};
-  add_angle(json, side.angle);
+  add_angle_difference(json, side.angle);
   return json;
 }
 
@@ -82,7 +74,7 @@ Json in_grains(const ComparePlan& plan, const vision::HeapComparison& comparison
 std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& comparison) {
   const LengthJson length(comparison.unit);
   const bool is_refused = comparison.status == vision::MeasureStatus::refused;
-  Json json{{"files", {plan.pictures[0].string(), plan.pictures[1].string()}},
+  Json json{{"files", {plan.sources[0].name, plan.sources[1].name}},
             {"status", name_of(comparison.status)},
             {"iou", number(comparison.iou)},
             {"profile_rmse", length(comparison.profile_rmse)},
@@ -91,7 +83,7 @@ std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& 
             {"hausdorff", length(comparison.hausdorff)},
             {"hausdorff_95", length(comparison.hausdorff_95)},
             {"unit", is_refused ? Json(nullptr) : Json(name_of(comparison.unit))}};
-  add_angle(json, comparison.angle);
+  add_angle_difference(json, comparison.angle);
   json["margin_deg"] = degrees(plan.comparing.margin_rad);
   json["angle_deg"] = {degrees(comparison.angle_rad[0]), degrees(comparison.angle_rad[1])};
   json["uncertainty_deg"] = {degrees(comparison.uncertainty_rad[0]),

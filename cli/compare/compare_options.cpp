@@ -87,11 +87,39 @@ void read_measuring_of_both(const CompareArguments& arguments, ComparePlan& plan
   read(1, arguments.exclude_second);
 }
 
+/// What holds for two pictures only, or for photographs only, is not taken where it would do
+/// nothing.
+void check_options_of_sets(const CompareArguments& arguments, ComparePlan& plan) {
+  if (!arguments.base_mm.empty()) {
+    plan.errors.emplace_back(
+        "--base-mm is the base of one heap, and a set has several. Fix: give --mm-per-px.");
+  }
+  const std::array<const std::vector<std::string>*, 2> boxes = {&arguments.exclude_first,
+                                                                &arguments.exclude_second};
+  for (const std::size_t i : {0, 1}) {
+    if (plan.sources[i].states.empty()) continue;
+    const auto refuse = [&](const char* option) {
+      plan.errors.push_back(
+          fmt::format("{}: {} is simulated, its pictures are drawn level, to a known scale and "
+                      "without anything else. Fix: leave the option out.",
+                      option, plan.sources[i].name));
+    };
+    if (!boxes[i]->empty()) refuse(kExcludeOptions[i]);
+    const bool is_other_simulated = !plan.sources[1 - i].states.empty();
+    for (const auto& [option, text] : {std::pair{"--mm-per-px", &arguments.mm_per_px},
+                                       std::pair{"--pitch-deg", &arguments.pitch_deg}}) {
+      const bool is_for_both = text->find(',') != std::string::npos;
+      if (!text->empty() && (is_for_both || is_other_simulated)) refuse(option);
+    }
+    plan.measuring[i].camera_pitch_rad.reset();
+  }
+}
+
 }  // namespace
 
 ComparePlan plan_compare(const CompareArguments& arguments) {
   ComparePlan plan;
-  plan.pictures.assign(arguments.pictures.begin(), arguments.pictures.end());
+  plan.sources = heap_sources(arguments.pictures, plan.errors);
   read_scales(arguments, plan);
   read_grain(arguments, plan);
   read_margin(arguments.margin_deg, plan);
@@ -103,7 +131,13 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
   plan.overlay_file = arguments.overlay_file;
   read_ending({"--overlay", plan.overlay_file, plan.errors}, {".png", ".jpg", ".jpeg"});
   plan.json_file = arguments.json_file;
-  check_output_places({{"--overlay", plan.overlay_file}, {"--json", plan.json_file}}, plan.pictures,
+  if (!plan.is_pair()) check_options_of_sets(arguments, plan);
+  std::vector<std::filesystem::path> inputs;
+  for (const HeapSource& source : plan.sources) {
+    inputs.insert(inputs.end(), source.pictures.begin(), source.pictures.end());
+    inputs.insert(inputs.end(), source.states.begin(), source.states.end());
+  }
+  check_output_places({{"--overlay", plan.overlay_file}, {"--json", plan.json_file}}, inputs,
                       plan.errors);
   return plan;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/compare/compare.h"
+#include "cli/compare/heap_source.h"
 #include "vision/compare/heap_comparison.h"
 
 namespace repose::cli {
@@ -16,7 +17,7 @@ inline constexpr std::array kExcludeOptions = {"--exclude-first", "--exclude-sec
 
 /// A `repose compare` that can be carried out.
 struct ComparePlan {
-  std::vector<std::filesystem::path> pictures;  ///< two
+  std::array<HeapSource, 2> sources;
   std::array<vision::MeasureOptions, 2> measuring;
   vision::CompareOptions comparing;
   std::optional<double> grain_m;
@@ -24,6 +25,9 @@ struct ComparePlan {
   std::string json_file;
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
+
+  /// Two pictures are compared with each other; all else as sets of heaps.
+  bool is_pair() const { return sources[0].is_one_picture() && sources[1].is_one_picture(); }
 };
 
 /// Reads and checks all that was typed, also whether the output can be written. All errors at once.

@@ -153,8 +153,8 @@ std::string warnings_text(const vision::HeapComparison& comparison, int columns)
 
 std::string compare_table(const ComparePlan& plan, const vision::HeapComparison& comparison,
                           int columns) {
-  std::string text = paragraph("first   ", plan.pictures[0].string(), columns) +
-                     paragraph("second  ", plan.pictures[1].string(), columns);
+  std::string text = paragraph("first   ", plan.sources[0].name, columns) +
+                     paragraph("second  ", plan.sources[1].name, columns);
   if (comparison.status == vision::MeasureStatus::refused) {
     return text + paragraph("refused: ", comparison.reason, columns);
   }

@@ -19,6 +19,7 @@ OUTPUTS = {
     "measure": ["measure photos --json - --threads 2"],
     "measure#summary": ["measure photos --summary -"],
     "compare": ["compare photo.jpg render.png --json -"],
+    "compare of sets": ["compare photos state --json -"],
     "shape": ["shape --size-mm 20,18,17 --density-kg-m3 900 --json -"],
     "simulate": [f"simulate {name} study.toml --repeats 2 --json -" for name in ("drop", "roll", "tilt")]
     + ["simulate heap study.toml --views 2 --json -"],
@@ -76,7 +77,7 @@ def words_under(document, heading=None):
 def errors_of_outputs(document, folder, repose):
     for output, commands in OUTPUTS.items():
         heading = output.partition("#")[0]
-        known = words_under(document, heading)
+        known = words_under(document, documents.anchor_of(heading))
         if heading == "calibrate":
             known |= words_under(document, "regress") | words_under(document, "simulate")
         for command in commands:

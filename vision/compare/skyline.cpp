@@ -110,6 +110,11 @@ Skyline part_of(const Skyline& skyline, double from, double to) {
   return part;
 }
 
+double height_at(const Skyline& skyline, double along) {
+  if (!skyline.empty() && along == skyline.back().along) return skyline.back().height;
+  return heights_over(skyline, along, along).from;
+}
+
 double slab_centre(const Skyline& skyline, double low, double high) {
   Skyline slab = divided_at(divided_at(skyline, low), high);
   for (OutlinePoint& point : slab) point.height = std::clamp(point.height, low, high) - low;

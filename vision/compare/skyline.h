@@ -17,6 +17,9 @@ Skyline placed(const Skyline& skyline, double origin, double factor);
 /// What lies from `from` to `to`; new points where the lines cross the ends.
 Skyline part_of(const Skyline& skyline, double from, double to);
 
+/// 0 beyond its ends.
+double height_at(const Skyline& skyline, double along);
+
 /// Where the centre of area lies, along the ground, of what the heights `low` and `high` bound.
 /// NaN when the silhouette does not reach above `low`.
 double slab_centre(const Skyline& skyline, double low, double high);

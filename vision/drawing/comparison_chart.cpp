@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "vision/drawing/comparison_style.h"
@@ -122,28 +121,6 @@ void draw_ground(const Canvas& canvas, const Stage& stage, const HeapComparison&
   canvas.draw({canvas.at(stage.picture(OutlinePoint{from - beyond, 0})),
                canvas.at(stage.picture(OutlinePoint{to + beyond, 0}))},
               kFaint, 0.4);
-}
-
-/// The longest of 1, 2, 5, 10, ... that fits.
-double round_length(double most) {
-  const double decade = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * decade <= most) return step * decade;
-  }
-  return decade;
-}
-
-void draw_scale_bar(const Canvas& canvas, double px_per_m, const Lettering& lettering) {
-  const cv::Mat& image = canvas.image();
-  const double length_m = round_length(image.cols / 6.0 / px_per_m);
-  const double pad = canvas.length(0.02);
-  const cv::Point2d from(pad, pad), to(pad + length_m * px_per_m, pad);
-  const cv::Point2d tick(0, canvas.length(0.008));
-  canvas.draw({from, to}, kInk, 0.5);
-  for (const cv::Point2d end : {from, to}) canvas.draw({end - tick, end + tick}, kInk, 0.5);
-  const int height = cvRound(canvas.length(0.026));
-  lettering.draw(canvas.image(), fmt::format("{:g} mm", length_m * 1000),
-                 cv::Point(cvRound(pad), cvRound(pad + tick.y) + height / 4), height, kInk);
 }
 
 }  // namespace

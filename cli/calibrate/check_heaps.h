@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "calibrate/study/study_context.h"
+#include "cli/calibrate/calibrate_options.h"
+
+namespace repose::cli {
+
+/// Leaves the heaps of the last check in the study's folder, to look at and to compare with
+/// photographs: all in `heaps`, the first also as `heap.vtp`. Those of an earlier result go away:
+/// what is of other coefficients must not stand for these.
+/// @throws std::invalid_argument  the folder cannot be written.
+void save_check_heaps(const CalibratePlan& plan, const calibrate::StudyContext& context,
+                      const std::vector<calibrate::Run>& checks);
+
+}  // namespace repose::cli

@@ -1,0 +1,152 @@
+#include "cli/compare/compare_sets.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "calibrate/experiment/heap_views.h"
+#include "cli/common/output.h"
+#include "cli/common/picture_list.h"
+#include "cli/common/picture_options.h"
+#include "cli/common/progress.h"
+#include "cli/common/terminal.h"
+#include "cli/compare/sets_json.h"
+#include "cli/compare/sets_table.h"
+#include "dem/state/state_file.h"
+#include "render/scene/scene.h"
+#include "vision/drawing/heap_sets_figure.h"
+#include "vision/hints/hint_file.h"
+
+namespace repose::cli {
+namespace {
+
+using vision::SeenHeap;
+
+/// One picture to be measured, and where its result belongs.
+struct Task {
+  std::size_t set = 0;
+  std::size_t heap = 0;
+  std::size_t view = 0;
+  const calibrate::HeapViewSession* session = nullptr;  ///< of a simulated heap
+};
+
+/// Both sets while they are measured.
+struct Work {
+  std::array<std::vector<SeenHeap>, 2> sets;
+  std::vector<std::unique_ptr<calibrate::HeapViewSession>> sessions;
+  std::vector<Task> tasks;
+  std::vector<std::string> errors;
+};
+
+void add_pictures(const ComparePlan& plan, std::size_t set, Work& work) {
+  const std::optional<vision::PictureScale>& scale = plan.comparing.scale[set];
+  for (std::size_t heap = 0; heap < plan.sources[set].pictures.size(); ++heap) {
+    SeenHeap seen{.views = std::vector<vision::ReposeAngle>(1), .m_per_px = {}};
+    if (scale) seen.m_per_px = scale->length_m;
+    work.sets[set].push_back(std::move(seen));
+    work.tasks.push_back({.set = set, .heap = heap});
+  }
+}
+
+void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
+  const std::vector<std::filesystem::path>& states = plan.sources[set].states;
+  for (std::size_t heap = 0; heap < states.size(); ++heap) {
+    try {
+      work.sessions.push_back(std::make_unique<calibrate::HeapViewSession>(
+          render::scene_of(dem::read_state(states[heap])), calibrate::kHeapViews));
+    } catch (const std::invalid_argument& error) {
+      work.errors.push_back(naming_file(states[heap].string(), error.what()));
+      continue;
+    }
+    const calibrate::HeapViewSession& session = *work.sessions.back();
+    const auto views = static_cast<std::size_t>(session.views());
+    work.sets[set].push_back(
+        {.views = std::vector<vision::ReposeAngle>(views), .m_per_px = session.m_per_px()});
+    for (std::size_t view = 0; view < views; ++view) {
+      work.tasks.push_back({.set = set, .heap = heap, .view = view, .session = &session});
+    }
+  }
+}
+
+vision::ReposeAngle measured(const ComparePlan& plan, const Task& task,
+                             render::Renderer* renderer) {
+  const vision::MeasureOptions& options = plan.measuring[task.set];
+  if (task.session != nullptr) {
+    return task.session->take(*renderer, static_cast<int>(task.view), options).angle;
+  }
+  const std::filesystem::path& file = plan.sources[task.set].pictures[task.heap];
+  const vision::Picture picture = vision::read_picture(file);
+  return vision::measure_repose_angle(picture, vision::with_saved_hints(options, file));
+}
+
+void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupted, Work& work) {
+  Progress progress(work.tasks.size());
+  // Contexts are costly to make, and each belongs to one thread.
+  tbb::enumerable_thread_specific<std::unique_ptr<render::Renderer>> renderers;
+  std::vector<std::string> errors(work.tasks.size());
+  tbb::parallel_for(std::size_t{0}, work.tasks.size(), [&](std::size_t i) {
+    if (is_interrupted) return;
+    const Task& task = work.tasks[i];
+    const auto names = measuring_names(kExcludeOptions[task.set]);
+    try {
+      std::unique_ptr<render::Renderer>& renderer = renderers.local();
+      if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
+      vision::ReposeAngle& angle = work.sets[task.set][task.heap].views[task.view];
+      angle = measured(plan, task, renderer.get());
+      name_options(angle, names);
+    } catch (const std::invalid_argument& error) {
+      const HeapSource& source = plan.sources[task.set];
+      const auto& files = task.session != nullptr ? source.states : source.pictures;
+      errors[i] = naming_options(naming_file(files[task.heap].string(), error.what()), names);
+    }
+    progress.advance();
+  });
+  for (std::string& error : errors) {
+    if (!error.empty()) work.errors.push_back(std::move(error));
+  }
+}
+
+void write_figure(const ComparePlan& plan, const vision::SetComparison& comparison) {
+  if (plan.overlay_file.empty()) return;
+  vision::HeapSetsNotes notes{.titles = {}, .margin_rad = plan.comparing.margin_rad};
+  for (const std::size_t i : {0, 1}) notes.titles[i] = title_of(plan.sources[i]);
+  vision::write_picture(plan.overlay_file, vision::draw_heap_sets(comparison, notes));
+}
+
+}  // namespace
+
+ExitCode compare_sets(const ComparePlan& plan, const std::atomic<bool>& is_interrupted) {
+  Work work;
+  for (const std::size_t set : {0, 1}) {
+    add_pictures(plan, set, work);
+    add_states(plan, set, work);
+  }
+  if (work.errors.empty()) measure_all(plan, is_interrupted, work);
+  if (is_interrupted) {
+    print_line("interrupted, no results were written");
+    return ExitCode::interrupted;
+  }
+  print_lines(work.errors);
+  if (!work.errors.empty()) return ExitCode::bad_input;
+
+  const vision::SetComparison comparison =
+      vision::compare_sets(work.sets[0], work.sets[1], plan.comparing.margin_rad);
+  const bool is_refused = !comparison.sets[0].mean_rad || !comparison.sets[1].mean_rad;
+  if (is_refused && !comparison.iou && !plan.overlay_file.empty()) {
+    print_line(plan.overlay_file + ": not drawn, as there is nothing to compare");
+  } else {
+    write_figure(plan, comparison);
+  }
+  Outputs outputs;
+  outputs.add(plan.json_file, sets_json(plan, work.sets, comparison));
+  outputs.show(sets_table(plan, work.sets, comparison, columns_of(stdout)));
+  outputs.write();
+  return is_refused ? ExitCode::nothing_measurable : ExitCode::done;
+}
+
+}  // namespace repose::cli

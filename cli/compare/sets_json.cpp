@@ -1,0 +1,77 @@
+#include "cli/compare/sets_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "cli/common/degrees.h"
+#include "cli/compare/angle_difference_json.h"
+#include "cli/compare/compare_names.h"
+#include "vision/measure/status_name.h"
+
+namespace repose::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json degrees(const std::optional<double>& angle_rad) {
+  return angle_rad ? Json(rounded_degrees(*angle_rad)) : Json(nullptr);
+}
+
+Json heaps_json(const HeapSource& source, const std::vector<vision::SeenHeap>& heaps,
+                const vision::SetOfHeaps& set) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < heaps.size(); ++i) {
+    const auto& file = source.states.empty() ? source.pictures[i] : source.states[i];
+    Json statuses = Json::array();
+    for (const vision::ReposeAngle& view : heaps[i].views) statuses.push_back(name_of(view.status));
+    json.push_back({{"file", file.string()},
+                    {"angle_deg", degrees(set.angle_rad[i])},
+                    {"pictures", std::move(statuses)}});
+  }
+  return json;
+}
+
+Json set_json(const HeapSource& source, const std::vector<vision::SeenHeap>& heaps,
+              const vision::SetOfHeaps& set) {
+  Json interval = nullptr;
+  if (set.uncertainty_rad) {
+    interval = {rounded_degrees(*set.mean_rad - *set.uncertainty_rad),
+                rounded_degrees(*set.mean_rad + *set.uncertainty_rad)};
+  }
+  return {{"name", source.name},
+          {"n", set.counted},
+          {"mean_deg", degrees(set.mean_rad)},
+          {"sd_deg", degrees(set.sd_rad)},
+          {"interval_deg", std::move(interval)},
+          {"heaps", heaps_json(source, heaps, set)}};
+}
+
+}  // namespace
+
+std::string sets_json(const ComparePlan& plan,
+                      const std::array<std::vector<vision::SeenHeap>, 2>& heaps,
+                      const vision::SetComparison& comparison) {
+  const auto length = [&](const std::optional<double>& value) {
+    return value ? Json(*value * shown_per_unit(comparison.unit)) : Json(nullptr);
+  };
+  Json json{{"sets", Json::array()}};
+  for (const std::size_t i : {0, 1}) {
+    json["sets"].push_back(set_json(plan.sources[i], heaps[i], comparison.sets[i]));
+  }
+  json["iou"] = comparison.iou ? Json(*comparison.iou) : Json(nullptr);
+  json["profile_rmse"] = length(comparison.profile_rmse);
+  json["profile_mean"] = length(comparison.profile_mean);
+  json["unit"] = comparison.iou ? Json(name_of(comparison.unit)) : Json(nullptr);
+  add_angle_difference(json, comparison.angle);
+  json["margin_deg"] = degrees(plan.comparing.margin_rad);
+  json["heaps_to_tell"] =
+      comparison.heaps_to_tell ? Json(*comparison.heaps_to_tell) : Json(nullptr);
+  json["warnings"] = Json::array();
+  for (const vision::Warning& warning : comparison.warnings) {
+    json["warnings"].push_back({{"code", warning.code}, {"message", warning.message}});
+  }
+  constexpr int kIndent = 2;
+  // File names need not be UTF-8, JSON must be.
+  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace repose::cli

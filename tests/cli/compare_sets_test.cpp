@@ -1,0 +1,129 @@
+#include <string>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_test.h"
+#include "tests/support/heap_picture.h"
+#include "vision/picture/picture.h"
+
+namespace repose::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// A heap four grains high that is poured in seconds.
+constexpr const char* kStudy = R"([particle]
+size_mm = [18, 18, 18]
+spheres = 1
+density_kg_m3 = 850
+young_modulus_pa = 1e6
+poisson_ratio = 0.38
+[wall]
+young_modulus_pa = 1e9
+poisson_ratio = 0.3
+[contact.particle_wall]
+restitution = 0.3
+sliding_friction = 0.8
+rolling_friction = 0.3
+[contact.particle_particle]
+restitution = 0.2
+sliding_friction = 0.5
+rolling_friction = 0.1
+[experiment.heap]
+grains = 160
+lift_speed_mm_s = 150
+)";
+
+/// Folders of drawn heaps: `flat`, `flat_again` and `steep`, three in each.
+class CompareOfSets : public CommandTest {
+ protected:
+  CompareOfSets() : CommandTest({"compare"}) {
+    draw("flat", 0.35);
+    draw("flat_again", 0.352);
+    draw("steep", 0.5);
+  }
+
+ private:
+  void draw(const std::string& name, double angle_rad) const {
+    std::filesystem::create_directories(path(name));
+    int number = 0;
+    for (const double step : {-0.005, 0.0, 0.005}) {
+      HeapScene scene;
+      scene.width = 600;
+      scene.height = 400;
+      scene.form.left_rad = angle_rad + step;
+      scene.form.right_rad = angle_rad + step;
+      vision::write_picture(path(name) / (std::to_string(++number) + ".png"),
+                            draw_heap(scene).picture);
+    }
+  }
+};
+
+TEST_F(CompareOfSets, FoldersAreComparedByTheirMeans) {
+  const Finished done = run({"flat", "flat_again", "--overlay", "both.png"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_THAT(done.err, IsEmpty());
+  EXPECT_THAT(done.out, AllOf(HasSubstr("3 of 3"), HasSubstr("equivalent: the means"),
+                              HasSubstr("Mean outlines")));
+  EXPECT_LE(longest_line(done.out), 90U);
+  EXPECT_EQ(vision::read_picture(path("both.png")).width, 1400);
+  EXPECT_EQ(result({"flat", "steep"})["verdict"], "different");
+}
+
+TEST_F(CompareOfSets, JsonHoldsEveryHeap) {
+  const json sets = result({"flat", "steep/1.png"});
+  EXPECT_EQ(sets["sets"][0]["n"], 3);
+  EXPECT_EQ(sets["sets"][0]["heaps"][2]["file"], "flat/3.png");
+  EXPECT_EQ(sets["sets"][1]["n"], 1);
+  EXPECT_TRUE(sets["sets"][1]["sd_deg"].is_null());
+  EXPECT_EQ(sets["warnings"][0]["code"], "one_heap");
+}
+
+TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
+  folder_.write("study.toml", std::string(kStudy));
+  ASSERT_EQ(run_repose(folder_, {"simulate", "heap", "study.toml", "--repeats", "2", "--views", "0",
+                                 "--out", "heaps"})
+                .exit_code,
+            0);
+  const Finished done = run({"flat", "heaps", "--mm-per-px", "0.5", "--json", "sets.json"});
+  const json sets = json::parse(text("sets.json"));
+  EXPECT_EQ(sets["sets"][1]["heaps"].size(), 2U) << done.err;
+  EXPECT_EQ(sets["sets"][1]["heaps"][0]["pictures"].size(), 9U);
+  EXPECT_THAT(done.out, HasSubstr("simulated heaps, 9 views of each"));
+  const Finished wrong =
+      run({"flat", "heaps", "--mm-per-px", "1,2", "--exclude-second", "0,0,9,9", "--base-mm", "9"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("--mm-per-px: heaps is simulated"),
+                               HasSubstr("--exclude-second: heaps is simulated"),
+                               HasSubstr("--base-mm is the base of one heap")));
+}
+
+TEST_F(CompareOfSets, AFolderWithoutHeapsIsRefused) {
+  std::filesystem::create_directories(path("empty"));
+  const Finished done = run({"flat", "empty"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("empty: no pictures and no simulated heaps"),
+                              HasSubstr("Fix: "), Not(HasSubstr("flat:"))));
+}
+
+TEST_F(CompareOfSets, APictureWithoutAHeapIsLeftOutWithItsReason) {
+  vision::write_picture(path("flat") / "black.png",
+                        {.width = 200, .height = 200, .bgr = std::vector<std::uint8_t>(120000, 0)});
+  const Finished done = run({"flat", "steep"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_THAT(done.out, AllOf(HasSubstr("3 of 4"), HasSubstr("flat/black.png: ")));
+}
+
+TEST_F(CompareOfSets, WhatIsNoStateIsNamed) {
+  folder_.write("heap.vtp", std::string("no state"));
+  const Finished done = run({"flat", "heap.vtp"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("heap.vtp"), HasSubstr("Fix: ")));
+}
+
+}  // namespace
+}  // namespace repose::testing

@@ -1,0 +1,172 @@
+#include "vision/compare/heap_sets.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/distributions.h"
+#include "vision/compare/angle_difference.h"
+#include "vision/compare/mean_outline.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kUpperTail = 0.975;
+constexpr int kMostHeaps = 1000;  // more are no advice
+
+using Sets = std::array<const std::vector<SeenHeap>*, 2>;
+
+std::optional<double> angle_of(const SeenHeap& heap) {
+  double sum = 0;
+  std::size_t counted = 0;
+  for (const ReposeAngle& view : heap.views) {
+    if (view.status == MeasureStatus::refused || !view.angle_rad) continue;
+    sum += *view.angle_rad;
+    ++counted;
+  }
+  if (2 * counted < heap.views.size()) return std::nullopt;
+  return sum / static_cast<double>(counted);
+}
+
+SetOfHeaps summary_of(const std::vector<SeenHeap>& heaps) {
+  SetOfHeaps set;
+  double sum = 0;
+  for (const SeenHeap& heap : heaps) {
+    set.angle_rad.push_back(angle_of(heap));
+    if (!set.angle_rad.back()) continue;
+    sum += *set.angle_rad.back();
+    ++set.counted;
+  }
+  if (set.counted == 0) return set;
+  set.mean_rad = sum / set.counted;
+  if (set.counted < 2) return set;
+  double squares = 0;
+  for (const std::optional<double>& angle : set.angle_rad) {
+    if (angle) squares += (*angle - *set.mean_rad) * (*angle - *set.mean_rad);
+  }
+  set.sd_rad = std::sqrt(squares / (set.counted - 1));
+  set.uncertainty_rad =
+      base::student_t_quantile(kUpperTail, set.counted - 1) * *set.sd_rad / std::sqrt(set.counted);
+  return set;
+}
+
+/// Of single heaps, where a set of one borrows that of the other.
+std::array<double, 2> scatter_of(const std::array<SetOfHeaps, 2>& sets) {
+  return {sets[0].sd_rad.value_or(sets[1].sd_rad.value_or(0)),
+          sets[1].sd_rad.value_or(sets[0].sd_rad.value_or(0))};
+}
+
+/// Half-width of the 95 % interval of the difference of two means of n1 and n2 heaps.
+double half_width(const std::array<double, 2>& sd, const std::array<int, 2>& n) {
+  double variance = 0, spread = 0;
+  int borrowed_df = 0;
+  for (const std::size_t i : {0, 1}) {
+    const double of_mean = sd[i] * sd[i] / n[i];
+    variance += of_mean;
+    if (n[i] > 1) spread += of_mean * of_mean / (n[i] - 1);
+    borrowed_df += n[i] - 1;
+  }
+  if (variance == 0) return 0;
+  const bool is_borrowed = n[0] < 2 || n[1] < 2;
+  const double df = is_borrowed ? borrowed_df : variance * variance / spread;
+  return base::student_t_quantile(kUpperTail, df) * std::sqrt(variance);
+}
+
+std::optional<int> heaps_to_tell(const std::array<double, 2>& sd, double margin_rad) {
+  for (int n = 2; n <= kMostHeaps; ++n) {
+    if (half_width(sd, {n, n}) <= margin_rad) return n;
+  }
+  return std::nullopt;
+}
+
+void compare_angles(SetComparison& result, double margin_rad) {
+  const SetOfHeaps& first = result.sets[0];
+  const SetOfHeaps& second = result.sets[1];
+  if (!first.mean_rad || !second.mean_rad || (!first.sd_rad && !second.sd_rad)) return;
+  const std::array<double, 2> sd = scatter_of(result.sets);
+  const double uncertainty = half_width(sd, {first.counted, second.counted});
+  result.angle =
+      angle_difference({*first.mean_rad, uncertainty}, {*second.mean_rad, 0}, margin_rad, false);
+  if (result.angle->verdict == Agreement::cannot_tell) {
+    result.heaps_to_tell = heaps_to_tell(sd, margin_rad);
+  }
+}
+
+void compare_outlines(SetComparison& result) {
+  const Skyline& first = result.sets[0].outline.mean;
+  const Skyline& second = result.sets[1].outline.mean;
+  if (first.empty() || second.empty()) return;
+  const SkylineDifference difference =
+      difference_of(first, second, first.front().along, first.back().along);
+  result.iou = difference.iou();
+  result.profile_rmse = difference.rmse();
+  if (result.unit == LengthUnit::metre) result.profile_mean = difference.mean();
+}
+
+void note(SetComparison& result, std::string code, std::string message) {
+  result.warnings.push_back({std::move(code), std::move(message)});
+}
+
+void add_notes(SetComparison& result, const MeanOutlines& outlines) {
+  constexpr std::array kSets = {"first", "second"};
+  for (const std::size_t i : {0, 1}) {
+    const SetOfHeaps& set = result.sets[i];
+    const int without = static_cast<int>(set.angle_rad.size()) - set.counted;
+    if (without > 0) {
+      note(result, "heaps_without_angle",
+           fmt::format("{} of {} heaps of the {} set have no angle and are left out of its mean: "
+                       "half of their pictures or more were refused.",
+                       without, set.angle_rad.size(), kSets[i]));
+    }
+    if (outlines.left_out[i] > 0) {
+      note(
+          result, "pictures_without_outline",
+          fmt::format("{} of {} pictures of the {} set do not show a whole heap with two flanks "
+                      "and are left out of its mean outline.",
+                      outlines.left_out[i], outlines.left_out[i] + set.outline.pictures, kSets[i]));
+    }
+    if (set.counted == 1) {
+      note(result, "one_heap",
+           fmt::format("The {} set has one heap only: how much such heaps differ is {}.", kSets[i],
+                       result.angle ? "taken from the other set" : "not known"));
+    }
+  }
+  if (result.unit != LengthUnit::metre && result.iou) {
+    note(result, "no_scale",
+         "Without a scale for both sets only shapes are compared, each outline enlarged to the "
+         "same area: which heaps are larger cannot be told.");
+  }
+}
+
+void check(const Sets& sets, double margin_rad) {
+  if (!(margin_rad > 0)) throw std::invalid_argument("margin must be more than 0 degrees");
+  for (const std::vector<SeenHeap>* set : sets) {
+    if (set->empty()) throw std::invalid_argument("a set has no heap");
+    for (const SeenHeap& heap : *set) {
+      if (heap.views.empty()) throw std::invalid_argument("a heap has no picture");
+    }
+  }
+}
+
+}  // namespace
+
+SetComparison compare_sets(const std::vector<SeenHeap>& first, const std::vector<SeenHeap>& second,
+                           double margin_rad) {
+  const Sets sets = {&first, &second};
+  check(sets, margin_rad);
+  MeanOutlines outlines = mean_outlines(sets);
+  SetComparison result;
+  result.unit = outlines.unit;
+  for (const std::size_t i : {0, 1}) {
+    result.sets[i] = summary_of(*sets[i]);
+    result.sets[i].outline = std::move(outlines.sets[i]);
+  }
+  compare_angles(result, margin_rad);
+  compare_outlines(result);
+  add_notes(result, outlines);
+  return result;
+}
+
+}  // namespace repose::vision
