@@ -113,7 +113,7 @@ class PublishedMethod {
   /// comes nearest.
   static void solve(const Regression& parabola, PublishedSweep& swept) {
     swept.r2 = parabola.r2;
-    const TargetSet solved = solve_target(parabola, swept.measured);
+    const TargetSet solved = solve_target(parabola, {swept.measured});
     const Factor& factor = parabola.factors.front();
     const auto nearer = [&](const Crossing& a, const Crossing& b) {
       return std::abs(a.point.coded.front()) < std::abs(b.point.coded.front());

@@ -41,7 +41,7 @@ std::optional<SurfaceReport> surface_of_runs(const Problem& problem, const Obser
   for (const SurfaceModel model :
        {SurfaceModel::quadratic, SurfaceModel::interaction, SurfaceModel::linear}) {
     try {
-      return report_on(regress(table, model), observable.mean);
+      return report_on(regress(table, model), WantedValue{observable.mean});
     } catch (const std::invalid_argument&) {
       continue;  // too few runs for these terms
     }

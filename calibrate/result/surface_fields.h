@@ -75,12 +75,13 @@ template <typename Io>
 void fields(Io& io, Held<Io, SurfaceCrossing>& crossing) {
   io.place("along", io.names().factors, crossing.factor);
   by_name(io, "levels", io.names().factors, crossing.levels);
-  io("uncertainty", crossing.uncertainty);
+  io("interval", crossing.interval);
 }
 
 template <typename Io>
 void fields(Io& io, Held<Io, SurfaceTarget>& target) {
   io("value", target.value);
+  io("uncertainty", target.uncertainty);
   io("reached", target.is_reached);
   by_name(io, "ranges", io.names().factors, target.ranges);
   io("through_centre", target.through_centre);

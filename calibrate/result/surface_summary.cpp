@@ -33,13 +33,14 @@ std::vector<SurfaceCrossing> crossings_of(const std::vector<Crossing>& crossings
   for (const Crossing& crossing : crossings) {
     all.push_back({.factor = crossing.factor,
                    .levels = crossing.point.natural,
-                   .uncertainty = crossing.natural_uncertainty});
+                   .interval = crossing.interval});
   }
   return all;
 }
 
 SurfaceTarget target_of(const Regression& fit, const TargetSet& set) {
-  SurfaceTarget target{.value = set.target,
+  SurfaceTarget target{.value = set.target.value,
+                       .uncertainty = set.target.uncertainty,
                        .is_reached = set.is_reached,
                        .ranges = {},
                        .through_centre = crossings_of(set.through_centre),

@@ -36,13 +36,15 @@ struct SurfaceVariances {
 
 /// A point of the surface that has the wanted value.
 struct SurfaceCrossing {
-  std::size_t factor = 0;             ///< along whose line it was found
-  std::vector<double> levels;         ///< natural
-  std::optional<double> uncertainty;  ///< half-width of the level's 95 % interval, natural
+  std::size_t factor = 0;      ///< along whose line it was found
+  std::vector<double> levels;  ///< natural
+  /// Of the level along that line, 95 %, natural; an end is empty where the runs' range ends first.
+  std::array<std::optional<double>, 2> interval;
 };
 
 struct SurfaceTarget {
   double value = 0;
+  double uncertainty = 0;  ///< half-width of its 95 % interval; 0: taken as exact
   bool is_reached = false;
   std::vector<std::vector<std::array<double, 2>>> ranges;  ///< natural intervals of each factor
   std::vector<SurfaceCrossing> through_centre;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "calibrate/statistics/regress/run_table.h"
+#include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
@@ -38,6 +40,28 @@ std::vector<std::string> names_in(const std::string& text, RegressPlan& plan) {
   return names;
 }
 
+/// "VALUE" or "VALUE±U", also typed "VALUE+-U".
+std::optional<calibrate::WantedValue> read_target(const std::string& text,
+                                                  std::vector<std::string>& errors) {
+  constexpr std::array<std::string_view, 2> kSigns = {"±", "+-"};
+  std::string value = text, uncertainty;
+  for (const std::string_view sign : kSigns) {
+    const std::size_t at = text.find(sign);
+    if (at == std::string::npos) continue;
+    value = text.substr(0, at);
+    uncertainty = text.substr(at + sign.size());
+  }
+  const auto wanted = number_in<double>(value);
+  const auto spread =
+      uncertainty.empty() && value == text ? 0.0 : number_in<double>(uncertainty).value_or(-1);
+  if (wanted && spread >= 0) return calibrate::WantedValue{*wanted, spread};
+  if (text.empty()) return std::nullopt;
+  Typed{"--target", text, errors}.refuse(
+      "a number, or one with the half-width of its 95 % interval behind ±",
+      "--target 23.4 or --target 23.38±0.23");
+  return std::nullopt;
+}
+
 }  // namespace
 
 RegressPlan plan_regress(const RegressArguments& arguments) {
@@ -54,8 +78,7 @@ RegressPlan plan_regress(const RegressArguments& arguments) {
   for (const std::string& text : arguments.codings) {
     if (const auto coding = factor_in("--coding", text, plan.errors)) codings.push_back(*coding);
   }
-  plan.target =
-      read_number({"--target", arguments.target, plan.errors}, "a number", "--target 23.4");
+  plan.target = read_target(arguments.target, plan.errors);
   check_output_places({{"--json", plan.json_file}}, {arguments.table}, plan.errors);
   try {
     const calibrate::RunTable runs = calibrate::runs_in(calibrate::read_table(arguments.table),

@@ -12,7 +12,7 @@ namespace repose::cli {
 /// A `repose regress` worked out, but for its output.
 struct RegressPlan {
   calibrate::SurfaceModel model = calibrate::SurfaceModel::quadratic;
-  std::optional<double> target;
+  std::optional<calibrate::WantedValue> target;
   std::string json_file;
   calibrate::SurfaceReport report;
 

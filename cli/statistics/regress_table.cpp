@@ -153,12 +153,18 @@ std::string range_text(const calibrate::Factor& factor,
   return fmt::format("{}{}", fmt::join(parts, " and "), is_all ? ", all of the box" : "");
 }
 
+/// Of an interval; empty where no run is beyond it.
+std::string end_text(const std::optional<double>& end) {
+  return end ? fmt::format("{:.4g}", *end) : "beyond the runs";
+}
+
 void add_target(const calibrate::SurfaceReport& report, Page& page) {
   if (!report.target || !report.target->is_reached) return;
   const calibrate::Regression& fit = report.fit;
   page.add_gap();
-  page.add(fmt::format("{} = {:g} within the range of the runs", fit.response_name,
-                       report.target->target));
+  const calibrate::WantedValue& wanted = report.target->target;
+  page.add(fmt::format("{} = {:g}{} within the range of the runs", fit.response_name, wanted.value,
+                       wanted.uncertainty > 0 ? fmt::format(" ± {:g}", wanted.uncertainty) : ""));
   const bool is_single = fit.factors.size() == 1;
   Table table({{}, {}});
   for (std::size_t i = 0; i < fit.factors.size() && !is_single; ++i) {
@@ -171,10 +177,9 @@ void add_target(const calibrate::SurfaceReport& report, Page& page) {
   }
   for (const calibrate::Crossing& crossing : report.target->through_centre) {
     const std::size_t i = crossing.factor;
-    page.add("  ", fmt::format("{} = {:.4g}{}", fit.factors[i].name, crossing.point.natural[i],
-                               crossing.natural_uncertainty
-                                   ? fmt::format(" ± {:.2g}", *crossing.natural_uncertainty)
-                                   : ""));
+    const auto& [low, high] = crossing.interval;
+    page.add("  ", fmt::format("{} = {:.4g}   95 %: {} … {}", fit.factors[i].name,
+                               crossing.point.natural[i], end_text(low), end_text(high)));
   }
 }
 

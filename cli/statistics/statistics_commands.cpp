@@ -55,7 +55,8 @@ coded already is taken as it is, and any other by its lowest and highest level
 (of the runs whose point is cube, if there are such).
 
 Fit the measured quantity with its sign, not an error's absolute value, and
-give the value it should have as --target.
+give the value it should have as --target, with the half-width of its 95 %
+interval behind ± (or +-) where it is uncertain, too.
 
 Example:
   repose regress runs.csv --response angle_deg --target 23.38
@@ -117,7 +118,7 @@ Command regress_command() {
                   {"--model", "linear|interaction|quadratic", "Terms (quadratic)", &given->model},
                   {"--coding", "NAME=MIN:MAX", "Levels that are -1 and 1; repeatable",
                    &given->codings},
-                  {"--target", "VALUE", "Where the response has this value", &given->target},
+                  {"--target", "VALUE[±U]", "Where the response has this value", &given->target},
                   {"--json", "FILE|-", "All results, for programs", &given->json_file}},
       .notes = kRegressNotes,
       .missing =

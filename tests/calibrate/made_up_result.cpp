@@ -96,8 +96,8 @@ SurfaceSummary surface() {
           SurfaceTarget{.value = 25,
                         .is_reached = true,
                         .ranges = {{{.2, .3}, {.5, .6}}, {}},
-                        .through_centre = {{.factor = 1, .levels = {.5, .4}, .uncertainty = {}}},
-                        .points = {{.factor = 0, .levels = {.2, .3}, .uncertainty = .1}}},
+                        .through_centre = {{.factor = 1, .levels = {.5, .4}, .interval = {}}},
+                        .points = {{.factor = 0, .levels = {.2, .3}, .interval = {.1, std::nullopt}}}},
       .runs = {},
       .warnings = {{.code = "ridge", .message = "a ridge"}}};
 }

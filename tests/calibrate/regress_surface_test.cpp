@@ -44,7 +44,7 @@ Regression fit(const RunTable& table) { return regress(table, SurfaceModel::quad
 
 std::vector<std::string> codes_of(const Regression& regression, std::optional<double> target = {}) {
   std::optional<TargetSet> set;
-  if (target) set = solve_target(regression, *target);
+  if (target) set = solve_target(regression, {*target});
   std::vector<std::string> codes;
   for (const SurfaceDiagnostic& diagnostic :
        diagnostics_of(regression, canonical_form(regression), extremes_in_box(regression), set)) {
@@ -147,14 +147,14 @@ TEST(Target, OneFactorsParabolaIsSolved) {
     table.responses.push_back(1.403 - 42.794 * e + 217.095 * e * e + (k % 2 == 0 ? .05 : -.05));
   }
   const Regression regression = fit(table);
-  const TargetSet set = solve_target(regression, 9.42);
+  const TargetSet set = solve_target(regression, {9.42});
   ASSERT_EQ(set.through_centre.size(), 1U);
   const Crossing& crossing = set.through_centre.front();
   EXPECT_NEAR(crossing.point.natural[0], .3145, 1e-3);
   EXPECT_NEAR(crossing.point.value, 9.42, 1e-9);
-  ASSERT_TRUE(crossing.natural_uncertainty);
-  EXPECT_GT(*crossing.natural_uncertainty, 1e-4);
-  EXPECT_LT(*crossing.natural_uncertainty, .01);
+  ASSERT_TRUE(crossing.interval[0] && crossing.interval[1]);
+  EXPECT_GT(*crossing.interval[1] - *crossing.interval[0], 2e-4);
+  EXPECT_LT(*crossing.interval[1] - *crossing.interval[0], .02);
   // It says that rebounds are negative near e = .1: the study's own quadratic does.
   EXPECT_LT(extremes_in_box(regression).least.value, 0);
   ASSERT_EQ(set.ranges.size(), 1U);
@@ -167,24 +167,60 @@ TEST(Target, AParabolaMayBeCrossedTwice) {
   table.levels = {{0, 1, 2, 3, 4}};
   table.response_name = "y";
   table.responses = {4, 1, 0, 1, 4.001};
-  const TargetSet set = solve_target(fit(table), 1);
+  const TargetSet set = solve_target(fit(table), {1});
   ASSERT_EQ(set.through_centre.size(), 2U);
   EXPECT_NEAR(set.through_centre[0].point.natural[0], 1, .01);
   EXPECT_NEAR(set.through_centre[1].point.natural[0], 3, .01);
+}
+
+TEST(Target, TheIntervalOfALineIsFiellers) {
+  // A line y = a + b x: Fieller's ends solve (b x - d)^2 = t^2 s^2 (1/n + x^2 / Sxx) for centred x.
+  RunTable table;
+  table.factors = {{"x", -2, 2}};
+  table.levels = {{-2, -1, 0, 1, 2}};
+  table.response_name = "y";
+  table.responses = {-4.2, -1.9, .1, 2.2, 3.8};
+  const Regression line = regress(table, SurfaceModel::linear);
+  const double mean = 0, slope = 20.1 / 10, target = 1, t = 3.182446, s = line.residual_sd;
+  const double a = slope * slope - t * t * s * s / 10;
+  const double b = -2 * slope * (target - mean);
+  const double c = (target - mean) * (target - mean) - t * t * s * s / 5;
+  const double root = std::sqrt(b * b - 4 * a * c);
+  const TargetSet set = solve_target(line, {target});
+  ASSERT_EQ(set.through_centre.size(), 1U);
+  EXPECT_NEAR(*set.through_centre[0].interval[0], (-b - root) / (2 * a), 1e-6);
+  EXPECT_NEAR(*set.through_centre[0].interval[1], (-b + root) / (2 * a), 1e-6);
+}
+
+TEST(Target, AnUncertainTargetWidensTheIntervalUntilTheRunsEnd) {
+  RunTable table;
+  table.factors = {{"x", -2, 2}};
+  table.levels = {{-2, -1, 0, 1, 2}};
+  table.response_name = "y";
+  table.responses = {-4.2, -1.9, .1, 2.2, 3.8};
+  const Regression line = regress(table, SurfaceModel::linear);
+  const auto width = [&](double uncertainty) {
+    const Crossing at = solve_target(line, {1, uncertainty}).through_centre.front();
+    return *at.interval[1] - *at.interval[0];
+  };
+  EXPECT_NEAR(width(1), std::hypot(width(0) / 2, 1 / 2.01) * 2, .02);
+  const Crossing open = solve_target(line, {3.5, 1}).through_centre.front();
+  EXPECT_TRUE(open.interval[0]);
+  EXPECT_FALSE(open.interval[1]) << "no run beyond 2";
 }
 
 TEST(Target, RangesHoldTheWholeSet) {
   // y = a^2 + b^2 at 1: the unit circle in a box of +- sqrt(2).
   const auto bowl = [](const std::vector<double>& u) { return u[0] * u[0] + u[1] * u[1]; };
   const Regression regression = fit(runs_on(kTwo, bowl, 0));
-  const TargetSet circle = solve_target(regression, 1);
+  const TargetSet circle = solve_target(regression, {1});
   for (const auto& ranges : circle.ranges) {
     ASSERT_EQ(ranges.size(), 1U);
     EXPECT_NEAR(ranges[0][0], -1, 1e-6);
     EXPECT_NEAR(ranges[0][1], 1, 1e-6);
   }
   // Beyond 2, the set is four corners: each factor has two intervals.
-  const TargetSet corners = solve_target(regression, 3);
+  const TargetSet corners = solve_target(regression, {3});
   for (const auto& ranges : corners.ranges) {
     ASSERT_EQ(ranges.size(), 2U);
     EXPECT_NEAR(ranges[0][0], -std::sqrt(2.0), 1e-6);
@@ -195,7 +231,7 @@ TEST(Target, RangesHoldTheWholeSet) {
 
 TEST(Target, EveryPointGivenMeetsItWithinTheBox) {
   const Regression regression = fit(hazelnut_runs());
-  const TargetSet set = solve_target(regression, 30);
+  const TargetSet set = solve_target(regression, {30});
   EXPECT_GT(set.grid.size(), 20U);
   for (const Crossing& crossing : set.grid) {
     EXPECT_NEAR(crossing.point.value, 30, 1e-9);
@@ -213,7 +249,7 @@ TEST(Target, EveryPointGivenMeetsItWithinTheBox) {
 
 TEST(Target, OutOfReachIsSaid) {
   const Regression regression = fit(hazelnut_runs());
-  const TargetSet set = solve_target(regression, 500);
+  const TargetSet set = solve_target(regression, {500});
   EXPECT_FALSE(set.is_reached);
   EXPECT_THAT(set.grid, IsEmpty());
   EXPECT_THAT(codes_of(regression, 500), Contains("target_not_reached"));

@@ -54,6 +54,22 @@ TEST_F(RegressCommand, PrintsTheHazelnutStudysAnalysis) {
   EXPECT_LE(longest_line(done.out), 80U);
 }
 
+TEST_F(RegressCommand, AnUncertainTargetGivesAWiderInterval) {
+  folder_.write("runs.csv", std::string("x,y\n-2,-4.2\n-1,-1.9\n0,.1\n1,2.2\n2,3.8\n"));
+  const Words words = {"runs.csv", "--response", "y", "--model", "linear", "--target"};
+  const auto width = [&](const std::string& target) {
+    Words all = words;
+    all.push_back(target);
+    const json interval = result(all)["target"]["through_centre"][0]["interval"];
+    return interval[1].get<double>() - interval[0].get<double>();
+  };
+  EXPECT_GT(width("0.5±0.8"), width("0.5") * 1.5);
+  EXPECT_EQ(width("0.5±0.8"), width("0.5+-0.8"));
+  Words wrong = words;
+  wrong.emplace_back("1±");
+  EXPECT_THAT(run(wrong).err, HasSubstr("half-width of its 95 % interval behind ±"));
+}
+
 TEST_F(RegressCommand, JsonHasEverything) {
   folder_.write("runs.csv", std::string(kHazelnut));
   const Finished done = run({"runs.csv", "--response", "error", "--target", "5", "--json", "-"});

@@ -51,14 +51,14 @@ std::string binary_triangle(bool is_big_endian) {
 
 TEST(PlyFile, IsReadInAllItsFormats) {
   for (const std::string& bytes : {triangle(), binary_triangle(false), binary_triangle(true)}) {
-    const PlySurface surface = parse_ply(bytes);
+    const PolygonSurface surface = parse_ply(bytes);
     EXPECT_THAT(surface.corners.at(2), ElementsAre(0.F, 2.5F, 0.F));
     EXPECT_THAT(surface.faces, ElementsAre(ElementsAre(0, 1, 2)));
   }
 }
 
 TEST(PlyFile, WhatIsNoSurfaceIsPassedOver) {
-  const PlySurface surface = parse_ply(
+  const PolygonSurface surface = parse_ply(
       ascii("comment scanned\nobj_info x\nelement camera 1\nproperty list uchar float rows\n" +
                 std::string(kCorners) + "property uchar red\n" + kFaces,
             "2 0.5 0.25\r\n0 0 0 9\r\n1 0 0 9\r\n0 1 0 9\r\n2 0 1\r\n"));

@@ -19,7 +19,7 @@ OUTPUTS = {
     "measure": ["measure photos --json - --threads 2"],
     "measure#summary": ["measure photos --summary -"],
     "compare": ["compare photo.jpg render.png --json -"],
-    "compare of sets": ["compare photos state --json -"],
+    "compare of sets": ["compare photos render.png --json -"],
     "shape": ["shape --size-mm 20,18,17 --density-kg-m3 900 --json -"],
     "simulate": [f"simulate {name} study.toml --repeats 2 --json -" for name in ("drop", "roll", "tilt")]
     + ["simulate heap study.toml --views 2 --json -"],

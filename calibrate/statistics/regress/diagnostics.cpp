@@ -166,7 +166,7 @@ void diagnostic_target(const Regression& regression, const BoxExtremes& extremes
         {"target_not_reached",
          fmt::format("{:g} is not reached: within the box the surface goes from "
                      "{:.4g} to {:.4g}. Move or widen the factors' ranges.",
-                     target.target, extremes.least.value, extremes.greatest.value)});
+                     target.target.value, extremes.least.value, extremes.greatest.value)});
     return;
   }
   const std::size_t factors = regression.factors.size();

@@ -55,14 +55,21 @@ BoxExtremes extremes_in_box(const Regression& regression);
 struct Crossing {
   std::size_t factor = 0;
   SurfacePoint point;
-  /// Half-width of the 95 % interval of the coded and the natural level, from that of the surface
-  /// and its slope; none where the surface is level.
-  std::optional<double> coded_uncertainty, natural_uncertainty;
+  /// Natural levels about the point at which surface and wanted value are not shown to differ: a
+  /// 95 % interval after Fieller (1954), J. R. Stat. Soc. B 16, 175, on a line for any polynomial.
+  /// An end is empty where the box ends first: runs beyond would be needed to find it.
+  std::array<std::optional<double>, 2> interval;
+};
+
+/// A response that is wanted, with the half-width of its 95 % interval; 0: exact.
+struct WantedValue {
+  double value = 0;
+  double uncertainty = 0;
 };
 
 /// All points of the box at which the surface takes a wanted value.
 struct TargetSet {
-  double target = 0;
+  WantedValue target;
   bool is_reached = false;
   /// Coded levels that each factor takes in the set, as intervals.
   std::vector<std::vector<std::array<double, 2>>> ranges;
@@ -70,7 +77,7 @@ struct TargetSet {
   std::vector<Crossing> grid;            ///< on a grid of lines
 };
 
-TargetSet solve_target(const Regression& regression, double target);
+TargetSet solve_target(const Regression& regression, const WantedValue& target);
 
 struct SurfaceDiagnostic {
   std::string code;  ///< a fixed word

@@ -13,7 +13,7 @@ std::string name_in(const Names& names, Value value) {
 
 }  // namespace
 
-SurfaceReport report_on(Regression fit, std::optional<double> target) {
+SurfaceReport report_on(Regression fit, const std::optional<WantedValue>& target) {
   SurfaceReport report;
   report.form = canonical_form(fit);
   report.extremes = extremes_in_box(fit);

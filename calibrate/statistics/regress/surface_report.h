@@ -21,7 +21,7 @@ struct SurfaceReport {
 };
 
 /// @param target  a response that is wanted
-SurfaceReport report_on(Regression fit, std::optional<double> target);
+SurfaceReport report_on(Regression fit, const std::optional<WantedValue>& target);
 
 /// What files and tables call models and shapes.
 inline constexpr std::array<std::pair<SurfaceModel, std::string_view>, 3> kSurfaceModelNames = {

@@ -27,9 +27,12 @@ std::vector<double> roots_of(double a, double b, double c) {
 /// Looks for the wanted value within the box.
 class TargetSearch {
  public:
-  TargetSearch(const Regression& regression, double target)
-      : regression_(regression), surface_(surface_of(regression)), box_(regression.box) {
-    surface_.constant -= target;
+  TargetSearch(const Regression& regression, const WantedValue& target)
+      : regression_(regression),
+        surface_(surface_of(regression)),
+        box_(regression.box),
+        target_(target) {
+    surface_.constant -= target.value;
   }
 
   /// A point of the set: on the way from the lowest to the highest point; none if there is none.
@@ -80,12 +83,7 @@ class TargetSearch {
       Crossing crossing;
       crossing.factor = factor;
       crossing.point = point_at(regression_, point);
-      const double steepness = std::abs(slope + 2 * surface_.curvature(i, i) * level);
-      if (steepness > 0) {
-        crossing.coded_uncertainty = crossing.point.uncertainty / steepness;
-        crossing.natural_uncertainty =
-            *crossing.coded_uncertainty * regression_.factors[factor].half_range();
-      }
+      crossing.interval = {end_of_interval(factor, point, -1), end_of_interval(factor, point, 1)};
       crossings.push_back(std::move(crossing));
     }
   }
@@ -108,6 +106,33 @@ class TargetSearch {
   }
 
  private:
+  /// Whether the surface's interval at a point and that of the target allow them to be the same.
+  bool may_be_target(const VectorXd& point) const {
+    const double half_width = point_at(regression_, point).uncertainty;
+    return std::abs(surface_(point)) <= std::hypot(half_width, target_.uncertainty);
+  }
+
+  /// How far along a factor that goes on from a crossing, down (-1) or up (1); empty: to the box's
+  /// end.
+  std::optional<double> end_of_interval(std::size_t factor, VectorXd point, int direction) const {
+    const auto i = static_cast<Index>(factor);
+    const auto& [low, high] = box_[factor];
+    constexpr int kSteps = 200, kHalvings = 40;
+    const double step = direction * (high - low) / kSteps;
+    double possible = point[i];
+    do {
+      point[i] = possible + step;
+      if (point[i] < low || point[i] > high) return std::nullopt;
+      if (may_be_target(point)) possible = point[i];
+    } while (possible == point[i]);
+    double impossible = point[i];
+    for (int k = 0; k < kHalvings; ++k) {
+      point[i] = (possible + impossible) / 2;
+      (may_be_target(point) ? possible : impossible) = point[i];
+    }
+    return regression_.factors[factor].natural(possible);
+  }
+
   bool is_possible(std::size_t factor, double level, double known_level) const {
     if (level == known_level) return true;
     Box others = box_;
@@ -151,11 +176,12 @@ class TargetSearch {
   const Regression& regression_;
   Quadratic surface_;  // minus the target
   const Box& box_;
+  WantedValue target_;
 };
 
 }  // namespace
 
-TargetSet solve_target(const Regression& regression, double target) {
+TargetSet solve_target(const Regression& regression, const WantedValue& target) {
   const TargetSearch search(regression, target);
   TargetSet set;
   set.target = target;

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "base/whole_file.h"
+#include "dem/shape/scan/obj_file.h"
 #include "dem/shape/scan/ply_file.h"
 
 namespace repose::dem {
@@ -99,8 +100,7 @@ void check_coordinates(const std::filesystem::path& file, const Mesh& mesh) {
   }
 }
 
-/// STL and OBJ through assimp, which sees these bytes and no file: what an OBJ refers to, such as a
-/// library of materials, is never opened.
+/// Through assimp, which sees these bytes and no file.
 Mesh read_by_assimp(const std::filesystem::path& file, std::string_view bytes,
                     const std::string& ending) {
   Assimp::Importer importer;
@@ -124,7 +124,7 @@ Mesh read_by_assimp(const std::filesystem::path& file, std::string_view bytes,
 }
 
 /// For assimp to cut faces of more than three corners.
-std::string obj_of(const PlySurface& surface) {
+std::string obj_of(const PolygonSurface& surface) {
   std::string text;
   const auto out = std::back_inserter(text);
   for (const auto& [x, y, z] : surface.corners) fmt::format_to(out, "v {} {} {}\n", x, y, z);
@@ -136,13 +136,17 @@ std::string obj_of(const PlySurface& surface) {
   return text;
 }
 
-Mesh read_ply(const std::filesystem::path& file, std::string_view bytes) {
-  PlySurface surface;
+/// Files of polygons are read here: assimp does not survive all that a damaged one may hold.
+PolygonSurface polygons_in(const std::filesystem::path& file, std::string_view bytes,
+                           const std::string& ending) {
   try {
-    surface = parse_ply(bytes);
+    return ending == ".ply" ? parse_ply(bytes) : parse_obj(bytes);
   } catch (const std::invalid_argument& error) {
     refuse_unreadable(file, error.what());
   }
+}
+
+Mesh mesh_of(const std::filesystem::path& file, const PolygonSurface& surface) {
   std::size_t most = 0;
   for (const std::vector<int>& face : surface.faces) most = std::max(most, face.size());
   check_corners(file, most);
@@ -163,7 +167,8 @@ Mesh read_ply(const std::filesystem::path& file, std::string_view bytes) {
 Mesh read_mesh_file(const std::filesystem::path& file) {
   const std::string ending = lower_case_ending(file);
   const std::string bytes = content_of(file, ending);
-  const Mesh mesh = ending == ".ply" ? read_ply(file, bytes) : read_by_assimp(file, bytes, ending);
+  const Mesh mesh = ending == ".stl" ? read_by_assimp(file, bytes, ending)
+                                     : mesh_of(file, polygons_in(file, bytes, ending));
   if (mesh.triangles.empty()) {
     refuse(file,
            "holds no triangles. Fix: if it is a cloud of points, make a surface of it (MeshLab: "

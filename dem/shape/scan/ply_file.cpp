@@ -237,7 +237,8 @@ bool is_corner_list(const Element& element, const Property& property) {
          (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-void read_item(const Element& element, const std::string& where, Body& body, PlySurface& surface) {
+void read_item(const Element& element, const std::string& where, Body& body,
+               PolygonSurface& surface) {
   std::array<float, 3> corner{};
   for (const Property& property : element.properties) {
     if (!property.length) {
@@ -273,7 +274,7 @@ void check_element(const Element& element) {
   }
 }
 
-void check_corners(const PlySurface& surface) {
+void check_corners(const PolygonSurface& surface) {
   for (std::size_t k = 0; k < surface.faces.size(); ++k) {
     for (const int corner : surface.faces[k]) {
       if (std::cmp_less(corner, surface.corners.size())) continue;
@@ -285,11 +286,11 @@ void check_corners(const PlySurface& surface) {
 
 }  // namespace
 
-PlySurface parse_ply(std::string_view bytes) {
+PolygonSurface parse_ply(std::string_view bytes) {
   HeaderReader reader(bytes);
   const Header header = reader.read();
   Body body(reader.body(), header.format);
-  PlySurface surface;
+  PolygonSurface surface;
   for (const Element& element : header.elements) {
     check_element(element);
     for (std::uint64_t k = 0; k < element.count; ++k) {
