@@ -122,7 +122,7 @@ void Simulation::State::leave_through_floor() {
 
 void Simulation::State::stop(const std::string& what, const std::string& fix) const {
   throw UnstableRun(
-      fmt::format("the run went unstable at {:.6f} s (step {} of {:.3g} s): {}. "
+      fmt::format("the run was stopped at {:.6f} s (step {} of {:.3g} s): {}. "
                   "Fix: {}.",
                   time_s(), step, setup.timestep_s, what, fix));
 }

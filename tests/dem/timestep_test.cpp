@@ -137,7 +137,7 @@ TEST(Audit, PackingAtTooLongAStepIsCaught) {
   setup.timestep_s = 20 * accurate_timestep_s(setup, 1);
   setup.audit_steps = 20;
   Simulation simulation = loose_packing(setup, 16);
-  EXPECT_THAT(instability(simulation, 20000), HasSubstr("the run went unstable"));
+  EXPECT_THAT(instability(simulation, 20000), HasSubstr("the run was stopped"));
 }
 
 TEST(Audit, DeepOverlapIsCaught) {
