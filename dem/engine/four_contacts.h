@@ -196,7 +196,8 @@ REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, 
   const Contacts c = contacts_of<is_round>(four, timestep);
   const Law<Lanes> law = laws_of(four);
   const Columns memory = gather([&](std::size_t k) { return load_row(*four[k]->memory); });
-  Springs<Lanes> springs = {memory.xyz, memory.w};
+  const Lanes last_push = each([&](std::size_t k) { return four[k]->memory->push; });
+  Springs<Lanes> springs = {memory.xyz, memory.w, last_push};
   const ContactForce<Lanes> force = contact_force(c.touch, law, timestep, springs);
 
   Vec3<Lanes> torque_a = c.arm_a.cross(force.total);
@@ -219,6 +220,7 @@ REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, 
   const Lanes depth = c.touch.overlap / c.smaller_radius;
   for (std::size_t k = 0; k < count; ++k) {
     store_row(memories.row[k], *four[k]->memory);
+    four[k]->memory->push = springs.push[k];
     PairLoad& load = *four[k]->load;
     load.force += forces.row[k];
     load.torque_a += torques_a.row[k];
