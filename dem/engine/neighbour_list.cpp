@@ -241,6 +241,14 @@ void Neighbours::carry_memories() {
   carry(list_.walls, list_.facets, list_.wall_memories, next_.walls, next_.facets,
         next_.wall_memories);
   std::swap(list_, next_);
+  note_touching();
+}
+
+void Neighbours::note_touching() {
+  list_.has_touched.assign(list_.memories.size() + kLanes, 0);
+  for (std::size_t k = 0; k < list_.memories.size(); ++k) {
+    list_.has_touched[k] = list_.memories[k].radius > 0 ? 1 : 0;
+  }
 }
 
 void Neighbours::index_by_body(std::size_t bodies) {
@@ -352,6 +360,7 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
         list_.memories);
   carry(remembered.walls, remembered.facets, remembered.wall_memories, list_.walls, list_.facets,
         list_.wall_memories);
+  note_touching();
   const auto touching = [](const std::vector<ContactMemory>& memories) {
     return std::count_if(memories.begin(), memories.end(),
                          [](const ContactMemory& memory) { return memory.radius > 0; });
