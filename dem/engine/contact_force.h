@@ -11,6 +11,7 @@ struct ContactMemory {
   Vector tangential = Vector::Zero();  ///< tangential spring's force on a, N
   double radius = 0;                   ///< of the contact area, m
   Vector rolling = Vector::Zero();     ///< rolling spring's torque on a, N m
+  double push = 0;                     ///< normal force of the last step, N
 };
 
 /// ContactLaw, in each lane.
@@ -40,15 +41,16 @@ struct Touch {
   Number reduced_mass = {};    ///< of the whole bodies
   Number damper_limit = {};    ///< see damper_limit(), N s/m
   Vec3<Number> half_velocity;  ///< half a step back: what the springs were stretched by
-  Vec3<Number> velocity;       ///< now: what the dampers feel
+  Vec3<Number> velocity;       ///< now, as the last step's forces have it
   Number twist = {};           ///< mean spin of both about the normal, rad/s
 };
 
-/// The springs, from step to step.
+/// The springs, from step to step, and the push of the last one.
 template <typename Number>
 struct Springs {
   Vec3<Number> tangential;
   Number radius = {};
+  Number push = {};
 };
 
 /// The force on a; b gets the opposite.
@@ -69,27 +71,48 @@ REPOSE_INLINE Number damper_limit(const Number& reduced_mass, double timestep,
 /// All dampers of two bodies together are at most this fraction of the limit. One contact stays
 /// below it at every accepted time step; a dozen sphere pairs of two clumps that lie side by side
 /// would not. Across the contact spin counts too: 1/m_eff = 3.5/m* for spheres.
-inline constexpr double kNormalDamperFraction = .8;
+inline constexpr double kNormalDamperFraction = 1.2;
 inline constexpr double kTangentialDamperFraction = .25;
 
-/// Hertz's spring and the damper beside it in the first and in the last step of an impact, in which
-/// the surfaces travel farther than they overlap; may be below 0.
+/// What pushes two surfaces apart: Hertz's spring, N, and the damper beside it, N s/m.
+template <typename Number>
+struct NormalPush {
+  Number spring = {};
+  Number damper = {};
+};
+
+/// In the first and in the last step of an impact, in which the surfaces travel farther than they
+/// overlap.
 ///
 /// The overlap's powers are averaged over the part of the step's way, and of the one before or
 /// after, that lies within the contact: what comes out hardly depends on where in a step an impact
 /// begins.
 template <typename Number>
-REPOSE_INLINE Number brief_normal_force(const Touch<Number>& touch, const Law<Number>& law,
-                                        const Number& travel, const Number& approach) {
+REPOSE_INLINE NormalPush<Number> brief_push(const Touch<Number>& touch, const Law<Number>& law,
+                                            const Number& travel) {
   const Number top = touch.overlap + travel * .5;
   const Number top_root = sqrt(top);
   const Number mean_spring = .4 * top * top * top_root / travel;  // of overlap^(3/2)
   const Number mean_damper = .8 * top * sqrt(top_root) / travel;  // of overlap^(1/4)
   const Number young_root = law.reduced_young * sqrt(touch.reduced_radius);
-  const Number damper =
-      law.normal_damping * sqrt(2 * young_root * touch.reduced_mass) * mean_damper;
-  return 4.0 / 3 * young_root * mean_spring +
-         least(damper, kNormalDamperFraction * touch.damper_limit) * approach;
+  return {4.0 / 3 * young_root * mean_spring,
+          law.normal_damping * sqrt(2 * young_root * touch.reduced_mass) * mean_damper};
+}
+
+/// The normal force with the damper at the speed that the force itself leaves; never negative.
+///
+/// `approach` is that of the last step's forces. Half a step of what the push changes by, times the
+/// contacts that share the bodies, is still to be taken from it:
+///   F = spring + damper (approach + (F_last - F) / (2 limit)),
+/// solved for F. Restitution then comes out a third to a fifth as wrong as with `approach` itself.
+template <typename Number>
+REPOSE_INLINE Number normal_force(const NormalPush<Number>& push, const Touch<Number>& touch,
+                                  const Number& approach, const Number& last) {
+  const Number half_damper = .5 * least(push.damper, kNormalDamperFraction * touch.damper_limit);
+  const Number now = push.spring + 2 * half_damper * approach;
+  return greatest(
+      (now * touch.damper_limit + half_damper * last) / (touch.damper_limit + half_damper),
+      Number{});
 }
 
 /// Hertz-Mindlin without slip, Coulomb's limit, damping.
@@ -107,21 +130,22 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   const Number normal_stiffness = 2 * law.reduced_young * a;
   const Number tangential_stiffness = 8 * law.reduced_shear * a;
   const Number mass_root = sqrt(normal_stiffness * touch.reduced_mass);
-  const Number normal_damper =
-      least(law.normal_damping * mass_root, kNormalDamperFraction * touch.damper_limit);
   const Number tangential_damper =
       least(law.tangential_damping * mass_root, kTangentialDamperFraction * touch.damper_limit);
 
   const Number approach = -touch.velocity.dot(n);
   const Number travel = size_of(approach) * timestep;
-  ContactForce<Number> force;
-  force.normal = 2.0 / 3 * normal_stiffness * touch.overlap + normal_damper * approach;
+  NormalPush<Number> push = {2.0 / 3 * normal_stiffness * touch.overlap,
+                             law.normal_damping * mass_root};
   // A little more: the way may be just one step long, but for rounding.
   const auto is_brief = touch.overlap <= 1.000001 * travel;
   if (any(is_brief)) {
-    force.normal = select(is_brief, brief_normal_force(touch, law, travel, approach), force.normal);
+    const NormalPush<Number> brief = brief_push(touch, law, travel);
+    push = {select(is_brief, brief.spring, push.spring),
+            select(is_brief, brief.damper, push.damper)};
   }
-  force.normal = greatest(force.normal, Number{});
+  ContactForce<Number> force;
+  force.normal = normal_force(push, touch, approach, springs.push);
 
   Vec3<Number> spring = springs.tangential;
   const Number old_size2 = spring.squared_norm();
@@ -149,6 +173,7 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   if (any(is_over)) tangential = tangential * select(is_over, limit / sqrt(total2), Number(1));
   springs.tangential = spring;
   springs.radius = a;
+  springs.push = force.normal;
   force.total = tangential - n * force.normal;
   return force;
 }

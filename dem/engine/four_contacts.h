@@ -19,19 +19,24 @@ struct PairLoad {
   double touching = 0;  ///< how many spheres
 };
 
-/// A sphere of body a that touches the Other: a PlacedSphere of body b, or the FacetContact of a
-/// wall.
-template <typename Other>
-struct Touching {
+/// What all contacts of a pair of grains, or of a grain and a wall, share.
+struct TouchingPair {
   const BodyMotion* a = nullptr;
   const BodyMotion* b = nullptr;
   const Row* position_a = nullptr;
   const Row* position_b = nullptr;
+  const ContactLaw* law = nullptr;
+  PairLoad* load = nullptr;
+};
+
+/// A sphere of body a that touches the Other: a PlacedSphere of body b, or the FacetContact of a
+/// wall.
+template <typename Other>
+struct Touching {
+  const TouchingPair* pair = nullptr;
   const PlacedSphere* sphere = nullptr;
   const Other* other = nullptr;
   ContactMemory* memory = nullptr;
-  PairLoad* load = nullptr;
-  const ContactLaw* law = nullptr;
 };
 
 /// Up to four of them; those beyond the last one repeat it.
@@ -78,10 +83,10 @@ REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const Co
                                 const Columns& inertia_b, Contacts& c) {
   const Columns to_a =
       arms<is_round>([&](std::size_t k) { return load_row(*four[k]->sphere); },
-                     [&](std::size_t k) { return load_row(*four[k]->position_a); });
+                     [&](std::size_t k) { return load_row(*four[k]->pair->position_a); });
   const Columns to_b =
       arms<is_round>([&](std::size_t k) { return load_row(*four[k]->other); },
-                     [&](std::size_t k) { return load_row(*four[k]->position_b); });
+                     [&](std::size_t k) { return load_row(*four[k]->pair->position_b); });
   const Columns apart =
       gather([&](std::size_t k) { return load_row(*four[k]->other) - load_row(*four[k]->sphere); });
   const Lanes distance = sqrt(apart.xyz.squared_norm());
@@ -103,9 +108,9 @@ REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Co
                                 const Columns& /*inertia_b*/, Contacts& c) {
   const Columns to_a =
       arms<is_round>([&](std::size_t k) { return load_row(*four[k]->sphere); },
-                     [&](std::size_t k) { return load_row(*four[k]->position_a); });
+                     [&](std::size_t k) { return load_row(*four[k]->pair->position_a); });
   const Columns across = gather([&](std::size_t k) {
-    return load_row(*four[k]->position_a) - load_row(*four[k]->position_b);
+    return load_row(*four[k]->pair->position_a) - load_row(*four[k]->pair->position_b);
   });
   const Columns facet = gather([&](std::size_t k) { return load_row(*four[k]->other); });
   c.touch.normal = -facet.xyz;
@@ -122,14 +127,17 @@ REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Co
 template <bool is_round, typename Other>
 REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four, double timestep) {
   const auto difference = [&](Row BodyMotion::*row) __attribute__((always_inline)) {
-    return gather(
-        [&](std::size_t k) { return load_row(four[k]->b->*row) - load_row(four[k]->a->*row); });
+    return gather([&](std::size_t k) {
+      return load_row(four[k]->pair->b->*row) - load_row(four[k]->pair->a->*row);
+    });
   };
-  const Columns spin_a = gather([&](std::size_t k) { return load_row(four[k]->a->spin); });
-  const Columns spin_b = gather([&](std::size_t k) { return load_row(four[k]->b->spin); });
-  const Columns kick_a = gather([&](std::size_t k) { return load_row(four[k]->a->spin_kick); });
-  const Columns kick_b = gather([&](std::size_t k) { return load_row(four[k]->b->spin_kick); });
-  const Lanes touching = each([&](std::size_t k) { return four[k]->load->touching; });
+  const Columns spin_a = gather([&](std::size_t k) { return load_row(four[k]->pair->a->spin); });
+  const Columns spin_b = gather([&](std::size_t k) { return load_row(four[k]->pair->b->spin); });
+  const Columns kick_a =
+      gather([&](std::size_t k) { return load_row(four[k]->pair->a->spin_kick); });
+  const Columns kick_b =
+      gather([&](std::size_t k) { return load_row(four[k]->pair->b->spin_kick); });
+  const Lanes touching = each([&](std::size_t k) { return four[k]->pair->load->touching; });
 
   Contacts c;
   set_geometry<is_round>(four, spin_a, spin_b, kick_a, kick_b, c);
@@ -145,10 +153,10 @@ REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four, double times
 
 template <typename Other>
 REPOSE_INLINE Law<Lanes> laws_of(const FourTouching<Other>& four) {
-  const ContactLaw* first = four[0]->law;
+  const ContactLaw* first = four[0]->pair->law;
   Law<Lanes> law = law_of<Lanes>(*first);
   for (std::size_t k = 1; k < kLanes; ++k) {
-    const ContactLaw& own = *four[k]->law;
+    const ContactLaw& own = *four[k]->pair->law;
     if (&own == first) continue;
     law.reduced_young.set(k, own.reduced_young_pa);
     law.reduced_shear.set(k, own.reduced_shear_pa);
@@ -196,7 +204,8 @@ REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, 
   const Contacts c = contacts_of<is_round>(four, timestep);
   const Law<Lanes> law = laws_of(four);
   const Columns memory = gather([&](std::size_t k) { return load_row(*four[k]->memory); });
-  Springs<Lanes> springs = {memory.xyz, memory.w};
+  const Lanes last_push = each([&](std::size_t k) { return four[k]->memory->push; });
+  Springs<Lanes> springs = {memory.xyz, memory.w, last_push};
   const ContactForce<Lanes> force = contact_force(c.touch, law, timestep, springs);
 
   Vec3<Lanes> torque_a = c.arm_a.cross(force.total);
@@ -219,7 +228,8 @@ REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, 
   const Lanes depth = c.touch.overlap / c.smaller_radius;
   for (std::size_t k = 0; k < count; ++k) {
     store_row(memories.row[k], *four[k]->memory);
-    PairLoad& load = *four[k]->load;
+    four[k]->memory->push = springs.push[k];
+    PairLoad& load = *four[k]->pair->load;
     load.force += forces.row[k];
     load.torque_a += torques_a.row[k];
     load.torque_b += torques_b.row[k];

@@ -103,6 +103,13 @@ REPOSE_INLINE bool any(const LaneMask& mask) {
   return (mask.bits[0] | mask.bits[1] | mask.bits[2] | mask.bits[3]) != 0;
 }
 
+/// A bit for each lane, the first one's lowest.
+REPOSE_INLINE unsigned bits_of(const LaneMask& mask) {
+  using Bits = long long __attribute__((vector_size(32)));
+  const Bits bits = mask.bits & Bits{1, 2, 4, 8};
+  return static_cast<unsigned>((bits[0] | bits[1]) | (bits[2] | bits[3]));
+}
+
 REPOSE_INLINE double select(bool mask, double yes, double no) { return mask ? yes : no; }
 REPOSE_INLINE Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no) {
   return mask.bits ? yes.numbers : no.numbers;

@@ -9,9 +9,9 @@ namespace repose::dem {
 namespace {
 
 /// Margin of a grain at rest, as a fraction of its reach.
-constexpr double kRestMargin = .002;
+constexpr double kRestMargin = .001;
 /// A moving grain's margin lasts for about so many steps ...
-constexpr double kHorizonSteps = 30;
+constexpr double kHorizonSteps = 80;
 /// ... but is at most this fraction of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.
@@ -241,6 +241,14 @@ void Neighbours::carry_memories() {
   carry(list_.walls, list_.facets, list_.wall_memories, next_.walls, next_.facets,
         next_.wall_memories);
   std::swap(list_, next_);
+  note_touching();
+}
+
+void Neighbours::note_touching() {
+  list_.has_touched.assign(list_.memories.size() + kLanes, 0);
+  for (std::size_t k = 0; k < list_.memories.size(); ++k) {
+    list_.has_touched[k] = list_.memories[k].radius > 0 ? 1 : 0;
+  }
 }
 
 void Neighbours::index_by_body(std::size_t bodies) {
@@ -295,7 +303,8 @@ std::vector<ContactState> Neighbours::touching(const Bodies& bodies) const {
                         .sphere_b = sphere_b,
                         .contact_radius_m = memory.radius,
                         .tangential_n = memory.tangential,
-                        .rolling_n_m = memory.rolling});
+                        .rolling_n_m = memory.rolling,
+                        .push_n = memory.push});
   };
   for (const NearGrains& pair : list_.grains) {
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
@@ -321,7 +330,8 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
     const int sphere_a = bodies.first_sphere.at(a) + contact.sphere_a;
     const ContactMemory memory{.tangential = contact.tangential_n,
                                .radius = contact.contact_radius_m,
-                               .rolling = contact.rolling_n_m};
+                               .rolling = contact.rolling_n_m,
+                               .push = contact.push_n};
     if (contact.grain_b >= 0) {
       const auto b = static_cast<std::size_t>(contact.grain_b);
       const auto first = static_cast<int>(remembered.spheres.size());
@@ -350,6 +360,7 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
         list_.memories);
   carry(remembered.walls, remembered.facets, remembered.wall_memories, list_.walls, list_.facets,
         list_.wall_memories);
+  note_touching();
   const auto touching = [](const std::vector<ContactMemory>& memories) {
     return std::count_if(memories.begin(), memories.end(),
                          [](const ContactMemory& memory) { return memory.radius > 0; });

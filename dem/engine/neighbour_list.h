@@ -44,6 +44,8 @@ struct NeighbourList {
   std::vector<NearGrains> grains;
   std::vector<NearSpheres> spheres;
   std::vector<ContactMemory> memories;  ///< one for each of `spheres`
+  /// Whether each of `spheres` touched at the last step, 1 or 0; longer by kLanes.
+  std::vector<std::uint8_t> has_touched;
   std::vector<int>
       body_start;  ///< one more than bodies: where each one's part of body_pairs starts
   std::vector<int> body_pairs;  ///< numbers of `grains` in which a body takes part, rising
@@ -87,6 +89,7 @@ class Neighbours {
   void list_grains(const Bodies& bodies);
   void list_walls(const Bodies& bodies, const WallSet& walls);
   void carry_memories();
+  void note_touching();
   void index_by_body(std::size_t bodies);
 
   NeighbourList list_;

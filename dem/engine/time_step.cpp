@@ -11,13 +11,6 @@
 namespace repose::dem {
 namespace {
 
-/// Accuracy needs this fraction of the stable step 2 / omega: restitution then comes out within
-/// .005 (Restitution.ComesOutAtEveryAcceptedTimestep), and elastic impacts make less than 1e-4 of
-/// energy. A sphere on a wall is resolved by 48 steps an impact, two equal spheres by 42.
-/// Tangential stiffness counts whatever the friction: it is what makes the step short enough for
-/// both.
-constexpr double kAccurateFraction = .07;
-
 /// Deepest overlap of a Hertz contact of two masses: (15 m* v^2 / (16 E* sqrt(R*)))^(2/5).
 double impact_overlap(double reduced_mass, double reduced_young, double reduced_radius,
                       double speed) {
@@ -76,7 +69,7 @@ std::vector<Vector> directions() {
 
 }  // namespace
 
-double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s) {
+double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s, double fraction) {
   double highest = 0;
   const std::vector<Vector> downs = directions();
   for (const GrainKind& kind : setup.kinds) {
@@ -93,11 +86,12 @@ double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s) {
       }
     }
   }
-  return kAccurateFraction * 2 / highest;
+  return fraction * 2 / highest;
 }
 
-void check_timestep(double timestep_s, const SimulationSetup& setup, double speed_m_s) {
-  const double longest = accurate_timestep_s(setup, speed_m_s);
+void check_timestep(double timestep_s, const SimulationSetup& setup, double speed_m_s,
+                    double fraction) {
+  const double longest = accurate_timestep_s(setup, speed_m_s, fraction);
   constexpr double kLongestDetour = 1000;
   if (timestep_s < longest / kLongestDetour) {
     throw std::invalid_argument(

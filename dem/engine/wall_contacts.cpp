@@ -40,7 +40,7 @@ void hand_over_memories(const ContactStep& step, const NearWall& pair, Neighbour
 
 /// Adds what touches. What has parted forgets.
 void add_touching(const ContactStep& step, const WallMotions& wall_motions, const NearWall& pair,
-                  NeighbourList& list, FacetContact* facets, PairLoad* load,
+                  NeighbourList& list, FacetContact* facets, PairLoad* load, TouchingPair* shared,
                   std::vector<TouchingWall>& touching) {
   if (step.walls.has_facets(pair.wall)) hand_over_memories(step, pair, list);
   const std::size_t start = touching.size();
@@ -50,26 +50,21 @@ void add_touching(const ContactStep& step, const WallMotions& wall_motions, cons
     ContactMemory& memory = list.wall_memories[k];
     *facets = facet_contact(step, pair, list, k);
     if (facets->distance < sphere.radius) {
-      TouchingWall& one = touching.emplace_back();  // filled in place: copies would cost more
-      one.a = &step.bodies.motion[static_cast<std::size_t>(pair.body)];
-      one.b = &wall_motions.motion[static_cast<std::size_t>(pair.wall)];
-      one.position_a = &step.bodies.position[static_cast<std::size_t>(pair.body)];
-      one.position_b = &wall_motions.position[static_cast<std::size_t>(pair.wall)];
-      one.sphere = &sphere;
-      one.other = facets++;
-      one.memory = &memory;
-      one.load = load;
+      touching.push_back({shared, &sphere, facets++, &memory});
     } else if (memory.radius > 0) {
       memory = {};
     }
   }
   if (touching.size() == start) return;
-  const ContactLaw& law =
-      step.contacts.law(step.material(pair.body), step.walls.wall(pair.wall).material);
-  for (std::size_t k = start; k < touching.size(); ++k) {
-    touching[k].law = &law;
-    load->touching += 1;
-  }
+  const auto body = static_cast<std::size_t>(pair.body);
+  const auto wall = static_cast<std::size_t>(pair.wall);
+  *shared = {&step.bodies.motion[body],
+             &wall_motions.motion[wall],
+             &step.bodies.position[body],
+             &wall_motions.position[wall],
+             &step.contacts.law(step.material(pair.body), step.walls.wall(pair.wall).material),
+             load};
+  load->touching = static_cast<double>(touching.size() - start);
 }
 
 REPOSE_FOR_EACH_MACHINE
@@ -98,7 +93,9 @@ void find_wall_loads(const ContactStep& step, const WallMotions& wall_motions, N
                      std::size_t first, std::span<PairLoad> loads) {
   // Kept from call to call, so that nothing is allocated once they are large enough.
   thread_local std::vector<FacetContact> facets;
+  thread_local std::vector<TouchingPair> pairs;
   thread_local std::vector<TouchingWall> touching;
+  pairs.resize(std::max(pairs.size(), loads.size()));
   std::fill(loads.begin(), loads.end(), PairLoad{});
   const auto from = static_cast<std::size_t>(list.walls[first].first);
   const NearWall& last = list.walls[first + loads.size() - 1];
@@ -108,7 +105,8 @@ void find_wall_loads(const ContactStep& step, const WallMotions& wall_motions, N
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const NearWall& pair = list.walls[first + k];
     add_touching(step, wall_motions, pair, list,
-                 &facets[static_cast<std::size_t>(pair.first) - from], &loads[k], touching);
+                 &facets[static_cast<std::size_t>(pair.first) - from], &loads[k], &pairs[k],
+                 touching);
   }
   add_wall_contacts(touching, step);
 }

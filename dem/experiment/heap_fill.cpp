@@ -22,8 +22,6 @@ namespace {
 constexpr double kFillFraction = .35;
 /// Places tried for each layer: more would find few.
 constexpr int kTriesPerLayer = 400;
-/// Filling only makes a random packing: it may take steps twice as long as what is measured.
-constexpr double kFillTimestepFraction = 2;
 /// How far the rain is taken to have fallen, in reaches of a grain.
 constexpr double kFall = 4;
 /// How far grains are heaped over the rim before they are levelled, in reaches of a grain.
@@ -158,7 +156,7 @@ ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
   const double reach = model.grain.reach_m();
   const double tall = protocol.tube_height_m + 10 * kHeaped * reach;
   return {Simulation(model_setup(model, model.grain, {plate_of(protocol), tube_of(protocol, tall)},
-                                 fastest_m_s(reach), kFillTimestepFraction)),
+                                 fastest_m_s(reach), kHeapFraction)),
           observers};
 }
 
@@ -175,7 +173,7 @@ ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapPro
   }
   SimulationSetup setup = model_setup(
       model, model.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
-      fastest_m_s(reach));
+      fastest_m_s(reach), kHeapFraction);
   // Grains that fall off the plate are gone once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),

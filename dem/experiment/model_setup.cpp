@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "dem/engine/time_step.h"
-
 namespace repose::dem {
 namespace {
 
@@ -62,17 +60,16 @@ Wall study_wall(WallShape shape, const Pose& pose) {
 }
 
 SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
-                            double speed_m_s, double timestep_fraction) {
+                            double speed_m_s, double fraction) {
   SimulationSetup setup{.kinds = {{.shape = shape, .material = kGrainMaterial}},
                         .walls = std::move(walls),
                         .contacts = contact_table(model),
                         .threads = model.threads};
   if (model.timestep_s) {
-    check_timestep(*model.timestep_s, setup, speed_m_s);
+    check_timestep(*model.timestep_s, setup, speed_m_s, fraction);
     setup.timestep_s = *model.timestep_s;
   } else {
-    setup.timestep_s =
-        model.timestep_fraction * timestep_fraction * accurate_timestep_s(setup, speed_m_s);
+    setup.timestep_s = model.timestep_fraction * accurate_timestep_s(setup, speed_m_s, fraction);
   }
   return setup;
 }

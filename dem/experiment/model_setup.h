@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/error_list.h"
+#include "dem/engine/time_step.h"
 #include "dem/experiment/experiment.h"
 
 namespace repose::dem {
@@ -18,9 +19,9 @@ void find_errors(const Model& model, base::ErrorList& errors);
 Wall study_wall(WallShape shape, const Pose& pose = {});
 
 /// Grains of one shape among walls, with the bench's materials and a time step for impacts at up to
-/// `speed_m_s`: the bench's own, or the bench's fraction times `timestep_share` of the longest
-/// accurate one. Throws std::invalid_argument for a time step asked for that is not safe.
+/// `speed_m_s`: the bench's own, or its share of the longest accurate one, `fraction` of the stable
+/// one (time_step.h). Throws std::invalid_argument for a time step asked for that is not safe.
 SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
-                            double speed_m_s, double timestep_fraction = 1);
+                            double speed_m_s, double fraction = kImpactFraction);
 
 }  // namespace repose::dem

@@ -84,6 +84,11 @@ void check_end(bool is_at_end, const std::string& name) {
   if (!is_at_end) refuse(name, "has more values than belong to it");
 }
 
+bool ArrayReader::has(const std::string& name) const {
+  return std::any_of(arrays_.begin(), arrays_.end(),
+                     [&](const VtkArray& one) { return one.name == prefix_ + name; });
+}
+
 template <typename Value>
 const std::vector<Value>& ArrayReader::find(const std::string& name, int components) const {
   const std::string full = prefix_ + name;

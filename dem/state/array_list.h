@@ -68,6 +68,7 @@ class ArrayReader {
   explicit ArrayReader(const std::vector<VtkArray>& arrays, std::string prefix = {})
       : arrays_(arrays), prefix_(std::move(prefix)) {}
 
+  bool has(const std::string& name) const;
   /// All finite.
   NumberStream numbers(const std::string& name, int components) const;
   IntegerStream integers(const std::string& name, int components) const;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kAbsent = "absent_";  // before the names of grains that have left
 constexpr int kContactNumbers = 7;
+constexpr const char* kPush = "contact_push";
 
 std::vector<int> grains_that_are(bool present, const Checkpoint& checkpoint) {
   std::vector<int> numbers;
@@ -86,16 +87,18 @@ void take_grains(const ArrayReader& arrays, NumberStream position, std::size_t k
 
 void add_contacts(ArrayWriter& arrays, const std::vector<ContactState>& contacts) {
   std::vector<std::int64_t> parts;
-  std::vector<double> values;
+  std::vector<double> values, pushes;
   for (const ContactState& contact : contacts) {
     parts.insert(parts.end(),
                  {contact.grain_a, contact.sphere_a, contact.grain_b, contact.sphere_b});
     values.push_back(contact.contact_radius_m);
     append(values, contact.tangential_n);
     append(values, contact.rolling_n_m);
+    pushes.push_back(contact.push_n);
   }
   arrays.integers("contact_grain_sphere", 4, std::move(parts));
   arrays.numbers("contact_radius_tangential_rolling", kContactNumbers, std::move(values));
+  arrays.numbers(kPush, 1, std::move(pushes));
 }
 
 /// Number of a sphere within its grain.
@@ -117,6 +120,12 @@ int take_partner(IntegerStream& integers, std::size_t grains, std::size_t walls)
   return static_cast<int>(number);
 }
 
+/// States of before version 3 hold none, and are not gone on from.
+void take_pushes(NumberStream pushes, std::vector<ContactState>& contacts) {
+  for (ContactState& contact : contacts) contact.push_n = pushes.take();
+  check_end(pushes.is_at_end(), pushes.name());
+}
+
 std::vector<ContactState> contacts_in(const ArrayReader& arrays, const Checkpoint& checkpoint,
                                       const SimulationSetup& setup) {
   IntegerStream parts = arrays.integers("contact_grain_sphere", 4);
@@ -135,6 +144,7 @@ std::vector<ContactState> contacts_in(const ArrayReader& arrays, const Checkpoin
     contacts.push_back(contact);
   }
   check_end(values.is_at_end(), values.name());
+  if (arrays.has(kPush)) take_pushes(arrays.numbers(kPush, 1), contacts);
   return contacts;
 }
 

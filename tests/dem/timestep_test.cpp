@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -62,6 +63,42 @@ TEST(AccurateTimestep, StepsThatWouldTakeForEverAreRefused) {
       AllOf(HasSubstr("timestep_s is 1e-300"), HasSubstr("Rule: at least"), HasSubstr("Fix:")));
 }
 
+/// Kinetic energy after an elastic impact of two like balls, or of one with a wall, over that
+/// before.
+double energy_kept(bool on_ball, double angle_rad, double late) {
+  constexpr double kSpeed = 2;
+  SimulationSetup setup = ball_scene({.sliding_friction = .3});
+  if (!on_ball) setup.walls = {tilted_plane(0)};
+  setup.timestep_s = accurate_timestep_s(setup, kSpeed, kHeapFraction);
+  Simulation simulation(setup);
+  const Vector velocity = kSpeed * Vector(std::sin(angle_rad), 0, -std::cos(angle_rad));
+  simulation.add({.position = {0, 0, kBallRadius_m - late * setup.timestep_s * velocity.z()},
+                  .velocity = velocity});
+  if (on_ball) simulation.add({.position = {0, 0, -kBallRadius_m}});
+  const double before = simulation.energies().kinetic_j;
+  collide(simulation, Vector::UnitZ(), kBallRadius_m);
+  return simulation.energies().kinetic_j / before;
+}
+
+TEST(HeapTimestep, ElasticImpactsMakeAThousandthOfEnergyAtMost) {
+  for (const bool on_ball : {false, true}) {
+    double most = 0;
+    for (int k = 0; k < 90 + 16; ++k) {
+      const double angle_deg = std::max(0, k - 16);  // 0: wherever in a step the contact begins
+      most = std::max(most, energy_kept(on_ball, angle_deg * kDegree, k % 16 / 16.0) - 1);
+    }
+    EXPECT_LT(most, 1e-3) << (on_ball ? "on a ball" : "on a wall");
+    EXPECT_GT(most, 1e-5) << "some: the steps are long";
+  }
+}
+
+TEST(HeapTimestep, IsLongerThanThatOfASingleImpactAndRefusedThere) {
+  const SimulationSetup setup = ball_on_plane(.5);
+  const double step = accurate_timestep_s(setup, .1, kHeapFraction);
+  EXPECT_NO_THROW(check_timestep(step, setup, .1, kHeapFraction));
+  EXPECT_THROW(check_timestep(step, setup, .1), std::invalid_argument);
+}
+
 TEST(StableTimestep, NoContactsSetNoLimit) {
   Simulation simulation(ball_on_plane(.5));
   Grain ball;
@@ -98,7 +135,7 @@ TEST(StableTimestep, FrictionAddsTheSwingAboutTheContact) {
 
 TEST(StableTimestep, SettledPackingStaysAtRestAtTheAcceptedStep) {
   SimulationSetup setup = packing_setup();
-  setup.timestep_s = accurate_timestep_s(setup, 1);
+  setup.timestep_s = accurate_timestep_s(setup, 1, kHeapFraction);
   Simulation simulation = loose_packing(setup, 16);
   const double fall_j = simulation.mass_kg(0) * kStandardGravity_m_s2 * .001;
   const auto settle = [&simulation](double until_s, double rest_j) {
