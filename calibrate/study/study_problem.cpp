@@ -187,7 +187,7 @@ Budget budget_named(const std::string& name) {
                 "says, few of them, so intervals are wide",
             .settings = {.budget_s = 13 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
             .heap_softening = .1,
-            .verification_repeats = 3,
+            .verification_repeats = 6,
             .family_sets = 2};
   }
   if (name == "standard") {
