@@ -1,8 +1,13 @@
 #include "calibrate/report/study_report.h"
 
+#include <chrono>
+#include <ctime>
 #include <set>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "base/version.h"
@@ -11,6 +16,8 @@
 #include "calibrate/report/report_of.h"
 #include "calibrate/report/tables.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/study/study_folder.h"
+#include "calibrate/study/study_record.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -54,6 +61,41 @@ Document document_of(const ReportedStudy& study) {
   return document;
 }
 
+/// What the study says of itself; nothing where its copy is gone or damaged.
+dem::StudyHeading heading_in(const std::filesystem::path& folder) {
+  try {
+    return read_study_record(folder).study.heading;
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+/// "23 November 2026": when the result was written. Empty where there is none.
+std::string date_of_result(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(folder / kResultFile, error);
+  if (error) return {};
+  const auto when =
+      std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(written));
+  return fmt::format("{:%d %B %Y}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
+}
+
+/// Above all else: the study's own title, who made it and when, and its note.
+void put_heading(const std::filesystem::path& folder, Document& document) {
+  constexpr std::size_t kLongest = 1000;
+  const dem::StudyHeading heading = heading_in(folder);
+  if (!heading.title.empty()) document.title = shortened(heading.title);
+  if (document.chapters.empty()) return;
+  std::string line = shortened(heading.author);
+  const std::string date = date_of_result(folder);
+  if (!date.empty()) line += (line.empty() ? "" : ", ") + date;
+  std::vector<Block> blocks;
+  if (!line.empty()) blocks.emplace_back(Paragraph{line + '.'});
+  if (!heading.note.empty()) blocks.emplace_back(Paragraph{shortened(heading.note, kLongest)});
+  auto& first = document.chapters.front().blocks;
+  first.insert(first.begin(), blocks.begin(), blocks.end());
+}
+
 /// Names that were cut or spelled alike get a number.
 void number_alike(Document& document) {
   std::set<std::string> taken;
@@ -89,7 +131,9 @@ Report study_report(const StudyResult& result, const std::vector<PictureReading>
 }
 
 Report study_report(const std::filesystem::path& folder) {
-  return report_of(document_of(read_reported_study(folder)));
+  Document document = document_of(read_reported_study(folder));
+  put_heading(folder, document);
+  return report_of(std::move(document));
 }
 
 }  // namespace repose::calibrate::report

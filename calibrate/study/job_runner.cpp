@@ -28,8 +28,16 @@ std::string fault_of(const RunSpec& spec, const Run& run) {
 
 }  // namespace
 
+double run_s_of(const Problem& problem, const Job& job) {
+  for (const Experiment& experiment : problem.experiments) {
+    if (experiment.name == job.experiment) return experiment.run_s;
+  }
+  return 0;
+}
+
 std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
-                                               const std::vector<Job>& jobs) {
+                                               const std::vector<Job>& jobs,
+                                               std::optional<double> later_s) {
   std::vector<std::optional<Run>> runs(jobs.size());
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
@@ -38,9 +46,11 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
     if (!runs[k]) open.push_back(k);
   }
   reused_ += static_cast<int>(jobs.size() - open.size());
-  std::stable_sort(open.begin(), open.end(),
-                   [&](std::size_t a, std::size_t b) { return cost_s(jobs[a]) > cost_s(jobs[b]); });
-  simulate(stage, jobs, open, runs);
+  std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+    return run_s_of(problem_, jobs[a]) > run_s_of(problem_, jobs[b]);
+  });
+  simulate({.stage = stage, .of = static_cast<int>(open.size()), .seconds_later = later_s}, jobs,
+           open, runs);
   if (context_.is_interrupted) return std::nullopt;
   std::vector<Run> done;
   done.reserve(runs.size());
@@ -48,14 +58,13 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
   return done;
 }
 
-void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
+void JobRunner::simulate(StudyProgress progress, const std::vector<Job>& jobs,
                          const std::vector<std::size_t>& open,
                          std::vector<std::optional<Run>>& runs) {
   std::vector<Job> missing;
-  StudyProgress progress{.stage = stage, .done = 0, .of = static_cast<int>(open.size())};
   for (const std::size_t k : open) {
     missing.push_back(jobs[k]);
-    progress.seconds_of += cost_s(jobs[k]);
+    progress.seconds_of += run_s_of(problem_, jobs[k]);
   }
   if (missing.empty()) return;
   context_.report(progress);
@@ -66,7 +75,7 @@ void JobRunner::simulate(const std::string& stage, const std::vector<Job>& jobs,
         runs[open[k]] = possible(done);
         ++simulated_;
         ++progress.done;
-        progress.seconds_done += cost_s(missing[k]);
+        progress.seconds_done += run_s_of(problem_, missing[k]);
         context_.report(progress);
       },
       context_.is_interrupted);
@@ -91,13 +100,6 @@ Run JobRunner::possible(const SimulatedJob& done) const {
   run.readings.clear();
   run.failure = std::move(fault);
   return run;
-}
-
-double JobRunner::cost_s(const Job& job) const {
-  for (const Experiment& experiment : problem_.experiments) {
-    if (experiment.name == job.experiment) return experiment.run_s;
-  }
-  return 0;
 }
 
 }  // namespace repose::calibrate

@@ -10,26 +10,30 @@
 
 namespace repose::calibrate {
 
+/// About how long a job takes, s by the program's own measure.
+double run_s_of(const Problem& problem, const Job& job);
+
 /// Gets jobs done: from the folder where they are there, else by the executor.
 class JobRunner {
  public:
   JobRunner(const Problem& problem, const StudyContext& context)
       : problem_(problem), context_(context) {}
 
-  /// In the order of the jobs. None when it was interrupted.
+  /// In the order of the jobs. None when it was interrupted. `later_s` is the work of the stages
+  /// that follow, for those who watch.
   /// @throws std::invalid_argument  a protocol that cannot be run, a folder that cannot be written.
-  std::optional<std::vector<Run>> get(const std::string& stage, const std::vector<Job>& jobs);
+  std::optional<std::vector<Run>> get(const std::string& stage, const std::vector<Job>& jobs,
+                                      std::optional<double> later_s = {});
 
   int reused() const { return reused_; }
   int simulated() const { return simulated_; }
 
  private:
-  void simulate(const std::string& stage, const std::vector<Job>& jobs,
+  void simulate(StudyProgress progress, const std::vector<Job>& jobs,
                 const std::vector<std::size_t>& open, std::vector<std::optional<Run>>& runs);
   /// What a fit takes from it. Readings that cannot be make it a failed run, and are noted.
   Run possible(const SimulatedJob& done) const;
   void keep(const SimulatedJob& done) const;
-  double cost_s(const Job& job) const;
 
   const Problem& problem_;
   const StudyContext& context_;

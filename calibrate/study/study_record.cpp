@@ -48,6 +48,28 @@ std::vector<PictureReading> pictures_in(const Json& json) {
   return pictures;
 }
 
+Json sheets_json(const std::vector<SheetReadings>& sheets) {
+  Json json = Json::array();
+  for (const SheetReadings& sheet : sheets) {
+    json.push_back({{"experiment", sheet.experiment},
+                    {"file", sheet.file.string()},
+                    {"rows", sheet.rows},
+                    {"values", sheet.values}});
+  }
+  return json;
+}
+
+std::vector<SheetReadings> sheets_in(const Json& json) {
+  std::vector<SheetReadings> sheets;
+  for (const Json& sheet : json) {
+    sheets.push_back({.experiment = sheet.at("experiment"),
+                      .file = sheet.at("file").get<std::string>(),
+                      .rows = sheet.at("rows"),
+                      .values = sheet.at("values")});
+  }
+  return sheets;
+}
+
 Json notes_json(const StudyNotes& notes) {
   const StudyIdentity& study = notes.study;
   return {{"program", study.program},
@@ -55,6 +77,7 @@ Json notes_json(const StudyNotes& notes) {
           {"method", study.method},
           {"budget", {{"name", study.budget}, {"description", study.budget_description}}},
           {"pictures", pictures_json(notes.pictures)},
+          {"sheets", sheets_json(notes.sheets)},
           {"files", notes.fingerprints}};
 }
 
@@ -69,6 +92,7 @@ StudyNotes notes_in(const Json& json) {
                     .budget = budget.at("name"),
                     .budget_description = budget.at("description")},
           .pictures = pictures_in(json.at("pictures")),
+          .sheets = sheets_in(json.value("sheets", Json::array())),  // earlier versions had none
           .fingerprints = json.value("files", std::map<std::string, std::string>())};
 }
 
@@ -90,7 +114,9 @@ StudyIdentity identity_of(const StudyRecord& record) {
 }
 
 dem::Study as_simulated(dem::Study study, const Budget& budget,
-                        const std::vector<PictureReading>& pictures) {
+                        const std::vector<PictureReading>& pictures,
+                        const std::vector<SheetReadings>& sheets) {
+  study = with_readings(std::move(study), sheets);
   const auto heap = study.experiments.find(dem::Experiment::heap);
   if (heap == study.experiments.end()) return study;
   heap->second.stiffness_factor *= budget.heap_softening;
@@ -129,6 +155,7 @@ void write_study_record(const fs::path& folder, const StudyRecord& record) {
   const std::string clump = dem::clump_json(record.grain);
   const StudyNotes notes{.study = identity_of(record),
                          .pictures = record.pictures,
+                         .sheets = record.sheets,
                          .fingerprints = {{kStudyCopy, base::fingerprint({study})},
                                           {kClumpCopy, base::fingerprint({clump})}}};
   keep(folder / kStudyCopy, study);
@@ -163,9 +190,10 @@ StudyRecord read_study_record(const fs::path& folder) {
   record.method = notes->study.method;
   record.budget = budget_named(notes->study.budget);
   record.pictures = notes->pictures;
+  record.sheets = notes->sheets;
   record.study =
       as_simulated(dem::read_study_copy(kept(folder, kStudyCopy, *notes), record.settings),
-                   record.budget, record.pictures);
+                   record.budget, record.pictures, record.sheets);
   record.study.file = notes->study.file;
   record.study.hash = notes->study.hash;
   record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));

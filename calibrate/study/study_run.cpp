@@ -11,12 +11,11 @@
 #include "calibrate/fit/profile.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/study/job_runner.h"
+#include "calibrate/study/study_estimate.h"
 
 namespace repose::calibrate {
 namespace {
 
-constexpr int kFamilyRepeats = 2;
-constexpr int kMostCheckRounds = 3;
 constexpr double kNear = .5;  // of the uncertainty of measurement: a step that hardly matters
 
 std::vector<double> values_of(const JointFit& fit) {
@@ -42,11 +41,20 @@ void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>
 }
 
 /// Rounds until the fit has settled; false when interrupted.
-bool run_rounds(const Problem& problem, JobRunner& runner, std::vector<Run>& runs) {
+bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
+                std::vector<Run>& runs) {
+  const int most = problem.settings.max_rounds;
+  double left_s = 0, checks_s = 0;
+  for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
+    left_s += estimate.fit_runs * estimate.run_s;
+    checks_s += estimate.check_runs * estimate.run_s;
+  }
   for (int round = 1;; ++round) {
     const std::vector<Job> jobs = propose(problem, runs);
     if (jobs.empty()) return true;
-    const auto done = runner.get(fmt::format("round {}", round), jobs);
+    for (const Job& job : jobs) left_s -= run_s_of(problem, job);
+    const double later_s = checks_s + (round < most ? std::max(0., left_s) : 0);
+    const auto done = runner.get(fmt::format("round {} of at most {}", round, most), jobs, later_s);
     if (!done) return false;
     runs.insert(runs.end(), done->begin(), done->end());
   }
@@ -71,7 +79,8 @@ bool try_family(const Problem& problem, const Budget& budget, JobRunner& runner,
     jobs.insert(jobs.end(), of_set.begin(), of_set.end());
     tried.push_back(set.values);
   }
-  const auto checks = runner.get("checking equally good sets", jobs);
+  const auto checks = runner.get("checking equally good sets", jobs,
+                                 kMostCheckRounds * check_s(problem, budget.verification_repeats));
   if (!checks) return false;
   outcome.runs = joined(std::move(outcome.runs), *checks);
   return true;
@@ -97,8 +106,10 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
   while (!is_settled && outcome.check_rounds < kMostCheckRounds) {
     const std::vector<double> values = values_of(outcome.fit);
     const auto checks = runner.get(
-        fmt::format("check {}", outcome.check_rounds + 1),
-        verification_jobs(problem, values, budget.verification_repeats, outcome.check_rounds));
+        fmt::format("check {} of at most {}", outcome.check_rounds + 1, kMostCheckRounds),
+        verification_jobs(problem, values, budget.verification_repeats, outcome.check_rounds),
+        (kMostCheckRounds - outcome.check_rounds - 1) *
+            check_s(problem, budget.verification_repeats));
     if (!checks) return false;
     ++outcome.check_rounds;
     outcome.checks = *checks;
@@ -164,7 +175,7 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
   std::vector<std::vector<double>> tried;
   try {
     const FitWatch watch(context.is_interrupted);
-    if (!run_rounds(problem, runner, outcome.runs)) return std::nullopt;
+    if (!run_rounds(problem, budget, runner, outcome.runs)) return std::nullopt;
     if (!try_family(problem, budget, runner, tried, outcome)) return std::nullopt;
     if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
     judge_family(problem, outcome);

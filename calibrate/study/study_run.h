@@ -12,6 +12,9 @@
 
 namespace repose::calibrate {
 
+inline constexpr int kMostCheckRounds = 3;
+inline constexpr int kFamilyRepeats = 2;  ///< of an equally good set
+
 /// An equally good set of parameters that was simulated.
 struct CheckedSet {
   Verification check;

@@ -22,6 +22,7 @@
 #include "cli/calibrate/calibrate_progress.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/calibrate/check_heaps.h"
+#include "cli/calibrate/dry_run.h"
 #include "cli/calibrate/paper_table.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
@@ -167,6 +168,10 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 
 ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (calibrate::is_launched_as_rank()) {
+    if (arguments.is_dry_run) {
+      print_line("--dry-run: tells of this machine. Fix: start it as one process, without mpirun.");
+      return ExitCode::bad_input;
+    }
     if (calibrate::has_ranks()) return run_as_rank(arguments);
     print_lines(
         {"started as several processes, but built without MPI: each would do the whole "
@@ -178,6 +183,7 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
+  if (arguments.is_dry_run) return run_dry(plan);
   const calibrate::RunFolder folder(plan.out_folder);
   const base::FolderLock lock(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
   enter_folder(plan);

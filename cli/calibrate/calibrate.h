@@ -16,6 +16,7 @@ struct CalibrateArguments {
   std::string jobs;
   std::string out_folder;
   std::string json_file;
+  bool is_dry_run = false;
 };
 
 /// Carries out `repose calibrate`.

@@ -29,8 +29,11 @@ Budgets:
   standard  150 minutes of one core; heaps as stiff as the study says
   paper     62 simulations at most, as many as a published calibration made
 The minutes are estimates for a few hundred grains; verification is extra.
+--dry-run times one run of each experiment here, for 20 seconds at most, and
+tells what each budget would simulate and how long that takes; it saves nothing.
 
 Examples:
+  repose calibrate study.toml --dry-run
   repose calibrate study.toml
   repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
 )";
@@ -39,23 +42,24 @@ Examples:
 
 Command calibrate_command() {
   const auto given = std::make_shared<CalibrateArguments>();
-  return {.name = "calibrate",
-          .summary = "Calibrate a study's coefficients",
-          .options = {{"study", "STUDY.toml", "Study file", &given->study, true},
-                      {"--budget", "quick|standard|paper", "How much may be simulated (quick)",
-                       &given->budget},
-                      {"--method", "joint|paper", "How the coefficients are found (joint)",
-                       &given->method},
-                      {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
-                       &given->settings},
-                      {"--jobs", "N", "Simulations at a time (all cores)", &given->jobs},
-                      {"--out", "FOLDER", "Runs, result.json, heap.vtp (STUDY_calibration)",
-                       &given->out_folder},
-                      {"--json", "FILE|-", "All results, for programs", &given->json_file}},
-          .notes = kNotes,
-          .missing = "no study file is named. Fix: repose calibrate STUDY.toml.",
-          .option_names = {{"the joint method", "--method joint"}},
-          .run = [given] { return run_calibrate(*given); }};
+  return {
+      .name = "calibrate",
+      .summary = "Calibrate a study's coefficients",
+      .options =
+          {{"study", "STUDY.toml", "Study file", &given->study, true},
+           {"--budget", "quick|standard|paper", "How much may be simulated (quick)",
+            &given->budget},
+           {"--method", "joint|paper", "How the coefficients are found (joint)", &given->method},
+           {"--set", "KEY=VALUE", "Replace a value of the study; repeatable", &given->settings},
+           {"--jobs", "N", "Simulations at a time (all cores)", &given->jobs},
+           {"--out", "FOLDER", "Runs, result.json, heap.vtp (STUDY_calibration)",
+            &given->out_folder},
+           {"--dry-run", "", "Only tell how long each budget takes here", &given->is_dry_run},
+           {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+      .notes = kNotes,
+      .missing = "no study file is named. Fix: repose calibrate STUDY.toml.",
+      .option_names = {{"the joint method", "--method joint"}},
+      .run = [given] { return run_calibrate(*given); }};
 }
 
 }  // namespace repose::cli

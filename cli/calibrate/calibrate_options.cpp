@@ -117,10 +117,25 @@ void check_places(CalibratePlan& plan) {
   check_output_places({{"--json", plan.json_file}}, read, plan.errors);
 }
 
+/// It tells what the joint method would do, and gives no results.
+void check_dry_run(const CalibrateArguments& arguments, CalibratePlan& plan) {
+  if (!arguments.is_dry_run) return;
+  if (!arguments.json_file.empty()) {
+    plan.errors.emplace_back("--dry-run: gives no results for --json. Fix: leave one of them out.");
+  }
+  if (arguments.method != "joint") {
+    plan.errors.push_back(
+        fmt::format("--dry-run: tells of the joint method, not of --method {}, which makes at most "
+                    "62 simulations. Fix: leave one of them out.",
+                    arguments.method));
+  }
+}
+
 }  // namespace
 
 CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
   CalibratePlan plan;
+  check_dry_run(arguments, plan);
   plan.record.settings = arguments.settings;
   plan.out_folder = arguments.out_folder;
   plan.json_file = arguments.json_file;
@@ -136,10 +151,14 @@ CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
   read_jobs(arguments, plan);
   if (!is_read) return plan;
   check_places(plan);
+  attempt(plan.errors, [&] {
+    plan.record.sheets = calibrate::read_sheets(plan.record.study, calibrate::NoRows::refused);
+  });
   measure_pictures(dem::measured_in(plan.record.study, dem::Experiment::heap).pictures, plan);
   if (!plan.errors.empty()) return plan;
-  plan.record.study =
-      calibrate::as_simulated(plan.record.study, plan.record.budget, plan.record.pictures);
+  plan.study = plan.record.study;
+  plan.record.study = calibrate::as_simulated(plan.study, plan.record.budget, plan.record.pictures,
+                                              plan.record.sheets);
   attempt(plan.errors, [&] {
     plan.record.grain = dem::build_grain(plan.record.study.grain);
     plan.problem = calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);

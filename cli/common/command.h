@@ -18,7 +18,8 @@ struct CommandOption {
   /// A list takes the option several times, or all words that are left.
   std::variant<std::string*, std::vector<std::string>*, bool*> target;
   bool is_required = false;
-  int word_count = 0;  ///< of a list of words, when there must be just so many
+  int word_count = 0;                   ///< of a list of words, when there must be just so many
+  std::vector<std::string> words = {};  ///< that it may be, where its value_name does not say
 };
 
 /// A subcommand: what its help says, its options, and what carries it out once they are parsed.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,15 +16,16 @@ constexpr const char* kClearLine = "\r\033[K";
 constexpr std::chrono::milliseconds kBetweenReports{200};
 constexpr double kEnoughToTell = .01;  // of the work done, before a time left means anything
 
+}  // namespace
+
 std::string time_text(double seconds) {
   constexpr double kMinute_s = 60;
   return seconds < 2 * kMinute_s ? fmt::format("{:.0f} s", std::ceil(seconds))
                                  : fmt::format("{:.0f} min", std::ceil(seconds / kMinute_s));
 }
 
-}  // namespace
-
-ProgressLine::ProgressLine() : is_shown_(is_terminal(stderr)) {}
+ProgressLine::ProgressLine(std::string left)
+    : is_shown_(is_terminal(stderr)), left_(std::move(left)) {}
 
 ProgressLine::~ProgressLine() {
   if (is_shown_) print_error_text(kClearLine);
@@ -35,18 +37,19 @@ void ProgressLine::report(const std::string& done, double fraction) {
   const auto now = Clock::now();
   if (now < next_shown_) return;
   next_shown_ = now + kBetweenReports;
-  std::string line = kClearLine + done;
-  if (fraction >= kEnoughToTell) {
-    const std::chrono::duration<double> spent = now - start_;
-    line += fmt::format(", {} left", time_text(spent.count() * (1 - fraction) / fraction));
-  }
-  print_error_text(line);
+  print_error_text(kClearLine + done + left_text(fraction));
 }
 
-void ProgressLine::begin_stage() {
+std::string ProgressLine::left_text(double fraction) const {
+  if (fraction < kEnoughToTell) return {};
+  const std::chrono::duration<double> spent = Clock::now() - start_;
+  return ", " +
+         fmt::format(fmt::runtime(left_), time_text(spent.count() * (1 - fraction) / fraction));
+}
+
+void ProgressLine::show_next() {
   const std::lock_guard lock(mutex_);
-  start_ = Clock::now();
-  next_shown_ = start_;
+  next_shown_ = Clock::now();
 }
 
 Progress::Progress(std::size_t total, const char* done_word)

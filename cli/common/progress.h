@@ -7,11 +7,15 @@
 
 namespace repose::cli {
 
+/// "40 s", "12 min": rounded up.
+std::string time_text(double seconds);
+
 /// One line on standard error that is written over, such as "measured 3 of 10, 12 s left"; only
 /// when that is a terminal. The line goes away with the object. Any thread may report.
 class ProgressLine {
  public:
-  ProgressLine();
+  /// @param left  how the time left is said: "{} left"
+  explicit ProgressLine(std::string left = "{} left");
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -21,18 +25,20 @@ class ProgressLine {
   bool is_shown() const { return is_shown_; }
 
   /// What is done, and which fraction of all the work that is, from 0 to 1. A report that follows
-  /// another at once is not shown, unless it is the first of a stage.
+  /// another at once is not shown, unless show_next() says so.
   void report(const std::string& done, double fraction);
+  void show_next();
 
-  /// The time left is that of the stage that begins now.
-  void begin_stage();
+  /// ", 12 s left" for a fraction that tells; else empty.
+  std::string left_text(double fraction) const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
   const bool is_shown_;
   std::mutex mutex_;
-  Clock::time_point start_ = Clock::now();
+  const std::string left_;
+  const Clock::time_point start_ = Clock::now();
   Clock::time_point next_shown_ = start_;
 };
 

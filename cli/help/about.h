@@ -17,6 +17,7 @@ Examples:
   repose shape nut.stl --spheres 11 --out nut.json
   repose simulate heap samples/hazelnut/study.toml --out heaps
   repose render heaps/heap_seed_1.vtp --out heap.png
+  repose new soybean.toml --grains soybean --plate acrylic
   repose calibrate samples/hazelnut/study.toml --out hazelnut
   repose report hazelnut
   repose bench sliding angles.csv

@@ -22,7 +22,7 @@ bool is_word(const std::string& part) {
 }  // namespace
 
 ValueKind value_kind(const CommandOption& option) {
-  ValueKind kind;
+  ValueKind kind{.words = option.words};
   std::istringstream parts(option.value_name);
   for (std::string part; std::getline(parts, part, '|');) {
     if (is_word(part)) kind.words.push_back(part);

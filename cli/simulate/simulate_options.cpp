@@ -12,6 +12,7 @@
 
 #include "calibrate/experiment/heap_views.h"
 #include "calibrate/experiment/run_folder.h"
+#include "calibrate/study/bench_sheets.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/output.h"
@@ -155,6 +156,9 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   try {
     plan.study = dem::read_study(arguments.study, arguments.settings);
     is_read = true;
+    // A simulation needs no readings: they are compared with where there are some.
+    plan.study =
+        with_readings(plan.study, calibrate::read_sheets(plan.study, calibrate::NoRows::allowed));
   } catch (const std::invalid_argument& error) {
     add_lines(naming_options(error.what(), kNames), plan.errors);
   }

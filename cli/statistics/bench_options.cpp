@@ -11,7 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "base/closest_word.h"
-#include "calibrate/statistics/table/table.h"
+#include "base/error_list.h"
+#include "calibrate/statistics/bench/sheet.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
@@ -19,16 +20,8 @@
 namespace repose::cli {
 namespace {
 
-constexpr std::string_view kSampleColumn = "sample";
-
 /// Readings from --set, by their names.
 using Settings = std::map<std::string, std::vector<double>>;
-
-std::vector<std::string> names_of(const std::vector<calibrate::ReadingColumn>& columns) {
-  std::vector<std::string> names;
-  for (const calibrate::ReadingColumn& column : columns) names.push_back(column.name);
-  return names;
-}
 
 Settings read_settings(const BenchArguments& arguments, const std::vector<std::string>& names,
                        BenchPlan& plan) {
@@ -92,58 +85,30 @@ void add_typed_readings(const Settings& settings, const std::vector<std::string>
   }
 }
 
-/// A row's readings, and those that hold for all rows; none if one is missing or no number.
-std::optional<std::vector<double>> values_in(const calibrate::Table& table,
-                                             const calibrate::TableRow& row,
-                                             const Settings& settings,
-                                             const std::vector<std::string>& names) {
-  std::vector<double> values;
-  for (const std::string& name : names) {
-    const auto setting = settings.find(name);
-    if (setting != settings.end()) {
-      values.push_back(setting->second.front());
-      continue;
-    }
-    const auto column = table.column(name);
-    const auto number = column ? calibrate::number_of(table, row.cells[*column]) : std::nullopt;
-    if (!number) return std::nullopt;
-    values.push_back(*number);
+/// What holds for all rows of a table; a list of values cannot.
+std::map<std::string, double> constants_in(const Settings& settings, const std::string& file,
+                                           BenchPlan& plan) {
+  std::map<std::string, double> constants;
+  for (const auto& [name, values] : settings) {
+    constants[name] = values.front();
+    if (values.size() == 1) continue;
+    plan.errors.push_back(fmt::format(
+        "--set {}: has {} values. Rule: beside a table, one that holds for all rows. Fix: make it "
+        "a column of {}.",
+        name, values.size(), file));
   }
-  return values;
+  return constants;
 }
 
 /// A table's rows; columns that it lacks come from the settings.
-void add_table_readings(const std::string& file, const Settings& settings,
-                        const std::vector<std::string>& names, BenchPlan& plan) {
-  const calibrate::Table table = calibrate::read_table(file);
-  std::vector<std::string> read;
-  for (const std::string& name : names) {
-    const auto setting = settings.find(name);
-    if (setting == settings.end()) {
-      read.push_back(name);
-    } else if (table.column(name)) {
-      plan.errors.push_back(fmt::format(
-          "{}: has a column {}, and --set gives it too. Fix: leave one of them out.", file, name));
-    } else if (setting->second.size() != 1) {
-      plan.errors.push_back(fmt::format(
-          "--set {}: has {} values. Rule: beside a table, one that holds for all rows. Fix: make "
-          "it a column of {}.",
-          name, setting->second.size(), file));
-    }
+void add_table_readings(const std::string& file, const Settings& settings, BenchPlan& plan) {
+  base::ErrorList errors;
+  for (calibrate::BenchReading& reading :
+       calibrate::read_sheet(file, plan.test, constants_in(settings, file, plan),
+                             calibrate::NoRows::refused, errors)) {
+    plan.readings.push_back(std::move(reading));
   }
-  try {
-    calibrate::numbers_of(table, read);
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
-  }
-  for (const calibrate::TableRow& row : table.rows) {
-    auto values = values_in(table, row, settings, names);
-    if (!values) continue;  // said above
-    const auto sample = table.column(kSampleColumn);
-    plan.readings.push_back({.place = fmt::format("{}:{}", file, row.line),
-                             .values = std::move(*values),
-                             .sample = sample ? row.cells[*sample] : ""});
-  }
+  errors.throw_if_any();
 }
 
 /// Also where something else is wrong, to tell impossible readings at the same time.
@@ -165,12 +130,12 @@ BenchPlan plan_bench(const BenchArguments& arguments) {
   if (const auto test =
           read_word({"bench", arguments.test, plan.errors}, {tests.begin(), tests.end()})) {
     plan.test = static_cast<calibrate::BenchTest>(*test);
-    const std::vector<std::string> names = names_of(calibrate::columns_of(plan.test));
+    const std::vector<std::string> names = calibrate::column_names(plan.test);
     const Settings settings = read_settings(arguments, names, plan);
     if (arguments.files.empty()) add_typed_readings(settings, names, plan);
     for (const std::string& file : arguments.files) {
       try {
-        add_table_readings(file, settings, names, plan);
+        add_table_readings(file, settings, plan);
       } catch (const std::invalid_argument& error) {
         add_lines(error.what(), plan.errors);
       }

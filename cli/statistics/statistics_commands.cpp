@@ -18,6 +18,7 @@ READINGS are CSV tables with a row for each repeat and these columns:
   young        force_n, spot_mm, height_mm, compression_mm
   poisson      height_mm, shortening_mm, width_mm, widening_mm
   size         length_mm, width_mm, thickness_mm
+  heap         angle_deg
 A column "sample" names the grain: repeats on one grain are averaged first. A
 reading that is the same in all rows, or short lists, can be typed with --set.
 

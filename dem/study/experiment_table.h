@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -23,14 +24,24 @@ struct Reading {
   bool is_measurable = false;
 };
 
+/// What a bench writes down of it, a row for each repeat: the columns of a test of `repose bench`.
+struct BenchSheet {
+  std::string_view test;   ///< "restitution"
+  std::string_view value;  ///< the column with the experiment's value: "rebound_mm"
+  /// Columns that repeat keys of the protocol, in their unit: {"drop_mm", "height_mm"}.
+  std::vector<std::pair<std::string_view, std::string_view>> protocol = {};
+};
+
 struct ExperimentEntry {
   Experiment experiment = Experiment::drop;
-  std::string_view name;        ///< in study files, jobs and results: "drop"
-  std::string_view unit;        ///< of its value: "mm" or "deg"
-  std::string_view value_name;  ///< what its value is, for people: "rebound height"
+  std::string_view name;              ///< in study files, jobs and results: "drop"
+  std::string_view unit;              ///< of its value: "mm" or "deg"
+  std::string_view value_name;        ///< what its value is, for people: "rebound height"
+  std::string_view description = "";  ///< how it is done, a sentence or two
   std::vector<Reading> readings;
   /// Names in the study of the coefficients that move its readings.
   std::vector<std::string_view> coefficients;
+  BenchSheet sheet;
   bool is_stochastic = true;  ///< false: the seed changes nothing
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
   /// How many readings of a bench a run's number is the mean of; null: one.

@@ -43,6 +43,8 @@ ExperimentEntry heap_entry() {
           .name = "heap",
           .unit = "deg",
           .value_name = "angle of repose",
+          .description =
+              "A tube full of grains stands on the plate and is lifted slowly. A heap stays.",
           .readings = {{"base_radius_mm", "mm", true},
                        {"height_mm", "mm", true},
                        {"grains_off_plate", "", true},
@@ -56,6 +58,7 @@ ExperimentEntry heap_entry() {
                        {"time_s", "s"}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
+          .sheet = {.test = "heap", .value = "angle_deg"},
           .is_pictured = true,
           .usual = HeapProtocol{},
           .keys = keys_of,

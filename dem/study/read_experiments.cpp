@@ -14,18 +14,19 @@ namespace repose::dem {
 namespace {
 
 constexpr const char* kMeasured =
-    "measured = { values = [9.1, 9.6] }, { mean = 9.42, sd = 0.5, n = 10 } or, for a heap, "
-    "{ pictures = [\"photos\"] }";
+    "measured = { values = [9.1, 9.6] }, { mean = 9.42, sd = 0.5, n = 10 }, { readings = "
+    "\"drops.csv\" } or, for a heap, { pictures = [\"photos\"] }";
 
 /// One way of saying it, and only one.
 void check_ways(Section& measured) {
   int ways = 0;
-  for (const char* way : {"values", "mean", "pictures"}) ways += measured.has(way) ? 1 : 0;
+  for (const char* way : {"values", "mean", "readings", "pictures"})
+    ways += measured.has(way) ? 1 : 0;
   if (ways == 1) return;
   measured.errors().add(measured.place(),
                         fmt::format("{} has {}", measured.path(),
                                     ways == 0 ? "no values" : "more than one kind of values"),
-                        "values, or their mean, or pictures",
+                        "values, or their mean, or a sheet of readings, or pictures",
                         std::string("for example ") + kMeasured);
 }
 
@@ -50,6 +51,9 @@ Measured read_measured(Section& experiment, bool has_pictures, const NamedFiles&
   for (const char* key : {"sd", "n"}) {
     if (!measured.has(key) || measured.has("mean")) continue;
     measured.wrong(*measured.value(key), "sd and n belong to a mean", "add mean or take it out");
+  }
+  if (const auto name = measured.text("readings", "readings = \"drops.csv\"")) {
+    result.sheet = file_named(measured, *measured.value("readings"), *name, files);
   }
   const auto names = measured.texts("pictures", "pictures = [\"photos\"]");
   for (const std::string& name : names.value_or(std::vector<std::string>{})) {

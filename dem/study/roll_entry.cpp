@@ -28,8 +28,14 @@ ExperimentEntry roll_entry() {
           .name = "roll",
           .unit = "mm",
           .value_name = "rolling distance",
+          .description =
+              "A grain is let go on an incline and rolls on along the flat plate. The distance is "
+              "from the foot of the incline.",
           .readings = {{"lateral_mm", "mm"}, {"stopped_on_incline", ""}, {"time_s", "s"}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+          .sheet = {.test = "rolling",
+                    .value = "stopped_mm",
+                    .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},
           .usual = RollProtocol{},
           .keys = keys_of,
           .run =

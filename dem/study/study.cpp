@@ -36,6 +36,13 @@ Section needed_section(Section& study, const std::string& key, const std::string
   return study.section(key);
 }
 
+void read_heading(Section section, StudyHeading& heading) {
+  heading.title = section.text("title", "title = \"Soybeans on acrylic\"").value_or("");
+  heading.author = section.text("author", "author = \"A. Smith\"").value_or("");
+  heading.note = section.text("note", "note = \"harvest of 2024, 12 % moisture\"").value_or("");
+  section.refuse_others();
+}
+
 void read_simulation(Section simulation, Study& study) {
   const auto fraction =
       simulation.number("timestep_fraction", from_to(.001, 1), "timestep_fraction = 1");
@@ -61,6 +68,7 @@ void read_simulation(Section simulation, Study& study) {
 }
 
 void read_sections(Section root, const NamedFiles& files, Study& study) {
+  read_heading(root.section("study"), study.heading);
   read_particle(needed_section(root, "particle", "a study has a particle",
                                "[particle] with size_mm = [22.5, 18.2, 17.5] (or scan, or clump), "
                                "density_kg_m3, young_modulus_pa and poisson_ratio"),
@@ -111,6 +119,10 @@ Study read_study(const fs::path& file, const std::vector<std::string>& settings)
   for (const auto& shape : {study.grain.scan, study.grain.clump}) {
     if (shape) parts.push_back(base::read_whole_file(*shape));
   }
+  for (const auto& [experiment, described] : study.experiments) {
+    const auto& sheet = described.measured.sheet;
+    if (sheet) parts.push_back(base::read_whole_file(*sheet));
+  }
   study.hash = base::fingerprint(parts);
   return study;
 }
@@ -126,7 +138,9 @@ std::vector<std::filesystem::path> files_of(const Study& study) {
     if (named) files.push_back(*named);
   }
   for (const auto& [experiment, described] : study.experiments) {
-    const auto& pictures = described.measured.pictures;
+    const Measured& measured = described.measured;
+    if (measured.sheet) files.push_back(*measured.sheet);
+    const auto& pictures = measured.pictures;
     files.insert(files.end(), pictures.begin(), pictures.end());
   }
   return files;

@@ -42,8 +42,8 @@ struct MeasuredReading {
   std::optional<double> tolerance;  ///< as Measured::tolerance
 };
 
-/// What was measured on the bench: readings, or their mean and scatter, or pictures to measure.
-/// All empty: nothing was. In the unit of the experiment (mm or degrees).
+/// What was measured on the bench: readings, or their mean and scatter, or a sheet of readings, or
+/// pictures to measure. All empty: nothing was. In the unit of the experiment (mm or degrees).
 struct Measured {
   std::vector<double> values;
   std::optional<double> mean;
@@ -51,6 +51,7 @@ struct Measured {
   std::optional<int> count;
   /// A difference between bench and simulation up to this does not matter.
   std::optional<double> tolerance;
+  std::optional<std::filesystem::path> sheet;  ///< a table with the columns of its BenchSheet
   std::vector<std::filesystem::path> pictures;
   std::vector<MeasuredReading> also;
 };
@@ -62,11 +63,19 @@ struct StudyExperiment {
   double stiffness_factor = 1;  ///< of the grains and walls in it; 1 is the real material
 };
 
+/// What a report says about a study beside its numbers. Each may be empty.
+struct StudyHeading {
+  std::string title;
+  std::string author;
+  std::string note;
+};
+
 /// A study file: the particle, the walls, what is known and what is sought, the experiments.
 struct Study {
   std::filesystem::path file;
-  /// Fingerprint of the text, the settings and the scan or clump file: a UUID made from their bytes
-  /// (RFC 4122, version 5). The same study, the same fingerprint.
+  StudyHeading heading;
+  /// Fingerprint of the text, the settings, the scan or clump file and the sheets of readings: a
+  /// UUID made from their bytes (RFC 4122, version 5). The same study, the same fingerprint.
   std::string hash;
   /// Coefficients that are to be found are NaN in it. `bench.grain` is empty: reading takes no
   /// time, making spheres does; `study.model.grain = build_grain(study.grain).shape` when needed.
@@ -105,7 +114,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 Study read_study_copy(const std::filesystem::path& file,
                       const std::vector<std::string>& settings = {});
 
-/// The study's own file and all that it names: its scan or clump, and pictures.
+/// The study's own file and all that it names: its scan or clump, sheets of readings, pictures.
 std::vector<std::filesystem::path> files_of(const Study& study);
 
 /// Whether the study describes the experiment, and what the bench gave for it: nothing where it

@@ -25,8 +25,12 @@ ExperimentEntry tilt_entry() {
           .name = "tilt",
           .unit = "deg",
           .value_name = "angle of sliding",
+          .description =
+              "Two or more grains, glued side by side so that none can roll, lie on the plate "
+              "while it is tilted slowly, until they slide.",
           .readings = {{"half_mm_slip_deg", "deg"}, {"begin_deg", "deg"}},
           .coefficients = {kWallSliding},
+          .sheet = {.test = "sliding", .value = "angle_deg"},
           .is_stochastic = false,
           .usual = TiltProtocol{},
           .keys = keys_of,

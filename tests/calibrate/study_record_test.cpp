@@ -23,10 +23,14 @@ using ::testing::ThrowsMessage;
 class StudyRecordTest : public ::testing::Test {
  protected:
   StudyRecordTest() {
-    folder_.write("study.toml", test::kSphereStudy + R"([experiment.heap]
+    std::string text = test::kSphereStudy;
+    const std::string values = "values = [20.1, 21.3, 20.7, 19.8]";
+    text.replace(text.find(values), values.size(), "readings = \"tilts.csv\"");
+    folder_.write("study.toml", text + R"([experiment.heap]
 measured = { pictures = ["a.jpg", "b.jpg"] }
 stiffness_factor = 0.5
 )");
+    folder_.write("tilts.csv", std::string("angle_deg\n20\n21\n"));
     folder_.write("a.jpg", std::string("not looked at here"));
     folder_.write("b.jpg", std::string("nor this"));
     std::filesystem::create_directory(saved());
@@ -41,8 +45,9 @@ stiffness_factor = 0.5
     record.pictures = {
         {.file = "/photos/a.jpg", .status = "ok", .angle_deg = 24.125, .reason = {}},
         {.file = "/photos/b.jpg", .status = "refused", .angle_deg = {}, .reason = "no \"heap\""}};
-    record.study = as_simulated(dem::read_study(folder_.path() / "study.toml", settings),
-                                record.budget, record.pictures);
+    record.study = dem::read_study(folder_.path() / "study.toml", settings);
+    record.sheets = read_sheets(record.study, NoRows::refused);
+    record.study = as_simulated(record.study, record.budget, record.pictures, record.sheets);
     record.grain = dem::build_grain(record.study.grain);
     record.settings = settings;
     record.method = "joint";
@@ -55,7 +60,7 @@ stiffness_factor = 0.5
 TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
   const StudyRecord written = record();
   write_study_record(saved(), written);
-  for (const char* file : {"study.toml", "a.jpg", "b.jpg"}) {
+  for (const char* file : {"study.toml", "tilts.csv", "a.jpg", "b.jpg"}) {
     std::filesystem::remove(folder_.path() / file);
   }
   const StudyRecord read = read_study_record(saved());
@@ -65,6 +70,8 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
   EXPECT_EQ(dem::model_for(read.study, dem::Experiment::heap).stiffness_factor,
             dem::model_for(written.study, dem::Experiment::heap).stiffness_factor);
   EXPECT_THAT(dem::measured_in(read.study, dem::Experiment::heap).values, ElementsAre(24.125));
+  EXPECT_THAT(dem::measured_in(read.study, dem::Experiment::tilt).values, ElementsAre(20, 21));
+  EXPECT_EQ(read.sheets.at(0).rows, 2);
   EXPECT_EQ(read.budget.name, "quick");
   EXPECT_THAT(read.grain.shape.spheres, SizeIs(1));
   ASSERT_THAT(read.pictures, SizeIs(2));

@@ -70,6 +70,19 @@ TEST_F(BenchCommand, EveryErrorIsNamedWithItsLine) {
                               HasSubstr("repose: missing.csv: there is no such file")));
 }
 
+TEST_F(BenchCommand, ASheetThatIsNotFilledInIsSaid) {
+  folder_.write("heaps.csv", std::string("angle_deg\n"));
+  const Finished empty = run({"heap", "heaps.csv"});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_EQ(empty.err,
+            "repose: heaps.csv: no readings yet: fill in a row for each reading below its header, "
+            "angle_deg.\n");
+  folder_.write("heaps.csv", std::string("angle_deg\n23\n24\n"));
+  const json quantity = result({"heap", "heaps.csv"})["quantities"][0];
+  EXPECT_EQ(quantity["name"], "angle_of_repose");
+  EXPECT_EQ(quantity["mean"], 23.5);
+}
+
 TEST_F(BenchCommand, MistypedTestsAndReadingsAreSaid) {
   EXPECT_THAT(run({"slide", "a.csv"}).err,
               AllOf(HasSubstr("bench slide: unknown"), HasSubstr("sliding")));

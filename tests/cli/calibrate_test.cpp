@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@ namespace repose::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -59,6 +61,61 @@ TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
   const json& regression = result["regressions"][0];
   EXPECT_EQ(regression["observable"], "drop");
   EXPECT_GT(regression["regression"]["anova"]["model"]["f"], 10);
+}
+
+TEST_F(Calibrate, TakesReadingsFromASheetAsIfTheyWereListed) {
+  std::string study = calibrate::test::kSphereStudy;
+  const std::string values = "values = [20.1, 21.3, 20.7, 19.8]";
+  study.replace(study.find(values), values.size(), "readings = \"tilts.csv\"");
+  folder_.write("sheet.toml", study);
+  folder_.write("tilts.csv", std::string("angle_deg\n"));
+  const Finished empty = run({"sheet.toml"});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_THAT(empty.err, HasSubstr("tilts.csv: no readings yet: fill in"));
+  EXPECT_FALSE(exists("sheet_calibration")) << "nothing is begun";
+
+  folder_.write("tilts.csv", std::string("angle_deg;note\n20,1;\n21,3;\n20,7;damp\n19,8;\n"));
+  const json by_sheet = result({"sheet.toml", "--out", "runs"});
+  const json by_hand = result({"study.toml", "--out", "runs"});
+  EXPECT_EQ(by_sheet["observables"], by_hand["observables"]);
+  EXPECT_EQ(by_sheet["parameters"], by_hand["parameters"]);
+}
+
+TEST_F(Calibrate, TheReportIsCalledAsTheStudySays) {
+  folder_.write("study.toml",
+                "[study]\ntitle = \"Balls & <walls>\"\nauthor = \"A. Smith\"\n"
+                "note = \"a dry day\"\n" +
+                    calibrate::test::kSphereStudy);
+  ASSERT_EQ(run({"study.toml", "--out", "d"}).exit_code, 0);
+  ASSERT_EQ(run_repose(folder_, {"report", "d"}).exit_code, 0);
+  const std::string page = text("d/report.html");
+  EXPECT_THAT(
+      page, AllOf(HasSubstr("<h1>Balls &amp; &lt;walls&gt;</h1>"), HasSubstr("<p>a dry day</p>")));
+  EXPECT_THAT(page, ContainsRegex("<p>A\\. Smith, [0-9]{2} [A-Z][a-z]+ 20[0-9]{2}\\.</p>"));
+}
+
+TEST_F(Calibrate, TellsBeforehandWhatEachBudgetWouldDo) {
+  const Finished done = run({"study.toml", "--dry-run", "--jobs", "2"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out,
+              AllOf(HasSubstr("quick "), HasSubstr("standard "), HasSubstr("one more hour"),
+                    HasSubstr("drops"), HasSubstr("at most, on 2 cores")));
+  EXPECT_FALSE(exists("study_calibration")) << "nothing is written";
+
+  // No fit makes more simulations than was told.
+  std::istringstream row(done.out.substr(done.out.find("quick ")));
+  std::string quick, plus;
+  int drops = 0, drop_checks = 0, tilts = 0, tilt_checks = 0;
+  row >> quick >> drops >> plus >> drop_checks >> tilts >> plus >> tilt_checks;
+  const json real = result({"study.toml"});
+  EXPECT_LE(real["runs"].size(),
+            static_cast<std::size_t>(drops + drop_checks + tilts + tilt_checks));
+  EXPECT_GT(drops, 0);
+  EXPECT_GT(tilts, 0);
+
+  const Finished both = run({"study.toml", "--dry-run", "--json", "-", "--method", "paper"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, AllOf(HasSubstr("for --json"), HasSubstr("--method paper")));
 }
 
 TEST_F(Calibrate, KilledAgainAndAgainEndsWithTheSameBytes) {

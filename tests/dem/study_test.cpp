@@ -18,6 +18,7 @@ namespace {
 
 using repose::testing::TemporaryFolder;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -358,6 +359,31 @@ TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
               AllOf(HasSubstr("measured.sd = -1"), HasSubstr("measured.n = 0")));
   EXPECT_THAT(errors(kStudy, {key + "{ pictures = [\"study.toml\"] }"}), HasSubstr("only heaps"));
   EXPECT_THAT(errors(kStudy, {key + "9.42"}), HasSubstr("a section with keys"));
+  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], readings = \"study.toml\" }"}),
+              HasSubstr("more than one kind"));
+  EXPECT_THAT(errors(kStudy, {key + "{ readings = \"none.csv\" }"}),
+              HasSubstr("a file that exists, and there is no none.csv"));
+}
+
+TEST_F(StudyFile, ASheetOfReadingsBelongsToTheStudy) {
+  const std::string text = kStudy + "measured = { readings = \"drops.csv\", tolerance = 2 }\n";
+  folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n"));
+  const Study study = read(text);
+  EXPECT_EQ(measured_in(study, Experiment::drop).sheet, folder_.path() / "drops.csv");
+  EXPECT_EQ(measured_in(study, Experiment::drop).tolerance, 2);
+  EXPECT_THAT(files_of(study), Contains(folder_.path() / "drops.csv"));
+  EXPECT_EQ(read(text).hash, study.hash);
+  folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n500,10\n"));
+  EXPECT_NE(read(text).hash, study.hash) << "other readings are another study";
+}
+
+TEST_F(StudyFile, SaysWhatAReportIsCalled) {
+  EXPECT_EQ(read(kStudy).heading.title, "");
+  const Study study = read("[study]\ntitle = \"Soybeans\"\nauthor = \"A. Smith\"\n" + kStudy);
+  EXPECT_EQ(study.heading.title, "Soybeans");
+  EXPECT_EQ(study.heading.author, "A. Smith");
+  EXPECT_THAT(errors("[study]\ntittle = 3\nnote = 7\n" + kStudy),
+              AllOf(HasSubstr("did you mean title?"), HasSubstr("study.note = 7")));
 }
 
 TEST_F(StudyFile, TextThatIsNoTomlIsSaidWithItsPlace) {

@@ -1,7 +1,8 @@
 """Runs the commands of the documents: check_commands.py REPOSE
 
 In blocks marked sh or console each command is run in a shell, in a folder with sample files; in console
-blocks those after "$ ", and the lines below are what it prints (others may stand between them). Scripts
+blocks those after "$ ", and the lines below are what it prints (others may stand between them). After
+repose new the test goes to the bench: it fills in the sheets. Scripts
 of the repository are checked for their syntax and options, not run. Blocks marked otherwise are not run.
 """
 
@@ -96,6 +97,9 @@ class Runner:
         if done.returncode != 0:
             self.fail(line, f"exit code {done.returncode}: {text}\n{done.stderr.rstrip()}")
             return
+        words = shlex.split(text, comments=True)
+        if words[1] == "new":
+            workplace.go_to_the_bench(self.folder / words[2])
         missing = missing_line(shown, done.stdout)
         if missing:
             self.fail(missing, f"is not printed by: {text}\n  shown: {missing.text}\n{done.stdout}")

@@ -29,7 +29,7 @@ OUTPUTS = {
     "export": ["export hazelnut --to edem --json -"],
     "calibrate": ["calibrate study.toml --out hazelnut --json -"],
 }
-SECTIONS = ["particle", "wall", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
+SECTIONS = ["study", "particle", "wall", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
             "experiment", "experiment.drop", "experiment.tilt", "experiment.roll", "experiment.heap",
             "experiment.heap.measured", "experiment.heap.also_measured",
             "experiment.drop.also_measured", "simulation"]

@@ -1,7 +1,9 @@
 #include "calibrate/statistics/bench/bench.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,9 +29,11 @@ Method method_of(BenchTest test) {
     case BenchTest::poisson:
       return poisson_method();
     case BenchTest::size:
+      return size_method();
+    case BenchTest::heap:
       break;
   }
-  return size_method();
+  return heap_method();
 }
 
 std::string range_of(const ReadingColumn& column) {
@@ -66,7 +70,7 @@ void check_reading(const Method& method, const BenchReading& reading, base::Erro
 
 /// The mean over the repeats on each sample, samples in the order of their first reading.
 std::vector<double> sample_means(std::span<const BenchReading> readings,
-                                 const MethodOutput& output) {
+                                 const std::function<double(ReadingValues)>& value_of) {
   struct Sum {
     double sum = 0;
     int count = 0;
@@ -77,7 +81,7 @@ std::vector<double> sample_means(std::span<const BenchReading> readings,
     std::size_t index = sums.size();
     if (!reading.sample.empty()) index = known.emplace(reading.sample, index).first->second;
     if (index == sums.size()) sums.emplace_back();
-    sums[index].sum += output.of(reading.values);
+    sums[index].sum += value_of(reading.values);
     ++sums[index].count;
   }
   std::vector<double> means;
@@ -120,17 +124,35 @@ std::vector<std::string> notes_on(const Method& method, std::span<const BenchRea
 
 std::vector<ReadingColumn> columns_of(BenchTest test) { return method_of(test).columns; }
 
-BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings) {
+std::vector<double> sample_means(BenchTest test, std::string_view column,
+                                 std::span<const BenchReading> readings) {
+  const std::vector<ReadingColumn> columns = columns_of(test);
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const ReadingColumn& one) { return one.name == column; });
+  if (found == columns.end()) {
+    throw std::invalid_argument(fmt::format("{}: is no column of this bench test", column));
+  }
+  const auto index = static_cast<std::size_t>(found - columns.begin());
+  return sample_means(readings, [index](ReadingValues values) { return values[index]; });
+}
+
+void check_readings(BenchTest test, std::span<const BenchReading> readings) {
   const Method method = method_of(test);
   constexpr std::size_t kMostErrors = 10;  // a table may have a million rows
   base::ErrorList errors(kMostErrors);
-  errors.require(!readings.empty(), "bench: there are no readings. Fix: give at least one.");
   for (const BenchReading& reading : readings) check_reading(method, reading, errors);
   errors.throw_if_any();
+}
 
+BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings) {
+  if (readings.empty()) {
+    throw std::invalid_argument("bench: there are no readings. Fix: give at least one.");
+  }
+  check_readings(test, readings);
+  const Method method = method_of(test);
   BenchResult result{.quantities = {}, .source = method.source, .notes = {}};
   for (const MethodOutput& output : method.outputs) {
-    std::vector<double> values = sample_means(readings, output);
+    std::vector<double> values = sample_means(readings, output.of);
     const calibrate::Summary repeats = calibrate::summarise(values);
     result.quantities.push_back(
         {output.name, output.unit, output.what, std::move(values), repeats});

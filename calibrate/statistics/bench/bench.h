@@ -13,11 +13,11 @@
 /// Bench tests: raw readings in, the quantity with its scatter and interval out.
 namespace repose::calibrate {
 
-enum class BenchTest { restitution, sliding, rolling, density, young, poisson, size };
+enum class BenchTest { restitution, sliding, rolling, density, young, poisson, size, heap };
 
 /// All of them, in the order of the enum.
-inline constexpr std::array<std::string_view, 7> kBenchTestNames = {
-    "restitution", "sliding", "rolling", "density", "young", "poisson", "size"};
+inline constexpr std::array<std::string_view, 8> kBenchTestNames = {
+    "restitution", "sliding", "rolling", "density", "young", "poisson", "size", "heap"};
 
 /// Something that is read off in a test. A reading must lie between `above` and `below`.
 struct ReadingColumn {
@@ -37,6 +37,16 @@ struct BenchReading {
   std::string sample;  ///< repeats on one grain have the same name; empty: a grain of its own
 };
 
+/// A column's mean over the repeats on each sample, samples in the order of their first reading.
+/// @throws std::invalid_argument  the test has no such column.
+std::vector<double> sample_means(BenchTest test, std::string_view column,
+                                 std::span<const BenchReading> readings);
+
+/// @throws std::invalid_argument  every impossible reading, a line each: a rebound higher than the
+/// drop, an incline of 90 degrees or more, Poisson's ratio outside (-1, 0.5), what is not finite,
+/// and so on. Checked by tests/calibrate/bench_test.cpp.
+void check_readings(BenchTest test, std::span<const BenchReading> readings);
+
 struct BenchQuantity {
   std::string name;  ///< "restitution"
   std::string unit;  ///< empty for a pure number
@@ -55,9 +65,7 @@ struct BenchResult {
 /// standard deviation, Student's 95 % interval of the mean. Averages first, because repeats on one
 /// grain say nothing about how much grains differ.
 ///
-/// @throws std::invalid_argument  every impossible reading, a line each: a rebound higher than the
-/// drop, an incline of 90 degrees or more, Poisson's ratio outside (-1, 0.5), what is not finite,
-/// and so on; or there are no readings. Checked by tests/calibrate/bench_test.cpp.
+/// @throws std::invalid_argument  as check_readings; or there are no readings.
 BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings);
 
 }  // namespace repose::calibrate

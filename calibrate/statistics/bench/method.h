@@ -41,5 +41,6 @@ Method density_method();
 Method young_method();
 Method poisson_method();
 Method size_method();
+Method heap_method();
 
 }  // namespace repose::calibrate

@@ -166,7 +166,7 @@ std::optional<std::size_t> Table::column(std::string_view wanted) const {
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-Table parse_table(const std::string& name, std::string_view text) {
+Table parse_table(const std::string& name, std::string_view text, NoRows no_rows) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   check_letters(name, text);
   const char delimiter = delimiter_of(text);
@@ -182,7 +182,7 @@ Table parse_table(const std::string& name, std::string_view text) {
       .has_decimal_comma = delimiter != ','};
   base::ErrorList errors;
   check_header(table, rows.front().line, errors);
-  errors.require(!table.rows.empty(),
+  errors.require(no_rows == NoRows::allowed || !table.rows.empty(),
                  name + ": has no rows below its header. Fix: add a row for each reading or run.");
   base::ErrorList ragged(kMostRowErrors);
   for (const TableRow& row : table.rows) {
@@ -197,8 +197,8 @@ Table parse_table(const std::string& name, std::string_view text) {
   return table;
 }
 
-Table read_table(const std::filesystem::path& file) {
-  return parse_table(file.string(), base::read_whole_file(file));
+Table read_table(const std::filesystem::path& file, NoRows no_rows) {
+  return parse_table(file.string(), base::read_whole_file(file), no_rows);
 }
 
 std::optional<double> number_of(const Table& table, std::string_view cell) {

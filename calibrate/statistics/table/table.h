@@ -29,16 +29,18 @@ struct Table {
   std::optional<std::size_t> column(std::string_view wanted) const;
 };
 
+enum class NoRows { refused, allowed };
+
 /// Reads RFC 4180 text, in UTF-8 with or without a byte order mark. Cells are parted by the first
 /// of semicolon, tab and comma that the header has. Blank lines are passed over.
 ///
 /// @throws std::invalid_argument  every error, a line each: "NAME:LINE: ... Fix: ...": no header,
 /// no rows, columns without a name or with the same name, rows with too few or too many cells,
 /// quotes that do not match, bytes that are no letters.
-Table parse_table(const std::string& name, std::string_view text);
+Table parse_table(const std::string& name, std::string_view text, NoRows no_rows = NoRows::refused);
 
 /// parse_table of a file's content.
-Table read_table(const std::filesystem::path& file);
+Table read_table(const std::filesystem::path& file, NoRows no_rows = NoRows::refused);
 
 /// A cell as a finite number; none if it is not one.
 std::optional<double> number_of(const Table& table, std::string_view cell);

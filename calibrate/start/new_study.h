@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibrate/start/literature.h"
+#include "dem/experiment/experiment.h"
+
+/// A study that is yet to be measured: its file with comments, and a sheet for each experiment to
+/// fill in at the bench.
+namespace repose::calibrate {
+
+struct NewStudy {
+  GrainKind grain;
+  PlateKind plate;
+  std::array<double, 3> sizes_mm = {};  ///< of the grain: length, width, thickness
+  bool has_own_sizes = false;           ///< else they are those of its kind
+  double density_kg_m3 = 0;
+  bool has_own_density = false;
+  double tube_diameter_mm = 0;  ///< inner
+  double tube_height_mm = 0;
+  std::vector<dem::Experiment> experiments;  ///< at least one
+};
+
+/// A round number of mm, about six grains across; three times as high.
+double usual_tube_diameter_mm(const std::array<double, 3>& sizes_mm);
+
+/// About how many of the grains fill the tube.
+double grains_in_tube(const NewStudy& study);
+
+/// A sheet of readings.
+struct NewSheet {
+  dem::Experiment experiment = dem::Experiment::drop;
+  std::string name;                  ///< without its folder: "drops.csv"
+  std::vector<std::string> columns;  ///< each with its unit: "rebound_mm"
+};
+
+std::vector<NewSheet> sheets_of(const NewStudy& study);
+
+/// "Soybeans on acrylic".
+std::string title_of(const NewStudy& study);
+
+/// The study file. It names sheets in `folder`, which lies beside it.
+std::string study_text(const NewStudy& study, const std::string& folder);
+
+/// FOLDER/soybean for FOLDER/soybean.toml.
+std::filesystem::path sheet_folder_of(const std::filesystem::path& file);
+
+/// @throws std::invalid_argument  the study or its folder is there already, or there is no place
+/// for them: every error.
+void check_new_places(const std::filesystem::path& file);
+
+/// Writes the study and its folder of sheets, all or nothing.
+/// @throws std::invalid_argument  as check_new_places; or one of them cannot be written.
+void write_new_study(const NewStudy& study, const std::filesystem::path& file);
+
+}  // namespace repose::calibrate

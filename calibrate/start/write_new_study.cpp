@@ -1,0 +1,93 @@
+#include <cerrno>
+#include <cstdlib>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/csv.h"
+#include "base/error_list.h"
+#include "base/whole_file.h"
+#include "calibrate/start/new_study.h"
+
+namespace repose::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// A folder that goes away with the object, unless it got its name.
+class FolderToBe {
+ public:
+  explicit FolderToBe(const fs::path& folder) : folder_(folder) {
+    std::string name = (folder_of(folder) / ".repose-new-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      const std::error_code error(errno, std::generic_category());
+      throw std::invalid_argument(
+          fmt::format("{}: cannot be made ({}). Fix: choose a place you may write to.",
+                      folder.string(), error.message()));
+    }
+    path_ = name;
+    fs::permissions(path_,
+                    fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
+                        fs::perms::others_exec,
+                    fs::perm_options::add);
+  }
+  ~FolderToBe() {
+    std::error_code ignored;
+    if (!is_done_) fs::remove_all(path_, ignored);
+  }
+  FolderToBe(const FolderToBe&) = delete;
+  FolderToBe& operator=(const FolderToBe&) = delete;
+  FolderToBe(FolderToBe&&) = delete;
+  FolderToBe& operator=(FolderToBe&&) = delete;
+
+  const fs::path& path() const { return path_; }
+  void put_in_place() {
+    fs::rename(path_, folder_);
+    path_ = folder_;
+  }
+  void keep() { is_done_ = true; }
+
+ private:
+  fs::path folder_;
+  fs::path path_;
+  bool is_done_ = false;
+};
+
+}  // namespace
+
+fs::path sheet_folder_of(const fs::path& file) { return file.parent_path() / file.stem(); }
+
+void check_new_places(const fs::path& file) {
+  base::ErrorList errors;
+  std::error_code ignored;
+  for (const fs::path& place : {file, sheet_folder_of(file)}) {
+    errors.require(!fs::exists(fs::symlink_status(place, ignored)),
+                   fmt::format("{}: is there already, and nothing is written over. Fix: choose "
+                               "another name for the study, or move it away.",
+                               place.string()));
+  }
+  errors.require(fs::is_directory(folder_of(file), ignored),
+                 fmt::format("{}: there is no folder {}. Fix: make it, or correct the name.",
+                             file.string(), folder_of(file).string()));
+  errors.throw_if_any();
+}
+
+void write_new_study(const NewStudy& study, const fs::path& file) {
+  check_new_places(file);
+  const fs::path folder = sheet_folder_of(file);
+  FolderToBe sheets(folder);
+  for (const NewSheet& sheet : sheets_of(study)) {
+    base::write_whole_file(sheets.path() / sheet.name, base::csv_row(sheet.columns));
+  }
+  base::check_can_write(file);
+  sheets.put_in_place();
+  base::write_whole_file(file, study_text(study, folder.filename().string()));
+  sheets.keep();
+}
+
+}  // namespace repose::calibrate

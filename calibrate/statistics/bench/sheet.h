@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error_list.h"
+#include "calibrate/statistics/bench/bench.h"
+#include "calibrate/statistics/table/table.h"
+
+/// Readings of a bench test as they are written down at the bench: a CSV table, a row each.
+namespace repose::calibrate {
+
+/// The column that names the grain, which a sheet may have beside those of its test.
+inline constexpr std::string_view kSampleColumn = "sample";
+
+/// @throws std::invalid_argument  there is no such test.
+BenchTest bench_test_named(std::string_view name);
+
+std::vector<std::string> column_names(BenchTest test);
+
+/// The rows of a sheet. Readings that are the same in all rows may be in `constants` instead of a
+/// column. Adds every error: columns that are missing or given twice, cells that are no numbers, no
+/// rows below the header unless that is allowed. Rows with such a cell are left out.
+/// @throws std::invalid_argument  it is no table, see parse_table.
+std::vector<BenchReading> read_sheet(const std::filesystem::path& file, BenchTest test,
+                                     const std::map<std::string, double>& constants, NoRows no_rows,
+                                     base::ErrorList& errors);
+
+}  // namespace repose::calibrate

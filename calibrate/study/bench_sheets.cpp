@@ -1,0 +1,90 @@
+#include "calibrate/study/bench_sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error_list.h"
+#include "calibrate/statistics/bench/sheet.h"
+#include "dem/study/experiment_table.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// A height or slope measured anew for each reading differs a little from the one that was set.
+constexpr double kSameSetting = .01;
+
+/// What the protocol has for a key of a study file.
+double protocol_value(const dem::ExperimentEntry& entry, dem::Protocol protocol,
+                      std::string_view key) {
+  const std::vector<dem::ProtocolKey> keys = entry.keys(protocol);
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const auto& one) { return one.name == key; });
+  return dem::value_of(*found).value();
+}
+
+/// Readings taken in another way are no readings of this experiment.
+void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
+                    const std::vector<BenchReading>& readings, base::ErrorList& errors) {
+  const std::vector<std::string> names = column_names(bench_test_named(entry.sheet.test));
+  base::ErrorList rows(kMostRowErrors);
+  for (const auto& [column, key] : entry.sheet.protocol) {
+    const auto index =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
+    const double meant = protocol_value(entry, protocol, key);
+    for (const BenchReading& reading : readings) {
+      const double value = reading.values[index];
+      if (std::abs(value - meant) <= kSameSetting * meant) continue;
+      rows.add(fmt::format(
+          "{0}: {1} = {2:g}, and the study has {3} = {4:g} in [experiment.{5}]. Rule: the same "
+          "within {6:g} %. Fix: write {3} = {2:g} there if all readings were taken so, or leave "
+          "the reading out.",
+          reading.place, column, value, key, meant, entry.name, 100 * kSameSetting));
+    }
+  }
+  errors.add(rows);
+}
+
+SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
+                            const dem::StudyExperiment& described, NoRows no_rows,
+                            base::ErrorList& errors) {
+  SheetReadings sheet{
+      .experiment = std::string(entry.name), .file = *described.measured.sheet, .values = {}};
+  const BenchTest test = bench_test_named(entry.sheet.test);
+  const std::vector<BenchReading> readings = read_sheet(sheet.file, test, {}, no_rows, errors);
+  check_protocol(entry, described.protocol, readings, errors);
+  check_readings(test, readings);
+  sheet.rows = static_cast<int>(readings.size());
+  sheet.values = sample_means(test, entry.sheet.value, readings);
+  return sheet;
+}
+
+}  // namespace
+
+std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows) {
+  std::vector<SheetReadings> sheets;
+  base::ErrorList errors;
+  for (const auto& [experiment, described] : study.experiments) {
+    if (!described.measured.sheet) continue;
+    try {
+      sheets.push_back(read_sheet_of(dem::entry_of(experiment), described, no_rows, errors));
+    } catch (const std::invalid_argument& error) {
+      errors.add(error.what());
+    }
+  }
+  errors.throw_if_any();
+  return sheets;
+}
+
+dem::Study with_readings(dem::Study study, const std::vector<SheetReadings>& sheets) {
+  for (const SheetReadings& sheet : sheets) {
+    const dem::Experiment experiment = dem::experiment_named(sheet.experiment).experiment;
+    study.experiments.at(experiment).measured.values = sheet.values;
+  }
+  return study;
+}
+
+}  // namespace repose::calibrate

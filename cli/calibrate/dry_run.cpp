@@ -1,0 +1,144 @@
+#include "cli/calibrate/dry_run.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibrate/study/study_estimate.h"
+#include "calibrate/study/study_simulator.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/output.h"
+#include "cli/common/page.h"
+#include "cli/common/progress.h"
+#include "cli/common/terminal.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr double kHour_s = 3600;
+
+/// By the name of the experiment: seconds here for a second of the program's own measure.
+using Pace = std::map<std::string, double>;
+
+struct BudgetPlan {
+  calibrate::Budget budget;
+  calibrate::Problem problem;
+  std::vector<calibrate::ExperimentEstimate> estimates;
+};
+
+BudgetPlan plan_of(const CalibratePlan& plan, const std::string& name) {
+  BudgetPlan made{.budget = calibrate::budget_named(name), .problem = {}, .estimates = {}};
+  const dem::Study study =
+      calibrate::as_simulated(plan.study, made.budget, plan.record.pictures, plan.record.sheets);
+  made.problem = problem_of(study, plan.record.grain, made.budget).problem;
+  made.estimates = estimate_of(made.problem, made.budget);
+  return made;
+}
+
+/// A run of each, coefficients in the middle of their bounds.
+Pace timed_pace(const CalibratePlan& plan, const std::vector<calibrate::ExperimentEstimate>& runs,
+                const std::atomic<bool>& is_interrupted) {
+  constexpr double kLongest_s = 20;
+  const calibrate::Problem& problem = plan.problem.problem;
+  const calibrate::StudySimulator simulator(plan.record.study, plan.record.grain,
+                                            problem.parameters);
+  calibrate::Job job{.experiment = {}, .values = {}, .seed = problem.settings.seed};
+  for (const calibrate::Parameter& parameter : problem.parameters) {
+    job.values.push_back((parameter.min + parameter.max) / 2);
+  }
+  Pace pace;
+  Progress progress(runs.size(), "timed");
+  for (const calibrate::ExperimentEstimate& run : runs) {
+    job.experiment = run.experiment;
+    const double run_s =
+        calibrate::timed_run_s(simulator.spec(job), job.seed, kLongest_s, is_interrupted);
+    pace[run.experiment] = run_s / run.run_s;
+    progress.advance();
+  }
+  return pace;
+}
+
+/// "40 s", "12 min", "3.5 h".
+std::string duration(double seconds) {
+  constexpr double kMinute_s = 60;
+  if (seconds < 2 * kMinute_s) return fmt::format("{:.0f} s", std::ceil(seconds));
+  if (seconds < 2 * kHour_s) return fmt::format("{:.0f} min", seconds / kMinute_s);
+  return fmt::format("{:.1f} h", seconds / kHour_s);
+}
+
+std::vector<std::string> budget_row(const BudgetPlan& budget, const Pace& pace, int jobs) {
+  std::vector<std::string> row = {budget.budget.name};
+  double fit_s = 0, checks_s = 0;
+  for (const calibrate::ExperimentEstimate& estimate : budget.estimates) {
+    const double run_s = estimate.run_s * pace.at(estimate.experiment);
+    fit_s += estimate.fit_runs * run_s;
+    checks_s += estimate.check_runs * run_s;
+    row.push_back(fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs));
+  }
+  row.push_back(duration((fit_s + checks_s) / jobs));
+  return row;
+}
+
+/// What an hour more on all these cores is worth, of heaps as stiff as in this budget.
+std::vector<std::string> hour_row(const BudgetPlan& budget, const Pace& pace, int jobs) {
+  calibrate::Problem problem = budget.problem;
+  for (calibrate::Experiment& experiment : problem.experiments) {
+    const auto found = pace.find(experiment.name);
+    if (found != pace.end()) experiment.run_s *= found->second;
+  }
+  std::vector<std::string> row = {"one more hour"};
+  for (const int runs : calibrate::runs_for(problem, kHour_s * jobs)) {
+    row.push_back(fmt::format("{}", runs));
+  }
+  row.push_back(duration(kHour_s));
+  return row;
+}
+
+std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
+  const std::vector<BudgetPlan> budgets = {plan_of(plan, "quick"), plan_of(plan, "standard")};
+  std::vector<Column> headings = {{.heading = "budget"}};
+  for (const calibrate::ExperimentEstimate& estimate : budgets.front().estimates) {
+    headings.push_back(number_column(estimate.experiment + "s"));
+  }
+  headings.push_back(
+      number_column(fmt::format("at most, on {} core{}", plan.jobs, plan.jobs == 1 ? "" : "s")));
+  Table table(headings);
+  for (const BudgetPlan& budget : budgets) {
+    table.add_row(budget_row(budget, pace, plan.jobs));
+    table.add_note("  ", budget.budget.description);
+  }
+  table.add_row(hour_row(budgets.back(), pace, plan.jobs));
+  table.add_note("  ", "more runs of that budget, for a measure");
+  Page page(columns);
+  page.add("Simulations for the fit + for its checks:");
+  page.add_gap();
+  page.add(table);
+  page.add_gap();
+  page.add(
+      "Timed with one run of each experiment on this machine, as busy as it is now. A fit that "
+      "has settled ends earlier; the arithmetic between its rounds comes on top. Nothing was "
+      "saved.");
+  return page.text();
+}
+
+}  // namespace
+
+ExitCode run_dry(const CalibratePlan& plan) {
+  Pace pace;
+  try {
+    pace = timed_pace(plan, estimate_of(plan.problem.problem, plan.record.budget),
+                      watch_for_interrupt());
+  } catch (const dem::Interrupted&) {
+    print_line("interrupted; nothing was saved.");
+    return ExitCode::interrupted;
+  }
+  Outputs outputs;
+  outputs.show(page_of(plan, pace, columns_of(stdout)));
+  outputs.write();
+  return ExitCode::done;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,57 @@
+#include "cli/new/new_command.h"
+
+#include <memory>
+
+#include "cli/new/new_options.h"
+#include "cli/new/new_study.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr const char* kNotes = R"(
+Writes a study file with comments and, in a folder of the same name beside it,
+a CSV sheet for each experiment to fill in at the bench: soybean.toml and
+soybean/drops.csv, tilts.csv, rolls.csv, heaps.csv. What is not said is taken
+from what is typical of the grain, and called assumed in the file. Nothing that
+is there already is written over.
+
+KIND of grain: soybean, maize, wheat, rice, hazelnut, pea, rapeseed, glass
+(beads), other. KIND of plate: acrylic, steel, aluminium, glass, pvc, wood,
+rubber. Bounds of the coefficients are typical of the grain where literature
+has them, else wide.
+
+Examples:
+  repose new my_grain.toml
+  repose new soybean.toml --grains soybean --plate acrylic \
+    --grain-mm 7.6,6.9,6.2 --tube-mm 50x150
+)";
+
+}  // namespace
+
+Command new_command() {
+  const auto given = std::make_shared<NewArguments>();
+  return {
+      .name = "new",
+      .summary = "Begin a study: its file, and sheets to fill in",
+      .options = {{"study", "STUDY.toml", "Study file to be written", &given->study, true},
+                  {.name = "--grains",
+                   .value_name = "KIND",
+                   .help = "Kind of grain (other)",
+                   .target = &given->grains,
+                   .words = grain_names()},
+                  {"--grain-mm", "L,W,T", "Length, width, thickness (typical)", &given->grain_mm},
+                  {"--density-kg-m3", "D", "Of a grain (typical)", &given->density_kg_m3},
+                  {.name = "--plate",
+                   .value_name = "KIND",
+                   .help = "What plate and tube are made of (steel)",
+                   .target = &given->plate,
+                   .words = plate_names()},
+                  {"--tube-mm", "DxH", "Inner diameter and height (by the grain)", &given->tube_mm},
+                  {"--experiments", "A,B,...", "Of drop, tilt, roll, heap (all)",
+                   &given->experiments}},
+      .notes = kNotes,
+      .missing = "no study file is named. Fix: repose new my_study.toml.",
+      .run = [given] { return run_new(*given); }};
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,167 @@
+#include "cli/new/new_options.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/printable.h"
+#include "cli/common/number.h"
+#include "cli/common/option_names.h"
+#include "cli/common/option_value.h"
+#include "cli/common/output.h"
+#include "dem/shape/scan/calliper.h"
+#include "dem/study/experiment_table.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr std::array kNames{OptionName{.value = "size", .option = "--grain-mm"}};
+constexpr const char* kUsualPlate = "steel";
+constexpr double kMostGrains = 100'000;  // of an experiment
+
+template <typename Kind>
+std::vector<std::string> names_of(std::span<const Kind> kinds) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
+
+void read_kinds(const NewArguments& arguments, NewPlan& plan) {
+  const std::vector<std::string> grains = grain_names(), plates = plate_names();
+  const auto grain = read_word({"--grains", arguments.grains, plan.errors}, grains);
+  plan.study.grain = calibrate::grain_kinds()[grain.value_or(grains.size() - 1)];
+  const auto usual = std::find(plates.begin(), plates.end(), kUsualPlate) - plates.begin();
+  const auto plate = read_word({"--plate", arguments.plate, plan.errors}, plates);
+  plan.study.plate = calibrate::plate_kinds()[plate.value_or(static_cast<std::size_t>(usual))];
+}
+
+void read_grain(const NewArguments& arguments, NewPlan& plan) {
+  calibrate::NewStudy& study = plan.study;
+  study.sizes_mm = study.grain.sizes;
+  if (!arguments.grain_mm.empty()) {
+    const auto sizes = numbers_in<double, 3>(arguments.grain_mm);
+    const Typed typed{"--grain-mm", arguments.grain_mm, plan.errors};
+    if (sizes) {
+      study.sizes_mm = *sizes;
+      study.has_own_sizes = true;
+    } else {
+      typed.refuse("length, width and thickness, with commas between them",
+                   "--grain-mm 7.6,6.9,6.2");
+    }
+  }
+  constexpr double kMPerMm = 1e-3;
+  const dem::CalliperSizes sizes{.length_m = study.sizes_mm[0] * kMPerMm,
+                                 .width_m = study.sizes_mm[1] * kMPerMm,
+                                 .thickness_m = study.sizes_mm[2] * kMPerMm};
+  for (const std::string& problem : sizes.problems()) {
+    plan.errors.push_back(naming_options(problem, kNames));
+  }
+  constexpr double kLightest = 10, kHeaviest = 25000;  // foam, osmium; g/cm3 lie below
+  const auto density =
+      read_number_within({"--density-kg-m3", arguments.density_kg_m3, plan.errors}, kLightest,
+                         kHeaviest, "water is 1000; multiply g/cm3 by 1000");
+  study.has_own_density = density.has_value();
+  study.density_kg_m3 = density.value_or(study.grain.density_kg_m3);
+}
+
+/// "50x150": inner diameter and height.
+void read_tube(const NewArguments& arguments, NewPlan& plan) {
+  calibrate::NewStudy& study = plan.study;
+  study.tube_diameter_mm = calibrate::usual_tube_diameter_mm(study.sizes_mm);
+  study.tube_height_mm = 3 * study.tube_diameter_mm;
+  if (!arguments.tube_mm.empty()) {
+    const std::string& text = arguments.tube_mm;
+    const std::size_t cross = text.find('x');
+    const auto diameter = number_in<double>(std::string_view(text).substr(0, cross));
+    const auto height = cross == std::string::npos
+                            ? std::nullopt
+                            : number_in<double>(std::string_view(text).substr(cross + 1));
+    if (!diameter || !height || *diameter <= 0 || *height <= 0) {
+      const Typed typed{"--tube-mm", text, plan.errors};
+      typed.refuse("inner diameter and height with an x between them, both more than 0",
+                   "--tube-mm 50x150");
+      return;
+    }
+    study.tube_diameter_mm = *diameter;
+    study.tube_height_mm = *height;
+  }
+  constexpr double kFewestAcross = 3;  // fewer jam
+  const double longest_mm = *std::max_element(study.sizes_mm.begin(), study.sizes_mm.end());
+  if (study.tube_diameter_mm < kFewestAcross * longest_mm) {
+    plan.errors.push_back(fmt::format(
+        "--tube-mm {:g}x{:g}: grains of {:g} mm jam in it. Rule: three grains across, or more. "
+        "Fix: use a tube of {:g} mm, or more.",
+        study.tube_diameter_mm, study.tube_height_mm, longest_mm, kFewestAcross * longest_mm));
+  } else if (calibrate::grains_in_tube(study) > kMostGrains) {
+    plan.errors.push_back(fmt::format(
+        "--tube-mm {:g}x{:g}: takes about {:.0f} grains. Rule: at most {:.0f}. Fix: use a smaller "
+        "tube.",
+        study.tube_diameter_mm, study.tube_height_mm, calibrate::grains_in_tube(study),
+        kMostGrains));
+  }
+}
+
+/// All of them, or those typed, each once, in the order of the table.
+void read_experiments(const NewArguments& arguments, NewPlan& plan) {
+  std::vector<std::string> names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) names.emplace_back(entry.name);
+  std::vector<std::string> typed;
+  std::string_view rest = arguments.experiments;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    typed.emplace_back(rest.substr(0, comma));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  for (const std::string& name : typed) {
+    const Typed one{"--experiments", name, plan.errors};
+    if (name.empty()) one.refuse("names with commas between them", "--experiments drop,heap");
+    read_word(one, names);
+  }
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (typed.empty() || std::find(typed.begin(), typed.end(), entry.name) != typed.end()) {
+      plan.study.experiments.push_back(entry.experiment);
+    }
+  }
+}
+
+void read_file(const NewArguments& arguments, NewPlan& plan) {
+  plan.file = arguments.study;
+  if (plan.file.extension() != ".toml" || plan.file.stem().empty()) {
+    plan.errors.push_back(
+        fmt::format("{}: a study's name ends in .toml. Fix: repose new {}.toml.", arguments.study,
+                    plan.file.stem().empty() ? "my_study" : plan.file.stem().string()));
+    return;
+  }
+  const auto is_control = [](unsigned char letter) { return std::iscntrl(letter) != 0; };
+  if (std::any_of(arguments.study.begin(), arguments.study.end(), is_control)) {
+    plan.errors.push_back(
+        fmt::format("{}: a study's name has no control characters. Fix: choose another name.",
+                    base::printable(arguments.study)));
+    return;
+  }
+  try {
+    calibrate::check_new_places(plan.file);
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.errors);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> grain_names() { return names_of(calibrate::grain_kinds()); }
+std::vector<std::string> plate_names() { return names_of(calibrate::plate_kinds()); }
+
+NewPlan plan_new(const NewArguments& arguments) {
+  NewPlan plan;
+  read_file(arguments, plan);
+  read_kinds(arguments, plan);
+  read_grain(arguments, plan);
+  read_experiments(arguments, plan);
+  read_tube(arguments, plan);
+  return plan;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "cli/common/exit_code.h"
+
+namespace repose::cli {
+
+/// What `repose new` is asked to do, as typed.
+struct NewArguments {
+  std::string study;
+  std::string grains;    ///< a kind of grain
+  std::string plate;     ///< a kind of plate
+  std::string grain_mm;  ///< L,W,T
+  std::string density_kg_m3;
+  std::string tube_mm;      ///< DxH
+  std::string experiments;  ///< drop,tilt,roll,heap
+};
+
+/// Carries out `repose new`.
+ExitCode run_new(const NewArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,118 @@
+#include "calibrate/start/new_study.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/study/bench_sheets.h"
+#include "calibrate/study/study_problem.h"
+#include "dem/study/study.h"
+#include "tests/support/error_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::Experiment;
+using repose::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+const GrainKind& grain(std::string_view name) {
+  for (const GrainKind& kind : grain_kinds()) {
+    if (kind.name == name) return kind;
+  }
+  throw std::invalid_argument(std::string(name));
+}
+
+NewStudy study_of(const GrainKind& kind, std::vector<Experiment> experiments) {
+  NewStudy study{.grain = kind,
+                 .plate = plate_kinds()[0],
+                 .sizes_mm = kind.sizes,
+                 .density_kg_m3 = kind.density_kg_m3,
+                 .tube_diameter_mm = usual_tube_diameter_mm(kind.sizes),
+                 .experiments = std::move(experiments)};
+  study.tube_height_mm = 3 * study.tube_diameter_mm;
+  return study;
+}
+
+const std::vector<Experiment> kAll = {Experiment::drop, Experiment::tilt, Experiment::roll,
+                                      Experiment::heap};
+
+class NewStudyTest : public ::testing::Test {
+ protected:
+  dem::Study written(const NewStudy& study) const {
+    const std::filesystem::path file = folder_.path() / "new.toml";
+    write_new_study(study, file);
+    return dem::read_study(file);
+  }
+  void fill_in() const {
+    folder_.write("new/drops.csv", std::string("drop_mm,rebound_mm\n500,120\n500,130\n"));
+    folder_.write("new/tilts.csv", std::string("angle_deg\n18\n19\n"));
+    folder_.write("new/rolls.csv",
+                  std::string("incline_deg,released_mm,stopped_mm\n20,150,300\n20,150,310\n"));
+    folder_.write("new/heaps.csv", std::string("angle_deg\n24\n25\n"));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(NewStudyTest, OfEveryKindOfGrainAndPlateIsAStudyWithoutErrors) {
+  for (const PlateKind& plate : plate_kinds()) {
+    for (const GrainKind& kind : grain_kinds()) {
+      const TemporaryFolder folder;
+      NewStudy study = study_of(kind, kAll);
+      study.plate = plate;
+      const std::filesystem::path file = folder.path() / "new.toml";
+      write_new_study(study, file);
+      EXPECT_EQ(error_of([&] { dem::read_study(file); }), "") << kind.name << plate.name;
+      EXPECT_LT(grains_in_tube(study), 5000) << kind.name;
+    }
+  }
+}
+
+TEST_F(NewStudyTest, AsksForNothingButItsReadings) {
+  const dem::Study study = written(study_of(grain("soybean"), kAll));
+  EXPECT_EQ(study.heading.title, "Soybeans on acrylic");
+  const std::string empty = error_of([&] { read_sheets(study, NoRows::refused); });
+  for (const char* name : {"drops", "tilts", "rolls", "heaps"}) {
+    EXPECT_THAT(empty, HasSubstr(std::string("new/") + name + ".csv: no readings yet: fill in"));
+  }
+  fill_in();
+  const StudyProblem made = problem_of(with_readings(study, read_sheets(study, NoRows::refused)),
+                                       dem::build_grain(study.grain), budget_named("quick"));
+  EXPECT_EQ(made.problem.parameters.size(), 6U);
+  EXPECT_EQ(made.problem.observables.size(), 4U);
+  EXPECT_EQ(made.problem.observables[3].mean, 24.5);
+}
+
+TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
+  const dem::Study study = written(study_of(grain("wheat"), {Experiment::tilt}));
+  EXPECT_TRUE(study.particle_wall.sliding_friction.is_sought());
+  EXPECT_FALSE(study.particle_wall.restitution.is_sought());
+  EXPECT_FALSE(study.particle_particle.sliding_friction.is_sought());
+  EXPECT_EQ(study.experiments.size(), 1U);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "new/tilts.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new/drops.csv"));
+}
+
+TEST_F(NewStudyTest, HasTheTubeThatWasAskedFor) {
+  NewStudy asked = study_of(grain("pea"), kAll);
+  asked.tube_diameter_mm = 55;
+  asked.tube_height_mm = 130;
+  const auto& heap = written(asked).protocol<dem::HeapProtocol>();
+  EXPECT_DOUBLE_EQ(heap.tube_diameter_m, .055);
+  EXPECT_DOUBLE_EQ(heap.tube_height_m, .13);
+  EXPECT_GT(heap.plate_m, 4 * heap.tube_diameter_m);
+}
+
+TEST_F(NewStudyTest, IsWrittenWholeOrNotAtAll) {
+  std::string name(252, 'a');
+  name += ".toml";  // longer than a file's name may be, and its folder's is not
+  const std::filesystem::path file = folder_.path() / name;
+  const NewStudy study = study_of(grain("rice"), kAll);
+  EXPECT_NE(error_of([&] { write_new_study(study, file); }), "");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,101 @@
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/command_test.h"
+
+namespace repose::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const Words kSoybean = {"soybean.toml", "--grains",    "soybean",   "--plate", "acrylic",
+                        "--grain-mm",   "7.6,6.9,6.2", "--tube-mm", "50x150"};
+
+struct NewCommand : CommandTest {
+  NewCommand() : CommandTest({"new"}) {}
+};
+
+std::vector<std::string> lines_in(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(NewCommand, WritesAStudyAndSheetsWhoseColumnsNameTheirUnits) {
+  const Finished done = run(kSoybean);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("soybean.toml is written: Soybeans on acrylic"),
+                              HasSubstr("soybean/drops.csv"), HasSubstr("1. fill in the sheets"),
+                              HasSubstr("repose calibrate soybean.toml"),
+                              HasSubstr("repose report soybean_calibration")));
+  EXPECT_THAT(text("soybean.toml"),
+              AllOf(HasSubstr("size_mm = [7.6, 6.9, 6.2]"), HasSubstr("tube_diameter_mm = 50\n"),
+                    HasSubstr("name = \"acrylic\""), HasSubstr("Boac et al. (2010)")));
+  EXPECT_EQ(text("soybean/drops.csv"), "drop_mm,rebound_mm\n");
+  EXPECT_EQ(text("soybean/tilts.csv"), "angle_deg\n");
+  EXPECT_EQ(text("soybean/rolls.csv"), "incline_deg,released_mm,stopped_mm\n");
+  EXPECT_EQ(text("soybean/heaps.csv"), "angle_deg\n");
+  EXPECT_THAT(lines_in(text("soybean.toml")),
+              Each(::testing::ResultOf(base::letters, ::testing::Le(100U))));
+}
+
+TEST_F(NewCommand, TheStudyRunsOnceItsSheetsAreFilledIn) {
+  ASSERT_EQ(run(kSoybean).exit_code, 0);
+  const Finished empty = run_repose(folder_, {"calibrate", "soybean.toml"});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_THAT(lines_in(empty.err), AllOf(SizeIs(4), Each(HasSubstr("no readings yet: fill in"))));
+
+  folder_.write("soybean/tilts.csv", std::string("angle_deg\n18,5\n19,1\n"));
+  const Finished wrong = run_repose(folder_, {"simulate", "tilt", "soybean.toml"});
+  EXPECT_THAT(wrong.err, HasSubstr("soybean/tilts.csv:2: the row has 2 cells"));
+  folder_.write("soybean/tilts.csv", std::string("angle_deg\n18.5\n19.1\n"));
+  const Finished done = run_repose(folder_, {"simulate", "tilt", "soybean.toml"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("measured 18.800"));
+}
+
+TEST_F(NewCommand, AllWrongOptionsAreToldAtOnceAndNothingIsWritten) {
+  const Finished done =
+      run({"soybean.txt", "--grains", "soybeen", "--plate", "glas", "--grain-mm", "7.6,6.9",
+           "--density-kg-m3", "1.2", "--tube-mm", "50", "--experiments", "drop,heep"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(
+      done.err,
+      AllOf(HasSubstr("soybean.txt: a study's name ends in .toml. Fix: repose new soybean.toml"),
+            HasSubstr("--grains soybeen"), HasSubstr("--plate glas"),
+            HasSubstr("--grain-mm 7.6,6.9: must be length, width and thickness"),
+            HasSubstr("--density-kg-m3 1.2: must be"), HasSubstr("--tube-mm 50: must be"),
+            HasSubstr("--experiments heep")));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(NewCommand, ATubeThatGrainsJamInIsRefused) {
+  EXPECT_THAT(run({"a.toml", "--grain-mm", "20,18,17", "--tube-mm", "50x150"}).err,
+              HasSubstr("grains of 20 mm jam in it"));
+  EXPECT_THAT(run({"a.toml", "--grains", "rapeseed", "--tube-mm", "300x900"}).err,
+              HasSubstr("Rule: at most 100000"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(NewCommand, NothingIsWrittenOver) {
+  ASSERT_EQ(run({"a.toml"}).exit_code, 0);
+  folder_.write("a/drops.csv", std::string("drop_mm,rebound_mm\n500,100\n"));
+  folder_.write("a.toml", std::string("mine"));
+  const Finished again = run({"a.toml"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.out, IsEmpty());
+  EXPECT_THAT(again.err, AllOf(HasSubstr("repose: a.toml: is there already"),
+                               HasSubstr("repose: a: is there already"), HasSubstr("Fix: ")));
+  EXPECT_EQ(text("a.toml"), "mine");
+  EXPECT_EQ(text("a/drops.csv"), "drop_mm,rebound_mm\n500,100\n");
+  EXPECT_THAT(run({"none/b.toml"}).err, HasSubstr("there is no folder none"));
+}
+
+}  // namespace
+}  // namespace repose::testing
