@@ -21,9 +21,9 @@ struct ContactBounds {
 };
 
 struct GrainKind {
-  std::string_view name;        ///< as typed: "soybean"
-  std::string_view plural;      ///< "soybeans"
-  std::array<double, 3> sizes;  ///< length, width, thickness, mm
+  std::string_view name;             ///< as typed: "soybean"
+  std::string_view plural;           ///< "soybeans"
+  std::array<double, 3> sizes = {};  ///< length, width, thickness, mm
   double density_kg_m3 = 0;
   double young_modulus_pa = 0;  ///< apparent, of a whole grain
   double poisson_ratio = 0;
