@@ -89,7 +89,7 @@ REPOSE_INLINE void look_up(const ContactStep& step, NeighbourList& list, std::si
   TouchingPair* shared = nullptr;
   for (std::size_t k = 0; k < found.size(); ++k) {
     const NearSpheres& near = list.spheres[found[k]];
-    if (near.pair != last_pair) {
+    if (shared == nullptr || near.pair != last_pair) {
       last_pair = near.pair;
       const NearGrains& pair = list.grains[static_cast<std::size_t>(near.pair)];
       const auto a = static_cast<std::size_t>(pair.a);
