@@ -5,16 +5,16 @@
 namespace repose::dem {
 
 // How long a step may be, as a fraction of the stable one, 2 / omega, by what is read from the run.
-// Restitution comes out within .005 at both (Restitution.ComesOutAtEveryAcceptedTimestep).
+// Restitution comes out within .002 at both (Restitution.ComesOutAtEveryAcceptedTimestep).
 // Tangential stiffness counts in omega whatever the friction: it is what makes the step short
 // enough for both.
 
 /// For readings of single grains: elastic impacts make less than 1e-4 of energy. A sphere on a wall
 /// is resolved by 48 steps an impact, two equal spheres by 42.
 inline constexpr double kImpactFraction = .07;
-/// For where many grains come to rest: 20 steps an impact, less than 1e-3 of energy
+/// For where many grains come to rest: 24 steps an impact, less than 1e-3 of energy
 /// (HeapTimestep.*).
-inline constexpr double kHeapFraction = .17;
+inline constexpr double kHeapFraction = .14;
 
 /// The longest time step at which these grains are simulated accurately, s, when they strike each
 /// other and the walls at up to `speed_m_s`.
