@@ -1,13 +1,9 @@
 #include "calibrate/report/study_report.h"
 
-#include <chrono>
-#include <ctime>
 #include <set>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "base/version.h"
@@ -16,7 +12,6 @@
 #include "calibrate/report/report_of.h"
 #include "calibrate/report/tables.h"
 #include "calibrate/report/wording.h"
-#include "calibrate/study/study_folder.h"
 #include "calibrate/study/study_record.h"
 
 namespace repose::calibrate::report {
@@ -70,25 +65,14 @@ dem::StudyHeading heading_in(const std::filesystem::path& folder) {
   }
 }
 
-/// "23 November 2026": when the result was written. Empty where there is none.
-std::string date_of_result(const std::filesystem::path& folder) {
-  std::error_code error;
-  const auto written = std::filesystem::last_write_time(folder / kResultFile, error);
-  if (error) return {};
-  const auto when =
-      std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(written));
-  return fmt::format("{:%d %B %Y}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
-}
-
-/// Above all else: the study's own title, who made it and when, and its note.
+/// Above all else: the study's own title, author, date and note.
 void put_heading(const std::filesystem::path& folder, Document& document) {
   constexpr std::size_t kLongest = 1000;
   const dem::StudyHeading heading = heading_in(folder);
   if (!heading.title.empty()) document.title = shortened(heading.title);
   if (document.chapters.empty()) return;
   std::string line = shortened(heading.author);
-  const std::string date = date_of_result(folder);
-  if (!date.empty()) line += (line.empty() ? "" : ", ") + date;
+  if (!heading.date.empty()) line += (line.empty() ? "" : ", ") + shortened(heading.date);
   std::vector<Block> blocks;
   if (!line.empty()) blocks.emplace_back(Paragraph{line + '.'});
   if (!heading.note.empty()) blocks.emplace_back(Paragraph{shortened(heading.note, kLongest)});

@@ -222,7 +222,9 @@ std::string study_text(const NewStudy& study, const std::string& folder) {
       "what you cannot do.",
       title_of(study), folder));
   text += fmt::format("\n[study]\ntitle = \"{}\"\n", title_of(study));
-  text += "# author = \"your name\"\n# note = \"variety, moisture, who poured the heaps\"\n\n";
+  text +=
+      "# author = \"your name\"\n# date = \"when\"\n# note = \"variety, moisture, who poured the "
+      "heaps\"\n\n";
   text += particle_section(study) + '\n' + wall_section(study.plate) + '\n' + contacts(study);
   for (const NewSheet& sheet : sheets_of(study)) {
     text += '\n' + experiment_section(dem::entry_of(sheet.experiment), study, folder, sheet.name);

@@ -39,9 +39,8 @@ Command compare_command() {
       .name = "compare",
       .summary = "Compare two heaps, or two sets of heaps",
       .options =
-          {{"heaps", "HEAPS HEAPS",
-            "Each a picture, a folder of pictures or of simulated heaps, or a .vtp file",
-            &given->pictures, true, kPictures},
+          {{"heaps", "HEAPS HEAPS", "Two pictures, or folders of heaps", &given->pictures, true,
+            kPictures},
            {"--mm-per-px", "A[,B]", "Scale: mm per pixel", &given->mm_per_px},
            {"--base-mm", "A[,B]", "Scale: known width of the base", &given->base_mm},
            {"--grain-mm", "D", "Grain size, for lengths in grains", &given->grain_mm},

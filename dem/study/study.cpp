@@ -39,6 +39,7 @@ Section needed_section(Section& study, const std::string& key, const std::string
 void read_heading(Section section, StudyHeading& heading) {
   heading.title = section.text("title", "title = \"Soybeans on acrylic\"").value_or("");
   heading.author = section.text("author", "author = \"A. Smith\"").value_or("");
+  heading.date = section.text("date", "date = \"23 November 2026\"").value_or("");
   heading.note = section.text("note", "note = \"harvest of 2024, 12 % moisture\"").value_or("");
   section.refuse_others();
 }

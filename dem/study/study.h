@@ -67,6 +67,7 @@ struct StudyExperiment {
 struct StudyHeading {
   std::string title;
   std::string author;
+  std::string date;
   std::string note;
 };
 

@@ -93,11 +93,13 @@ SurfaceSummary surface() {
                                  .shape = SurfaceShape::saddle},
       .extremes = {.least = point(-1, 0), .greatest = point(1, 1)},
       .target =
-          SurfaceTarget{.value = 25,
-                        .is_reached = true,
-                        .ranges = {{{.2, .3}, {.5, .6}}, {}},
-                        .through_centre = {{.factor = 1, .levels = {.5, .4}, .interval = {}}},
-                        .points = {{.factor = 0, .levels = {.2, .3}, .interval = {.1, std::nullopt}}}},
+          SurfaceTarget{
+              .value = 25,
+              .uncertainty = 0,
+              .is_reached = true,
+              .ranges = {{{.2, .3}, {.5, .6}}, {}},
+              .through_centre = {{.factor = 1, .levels = {.5, .4}, .interval = {}}},
+              .points = {{.factor = 0, .levels = {.2, .3}, .interval = {.1, std::nullopt}}}},
       .runs = {},
       .warnings = {{.code = "ridge", .message = "a ridge"}}};
 }

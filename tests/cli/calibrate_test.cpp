@@ -19,7 +19,6 @@ namespace repose::testing {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -83,7 +82,7 @@ TEST_F(Calibrate, TakesReadingsFromASheetAsIfTheyWereListed) {
 
 TEST_F(Calibrate, TheReportIsCalledAsTheStudySays) {
   folder_.write("study.toml",
-                "[study]\ntitle = \"Balls & <walls>\"\nauthor = \"A. Smith\"\n"
+                "[study]\ntitle = \"Balls & <walls>\"\nauthor = \"A. Smith\"\ndate = \"May 2026\"\n"
                 "note = \"a dry day\"\n" +
                     calibrate::test::kSphereStudy);
   ASSERT_EQ(run({"study.toml", "--out", "d"}).exit_code, 0);
@@ -91,7 +90,7 @@ TEST_F(Calibrate, TheReportIsCalledAsTheStudySays) {
   const std::string page = text("d/report.html");
   EXPECT_THAT(
       page, AllOf(HasSubstr("<h1>Balls &amp; &lt;walls&gt;</h1>"), HasSubstr("<p>a dry day</p>")));
-  EXPECT_THAT(page, ContainsRegex("<p>A\\. Smith, [0-9]{2} [A-Z][a-z]+ 20[0-9]{2}\\.</p>"));
+  EXPECT_THAT(page, HasSubstr("<p>A. Smith, May 2026.</p>"));
 }
 
 TEST_F(Calibrate, TellsBeforehandWhatEachBudgetWouldDo) {
