@@ -99,7 +99,8 @@ TEST_F(NewStudyTest, HasTheTubeThatWasAskedFor) {
   NewStudy asked = study_of(grain("pea"), kAll);
   asked.tube_diameter_mm = 55;
   asked.tube_height_mm = 130;
-  const auto& heap = written(asked).protocol<dem::HeapProtocol>();
+  const dem::Study study = written(asked);
+  const auto& heap = study.protocol<dem::HeapProtocol>();
   EXPECT_DOUBLE_EQ(heap.tube_diameter_m, .055);
   EXPECT_DOUBLE_EQ(heap.tube_height_m, .13);
   EXPECT_GT(heap.plate_m, 4 * heap.tube_diameter_m);
