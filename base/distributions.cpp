@@ -1,5 +1,7 @@
 #include "base/distributions.h"
 
+#include <limits>
+
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -24,6 +26,15 @@ double chi_square_above(double x, double df) {
 
 double chi_square_exceeded(double probability, double df) {
   return quantile(complement(boost::math::chi_squared(df), probability));
+}
+
+double df_of_sum(const EstimatedVariance& one, const EstimatedVariance& other) {
+  const double sum = one.variance + other.variance;
+  double spread = 0;
+  for (const EstimatedVariance& part : {one, other}) {
+    if (part.variance > 0) spread += part.variance * part.variance / part.df;
+  }
+  return spread > 0 ? sum * sum / spread : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace repose::base

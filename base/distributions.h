@@ -19,4 +19,14 @@ double chi_square_above(double x, double df);
 /// The x that such a sum exceeds with `probability` (above 0, at most 1).
 double chi_square_exceeded(double probability, double df);
 
+/// A variance, and by how many degrees of freedom it is known: infinite where it is exact.
+struct EstimatedVariance {
+  double variance = 0;
+  double df = 0;
+};
+
+/// Degrees of freedom of the sum of two variances, infinite where both are 0: Welch (1947),
+/// Biometrika 34, 28; Satterthwaite (1946), Biometrics Bull. 2, 110; GUM, G.2b.
+double df_of_sum(const EstimatedVariance& one, const EstimatedVariance& other);
+
 }  // namespace repose::base

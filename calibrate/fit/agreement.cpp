@@ -21,14 +21,11 @@ double normal_quantile(double probability) { return base::student_t_quantile(pro
 }  // namespace
 
 UncertainMean difference_of(const UncertainMean& simulated, const UncertainMean& measured) {
-  UncertainMean difference{simulated.value - measured.value,
-                           std::hypot(simulated.uncertainty, measured.uncertainty), kKnown};
-  double spread = 0;
-  for (const UncertainMean* mean : {&simulated, &measured}) {
-    if (mean->uncertainty > 0) spread += std::pow(mean->uncertainty, 4) / mean->df;
-  }
-  if (spread > 0) difference.df = std::min(std::pow(difference.uncertainty, 4) / spread, kKnown);
-  return difference;
+  const auto variance_of = [](const UncertainMean& mean) {
+    return base::EstimatedVariance{mean.uncertainty * mean.uncertainty, mean.df};
+  };
+  return {simulated.value - measured.value, std::hypot(simulated.uncertainty, measured.uncertainty),
+          std::min(base::df_of_sum(variance_of(simulated), variance_of(measured)), kKnown)};
 }
 
 double chance_of(const UncertainMean& difference) {

@@ -1,5 +1,7 @@
 #include "base/distributions.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 
 namespace repose::base {
@@ -24,6 +26,19 @@ TEST(Distributions, ASquareOfTIsAnF) {
 
 TEST(Distributions, MuchFreedomIsTheNormalDistribution) {
   EXPECT_NEAR(student_t_quantile(.975, 1e7), 1.959964, 1e-6);
+}
+
+TEST(Distributions, EqualVariancesAddTheirFreedom) {
+  EXPECT_DOUBLE_EQ(df_of_sum({2, 5}, {2, 5}), 10);
+  EXPECT_DOUBLE_EQ(df_of_sum({3, 7}, {0, 2}), 7);
+  EXPECT_DOUBLE_EQ(df_of_sum({4, 3}, {1, 6}), 25 / (16. / 3 + 1. / 6));
+}
+
+TEST(Distributions, WhatIsExactTakesNoFreedomAway) {
+  constexpr double kExact = std::numeric_limits<double>::infinity();
+  EXPECT_DOUBLE_EQ(df_of_sum({1, 4}, {1, kExact}), 16);
+  EXPECT_EQ(df_of_sum({0, 4}, {0, 4}), kExact);
+  EXPECT_EQ(df_of_sum({0, 0}, {0, 0}), kExact);
 }
 
 }  // namespace

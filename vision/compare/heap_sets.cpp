@@ -60,17 +60,12 @@ std::array<double, 2> scatter_of(const std::array<SetOfHeaps, 2>& sets) {
 
 /// Half-width of the 95 % interval of the difference of two means of n1 and n2 heaps.
 double half_width(const std::array<double, 2>& sd, const std::array<int, 2>& n) {
-  double variance = 0, spread = 0;
-  int borrowed_df = 0;
-  for (const std::size_t i : {0, 1}) {
-    const double of_mean = sd[i] * sd[i] / n[i];
-    variance += of_mean;
-    if (n[i] > 1) spread += of_mean * of_mean / (n[i] - 1);
-    borrowed_df += n[i] - 1;
-  }
+  const base::EstimatedVariance first{sd[0] * sd[0] / n[0], n[0] - 1.};
+  const base::EstimatedVariance second{sd[1] * sd[1] / n[1], n[1] - 1.};
+  const double variance = first.variance + second.variance;
   if (variance == 0) return 0;
   const bool is_borrowed = n[0] < 2 || n[1] < 2;
-  const double df = is_borrowed ? borrowed_df : variance * variance / spread;
+  const double df = is_borrowed ? first.df + second.df : base::df_of_sum(first, second);
   return base::student_t_quantile(kUpperTail, df) * std::sqrt(variance);
 }
 

@@ -21,13 +21,13 @@ double grains_95(const FlankFit& flank) {
   return student_95(flank.degrees_of_freedom) * flank.fit_error_rad;
 }
 
-/// Of the mean of two flanks; degrees of freedom by Welch and Satterthwaite (GUM, G.2b).
+/// Of the mean of two flanks.
 double grains_95(const FlankFit& left, const FlankFit& right) {
   const double l = left.fit_error_rad * left.fit_error_rad;
   const double r = right.fit_error_rad * right.fit_error_rad;
   if (l + r <= 0) return 0;
   const double freedom =
-      (l + r) * (l + r) / (l * l / left.degrees_of_freedom + r * r / right.degrees_of_freedom);
+      base::df_of_sum({l, left.degrees_of_freedom}, {r, right.degrees_of_freedom});
   return student_95(freedom) * std::sqrt(l + r) / 2;
 }
 
