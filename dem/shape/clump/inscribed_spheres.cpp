@@ -14,24 +14,44 @@ namespace {
 
 constexpr int kGridAcross = 36;
 
-/// How many of the points not covered yet a sphere would cover.
-std::size_t gain(const ClumpSphere& sphere, const std::vector<Vector>& points,
-                 const std::vector<bool>& covered) {
-  std::size_t gained = 0;
-  const double square = sphere.radius * sphere.radius;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!covered[i] && (points[i] - sphere.centre).squaredNorm() <= square) ++gained;
+/// Points that no sphere covers yet, by coordinate: each round of the cover reads all of them for
+/// many candidates.
+class OpenPoints {
+ public:
+  explicit OpenPoints(const std::vector<Vector>& points) {
+    for (const Vector& point : points) {
+      x_.push_back(point.x());
+      y_.push_back(point.y());
+      z_.push_back(point.z());
+    }
   }
-  return gained;
-}
 
-void cover(const ClumpSphere& sphere, const std::vector<Vector>& points,
-           std::vector<bool>& covered) {
-  const double square = sphere.radius * sphere.radius;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if ((points[i] - sphere.centre).squaredNorm() <= square) covered[i] = true;
+  std::size_t inside(const ClumpSphere& sphere) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) count += contains(sphere, i) ? 1 : 0;
+    return count;
   }
-}
+
+  void take_inside(const ClumpSphere& sphere) {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      if (contains(sphere, i)) continue;
+      x_[left] = x_[i];
+      y_[left] = y_[i];
+      z_[left++] = z_[i];
+    }
+    for (std::vector<double>* coordinate : {&x_, &y_, &z_}) coordinate->resize(left);
+  }
+
+ private:
+  bool contains(const ClumpSphere& sphere, std::size_t i) const {
+    const double x = x_[i] - sphere.centre.x(), y = y_[i] - sphere.centre.y(),
+                 z = z_[i] - sphere.centre.z();
+    return x * x + (y * y + z * z) <= sphere.radius * sphere.radius;
+  }
+
+  std::vector<double> x_, y_, z_;
+};
 
 /// A candidate with the most that it may gain; `round` says how old that knowledge is.
 struct Promise {
@@ -62,7 +82,7 @@ std::vector<ClumpSphere> inscribed_spheres(const Mesh& mesh, int count) {
     candidates.push_back({point, radius});
   }
 
-  std::vector<bool> covered(points.size(), false);
+  OpenPoints open(points);
   std::vector<ClumpSphere> chosen;
   while (static_cast<int>(chosen.size()) < count && !promises.empty()) {
     Promise best = promises.top();
@@ -71,11 +91,11 @@ std::vector<ClumpSphere> inscribed_spheres(const Mesh& mesh, int count) {
     const auto round = static_cast<int>(chosen.size());
     if (best.round == round) {
       chosen.push_back(sphere);
-      cover(sphere, points, covered);
+      open.take_inside(sphere);
       continue;
     }
     // Gains only shrink as spheres are added: an old one is still the most it can be.
-    best.gain = static_cast<double>(gain(sphere, points, covered));
+    best.gain = static_cast<double>(open.inside(sphere));
     best.round = round;
     if (best.gain > 0) promises.push(best);
   }
