@@ -14,9 +14,13 @@ include([[${CMAKE_CURRENT_FUNCTION_LIST_FILE}]])
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
 endfunction()
 
-# Suites that run much of the code hundreds of times, to count how often it is right: they have the
-# label `statistics` too, and are left out where each run takes ten times as long.
-set(statistics "^(vision/Conditions/.*|vision/ComparePictures|calibrate/JointFit|calibrate/Propose)$")
+# Suites that run much of the code hundreds of times, to count how often or see how nearly it is right:
+# they have the label `statistics` too, and are left out where each run takes ten times as long.
+set(statistics "^(vision/Conditions/.*|vision/ComparePictures|calibrate/JointFit(OfTheBench)?|\
+calibrate/Propose|dem/FillAccuracy)$")
+# Suites that start, kill and restart whole programs, each of which other suites run as well: they have
+# the label `processes`, and are left out there too.
+set(processes "^cli/(CalibrateKilled|CalibrateRanks|Folders|OutputsOf|SimulateRestart)$")
 
 if(PROGRAM)
   execute_process(COMMAND ${PROGRAM} --gtest_list_tests
@@ -31,9 +35,11 @@ if(PROGRAM)
     string(REGEX REPLACE "\\.$" "" name "${suite}")
     add_test("${LABEL}/${name}" "${PROGRAM}" "--gtest_filter=${suite}*")
     set(labels "${LABEL}")
-    if("${LABEL}/${name}" MATCHES "${statistics}")
-      list(APPEND labels statistics)
-    endif()
+    foreach(kind statistics processes)
+      if("${LABEL}/${name}" MATCHES "${${kind}}")
+        list(APPEND labels ${kind})
+      endif()
+    endforeach()
     # Skipped as a whole: no test passed, and the list of those skipped ends what is said. Where one
     # failed a list of those would follow.
     set_tests_properties("${LABEL}/${name}" PROPERTIES

@@ -137,7 +137,8 @@ double ExportFacts::tilt_begin_deg() const {
 }
 
 dem::Grain ExportFacts::roll_start() const {
-  return dem::released(grain(), study_.protocol<dem::RollProtocol>(), study_.seed);
+  dem::Random random(study_.seed);
+  return dem::released(grain(), study_.protocol<dem::RollProtocol>(), random);
 }
 
 double ExportFacts::roll_flat_m() const {

@@ -74,13 +74,15 @@ struct TiltProtocol {
 
 /// One grain let go on an incline that ends on a flat plate.
 ///
-/// It lies on the incline, long axis parallel to it, and otherwise turned at random. Value: how far
-/// along the flat its centroid lies from the foot once it is at rest, mm. A grain that stays on the
-/// incline has a value below 0: less its distance up the incline. Readings: "lateral_mm" (aside),
-/// "stopped_on_incline" (0 or 1), "time_s". Throws NoReading for a grain that does not stop.
+/// It lies on the incline, its long axis across the slope but for a turn, and otherwise at random.
+/// Value: how far along the flat its centroid lies from the foot once it is at rest, mm. A grain
+/// that stays on the incline is released again, up to ten times, as at a bench; then it has a value
+/// below 0: less its distance up the incline. Readings: "lateral_mm" (aside), "stopped_on_incline"
+/// (0 or 1), "releases", "time_s". Throws NoReading for a grain that does not stop.
 struct RollProtocol {
   double incline_deg = 20;
-  double release_m = .15;  ///< from the foot of the incline, along it
+  double release_m = .15;        ///< from the foot of the incline, along it
+  double release_turn_deg = 10;  ///< of the long axis from lying across the slope, at most
 };
 
 /// A tube filled with grains and lifted off a plate.

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "dem/experiment/placing.h"
-#include "dem/experiment/random.h"
 
 namespace repose::dem {
 
@@ -15,10 +14,11 @@ Incline incline_of(const RollProtocol& protocol) {
   return slope;
 }
 
-Grain released(const ClumpShape& shape, const RollProtocol& protocol, std::uint64_t seed) {
+Grain released(const ClumpShape& shape, const RollProtocol& protocol, Random& random) {
   const Incline slope = incline_of(protocol);
-  Random random(seed);
-  const double about_normal = 2 * std::numbers::pi * random.uniform();
+  const double turn = protocol.release_turn_deg * std::numbers::pi / 180;
+  const double which_end = random.uniform() < .5 ? 0 : std::numbers::pi;
+  const double about_normal = which_end + random.between(-turn, turn);
   const double about_long_axis = 2 * std::numbers::pi * random.uniform();
   Grain grain;
   grain.orientation =

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <cstdint>
-
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/random.h"
 
 namespace repose::dem {
 
@@ -15,7 +14,9 @@ struct Incline {
 
 Incline incline_of(const RollProtocol& protocol);
 
-/// Lying on the incline, turned at random about the incline's normal and about its own long axis.
-Grain released(const ClumpShape& shape, const RollProtocol& protocol, std::uint64_t seed);
+/// Lying on the incline, its long axis across the slope but for the protocol's turn to either side;
+/// which end points to the left, the turn and the pose about the long axis are random. The next
+/// call with the same numbers is the next release.
+Grain released(const ClumpShape& shape, const RollProtocol& protocol, Random& random);
 
 }  // namespace repose::dem

@@ -7,7 +7,8 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
   constexpr Range kSlope{.from = 0, .to = 90, .excludes_from = true, .excludes_to = true};
   auto& roll = std::get<RollProtocol>(protocol);
   return {number_key("incline_deg", "20", kSlope, roll.incline_deg),
-          length_key("release_mm", "150", roll.release_m)};
+          length_key("release_mm", "150", roll.release_m),
+          number_key("release_turn_deg", "10", {.from = 0, .to = 90}, roll.release_turn_deg)};
 }
 
 /// Nothing limits how far it may roll but the fit, see kMostReading.
@@ -31,7 +32,10 @@ ExperimentEntry roll_entry() {
           .description =
               "A grain is let go on an incline and rolls on along the flat plate. The distance is "
               "from the foot of the incline.",
-          .readings = {{"lateral_mm", "mm"}, {"stopped_on_incline", ""}, {"time_s", "s"}},
+          .readings = {{"lateral_mm", "mm"},
+                       {"stopped_on_incline", ""},
+                       {"releases", ""},
+                       {"time_s", "s"}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
           .sheet = {.test = "rolling",
                     .value = "stopped_mm",

@@ -84,7 +84,8 @@ dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base
       return dem::TiltProtocol{.bonded = whole(random, 2, 4), .rate_deg_s = spread(random, 4, 10)};
     case dem::Experiment::roll:
       return dem::RollProtocol{.incline_deg = random.between(5, 45),
-                               .release_m = reach_m * random.between(3, 10)};
+                               .release_m = reach_m * random.between(3, 10),
+                               .release_turn_deg = random.between(0, 90)};
     case dem::Experiment::heap:
       break;
   }

@@ -38,6 +38,9 @@ class Calibrate : public CommandTest {
   }
 };
 
+using CalibrateKilled = Calibrate;
+using CalibrateRanks = Calibrate;
+
 TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
   const Finished done = run({"study.toml", "--json", "result.json"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -117,7 +120,7 @@ TEST_F(Calibrate, TellsBeforehandWhatEachBudgetWouldDo) {
   EXPECT_THAT(both.err, AllOf(HasSubstr("for --json"), HasSubstr("--method paper")));
 }
 
-TEST_F(Calibrate, KilledAgainAndAgainEndsWithTheSameBytes) {
+TEST_F(CalibrateKilled, AgainAndAgainEndsWithTheSameBytes) {
   ASSERT_EQ(run({"study.toml", "--out", "whole", "--jobs", "1"}).exit_code, 0);
   int kills = 0;
   for (const std::size_t files : {2U, 6U, 12U, 20U, 30U}) {
@@ -228,7 +231,7 @@ TEST_F(Calibrate, ThePapersWayNeedsWhatItsStepsNeed) {
                     HasSubstr("--method joint")));
 }
 
-TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {
+TEST_F(CalibrateRanks, GiveTheBytesOfOneProcess) {
   const Words of_one = {"study.toml", "--out", "one"};
   ASSERT_EQ(run(of_one).exit_code, 0);
   for (const char* ranks : {"2", "4"}) {
@@ -244,7 +247,7 @@ TEST_F(Calibrate, RanksGiveTheBytesOfOneProcess) {
   }
 }
 
-TEST_F(Calibrate, AStudyGoesOnAfterARankWasKilled) {
+TEST_F(CalibrateRanks, AStudyGoesOnAfterOneWasKilled) {
   ASSERT_EQ(run({"study.toml", "--out", "one"}).exit_code, 0);
   // On a busy machine it may come to its end before it is killed: then once more.
   const std::string script =

@@ -1,5 +1,9 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include "dem/experiment/incline.h"
+#include "dem/experiment/placing.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -50,6 +54,40 @@ TEST(Roll, AGrainThatStaysOnTheInclineHasANegativeValue) {
   EXPECT_NEAR(repeat.value, -150, .5);
 }
 
+TEST(Roll, AGrainThatStaysOnTheInclineIsReleasedAgain) {
+  Model model = test::clump_bench();
+  model.grain_wall.rolling_friction = .34;
+  int releases = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Repeat repeat = run_roll(model, {.release_turn_deg = 90}, seed);
+    EXPECT_EQ(repeat.value < 0, repeat.readings.at("releases") == 10);
+    EXPECT_EQ(repeat.value < 0, repeat.readings.at("stopped_on_incline") == 1);
+    releases += static_cast<int>(repeat.readings.at("releases"));
+  }
+  EXPECT_GT(releases, 4);
+  model.grain_wall.rolling_friction = .6;
+  EXPECT_EQ(run_roll(model, {}, 1).readings.at("releases"), 10);
+}
+
+TEST(Roll, TheLongAxisLiesAcrossTheSlopeButForTheTurn) {
+  const ClumpShape nut = test::clump_bench().grain;
+  const auto sine_from_across = [&](const RollProtocol& protocol, Random& random) {
+    const Grain grain = released(nut, protocol, random);
+    const Vector long_axis = grain.orientation * lying_pose(nut).conjugate() * Vector::UnitY();
+    return long_axis.dot(incline_of(protocol).down);
+  };
+  Random random(1);
+  double left = 0, right = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double sine = sine_from_across({.release_turn_deg = 30}, random);
+    left = std::min(left, sine);
+    right = std::max(right, sine);
+    EXPECT_NEAR(sine_from_across({.release_turn_deg = 0}, random), 0, 1e-12);
+  }
+  EXPECT_NEAR(left, -.5, .02);
+  EXPECT_NEAR(right, .5, .02);
+}
+
 TEST(Roll, AGrainThatDoesNotStopIsNoReading) {
   Model model = test::sphere_bench();
   model.stiffness_factor = .001;
@@ -70,9 +108,10 @@ TEST(Roll, ClumpsComeToRestWhereTheirSeedSays) {
 }
 
 TEST(Roll, TellsEveryErrorAtOnce) {
-  const std::string message =
-      error_of([&] { run_roll(test::sphere_bench(), {.incline_deg = 90, .release_m = 0}, 1); });
-  for (const char* name : {"roll.incline_deg", "roll.release_m"}) {
+  const std::string message = error_of([&] {
+    run_roll(test::sphere_bench(), {.incline_deg = 90, .release_m = 0, .release_turn_deg = 91}, 1);
+  });
+  for (const char* name : {"roll.incline_deg", "roll.release_m", "roll.release_turn_deg"}) {
     EXPECT_NE(message.find(name), std::string::npos) << name << " in:\n" << message;
   }
 }
