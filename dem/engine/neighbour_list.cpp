@@ -15,7 +15,7 @@ constexpr double kHorizonSteps = 80;
 /// ... but is at most this fraction of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.
-constexpr std::int64_t kWallSteps = 200;
+constexpr std::int64_t kWallSteps = 80;
 
 template <typename Pair>
 bool comes_before(const Pair& x, const Pair& y) {
@@ -194,7 +194,6 @@ void Neighbours::list_grains(const Bodies& bodies) {
       const auto kb = static_cast<std::size_t>(b);
       const double margin = margin_[ka] + margin_[kb];
       const auto first = static_cast<int>(next_.spheres.size());
-      const auto pair = static_cast<int>(next_.grains.size());
       for (int sa = bodies.first_sphere[ka]; sa < bodies.first_sphere[ka + 1]; ++sa) {
         const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(sa)];
         const double far = sphere_a.radius + bodies.bounding_radius[kb] + margin;
@@ -203,7 +202,7 @@ void Neighbours::list_grains(const Bodies& bodies) {
           const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(sb)];
           const double reach = sphere_a.radius + sphere_b.radius + margin;
           if ((sphere_b.centre - sphere_a.centre).squaredNorm() < reach * reach) {
-            next_.spheres.push_back({.a = sa, .b = sb, .pair = pair});
+            next_.spheres.push_back({.a = sa, .b = sb});
           }
         }
       }
@@ -245,7 +244,9 @@ void Neighbours::carry_memories() {
 }
 
 void Neighbours::note_touching() {
-  list_.has_touched.assign(list_.memories.size() + kLanes, 0);
+  list_.touching.resize((list_.grains.size() + kPairsTogether - 1) / kPairsTogether);
+  for (TouchingChunk& chunk : list_.touching) chunk.is_known = false;
+  list_.has_touched.resize(list_.memories.size());
   for (std::size_t k = 0; k < list_.memories.size(); ++k) {
     list_.has_touched[k] = list_.memories[k].radius > 0 ? 1 : 0;
   }
@@ -336,7 +337,7 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
       const auto b = static_cast<std::size_t>(contact.grain_b);
       const auto first = static_cast<int>(remembered.spheres.size());
       remembered.spheres.push_back(
-          {.a = sphere_a, .b = bodies.first_sphere.at(b) + contact.sphere_b, .pair = 0});
+          {.a = sphere_a, .b = bodies.first_sphere.at(b) + contact.sphere_b});
       remembered.memories.push_back(memory);
       auto& groups = remembered.grains;
       if (groups.empty() || groups.back().a != contact.grain_a ||
