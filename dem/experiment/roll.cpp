@@ -64,9 +64,9 @@ Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t 
   // No part of the grain meets a wall faster than by a free fall from where it is let go.
   const double speed =
       std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
-  ExperimentRun run(
-      Simulation(model_setup(model, model.grain, walls_of(protocol, slope, reach), speed)),
-      {report, record});
+  ExperimentRun run(Simulation(model_setup(model, model.grain, walls_of(protocol, slope, reach),
+                                           speed, kCourseFraction)),
+                    {report, record});
   run.simulation().add(released(model.grain, protocol, seed));
   roll_to_rest(run);
   const Vector end = run.simulation().grain(0).position;
