@@ -81,8 +81,6 @@ class Neighbours {
 
  private:
   bool is_due(const Bodies& bodies, std::int64_t step) const;
-  /// How far a body's spheres can have come by turning since the list was made.
-  double moved_by_turning(const Bodies& bodies, std::size_t body) const;
   void set_margins(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
                    std::int64_t step);
   void sort_into_cells(const Bodies& bodies);
