@@ -1,5 +1,6 @@
 #include "dem/engine/audit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +14,19 @@ int material_of(const Bodies& bodies, int body) {
   return bodies.material[static_cast<std::size_t>(body)];
 }
 
-/// Calls visit(body a, body b or -1, law, normal, overlap, reduced radius, point, memory).
+struct AuditedTouch {
+  int a = 0;
+  int b = 0;  ///< -1: a wall
+  const ContactLaw& law;
+  Vector normal;  ///< unit, from a to b
+  double overlap = 0;
+  double reduced_radius = 0;
+  double smaller_radius = 0;
+  Vector point;
+  const ContactMemory& memory;
+};
+
+/// Calls visit(AuditedTouch) for each.
 template <typename Visit>
 void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
                     const NeighbourList& list, const Visit& visit) {
@@ -27,8 +40,9 @@ void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTab
       const double overlap = a.radius + b.radius - apart.norm();
       if (overlap <= 0) continue;
       const Vector normal = apart.normalized();
-      visit(pair.a, pair.b, law, normal, overlap, a.radius * b.radius / (a.radius + b.radius),
-            Vector(a.centre + normal * (a.radius - overlap / 2)), list.memories[at]);
+      visit(AuditedTouch{pair.a, pair.b, law, normal, overlap,
+                         a.radius * b.radius / (a.radius + b.radius), std::min(a.radius, b.radius),
+                         a.centre + normal * (a.radius - overlap / 2), list.memories[at]});
     }
   }
   for (const NearWall& pair : list.walls) {
@@ -40,8 +54,9 @@ void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTab
       const FacetContact facet = walls.contact(pair.wall, list.facets[at].facet, a.centre);
       const double overlap = a.radius - facet.distance;
       if (overlap <= 0) continue;
-      visit(pair.body, -1, law, Vector(-facet.normal), overlap, a.radius,
-            Vector(a.centre - facet.normal * (a.radius - overlap / 2)), list.wall_memories[at]);
+      visit(AuditedTouch{pair.body, -1, law, -facet.normal, overlap, a.radius, a.radius,
+                         a.centre - facet.normal * (a.radius - overlap / 2),
+                         list.wall_memories[at]});
     }
   }
 }
@@ -70,27 +85,24 @@ std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& wal
                                         const ContactTable& contacts, const NeighbourList& list) {
   std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>> sums(bodies.size(), Matrix6::Zero());
   bool any = false;
-  for_each_touch(bodies, walls, contacts, list,
-                 [&](int a, int b, const ContactLaw& law, const Vector& normal, double overlap,
-                     double reduced_radius, const Vector& point, const ContactMemory& /*memory*/) {
-                   const double radius = std::sqrt(reduced_radius * overlap);
-                   const double normal_stiffness = 2 * law.reduced_young_pa * radius;
-                   const double tangential_stiffness =
-                       law.sliding_friction > 0 ? 8 * law.reduced_shear_pa * radius : 0;
-                   const Eigen::Matrix3d across = normal * normal.transpose();
-                   const Eigen::Matrix3d stiffness =
-                       normal_stiffness * across +
-                       tangential_stiffness * (Eigen::Matrix3d::Identity() - across);
-                   any = true;
-                   const auto ka = static_cast<std::size_t>(a);
-                   if (b < 0) {
-                     add_stiffness(bodies, ka, point, stiffness, sums[ka]);
-                     return;
-                   }
-                   const auto kb = static_cast<std::size_t>(b);
-                   add_stiffness(bodies, ka, point, 2 * stiffness, sums[ka]);
-                   add_stiffness(bodies, kb, point, 2 * stiffness, sums[kb]);
-                 });
+  for_each_touch(bodies, walls, contacts, list, [&](const AuditedTouch& touch) {
+    const double radius = std::sqrt(touch.reduced_radius * touch.overlap);
+    const double normal_stiffness = 2 * touch.law.reduced_young_pa * radius;
+    const double tangential_stiffness =
+        touch.law.sliding_friction > 0 ? 8 * touch.law.reduced_shear_pa * radius : 0;
+    const Eigen::Matrix3d across = touch.normal * touch.normal.transpose();
+    const Eigen::Matrix3d stiffness =
+        normal_stiffness * across + tangential_stiffness * (Eigen::Matrix3d::Identity() - across);
+    any = true;
+    const auto ka = static_cast<std::size_t>(touch.a);
+    if (touch.b < 0) {
+      add_stiffness(bodies, ka, touch.point, stiffness, sums[ka]);
+      return;
+    }
+    const auto kb = static_cast<std::size_t>(touch.b);
+    add_stiffness(bodies, ka, touch.point, 2 * stiffness, sums[ka]);
+    add_stiffness(bodies, kb, touch.point, 2 * stiffness, sums[kb]);
+  });
   if (!any) return std::nullopt;
   double greatest = 0;
   for (const Matrix6& sum : sums) {
@@ -113,16 +125,26 @@ Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTa
                      .5 * own.cwiseAbs2().dot(bodies.inverse_inertia[k]);
     sum.potential_j -= bodies.mass[k] * gravity.dot(bodies.position[k].xyz);
   }
-  for_each_touch(
-      bodies, walls, contacts, list,
-      [&sum](int /*a*/, int /*b*/, const ContactLaw& law, const Vector& /*normal*/, double overlap,
-             double reduced_radius, const Vector& /*point*/, const ContactMemory& memory) {
-        const double radius = std::sqrt(reduced_radius * overlap);
-        sum.elastic_j += 8.0 / 15 * law.reduced_young_pa * radius * overlap * overlap;
-        const double tangential_stiffness = 8 * law.reduced_shear_pa * radius;
-        sum.elastic_j += memory.tangential.squaredNorm() / (2 * tangential_stiffness);
-      });
+  for_each_touch(bodies, walls, contacts, list, [&sum](const AuditedTouch& touch) {
+    const double radius = std::sqrt(touch.reduced_radius * touch.overlap);
+    sum.elastic_j += 8.0 / 15 * touch.law.reduced_young_pa * radius * touch.overlap * touch.overlap;
+    const double tangential_stiffness = 8 * touch.law.reduced_shear_pa * radius;
+    sum.elastic_j += touch.memory.tangential.squaredNorm() / (2 * tangential_stiffness);
+  });
   return sum;
+}
+
+int deepest_body(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
+                 const NeighbourList& list) {
+  int body = -1;
+  double deepest = 0;
+  for_each_touch(bodies, walls, contacts, list, [&](const AuditedTouch& touch) {
+    const double overlap = touch.overlap / touch.smaller_radius;
+    if (overlap <= deepest) return;
+    deepest = overlap;
+    body = touch.a;
+  });
+  return body;
 }
 
 }  // namespace repose::dem

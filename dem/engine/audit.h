@@ -22,4 +22,9 @@ std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& wal
 Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
                      const NeighbourList& list, const Vector& gravity);
 
+/// The body, the first one of two, of the deepest overlap, as a fraction of the smaller sphere's
+/// radius.
+int deepest_body(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
+                 const NeighbourList& list);
+
 }  // namespace repose::dem

@@ -150,10 +150,12 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   Vec3<Number> spring = springs.tangential;
   const Number old_size2 = spring.squared_norm();
   spring -= n * n.dot(spring);
-  // Keeps its size while turning; (1 + q) / 2 is sqrt(q) to 1e-16 for the small turn of one step.
+  // Keeps its size while turning, by sqrt(1 + x) = 1 + x/2 - x^2/8 to 1e-16 for the small turn of
+  // one step.
   const Number lost = old_size2 / spring.squared_norm();
-  Number scale = .5 + .5 * lost;
-  if (any(lost >= Number(1.0000001))) scale = select(lost >= Number(1.0000001), sqrt(lost), scale);
+  const Number more = lost - 1;
+  Number scale = 1 + more * (.5 - .125 * more);
+  if (any(lost >= Number(1.00001))) scale = select(lost >= Number(1.00001), sqrt(lost), scale);
   scale = scale * least(a / springs.radius, Number(1));
   const Vec3<Number> carried = (spring + n.cross(spring) * (timestep * touch.twist)) * scale;
   const Vec3<Number> half_slip = touch.half_velocity - n * n.dot(touch.half_velocity);
@@ -161,16 +163,19 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   // A spring of no size has no direction to keep.
   spring = select(spring.squared_norm() > Number(0), carried + stretch, stretch);
 
+  // Either the spring slides, without a damper, or both together are at most the limit. No branch:
+  // there is no pattern in who slides.
   const Number limit = law.sliding_friction * force.normal;
   const Number limit2 = limit * limit;
+  const Vec3<Number> damped = spring + (touch.velocity + n * approach) * tangential_damper;
   const Number size2 = spring.squared_norm();
+  const Number damped2 = damped.squared_norm();
   const auto slides = size2 > limit2;
-  if (any(slides)) spring = spring * select(slides, limit / sqrt(size2), Number(1));
-  const Number damper = select(slides, Number(0), tangential_damper);
-  Vec3<Number> tangential = spring + (touch.velocity + n * approach) * damper;
-  const Number total2 = tangential.squared_norm();
-  const auto is_over = total2 > 1.000000000001 * limit2;  // not by mere rounding
-  if (any(is_over)) tangential = tangential * select(is_over, limit / sqrt(total2), Number(1));
+  const auto is_over = damped2 > 1.000000000001 * limit2;  // not by mere rounding
+  const Number fraction = limit / sqrt(select(slides, size2, damped2));
+  const Vec3<Number> tangential =
+      select(slides, spring, damped) * select(slides | is_over, fraction, Number(1));
+  spring = spring * select(slides, fraction, Number(1));
   springs.tangential = spring;
   springs.radius = a;
   springs.push = force.normal;

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
+#include <type_traits>
 
 #include "dem/engine/contact_step.h"
 #include "dem/engine/rolling.h"
+#include "dem/engine/touching.h"
 
 /// The force of four contacts at a time: of one pair of grains or of several, or of grains and
 /// walls.
@@ -15,43 +18,37 @@ struct PairLoad {
   Lanes force;          ///< row: on a, N; b gets the opposite
   Lanes torque_a;       ///< row: N m; w: what constant-torque rolling friction may take
   Lanes torque_b;       ///< likewise
-  double overlap = 0;   ///< deepest, as a fraction of the smaller sphere's radius; 0: no contact
-  double touching = 0;  ///< how many spheres
+  double touching = 0;  ///< how many spheres; 0: nothing else stands here
 };
 
-/// What all contacts of a pair of grains, or of a grain and a wall, share.
-struct TouchingPair {
-  const BodyMotion* a = nullptr;
-  const BodyMotion* b = nullptr;
-  const Row* position_a = nullptr;
-  const Row* position_b = nullptr;
+/// A TouchingPair in the step at hand.
+struct PairMotion {
+  Row position_a;
+  Row apart;          ///< from a's centre of mass to b's; w: reduced inertia
+  Row velocity;       ///< of b against a, both as rigid as they are, at a's centre; w: reduced mass
+  Row spin;           ///< of b against a
+  Row velocity_kick;  ///< see BodyMotion; w: damper limit
+  Row spin_kick;
+  Row mean_spin;
   const ContactLaw* law = nullptr;
   PairLoad* load = nullptr;
 };
 
-/// A sphere of body a that touches the Other: a PlacedSphere of body b, or the FacetContact of a
-/// wall.
+/// Up to four contacts; those beyond the last one repeat it.
 template <typename Other>
-struct Touching {
-  const TouchingPair* pair = nullptr;
-  const PlacedSphere* sphere = nullptr;
-  const Other* other = nullptr;
-  ContactMemory* memory = nullptr;
+struct FourTouching {
+  std::array<const Touching<Other>*, kLanes> touching;
+  std::array<const PairMotion*, kLanes> pair;
 };
-
-/// Up to four of them; those beyond the last one repeat it.
-template <typename Other>
-using FourTouching = std::array<const Touching<Other>*, kLanes>;
 
 /// Contacts, in lanes.
 struct Contacts {
   Touch<Lanes> touch;
   Vec3<Lanes> arm_a;  ///< from a's centre of mass to the contact
   Vec3<Lanes> arm_b;
-  Vec3<Lanes> spin;  ///< of a against b
+  Vec3<Lanes> spin;  ///< of b against a
   Lanes smaller_radius;
   Lanes reduced_inertia;  ///< see Roll
-  Lanes contact_inertia;
 };
 
 /// Gathers a row of each lane.
@@ -60,7 +57,10 @@ REPOSE_INLINE Columns gather(const RowOfLane& row) {
   return columns_of({{row(0), row(1), row(2), row(3)}});
 }
 
-REPOSE_INLINE Lanes reduced(const Lanes& x, const Lanes& y) { return x * y / (x + y); }
+template <typename Number>
+REPOSE_INLINE Number reduced(const Number& x, const Number& y) {
+  return x * y / (x + y);
+}
 
 /// Gathers a number of each lane.
 template <typename NumberOfLane>
@@ -68,95 +68,121 @@ REPOSE_INLINE Lanes each(const NumberOfLane& number) {
   return Lanes::Vector4{number(0), number(1), number(2), number(3)};
 }
 
-/// From the bodies' centres to those of the spheres; w: their radii.
-template <bool is_round, typename SphereOfLane, typename CentreOfLane>
-REPOSE_INLINE Columns arms(const SphereOfLane& sphere, const CentreOfLane& centre) {
-  if constexpr (is_round) return {{}, gather(sphere).w};
-  return gather([&](std::size_t k) { return sphere(k) - centre(k); });
+/// Of two rows; w: 0.
+REPOSE_INLINE Lanes cross_of_rows(const Lanes& u, const Lanes& v) {
+  const auto next = [](const Lanes& row) __attribute__((always_inline)) {
+    return Lanes(__builtin_shufflevector(row.numbers, row.numbers, 1, 2, 0, 3));
+  };
+  return next(u * next(v) - next(u) * v);
 }
 
-/// What depends on whether two spheres meet or a sphere and a wall: where, and reduced sizes.
-/// @param spin_a, spin_kick_a  with mass and least inertia
-template <bool is_round>
-REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const Columns& spin_a,
-                                const Columns& spin_b, const Columns& inertia_a,
-                                const Columns& inertia_b, Contacts& c) {
-  const Columns to_a =
-      arms<is_round>([&](std::size_t k) { return load_row(*four[k]->sphere); },
-                     [&](std::size_t k) { return load_row(*four[k]->pair->position_a); });
-  const Columns to_b =
-      arms<is_round>([&](std::size_t k) { return load_row(*four[k]->other); },
-                     [&](std::size_t k) { return load_row(*four[k]->pair->position_b); });
-  const Columns apart =
-      gather([&](std::size_t k) { return load_row(*four[k]->other) - load_row(*four[k]->sphere); });
-  const Lanes distance = sqrt(apart.xyz.squared_norm());
-  c.touch.normal = apart.xyz * (1 / distance);
-  c.touch.overlap = to_a.w + to_b.w - distance;
-  c.touch.reduced_radius = reduced(to_a.w, to_b.w);
-  c.touch.reduced_mass = reduced(spin_a.w, spin_b.w);
-  c.arm_a = to_a.xyz + c.touch.normal * (to_a.w - c.touch.overlap * .5);
-  c.arm_b = to_b.xyz - c.touch.normal * (to_b.w - c.touch.overlap * .5);
-  c.smaller_radius = least(to_a.w, to_b.w);
-  c.reduced_inertia = reduced(inertia_a.w, inertia_b.w);
-  c.contact_inertia = reduced(inertia_a.w + spin_a.w * c.arm_a.squared_norm(),
-                              inertia_b.w + spin_b.w * c.arm_b.squared_norm());
+/// Contacts' velocities are those at a's centre and, for their arms, the difference of both spins.
+REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, PairLoad& load) {
+  const Lanes position_a = load_row(*pair.position_a);
+  const Lanes apart = load_row(*pair.position_b) - position_a;
+  const Lanes spin_a = load_row(pair.a->spin);
+  const Lanes spin_b = load_row(pair.b->spin);
+  const Lanes kick_a = load_row(pair.a->spin_kick);
+  const Lanes kick_b = load_row(pair.b->spin_kick);
+  const Lanes velocity = load_row(pair.b->velocity) - load_row(pair.a->velocity);
+  const Lanes velocity_kick = load_row(pair.b->velocity_kick) - load_row(pair.a->velocity_kick);
+  PairMotion motion;
+  store_row(position_a, motion.position_a);
+  store_row(apart + load_row(pair.reduced_inertia), motion.apart);
+  store_row(velocity - cross_of_rows(spin_b, apart) + load_row(pair.reduced_mass), motion.velocity);
+  store_row(spin_b - spin_a, motion.spin);
+  store_row(velocity_kick - cross_of_rows(kick_b, apart) + load_row(pair.damper_limit),
+            motion.velocity_kick);
+  store_row(kick_b - kick_a, motion.spin_kick);
+  store_row((spin_a + spin_b) * .5, motion.mean_spin);
+  motion.law = pair.law;
+  motion.load = &load;
+  return motion;
 }
 
-template <bool is_round>
-REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Columns& spin_a,
-                                const Columns& /*spin_b*/, const Columns& inertia_a,
-                                const Columns& /*inertia_b*/, Contacts& c) {
-  const Columns to_a =
-      arms<is_round>([&](std::size_t k) { return load_row(*four[k]->sphere); },
-                     [&](std::size_t k) { return load_row(*four[k]->pair->position_a); });
-  const Columns across = gather([&](std::size_t k) {
-    return load_row(*four[k]->pair->position_a) - load_row(*four[k]->pair->position_b);
+/// Begins the load of a pair whose contacts are to be added.
+REPOSE_INLINE void begin_load(const TouchingPair& pair, PairLoad& load) {
+  load.force = {};
+  load.torque_a = {};
+  load.touching = pair.touching;
+}
+
+/// Once all contacts are added: b's torque is that of the opposite force, seen from b's centre.
+/// Until then the force's w is what constant-torque rolling friction may take from b.
+REPOSE_INLINE void finish_load(const PairMotion& motion, PairLoad& load) {
+  const LaneMask is_w = Lanes(Lanes::Vector4{0, 0, 0, 1}) > Lanes(0);
+  const Lanes force = load.force;
+  load.force = select(is_w, Lanes(0), force);
+  load.torque_b = select(is_w, force, cross_of_rows(load_row(motion.apart), force) - load.torque_a);
+}
+
+template <typename Other>
+REPOSE_INLINE Columns gather(const FourTouching<Other>& four, Row PairMotion::*row) {
+  return gather([&](std::size_t k) { return load_row(four.pair[k]->*row); });
+}
+
+/// From a's centre to that of its sphere; w: the radius.
+template <bool is_round, typename Other>
+REPOSE_INLINE Columns to_sphere(const FourTouching<Other>& four) {
+  const Columns to_a = gather([&](std::size_t k) {
+    const Lanes sphere = load_row(*four.touching[k]->sphere);
+    return is_round ? sphere : sphere - load_row(four.pair[k]->position_a);
   });
-  const Columns facet = gather([&](std::size_t k) { return load_row(*four[k]->other); });
+  if constexpr (is_round) return {{}, to_a.w};
+  return to_a;
+}
+
+/// What depends on whether two spheres meet or a sphere and a wall: how deep, and reduced sizes.
+REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const Lanes& radius,
+                                Contacts& c) {
+  const Lanes minus_w = Lanes::Vector4{1, 1, 1, -1};
+  const Columns apart = gather([&](std::size_t k) {
+    return load_row(*four.touching[k]->other) - load_row(*four.touching[k]->sphere) * minus_w;
+  });  // w: the sum of the radii
+  const Lanes distance = sqrt(apart.xyz.squared_norm());
+  const Lanes other_radius = apart.w - radius;
+  c.touch.normal = apart.xyz * (1 / distance);
+  c.touch.overlap = apart.w - distance;
+  c.touch.reduced_radius = radius * other_radius / apart.w;
+  c.smaller_radius = least(radius, other_radius);
+}
+
+REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Lanes& radius,
+                                Contacts& c) {
+  const Columns facet = gather([&](std::size_t k) { return load_row(*four.touching[k]->other); });
   c.touch.normal = -facet.xyz;
-  c.touch.overlap = to_a.w - facet.w;
-  c.touch.reduced_radius = to_a.w;
-  c.touch.reduced_mass = spin_a.w;
-  c.arm_a = to_a.xyz + c.touch.normal * (to_a.w - c.touch.overlap * .5);
-  c.arm_b = c.arm_a + across.xyz;
-  c.smaller_radius = to_a.w;
-  c.reduced_inertia = inertia_a.w;
-  c.contact_inertia = inertia_a.w + spin_a.w * c.arm_a.squared_norm();
+  c.touch.overlap = radius - facet.w;
+  c.touch.reduced_radius = radius;
+  c.smaller_radius = radius;
 }
 
 template <bool is_round, typename Other>
-REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four, double timestep) {
-  const auto difference = [&](Row BodyMotion::*row) __attribute__((always_inline)) {
-    return gather([&](std::size_t k) {
-      return load_row(four[k]->pair->b->*row) - load_row(four[k]->pair->a->*row);
-    });
-  };
-  const Columns spin_a = gather([&](std::size_t k) { return load_row(four[k]->pair->a->spin); });
-  const Columns spin_b = gather([&](std::size_t k) { return load_row(four[k]->pair->b->spin); });
-  const Columns kick_a =
-      gather([&](std::size_t k) { return load_row(four[k]->pair->a->spin_kick); });
-  const Columns kick_b =
-      gather([&](std::size_t k) { return load_row(four[k]->pair->b->spin_kick); });
-  const Lanes touching = each([&](std::size_t k) { return four[k]->pair->load->touching; });
-
+REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four) {
   Contacts c;
-  set_geometry<is_round>(four, spin_a, spin_b, kick_a, kick_b, c);
-  c.touch.damper_limit = damper_limit(c.touch.reduced_mass, timestep, touching);
-  c.touch.half_velocity =
-      difference(&BodyMotion::velocity).xyz + spin_b.xyz.cross(c.arm_b) - spin_a.xyz.cross(c.arm_a);
-  c.touch.velocity = c.touch.half_velocity + difference(&BodyMotion::velocity_kick).xyz +
-                     kick_b.xyz.cross(c.arm_b) - kick_a.xyz.cross(c.arm_a);
-  c.touch.twist = .5 * c.touch.normal.dot(spin_a.xyz + spin_b.xyz);
-  c.spin = spin_a.xyz - spin_b.xyz;
+  const Columns to_a = to_sphere<is_round>(four);
+  set_geometry(four, to_a.w, c);
+  const Columns apart = gather(four, &PairMotion::apart);
+  const Columns velocity = gather(four, &PairMotion::velocity);
+  const Columns kick = gather(four, &PairMotion::velocity_kick);
+  c.spin = gather(four, &PairMotion::spin).xyz;
+  c.arm_a = to_a.xyz + c.touch.normal * (to_a.w - c.touch.overlap * .5);
+  c.arm_b = c.arm_a - apart.xyz;
+  c.reduced_inertia = apart.w;
+  c.touch.reduced_mass = velocity.w;
+  c.touch.damper_limit = kick.w;
+  c.touch.half_velocity = velocity.xyz + c.spin.cross(c.arm_a);
+  c.touch.velocity =
+      c.touch.half_velocity + kick.xyz + gather(four, &PairMotion::spin_kick).xyz.cross(c.arm_a);
+  c.touch.twist = c.touch.normal.dot(gather(four, &PairMotion::mean_spin).xyz);
   return c;
 }
 
 template <typename Other>
 REPOSE_INLINE Law<Lanes> laws_of(const FourTouching<Other>& four) {
-  const ContactLaw* first = four[0]->pair->law;
+  const ContactLaw* first = four.pair[0]->law;
   Law<Lanes> law = law_of<Lanes>(*first);
   for (std::size_t k = 1; k < kLanes; ++k) {
-    const ContactLaw& own = *four[k]->pair->law;
+    const ContactLaw& own = *four.pair[k]->law;
     if (&own == first) continue;
     law.reduced_young.set(k, own.reduced_young_pa);
     law.reduced_shear.set(k, own.reduced_shear_pa);
@@ -168,48 +194,64 @@ REPOSE_INLINE Law<Lanes> laws_of(const FourTouching<Other>& four) {
   return law;
 }
 
+/// Of both bodies about the contact; a wall has no inertia.
+template <typename Other>
+REPOSE_INLINE Lanes contact_inertia(const Contacts& c, const FourTouching<Other>& four,
+                                    std::span<const TouchingPair> pairs) {
+  const auto about_contact = [&](BodyMotion const* TouchingPair::*body, const Vec3<Lanes>& arm)
+      __attribute__((always_inline)) {
+    const auto motion = [&](std::size_t k) -> const BodyMotion& {
+      return *(pairs[four.touching[k]->pair].*body);
+    };
+    return each([&](std::size_t k) { return motion(k).spin_kick.w; }) +
+           each([&](std::size_t k) { return motion(k).spin.w; }) * arm.squared_norm();
+  };
+  const Lanes a = about_contact(&TouchingPair::a, c.arm_a);
+  if constexpr (std::is_same_v<Other, FacetContact>) return a;
+  const Lanes b = about_contact(&TouchingPair::b, c.arm_b);
+  return reduced(a, b);
+}
+
 /// The torque on a of the models that work on the relative spin.
 template <RollingModel model, typename Other>
 REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_force,
                                          const Law<Lanes>& law, double timestep,
-                                         const FourTouching<Other>& four, std::size_t count) {
-  const Roll<Lanes> roll = {.normal = c.touch.normal,
-                            .spin = c.spin,
-                            .normal_force = normal_force,
-                            .overlap = c.touch.overlap,
-                            .reduced_radius = c.touch.reduced_radius,
-                            .reduced_inertia = c.reduced_inertia,
-                            .contact_inertia = c.contact_inertia};
+                                         const FourTouching<Other>& four,
+                                         std::span<const TouchingPair> pairs) {
+  Roll<Lanes> roll = {.normal = c.touch.normal,
+                      .spin = -c.spin,
+                      .normal_force = normal_force,
+                      .overlap = c.touch.overlap,
+                      .reduced_radius = c.touch.reduced_radius,
+                      .reduced_inertia = c.reduced_inertia,
+                      .contact_inertia = {}};
   if constexpr (model == RollingModel::relative_constant_torque) {
     return relative_constant_torque(roll, law, timestep);
   }
-  Vec3<Lanes> spring;
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const Vector& own = four[k]->memory->rolling;
-    spring.x.set(k, own.x());
-    spring.y.set(k, own.y());
-    spring.z.set(k, own.z());
-  }
+  roll.contact_inertia = contact_inertia(c, four, pairs);
+  // The row's w is the push: read, and left alone.
+  Vec3<Lanes> spring =
+      gather([&](std::size_t k) { return load(four.touching[k]->memory->rolling.data()); }).xyz;
   const Vec3<Lanes> torque = elastic_plastic_torque(roll, law, timestep, spring);
-  for (std::size_t k = 0; k < count; ++k) {
-    four[k]->memory->rolling = {spring.x[k], spring.y[k], spring.z[k]};
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    four.touching[k]->memory->rolling = {spring.x[k], spring.y[k], spring.z[k]};
   }
   return torque;
 }
 
-/// Adds the first `count` of four contacts to the loads of their pairs, and brings their memories
-/// up to date.
+/// Adds four contacts to the loads of their pairs, and brings their memories up to date.
+/// @return how deep they are, as fractions of the smaller sphere's radius
 template <bool is_round, RollingModel model, typename Other>
-REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, double timestep) {
-  const Contacts c = contacts_of<is_round>(four, timestep);
+REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep,
+                             std::span<const TouchingPair> pairs) {
+  const Contacts c = contacts_of<is_round>(four);
   const Law<Lanes> law = laws_of(four);
-  const Columns memory = gather([&](std::size_t k) { return load_row(*four[k]->memory); });
-  const Lanes last_push = each([&](std::size_t k) { return four[k]->memory->push; });
+  const Columns memory = gather([&](std::size_t k) { return load_row(*four.touching[k]->memory); });
+  const Lanes last_push = each([&](std::size_t k) { return four.touching[k]->memory->push; });
   Springs<Lanes> springs = {memory.xyz, memory.w, last_push};
   const ContactForce<Lanes> force = contact_force(c.touch, law, timestep, springs);
 
   Vec3<Lanes> torque_a = c.arm_a.cross(force.total);
-  Vec3<Lanes> torque_b = -c.arm_b.cross(force.total);
   Lanes rolling_a;
   Lanes rolling_b;
   if constexpr (model == RollingModel::constant_torque) {
@@ -217,60 +259,104 @@ REPOSE_INLINE void add_four(const FourTouching<Other>& four, std::size_t count, 
     rolling_a = resistance * sqrt(c.arm_a.squared_norm());
     rolling_b = resistance * sqrt(c.arm_b.squared_norm());
   } else if constexpr (model != RollingModel::none) {
-    const Vec3<Lanes> rolling = rolling_torque<model>(c, force.normal, law, timestep, four, count);
-    torque_a += rolling;
-    torque_b -= rolling;
+    torque_a += rolling_torque<model>(c, force.normal, law, timestep, four, pairs);
   }
   const Rows memories = rows_of(springs.tangential, springs.radius);
-  const Rows forces = rows_of(force.total, Lanes(0));
+  const Rows forces = rows_of(force.total, rolling_b);
   const Rows torques_a = rows_of(torque_a, rolling_a);
-  const Rows torques_b = rows_of(torque_b, rolling_b);
-  const Lanes depth = c.touch.overlap / c.smaller_radius;
-  for (std::size_t k = 0; k < count; ++k) {
-    store_row(memories.row[k], *four[k]->memory);
-    four[k]->memory->push = springs.push[k];
-    PairLoad& load = *four[k]->pair->load;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    ContactMemory& own = *four.touching[k]->memory;
+    store_row(memories.row[k], own);
+    own.push = springs.push[k];
+    PairLoad& load = *four.pair[k]->load;
     load.force += forces.row[k];
     load.torque_a += torques_a.row[k];
-    load.torque_b += torques_b.row[k];
-    load.overlap = std::max(load.overlap, depth[k]);
   }
+  return c.touch.overlap / c.smaller_radius;
 }
+
+/// The last contacts, fewer than four: the lanes beyond repeat the last one, for nothing.
+template <typename Other>
+struct LastTouching {
+  FourTouching<Other> four;
+  ContactMemory memory;
+  Touching<Other> touching;
+  PairLoad load;
+  PairMotion pair;
+
+  REPOSE_INLINE LastTouching(std::span<const Touching<Other>> last, const PairMotion* motions)
+      : memory(*last.back().memory), touching(last.back()), pair(motions[last.back().pair]) {
+    touching.memory = &memory;
+    pair.load = &load;
+    four.touching.fill(&touching);
+    four.pair.fill(&pair);
+    for (std::size_t k = 0; k < last.size(); ++k) {
+      four.touching[k] = &last[k];
+      four.pair[k] = &motions[last[k].pair];
+    }
+  }
+};
 
 template <bool is_round, RollingModel model, typename Other>
-REPOSE_INLINE void add_with(std::span<const Touching<Other>> touching, double timestep) {
+REPOSE_INLINE Lanes add_with(std::span<const Touching<Other>> touching,
+                             std::span<const TouchingPair> pairs, const PairMotion* motions,
+                             double timestep) {
+  Lanes deepest;
   for (std::size_t at = 0; at < touching.size(); at += kLanes) {
-    const std::size_t count = std::min(kLanes, touching.size() - at);
+    const std::span<const Touching<Other>> left = touching.subspan(at);
+    if (left.size() < kLanes) {
+      const LastTouching<Other> last(left, motions);
+      deepest = greatest(add_four<is_round, model>(last.four, timestep, pairs), deepest);
+      break;
+    }
     FourTouching<Other> four;
-    for (std::size_t k = 0; k < kLanes; ++k) four[k] = &touching[at + std::min(k, count - 1)];
-    add_four<is_round, model>(four, count, timestep);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      four.touching[k] = &left[k];
+      four.pair[k] = &motions[left[k].pair];
+    }
+    deepest = greatest(add_four<is_round, model>(four, timestep, pairs), deepest);
   }
+  return deepest;
 }
 
-/// Adds contacts to the loads of their pairs in the order given.
 template <bool is_round, typename Other>
-REPOSE_INLINE void add_contacts_of(std::span<const Touching<Other>> touching, RollingModel model,
-                                   double timestep) {
+REPOSE_INLINE Lanes add_contacts_of(std::span<const Touching<Other>> touching,
+                                    std::span<const TouchingPair> pairs, const PairMotion* motions,
+                                    RollingModel model, double timestep) {
   switch (model) {
     case RollingModel::none:
-      return add_with<is_round, RollingModel::none>(touching, timestep);
+      return add_with<is_round, RollingModel::none>(touching, pairs, motions, timestep);
     case RollingModel::constant_torque:
-      return add_with<is_round, RollingModel::constant_torque>(touching, timestep);
+      return add_with<is_round, RollingModel::constant_torque>(touching, pairs, motions, timestep);
     case RollingModel::relative_constant_torque:
-      return add_with<is_round, RollingModel::relative_constant_torque>(touching, timestep);
+      return add_with<is_round, RollingModel::relative_constant_torque>(touching, pairs, motions,
+                                                                        timestep);
     case RollingModel::elastic_plastic:
-      return add_with<is_round, RollingModel::elastic_plastic>(touching, timestep);
+      return add_with<is_round, RollingModel::elastic_plastic>(touching, pairs, motions, timestep);
   }
+  return {};
 }
 
+/// The loads of pairs, each the sum over its contacts in the order given; their memories are
+/// brought up to date.
+/// @param motions  room for as many as there are pairs
+/// @return the deepest overlap, as a fraction of the smaller sphere's radius
 template <typename Other>
-REPOSE_INLINE void add_contacts(std::span<const Touching<Other>> touching,
-                                const ContactStep& step) {
-  if (step.bodies.is_round) {
-    add_contacts_of<true>(touching, step.contacts.rolling(), step.timestep_s);
-  } else {
-    add_contacts_of<false>(touching, step.contacts.rolling(), step.timestep_s);
+REPOSE_INLINE double add_contacts(std::span<const Touching<Other>> touching,
+                                  std::span<const TouchingPair> pairs, const ContactStep& step,
+                                  PairMotion* motions, PairLoad* loads) {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    PairLoad& load = loads[pairs[k].number];
+    begin_load(pairs[k], load);
+    motions[k] = motion_of(pairs[k], load);
   }
+  const RollingModel model = step.contacts.rolling();
+  const Lanes deepest =
+      step.bodies.is_round
+          ? add_contacts_of<true>(touching, pairs, motions, model, step.timestep_s)
+          : add_contacts_of<false>(touching, pairs, motions, model, step.timestep_s);
+  for (std::size_t k = 0; k < pairs.size(); ++k) finish_load(motions[k], *motions[k].load);
+  return std::max(std::max(deepest[0], deepest[1]), std::max(deepest[2], deepest[3]));
 }
 
 }  // namespace repose::dem

@@ -10,8 +10,7 @@ namespace repose::dem {
 /// What the contacts of one step did besides pushing grains.
 struct ContactTally {
   double wall_power_w = 0;
-  double deepest_overlap = 0;
-  int deepest_body = -1;
+  double deepest_overlap = 0;  ///< as a fraction of the smaller sphere's radius
 };
 
 /// Works out the contacts of all bodies. Each body's sums are made in the order of the list, so
@@ -25,8 +24,11 @@ class Interactions {
   void apply_pairs(Bodies& bodies, const ContactStep& step, NeighbourList& list, int threads);
   void apply_walls(Bodies& bodies, const ContactStep& step, NeighbourList& list, int threads);
 
+  void note_deepest();
+
   ContactTally tally_;
   std::vector<PairLoad> loads_;
+  std::vector<double> deepest_;  ///< of each chunk
   WallMotions wall_motions_;
 };
 

@@ -35,6 +35,9 @@ struct alignas(32) LaneMask {
   friend REPOSE_INLINE LaneMask operator&(const LaneMask& x, const LaneMask& y) {
     return {x.bits & y.bits};
   }
+  friend REPOSE_INLINE LaneMask operator|(const LaneMask& x, const LaneMask& y) {
+    return {x.bits | y.bits};
+  }
 };
 
 // Aligned by name: on its own a vector's alignment would differ from machine to machine.
@@ -76,6 +79,7 @@ struct alignas(32) Lanes {
   friend REPOSE_INLINE Lanes operator/(double x, const Lanes& y) { return x / y.numbers; }
   friend REPOSE_INLINE Lanes operator/(const Lanes& x, double y) { return x.numbers / y; }
   friend REPOSE_INLINE Lanes operator+(double x, const Lanes& y) { return x + y.numbers; }
+  friend REPOSE_INLINE Lanes operator-(const Lanes& x, double y) { return x.numbers - y; }
   friend REPOSE_INLINE Lanes operator-(double x, const Lanes& y) { return x - y.numbers; }
   friend REPOSE_INLINE LaneMask operator<(const Lanes& x, const Lanes& y) {
     return {x.numbers < y.numbers};

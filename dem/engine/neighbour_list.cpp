@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "dem/engine/four_contacts.h"
+
 namespace repose::dem {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kHorizonSteps = 80;
 /// ... but is at most this fraction of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.
-constexpr std::int64_t kWallSteps = 200;
+constexpr std::int64_t kWallSteps = 80;
 
 template <typename Pair>
 bool comes_before(const Pair& x, const Pair& y) {
@@ -50,6 +52,34 @@ void carry(const std::vector<Group>& old_groups, const std::vector<Item>& old_it
   }
 }
 
+/// Distance from one of four rows to the other, squared.
+REPOSE_INLINE Lanes distance2(const Row* from, const Row* to) {
+  return gather([&](std::size_t k) { return load_row(to[k]) - load_row(from[k]); })
+      .xyz.squared_norm();
+}
+
+/// Whether some body's spheres can have come farther than its margin, by moving and by turning.
+REPOSE_FOR_EACH_MACHINE
+bool has_left_margin(const Bodies& bodies, const std::vector<Row>& position,
+                     const std::array<std::vector<double>, 4>& orientation,
+                     const std::vector<double>& margin) {
+  for (std::size_t k = 0; k < bodies.size(); k += kLanes) {
+    Lanes left = load(&margin[k]);
+    if (!bodies.is_round) {
+      Lanes turned;
+      for (std::size_t i = 0; i < 4; ++i) {
+        turned += load(&bodies.orientation[i][k]) * load(&orientation[i][k]);
+      }
+      const Lanes way = sqrt(greatest(Lanes(0), 1 - turned * turned));
+      left = left - 2 * load(&bodies.bounding_radius[k]) * way;
+    }
+    const LaneMask has_left =
+        (left <= Lanes(0)) | (distance2(&position[k], &bodies.position[k]) > left * left);
+    if (any(has_left & (load(&bodies.presence[k]) > Lanes(0)))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void Neighbours::update(const Bodies& bodies, const WallSet& walls, double time_s,
@@ -69,29 +99,15 @@ void Neighbours::update(const Bodies& bodies, const WallSet& walls, double time_
 }
 
 bool Neighbours::is_due(const Bodies& bodies, std::int64_t step) const {
-  if (is_expired_ || step >= due_step_) return true;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const double left = margin_[k] - (bodies.is_round ? 0 : moved_by_turning(bodies, k));
-    if (left <= 0 || (bodies.position[k].xyz - position_[k].xyz).squaredNorm() > left * left) {
-      if (bodies.is_present(k)) return true;
-    }
-  }
-  return false;
-}
-
-double Neighbours::moved_by_turning(const Bodies& bodies, std::size_t body) const {
-  double turned = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    turned += bodies.orientation[i][body] * orientation_[i][body];
-  }
-  return 2 * bodies.bounding_radius[body] * std::sqrt(std::max(0.0, 1 - turned * turned));
+  return is_expired_ || step >= due_step_ ||
+         has_left_margin(bodies, position_, orientation_, margin_);
 }
 
 void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double time_s,
                              double timestep_s, std::int64_t step) {
   position_ = bodies.position;
   orientation_ = bodies.orientation;
-  margin_.resize(bodies.size());
+  margin_.resize(bodies.presence.size());  // longer, as the bodies' own arrays
   double farthest = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const double turning =
@@ -194,7 +210,6 @@ void Neighbours::list_grains(const Bodies& bodies) {
       const auto kb = static_cast<std::size_t>(b);
       const double margin = margin_[ka] + margin_[kb];
       const auto first = static_cast<int>(next_.spheres.size());
-      const auto pair = static_cast<int>(next_.grains.size());
       for (int sa = bodies.first_sphere[ka]; sa < bodies.first_sphere[ka + 1]; ++sa) {
         const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(sa)];
         const double far = sphere_a.radius + bodies.bounding_radius[kb] + margin;
@@ -203,7 +218,7 @@ void Neighbours::list_grains(const Bodies& bodies) {
           const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(sb)];
           const double reach = sphere_a.radius + sphere_b.radius + margin;
           if ((sphere_b.centre - sphere_a.centre).squaredNorm() < reach * reach) {
-            next_.spheres.push_back({.a = sa, .b = sb, .pair = pair});
+            next_.spheres.push_back({.a = sa, .b = sb});
           }
         }
       }
@@ -245,7 +260,9 @@ void Neighbours::carry_memories() {
 }
 
 void Neighbours::note_touching() {
-  list_.has_touched.assign(list_.memories.size() + kLanes, 0);
+  list_.touching.resize((list_.grains.size() + kPairsTogether - 1) / kPairsTogether);
+  for (TouchingChunk& chunk : list_.touching) chunk.is_known = false;
+  list_.has_touched.resize(list_.memories.size());
   for (std::size_t k = 0; k < list_.memories.size(); ++k) {
     list_.has_touched[k] = list_.memories[k].radius > 0 ? 1 : 0;
   }
@@ -336,7 +353,7 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
       const auto b = static_cast<std::size_t>(contact.grain_b);
       const auto first = static_cast<int>(remembered.spheres.size());
       remembered.spheres.push_back(
-          {.a = sphere_a, .b = bodies.first_sphere.at(b) + contact.sphere_b, .pair = 0});
+          {.a = sphere_a, .b = bodies.first_sphere.at(b) + contact.sphere_b});
       remembered.memories.push_back(memory);
       auto& groups = remembered.grains;
       if (groups.empty() || groups.back().a != contact.grain_a ||

@@ -5,6 +5,7 @@
 
 #include "dem/engine/bodies.h"
 #include "dem/engine/contact_force.h"
+#include "dem/engine/touching.h"
 #include "dem/wall/wall_set.h"
 
 namespace repose::dem {
@@ -21,7 +22,6 @@ struct NearGrains {
 struct NearSpheres {
   int a = 0;
   int b = 0;
-  int pair = 0;  ///< number of their NearGrains
 };
 
 /// A grain near a wall.
@@ -44,8 +44,9 @@ struct NeighbourList {
   std::vector<NearGrains> grains;
   std::vector<NearSpheres> spheres;
   std::vector<ContactMemory> memories;  ///< one for each of `spheres`
-  /// Whether each of `spheres` touched at the last step, 1 or 0; longer by kLanes.
-  std::vector<std::uint8_t> has_touched;
+  std::vector<std::uint8_t>
+      has_touched;                      ///< whether each of `spheres` did at the last step, 1 or 0
+  std::vector<TouchingChunk> touching;  ///< of each kPairsTogether `grains`
   std::vector<int>
       body_start;  ///< one more than bodies: where each one's part of body_pairs starts
   std::vector<int> body_pairs;  ///< numbers of `grains` in which a body takes part, rising
@@ -80,8 +81,6 @@ class Neighbours {
 
  private:
   bool is_due(const Bodies& bodies, std::int64_t step) const;
-  /// How far a body's spheres can have come by turning since the list was made.
-  double moved_by_turning(const Bodies& bodies, std::size_t body) const;
   void set_margins(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
                    std::int64_t step);
   void sort_into_cells(const Bodies& bodies);

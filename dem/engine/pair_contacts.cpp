@@ -1,5 +1,6 @@
 #include "dem/engine/pair_contacts.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -8,132 +9,127 @@
 namespace repose::dem {
 namespace {
 
-using TouchingSpheres = Touching<PlacedSphere>;
-
-/// Which of four lanes are meant, in order, by a bit for each; and how many.
-constexpr std::array<std::array<std::uint32_t, kLanes>, 16> kLanesOf = {{{0, 0, 0, 0},
-                                                                         {0, 0, 0, 0},
-                                                                         {1, 0, 0, 0},
-                                                                         {0, 1, 0, 0},
-                                                                         {2, 0, 0, 0},
-                                                                         {0, 2, 0, 0},
-                                                                         {1, 2, 0, 0},
-                                                                         {0, 1, 2, 0},
-                                                                         {3, 0, 0, 0},
-                                                                         {0, 3, 0, 0},
-                                                                         {1, 3, 0, 0},
-                                                                         {0, 1, 3, 0},
-                                                                         {2, 3, 0, 0},
-                                                                         {0, 2, 3, 0},
-                                                                         {1, 2, 3, 0},
-                                                                         {0, 1, 2, 3}}};
-constexpr std::array<std::uint8_t, 16> kCountOf = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
-
 /// A byte of 1 or 0 for each lane.
 constexpr std::array<std::uint32_t, 16> kBytesOf = {
     0x00000000, 0x00000001, 0x00000100, 0x00000101, 0x00010000, 0x00010001, 0x00010100, 0x00010101,
     0x01000000, 0x01000001, 0x01000100, 0x01000101, 0x01010000, 0x01010001, 0x01010100, 0x01010101};
 
 /// Notes which of `count` spheres from `first` on touch now. What has parted forgets.
-REPOSE_INLINE void note_touching(NeighbourList& list, std::size_t first, std::size_t count,
+/// @return whether they are others than before
+REPOSE_INLINE bool note_touching(NeighbourList& list, std::size_t first, std::size_t count,
                                  unsigned now) {
   if (count == kLanes) {
     std::uint32_t before = 0;
     std::memcpy(&before, &list.has_touched[first], sizeof before);
-    if (before == kBytesOf[now]) return;  // as most do
+    if (before == kBytesOf[now]) return false;  // as most do
   }
+  bool has_changed = false;
   for (std::size_t lane = 0; lane < count; ++lane) {
     const auto touches = static_cast<std::uint8_t>(now >> lane & 1U);
     std::uint8_t& before = list.has_touched[first + lane];
     if (before > touches) list.memories[first + lane] = {};
+    has_changed = has_changed || before != touches;
     before = touches;
   }
+  return has_changed;
 }
 
-/// Lists which of the near spheres from ... to - 1 touch. What has parted forgets.
-/// @param touching  with room for three more than there can be
-/// @return how many do
-REPOSE_INLINE std::size_t find_touching(const ContactStep& step, NeighbourList& list,
-                                        std::size_t from, std::size_t to, std::uint32_t* touching) {
+/// Looks which of `count` near spheres from `first` on touch.
+/// @return whether they are others than before
+REPOSE_INLINE bool look_at(const ContactStep& step, NeighbourList& list, std::size_t first,
+                           std::size_t count) {
   const Lanes minus_w = Lanes::Vector4{1, 1, 1, -1};
-  std::size_t found = 0;
-  for (std::size_t first = from; first < to; first += kLanes) {
-    const Columns apart = gather([&](std::size_t lane) {
-      const NearSpheres& near = list.spheres[std::min(first + lane, to - 1)];
-      const Lanes a = load_row(step.bodies.spheres[static_cast<std::size_t>(near.a)]);
-      const Lanes b = load_row(step.bodies.spheres[static_cast<std::size_t>(near.b)]);
-      return b - a * minus_w;  // w: the sum of the radii
-    });
-    const Lanes distance2 = apart.xyz.squared_norm();
-    // Spheres of one centre have no normal to push along: the audit stops such a run.
-    const LaneMask touches = (distance2 < apart.w * apart.w) & (distance2 > Lanes(0));
-    const std::size_t count = std::min(kLanes, to - first);
-    const unsigned now = bits_of(touches) & ((1U << count) - 1);
-    note_touching(list, first, count, now);
-    // No branch: there is no pattern in who touches.
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      touching[found + k] = static_cast<std::uint32_t>(first) + kLanesOf[now][k];
-    }
-    found += kCountOf[now];
-  }
-  return found;
+  const Columns apart = gather([&](std::size_t lane) {
+    const NearSpheres& near = list.spheres[first + std::min(lane, count - 1)];
+    const Lanes a = load_row(step.bodies.spheres[static_cast<std::size_t>(near.a)]);
+    const Lanes b = load_row(step.bodies.spheres[static_cast<std::size_t>(near.b)]);
+    return b - a * minus_w;  // w: the sum of the radii
+  });
+  const Lanes distance2 = apart.xyz.squared_norm();
+  // Spheres of one centre have no normal to push along: the audit stops such a run.
+  const LaneMask touches = (distance2 < apart.w * apart.w) & (distance2 > Lanes(0));
+  return note_touching(list, first, count, bits_of(touches) & ((1U << count) - 1));
 }
 
-/// Looks up all that the contact of each touching pair of spheres depends on.
-REPOSE_INLINE void look_up(const ContactStep& step, NeighbourList& list, std::size_t first,
-                           std::span<const std::uint32_t> found, std::span<PairLoad> loads,
-                           TouchingPair* pairs, std::span<TouchingSpheres> touching) {
+/// Looks which of the near spheres from ... to - 1 touch.
+/// @return whether they are others than before
+REPOSE_INLINE bool look_at_all(const ContactStep& step, NeighbourList& list, std::size_t from,
+                               std::size_t to) {
+  bool has_changed = false;
+  std::size_t first = from;
+  for (; first + kLanes <= to; first += kLanes) has_changed |= look_at(step, list, first, kLanes);
+  if (first < to) has_changed |= look_at(step, list, first, to - first);
+  return has_changed;
+}
+
+TouchingPair touching_pair(const ContactStep& step, const NearGrains& near, std::size_t number) {
   const Bodies& bodies = step.bodies;
-  for (PairLoad& load : loads) load.overlap = 0;
-  int last_pair = -1;
-  TouchingPair* shared = nullptr;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const NearSpheres& near = list.spheres[found[k]];
-    if (shared == nullptr || near.pair != last_pair) {
-      last_pair = near.pair;
-      const NearGrains& pair = list.grains[static_cast<std::size_t>(near.pair)];
-      const auto a = static_cast<std::size_t>(pair.a);
-      const auto b = static_cast<std::size_t>(pair.b);
-      PairLoad& load = loads[static_cast<std::size_t>(near.pair) - first];
-      load = {};
-      // Bodies b lie anywhere in memory: asked for now, they are here when the contacts are worked
-      // out.
-      __builtin_prefetch(&bodies.motion[b].velocity);
-      __builtin_prefetch(&bodies.motion[b].spin_kick);
-      __builtin_prefetch(&bodies.load[b]);
-      shared = pairs++;
-      *shared = {&bodies.motion[a],
-                 &bodies.motion[b],
-                 &bodies.position[a],
-                 &bodies.position[b],
-                 &step.contacts.law(step.material(pair.a), step.material(pair.b)),
-                 &load};
+  const auto a = static_cast<std::size_t>(near.a);
+  const auto b = static_cast<std::size_t>(near.b);
+  TouchingPair pair = {.a = &bodies.motion[a],
+                       .b = &bodies.motion[b],
+                       .position_a = &bodies.position[a],
+                       .position_b = &bodies.position[b],
+                       .law = &step.contacts.law(step.material(near.a), step.material(near.b)),
+                       .number = number};
+  pair.reduced_mass.w = reduced(pair.a->spin.w, pair.b->spin.w);
+  pair.reduced_inertia.w = reduced(pair.a->spin_kick.w, pair.b->spin_kick.w);
+  return pair;
+}
+
+/// Looks up all that the contacts of pairs `first` ... depend on.
+void look_up(const ContactStep& step, NeighbourList& list, std::size_t first, std::size_t count,
+             TouchingChunk& chunk) {
+  chunk.pairs.clear();
+  chunk.contacts.clear();
+  for (std::size_t number = 0; number < count; ++number) {
+    const NearGrains& near = list.grains[first + number];
+    const std::size_t start = chunk.contacts.size();
+    const auto from = static_cast<std::size_t>(near.first);
+    for (std::size_t k = from; k < from + static_cast<std::size_t>(near.count); ++k) {
+      if (list.has_touched[k] == 0) continue;
+      const NearSpheres& spheres = list.spheres[k];
+      chunk.contacts.push_back({.sphere = &step.bodies.spheres[static_cast<std::size_t>(spheres.a)],
+                                .other = &step.bodies.spheres[static_cast<std::size_t>(spheres.b)],
+                                .memory = &list.memories[k],
+                                .pair = chunk.pairs.size()});
     }
-    shared->load->touching += 1;
-    touching[k] = {shared, &bodies.spheres[static_cast<std::size_t>(near.a)],
-                   &bodies.spheres[static_cast<std::size_t>(near.b)], &list.memories[found[k]]};
+    if (chunk.contacts.size() == start) continue;
+    TouchingPair pair = touching_pair(step, near, number);
+    pair.touching = static_cast<double>(chunk.contacts.size() - start);
+    pair.damper_limit.w = damper_limit(pair.reduced_mass.w, step.timestep_s, pair.touching);
+    chunk.pairs.push_back(pair);
   }
+  chunk.is_known = true;
+}
+
+REPOSE_FOR_EACH_MACHINE
+bool have_changed(const ContactStep& step, NeighbourList& list, std::size_t from, std::size_t to) {
+  return look_at_all(step, list, from, to);
+}
+
+REPOSE_FOR_EACH_MACHINE
+double add_pair_contacts(const TouchingChunk& chunk, const ContactStep& step, PairMotion* motions,
+                         PairLoad* loads) {
+  return add_contacts<PlacedSphere>(chunk.contacts, chunk.pairs, step, motions, loads);
 }
 
 }  // namespace
 
-REPOSE_FOR_EACH_MACHINE
-void find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t first,
-                     std::span<PairLoad> loads) {
-  // Kept from call to call, so that nothing is allocated once they are large enough.
-  thread_local std::vector<std::uint32_t> found;
-  thread_local std::vector<TouchingPair> pairs;
-  thread_local std::vector<TouchingSpheres> touching;
-  const auto from = static_cast<std::size_t>(list.grains[first].first);
+double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t number,
+                       std::span<PairLoad> loads) {
+  // Kept from call to call, so that nothing is allocated.
+  thread_local std::vector<PairMotion> motions(kPairsTogether);
+  const std::size_t first = number * kPairsTogether;
   const NearGrains& last = list.grains[first + loads.size() - 1];
-  const auto to = static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.count);
-  found.resize(std::max(found.size(), to - from + kLanes));
-  pairs.resize(std::max(pairs.size(), loads.size()));
-  const std::size_t count = find_touching(step, list, from, to, found.data());
-  touching.resize(std::max(touching.size(), count));
-  const std::span<TouchingSpheres> all{touching.data(), count};
-  look_up(step, list, first, {found.data(), count}, loads, pairs.data(), all);
-  add_contacts<PlacedSphere>(all, step);
+  TouchingChunk& chunk = list.touching[number];
+  if (have_changed(step, list, static_cast<std::size_t>(list.grains[first].first),
+                   static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.count)) ||
+      !chunk.is_known) {
+    look_up(step, list, first, loads.size(), chunk);
+  }
+  for (PairLoad& load : loads) load.touching = 0;
+  return add_pair_contacts(chunk, step, motions.data(), loads.data());
 }
 
 }  // namespace repose::dem

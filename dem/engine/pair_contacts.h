@@ -8,10 +8,11 @@
 
 namespace repose::dem {
 
-/// Works out the contacts of pairs `first` ... of the list, as many as there are `loads`, and
-/// brings their memories up to date. Each pair's load is the sum over its contacts in the list's
-/// order.
-void find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t first,
-                     std::span<PairLoad> loads);
+/// Works out the contacts of a chunk of kPairsTogether pairs of the list (the last one has fewer),
+/// as many as there are `loads`, and brings their memories up to date. Each pair's load is the sum
+/// over its contacts in the list's order.
+/// @return the deepest overlap, as a fraction of the smaller sphere's radius
+double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t chunk,
+                       std::span<PairLoad> loads);
 
 }  // namespace repose::dem

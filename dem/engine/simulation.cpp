@@ -140,9 +140,10 @@ void Simulation::State::audit_contacts() {
   const double step_of_stable = frequency ? setup.timestep_s * *frequency / 2 : 0;
   const double depth = tally.deepest_overlap;
   if (depth > OverlapWatch::kDeepest) {
-    const Vector at = bodies.position[static_cast<std::size_t>(tally.deepest_body)].xyz;
+    const int deepest = deepest_body(bodies, walls, setup.contacts, neighbours.list());
+    const Vector at = bodies.position[index(deepest)].xyz;
     stop(fmt::format("grain {} at ({:.4f}, {:.4f}, {:.4f}) m overlaps by {:.0f} % of a radius",
-                     tally.deepest_body, at.x(), at.y(), at.z(), 100 * depth),
+                     deepest, at.x(), at.y(), at.z(), 100 * depth),
          step_of_stable > kShortStep ? "a shorter time step"
                                      : "a larger young_modulus_pa or stiffness_factor, or slower "
                                        "impacts");
@@ -159,7 +160,7 @@ void Simulation::State::audit_overlap_at_rest() {
   // By Hertz's law the weight that a contact carries goes with its overlap to the power of 3/2.
   const double stiffer = 2 * std::pow(depth / OverlapWatch::kDeepestAtRest, 1.5);
   stop(fmt::format("grain {} has sunk into what it lies on by {:.0f} % of a radius",
-                   tally.deepest_body, 100 * depth),
+                   deepest_body(bodies, walls, setup.contacts, neighbours.list()), 100 * depth),
        fmt::format("a young_modulus_pa or stiffness_factor at least {:.2g} times as large",
                    stiffer));
 }

@@ -9,12 +9,13 @@ namespace repose::dem {
 // Tangential stiffness counts in omega whatever the friction: it is what makes the step short
 // enough for both.
 
-/// For readings of single grains: elastic impacts make less than 1e-4 of energy. A sphere on a wall
-/// is resolved by 48 steps an impact, two equal spheres by 42.
+/// For readings of single impacts: elastic impacts make less than 1e-4 of energy. A sphere on a
+/// wall is resolved by 48 steps an impact, two equal spheres by 42.
 inline constexpr double kImpactFraction = .07;
-/// For where many grains come to rest: 24 steps an impact, less than 1e-3 of energy
+/// For readings that no single impact decides: how far a grain rolls, when it slides, how grains
+/// heap. 24 steps an impact, less than 1e-3 of energy
 /// (HeapTimestep.*).
-inline constexpr double kHeapFraction = .14;
+inline constexpr double kCourseFraction = .14;
 
 /// The longest time step at which these grains are simulated accurately, s, when they strike each
 /// other and the walls at up to `speed_m_s`.

@@ -38,38 +38,60 @@ void hand_over_memories(const ContactStep& step, const NearWall& pair, Neighbour
   }
 }
 
+/// What touches, of some pairs.
+struct TouchingWalls {
+  std::vector<FacetContact> facets;
+  std::vector<TouchingPair> pairs;
+  std::vector<TouchingWall> contacts;
+  std::vector<PairMotion> motions;
+};
+
+TouchingPair touching_pair(const ContactStep& step, const WallMotions& wall_motions,
+                           const NearWall& near, std::size_t number, std::size_t touching) {
+  const auto body = static_cast<std::size_t>(near.body);
+  const auto wall = static_cast<std::size_t>(near.wall);
+  TouchingPair pair = {
+      .a = &step.bodies.motion[body],
+      .b = &wall_motions.motion[wall],
+      .position_a = &step.bodies.position[body],
+      .position_b = &wall_motions.position[wall],
+      .law = &step.contacts.law(step.material(near.body), step.walls.wall(near.wall).material),
+      .number = number,
+      .touching = static_cast<double>(touching)};
+  pair.reduced_mass.w = pair.a->spin.w;
+  pair.reduced_inertia.w = pair.a->spin_kick.w;
+  pair.damper_limit.w = damper_limit(pair.reduced_mass.w, step.timestep_s, pair.touching);
+  return pair;
+}
+
 /// Adds what touches. What has parted forgets.
-void add_touching(const ContactStep& step, const WallMotions& wall_motions, const NearWall& pair,
-                  NeighbourList& list, FacetContact* facets, PairLoad* load, TouchingPair* shared,
-                  std::vector<TouchingWall>& touching) {
-  if (step.walls.has_facets(pair.wall)) hand_over_memories(step, pair, list);
-  const std::size_t start = touching.size();
-  for (int near = 0; near < pair.count; ++near) {
-    const auto k = static_cast<std::size_t>(pair.first) + static_cast<std::size_t>(near);
+void add_touching(const ContactStep& step, const WallMotions& wall_motions, const NearWall& near,
+                  std::size_t number, NeighbourList& list, FacetContact* facet,
+                  TouchingWalls& touching) {
+  if (step.walls.has_facets(near.wall)) hand_over_memories(step, near, list);
+  const std::size_t start = touching.contacts.size();
+  const auto first = static_cast<std::size_t>(near.first);
+  for (std::size_t k = first; k < first + static_cast<std::size_t>(near.count); ++k) {
     const PlacedSphere& sphere = sphere_of(step, list, k);
     ContactMemory& memory = list.wall_memories[k];
-    *facets = facet_contact(step, pair, list, k);
-    if (facets->distance < sphere.radius) {
-      touching.push_back({shared, &sphere, facets++, &memory});
+    const bool is_clear = step.walls.is_clear(near.wall, sphere.centre, sphere.radius);
+    if (!is_clear) *facet = facet_contact(step, near, list, k);
+    if (!is_clear && facet->distance < sphere.radius) {
+      touching.contacts.push_back({&sphere, facet++, &memory, touching.pairs.size()});
     } else if (memory.radius > 0) {
       memory = {};
     }
   }
-  if (touching.size() == start) return;
-  const auto body = static_cast<std::size_t>(pair.body);
-  const auto wall = static_cast<std::size_t>(pair.wall);
-  *shared = {&step.bodies.motion[body],
-             &wall_motions.motion[wall],
-             &step.bodies.position[body],
-             &wall_motions.position[wall],
-             &step.contacts.law(step.material(pair.body), step.walls.wall(pair.wall).material),
-             load};
-  load->touching = static_cast<double>(touching.size() - start);
+  const std::size_t found = touching.contacts.size() - start;
+  if (found > 0) {
+    touching.pairs.push_back(touching_pair(step, wall_motions, near, number, found));
+  }
 }
 
 REPOSE_FOR_EACH_MACHINE
-void add_wall_contacts(std::span<const TouchingWall> touching, const ContactStep& step) {
-  add_contacts<FacetContact>(touching, step);
+double add_wall_contacts(TouchingWalls& touching, const ContactStep& step, PairLoad* loads) {
+  return add_contacts<FacetContact>(touching.contacts, touching.pairs, step,
+                                    touching.motions.data(), loads);
 }
 
 }  // namespace
@@ -89,26 +111,25 @@ void find_wall_motions(const WallSet& walls, WallMotions& motions) {
   }
 }
 
-void find_wall_loads(const ContactStep& step, const WallMotions& wall_motions, NeighbourList& list,
-                     std::size_t first, std::span<PairLoad> loads) {
+double find_wall_loads(const ContactStep& step, const WallMotions& wall_motions,
+                       NeighbourList& list, std::size_t first, std::span<PairLoad> loads) {
   // Kept from call to call, so that nothing is allocated once they are large enough.
-  thread_local std::vector<FacetContact> facets;
-  thread_local std::vector<TouchingPair> pairs;
-  thread_local std::vector<TouchingWall> touching;
-  pairs.resize(std::max(pairs.size(), loads.size()));
-  std::fill(loads.begin(), loads.end(), PairLoad{});
+  thread_local TouchingWalls touching;
   const auto from = static_cast<std::size_t>(list.walls[first].first);
   const NearWall& last = list.walls[first + loads.size() - 1];
-  facets.resize(std::max(facets.size(), static_cast<std::size_t>(last.first) +
-                                            static_cast<std::size_t>(last.count) - from));
-  touching.clear();
+  const std::size_t near =
+      static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.count) - from;
+  touching.facets.resize(std::max(touching.facets.size(), near));
+  touching.motions.resize(std::max(touching.motions.size(), loads.size()));
+  touching.pairs.clear();
+  touching.contacts.clear();
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const NearWall& pair = list.walls[first + k];
-    add_touching(step, wall_motions, pair, list,
-                 &facets[static_cast<std::size_t>(pair.first) - from], &loads[k], &pairs[k],
-                 touching);
+    loads[k].touching = 0;
+    add_touching(step, wall_motions, pair, k, list,
+                 &touching.facets[static_cast<std::size_t>(pair.first) - from], touching);
   }
-  add_wall_contacts(touching, step);
+  return add_wall_contacts(touching, step, loads.data());
 }
 
 }  // namespace repose::dem

@@ -20,7 +20,8 @@ void find_wall_motions(const WallSet& walls, WallMotions& motions);
 
 /// Works out the contacts of grains with walls, `first` ... of the list, as many as there are
 /// `loads`, and brings their memories up to date.
-void find_wall_loads(const ContactStep& step, const WallMotions& wall_motions, NeighbourList& list,
-                     std::size_t first, std::span<PairLoad> loads);
+/// @return the deepest overlap, as a fraction of the sphere's radius
+double find_wall_loads(const ContactStep& step, const WallMotions& wall_motions,
+                       NeighbourList& list, std::size_t first, std::span<PairLoad> loads);
 
 }  // namespace repose::dem

@@ -6,6 +6,7 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
+#include "dem/experiment/free_flight.h"
 #include "dem/experiment/grain_limit.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
@@ -15,7 +16,7 @@ namespace repose::dem {
 namespace {
 
 /// Steps between two reports; every step is looked at, since an impact is some 48 steps long.
-constexpr int kStepsBetweenReports = 1024;
+constexpr int kStepsBetweenReports = 16;
 
 void check(const Model& model, const DropProtocol& protocol) {
   base::ErrorList errors;
@@ -36,30 +37,44 @@ struct Bounce {
   double lowest_m = 0;       ///< lowest height of the centroid so far
   bool is_rising = false;
   bool is_over = false;
+  double top_s = 0;  ///< when it is at the top
   double rise_m = 0;
   double above_first_touch_m = 0;
   double lowest_point_m = 0;
 };
 
-/// At the top of its first flight a grain stops rising and nothing touches it. One that stops while
-/// it stands on the wall is toppling, and still bouncing.
+bool touches_nothing(const Simulation& simulation, int number) {
+  const Vector weight = simulation.mass_kg(number) * simulation.setup().gravity;
+  return (simulation.force_n(number) - weight).norm() <= 1e-9 * weight.norm();
+}
+
+/// Reads the top of the flight of a grain that touches nothing, and will not until then.
+void read_top(Bounce& bounce, const Simulation& simulation, const Grain& grain) {
+  const SimulationSetup& setup = simulation.setup();
+  const ClumpShape& shape = setup.kinds.front().shape;
+  const double flight_s = std::max(0.0, grain.velocity.z()) / kStandardGravity_m_s2;
+  const Grain top = after_flight(grain, shape, setup.gravity, flight_s);
+  bounce.is_over = true;
+  bounce.top_s = simulation.time_s() + flight_s;
+  bounce.rise_m = top.position.z() - bounce.lowest_m;
+  bounce.above_first_touch_m = top.position.z() - bounce.first_touch_m;
+  bounce.lowest_point_m = lowest_m(shape, top);
+}
+
+/// At the top of its first flight a grain stops rising and nothing touches it: its time comes out
+/// beforehand once it is so high that no part of it can reach the wall. One that stops while it
+/// stands on the wall is toppling, and still bouncing.
 void follow(Bounce& bounce, const Simulation& simulation, int number) {
   const Grain grain = simulation.grain(number);
   const double height = grain.position.z();
   bounce.lowest_m = std::min(bounce.lowest_m, height);
-  if (grain.velocity.z() > 0) {
-    bounce.is_rising = true;
-    return;
-  }
-  if (!bounce.is_rising) return;
-  bounce.is_rising = false;
-  const SimulationSetup& setup = simulation.setup();
-  const Vector weight = simulation.mass_kg(number) * setup.gravity;
-  if ((simulation.force_n(number) - weight).norm() > 1e-9 * weight.norm()) return;
-  bounce.is_over = true;
-  bounce.rise_m = height - bounce.lowest_m;
-  bounce.above_first_touch_m = height - bounce.first_touch_m;
-  bounce.lowest_point_m = lowest_m(setup.kinds.front().shape, grain);
+  const bool was_rising = bounce.is_rising;
+  bounce.is_rising = grain.velocity.z() > 0;
+  const bool is_out_of_reach =
+      bounce.is_rising && height > simulation.setup().kinds.front().shape.reach_m();
+  const bool is_at_top = was_rising && !bounce.is_rising;
+  if (!is_out_of_reach && !is_at_top) return;
+  if (touches_nothing(simulation, number)) read_top(bounce, simulation, grain);
 }
 
 /// The grains just above the wall, as fast as the fall made them: sqrt(2 g h) from rest, and far
@@ -121,7 +136,9 @@ Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t 
     for (int k = 0; k < protocol.grains; ++k) {
       Bounce& bounce = bounces[static_cast<std::size_t>(k)];
       if (!bounce.is_over) follow(bounce, run.simulation(), k);
-      are_over = are_over && bounce.is_over;
+      // Frames show the whole flight.
+      const double end_s = record.frame ? bounce.top_s : 0;
+      are_over = are_over && bounce.is_over && run.simulation().time_s() >= end_s;
     }
     if (step % kStepsBetweenReports == 0)
       run.report_progress(run.simulation().time_s() / longest_s);

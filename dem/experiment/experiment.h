@@ -67,8 +67,8 @@ struct DropProtocol {
 struct TiltProtocol {
   int bonded = 2;
   double rate_deg_s = 2;
-  /// At least. The plate begins later, 3 degrees short of where the body slides or tips, since a
-  /// body that does not move has no history: Tilt.DoesNotDependOnWhereItBegins.
+  /// At least. The plate begins later, just short of where the body slides or tips, since a body
+  /// that does not move has no history: Tilt.DoesNotDependOnWhereItBegins.
   double start_deg = 0;
 };
 

@@ -156,7 +156,7 @@ ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
   const double reach = model.grain.reach_m();
   const double tall = protocol.tube_height_m + 10 * kHeaped * reach;
   return {Simulation(model_setup(model, model.grain, {plate_of(protocol), tube_of(protocol, tall)},
-                                 fastest_m_s(reach), kHeapFraction)),
+                                 fastest_m_s(reach), kCourseFraction)),
           observers};
 }
 
@@ -173,7 +173,7 @@ ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapPro
   }
   SimulationSetup setup = model_setup(
       model, model.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
-      fastest_m_s(reach), kHeapFraction);
+      fastest_m_s(reach), kCourseFraction);
   // Grains that fall off the plate are gone once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),

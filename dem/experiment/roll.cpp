@@ -75,9 +75,9 @@ ExperimentRun rolled(const Model& model, const RollProtocol& protocol, const Gra
   // No part of the grain meets a wall faster than by a free fall from where it is let go.
   const double speed =
       std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
-  ExperimentRun run(
-      Simulation(model_setup(model, model.grain, walls_of(protocol, slope, reach), speed)),
-      observers);
+  ExperimentRun run(Simulation(model_setup(model, model.grain, walls_of(protocol, slope, reach),
+                                           speed, kCourseFraction)),
+                    observers);
   run.simulation().add(grain);
   roll_to_rest(run);
   return run;

@@ -21,8 +21,9 @@ constexpr int kPlate = 0;
 constexpr double kSteepest_deg = 89;
 /// The onset comes out within .01 degrees up to here, and half a degree low at 50.
 constexpr double kFastest_deg_s = 10;
-/// How far short of sliding or tipping the plate begins.
-constexpr double kLead_deg = 3;
+/// How long before it slides or tips the plate begins to turn, and how far short of that at least.
+constexpr double kLead_s = .375;
+constexpr double kLeastLead_deg = .5;
 /// Slip that the onset is read from, as fractions of the grain's reach: from well above the
 /// springs' stretch to where the plate has turned by less than a degree or so.
 constexpr double kMinSlip = .002;
@@ -177,11 +178,13 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
   const Quaternion lying = lying_pose(model.grain);
   const double hold_deg =
       std::min(std::atan(model.grain_wall.sliding_friction) / kDegree, tipping_deg(body, lying));
-  const double begin_deg = std::max(protocol.start_deg, hold_deg - kLead_deg);
+  const double lead_deg = std::max(kLeastLead_deg, kLead_s * protocol.rate_deg_s);
+  const double begin_deg = std::max(protocol.start_deg, hold_deg - lead_deg);
   // The body meets the plate no faster than by a fall through a hundredth of its reach.
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * .01 * body.reach_m());
   const Wall plate = study_wall(Plane{}, {.orientation = slope(begin_deg)});
-  ExperimentRun run(Simulation(model_setup(model, body, {plate}, speed)), {report, record});
+  ExperimentRun run(Simulation(model_setup(model, body, {plate}, speed, kCourseFraction)),
+                    {report, record});
   const Vector normal = slope(begin_deg) * Vector::UnitZ();
   const Quaternion orientation = slope(begin_deg) * lying;
   run.simulation().add(

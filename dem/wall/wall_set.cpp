@@ -11,7 +11,9 @@ WallSet::WallSet(std::vector<Wall> walls)
     : walls_(std::move(walls)),
       moments_(walls_.size()),
       axes_(walls_.size()),
+      clearances_(walls_.size()),
       is_turned_(walls_.size()),
+      is_placed_(walls_.size()),
       meshes_(walls_.size()) {
   for (std::size_t k = 0; k < walls_.size(); ++k) {
     if (const auto* surface = std::get_if<MeshSurface>(&walls_[k].shape)) {
@@ -23,10 +25,28 @@ WallSet::WallSet(std::vector<Wall> walls)
 
 void WallSet::move_to(double time_s) {
   for (std::size_t k = 0; k < walls_.size(); ++k) {
+    if (is_placed_[k] != 0) continue;
+    is_placed_[k] = walls_[k].motions.empty() ? 1 : 0;
     moments_[k] = wall_at(walls_[k], time_s);
     axes_[k] = moments_[k].pose.orientation.toRotationMatrix();
     is_turned_[k] = axes_[k] != Eigen::Matrix3d::Identity() ? 1 : 0;
+    clearances_[k] = clearance(k);
   }
+}
+
+WallSet::Clearance WallSet::clearance(std::size_t wall) const {
+  Clearance clear{.position = moments_[wall].pose.position};
+  if (is_turned_[wall] != 0) return clear;
+  if (std::holds_alternative<Plane>(walls_[wall].shape)) {
+    clear.from = clear.to = 0;
+  } else if (const auto* box = std::get_if<Box>(&walls_[wall].shape)) {
+    clear.from = clear.to = box->half_size.z();
+  } else if (const auto* tube = std::get_if<Tube>(&walls_[wall].shape)) {
+    clear.from = 0;
+    clear.to = tube->height;
+    clear.bore = tube->inner_radius;
+  }
+  return clear;
 }
 
 void WallSet::set_motions(int wall, std::vector<Motion> motions, double time_s) {
@@ -34,6 +54,7 @@ void WallSet::set_motions(int wall, std::vector<Motion> motions, double time_s) 
   walls_[k].pose = moments_[k].pose;
   for (Motion& motion : motions) motion.start_s = std::max(motion.start_s, time_s);
   walls_[k].motions = std::move(motions);
+  is_placed_[k] = 0;
 }
 
 double WallSet::greatest_speed(double time_s, double reach) const {

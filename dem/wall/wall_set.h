@@ -40,13 +40,40 @@ class WallSet {
 
   FacetContact contact(int wall, int facet, const Vector& point) const;
 
+  /// True for most spheres that touch no facet of a wall, at the cost of a few comparisons; never
+  /// for one that does.
+  bool is_clear(int wall, const Vector& centre, double radius) const {
+    const Clearance& clear = clearances_[static_cast<std::size_t>(wall)];
+    const double height = centre.z() - clear.position.z();
+    // A little more, and less: distances are rounded on another way.
+    if (height < clear.from || height > clear.to) {
+      return height - clear.to > 1.000000000001 * radius;
+    }
+    const double gap = clear.bore - radius;
+    const double x = centre.x() - clear.position.x();
+    const double y = centre.y() - clear.position.y();
+    return gap > 0 && x * x + y * y < .999999999999 * (gap * gap);
+  }
+
  private:
+  /// Where nothing of an upright wall is: above `to`, and between both heights within the bore. As
+  /// it is at first, nowhere.
+  struct Clearance {
+    Vector position = Vector::Zero();
+    double from = -1e300;
+    double to = 1e300;
+    double bore = 0;
+  };
+
+  Clearance clearance(std::size_t wall) const;
   Vector in_frame_of(std::size_t wall, const Vector& point) const;
 
   std::vector<Wall> walls_;
   std::vector<WallMoment> moments_;
   std::vector<Eigen::Matrix3d> axes_;
+  std::vector<Clearance> clearances_;
   std::vector<char> is_turned_;  ///< whether the axes are others than the world's
+  std::vector<char> is_placed_;  ///< for good: it has no motions
   std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< empty for plain walls
 };
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <exception>
 #include <string>
 #include <vector>
@@ -6,22 +5,20 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "tests/bench/heap_race.h"
 #include "tests/bench/liggghts_race.h"
+#include "tests/bench/median.h"
+#include "tests/bench/own_speed.h"
 #include "tests/peers/liggghts.h"
 
 namespace {
 
+using repose::bench::median;
 using repose::bench::Packing;
 using repose::bench::Race;
 using repose::bench::settled_clumps;
 using repose::bench::settled_spheres;
 using repose::bench::Timing;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Grain steps a second, of each run: by the clock and by CPU time.
 struct Rates {
@@ -57,28 +54,72 @@ void print_row(const std::string& name, const repose::testing::TemporaryFolder& 
   std::fflush(stdout);
 }
 
+void print_single_grains(int rounds) {
+  for (const char* experiment : {"drop", "tilt", "roll"}) {
+    fmt::print("the sample's {} at full stiffness: {:.3f} CPU s\n", experiment,
+               median(repose::bench::single_grain_times(experiment, rounds)));
+    std::fflush(stdout);
+  }
+}
+
+void print_many_clumps(int many, int rounds) {
+  const repose::bench::Growth growth = repose::bench::clump_step_growth(many, rounds);
+  const double few_ns = median(growth.few_ns);
+  const double many_ns = median(growth.many_ns);
+  fmt::print("a clump-step: {:.0f} CPU ns of 500 clumps, {:.0f} of {}, {:.2f} times as long\n",
+             few_ns, many_ns, many, many_ns / few_ns);
+  fmt::print("two threads against one, {} clumps: {:.2f} times as fast by the clock\n", many,
+             median(repose::bench::two_thread_gains(many, rounds)));
+  std::fflush(stdout);
+}
+
+void print_heap(const std::vector<std::string>& settings, int rounds) {
+  const repose::bench::HeapTimes times = repose::bench::race_heaps(settings, rounds);
+  const double ours_s = median(times.ours_s);
+  fmt::print("the sample's heap, {} clumps, fill to angle: {:.1f} CPU s", times.grains, ours_s);
+  if (!times.theirs_s.empty()) {
+    const double theirs_s = median(times.theirs_s);
+    fmt::print("; LIGGGHTS {:.1f}, {:.2f} times as long", theirs_s, theirs_s / ours_s);
+  }
+  fmt::print("\nits silhouettes and angles of 18 views: {:.1f} CPU s, {:.1f} % of its simulation\n",
+             median(times.views_s), 100 * median(times.views_s) / ours_s);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Speed of LIGGGHTS and of repose on the same packings, one core each, turn about. Boxes of\n"
-      "more than 10,000 spheres are mirrored from a ninth of them, wide and as deep as that.");
+      "Speed of LIGGGHTS and of repose on the same packings, one core each, turn about; and of\n"
+      "repose alone. Boxes of more than 10,000 spheres, and of many clumps, are mirrored from a\n"
+      "ninth of them, wide and as deep as that. Everything takes an hour or more:\n"
+      "  against_liggghts --spheres 500,5000,50000 --many-clumps 50000 --heaps 5 --rounds 5");
   std::vector<int> spheres = {500, 5000};
   std::vector<int> clumps = {500};
   int rounds = 3;
   double skin_mm = .3;
+  int many_clumps = 0;
+  int heaps = 0;
+  std::vector<std::string> settings;
   app.add_option("--spheres", spheres, "Spheres in each box (50000 takes minutes); 0: none")
       ->delimiter(',');
   app.add_option("--clumps", clumps, "Clumps of 11 spheres in each tube; 0: none")->delimiter(',');
   app.add_option("--rounds", rounds, "Runs of each engine")->check(CLI::Range(1, 1000));
   app.add_option("--skin-mm", skin_mm,
                  "How far LIGGGHTS lists neighbours; for clumps at rest .3 is faster than more");
+  app.add_option("--many-clumps", many_clumps,
+                 "Clumps in a box: what a step costs against 500 of them, and two threads against "
+                 "one; 0: none");
+  app.add_option("--heaps", heaps, "Heaps of the sample in each engine; 0: none");
+  app.add_option("--set", settings, "Of the heap's study, as experiment.heap.grains=100");
   CLI11_PARSE(app, argc, argv);
-  if (!repose::testing::has_liggghts()) {
-    fmt::print("{}\n", repose::testing::kNoLiggghts);
-    return 0;
-  }
   try {
+    print_single_grains(rounds);
+    if (many_clumps > 0) print_many_clumps(many_clumps, rounds);
+    if (heaps > 0) print_heap(settings, heaps);
+    if (!repose::testing::has_liggghts()) {
+      fmt::print("{}\n", repose::testing::kNoLiggghts);
+      return 0;
+    }
     fmt::print(
         "{0:28}contacts a grain  million grain-steps/s     per CPU second\n"
         "{1:<10}{2:>8}     ours   theirs     ours   theirs  ratio     ours   theirs  ratio\n",

@@ -69,7 +69,19 @@ std::vector<dem::Grain> clumps_from(const dem::ClumpShape& shape,
   return clumps;
 }
 
-/// Commands that let clumps fall into the tube from a loose cloud `height_m` high.
+/// Of its last run but `later` ones.
+double loop_time_s(const std::string& output, int later) {
+  const std::string words = "Loop time of ";
+  std::size_t at = output.rfind(words);
+  for (int k = 0; k < later && at != std::string::npos && at > 0; ++k) {
+    at = output.rfind(words, at - 1);
+  }
+  if (at == std::string::npos) throw std::runtime_error("LIGGGHTS tells no time");
+  return std::stod(output.substr(at + words.size()));
+}
+
+}  // namespace
+
 std::string pouring_commands(const dem::ClumpShape& shape, double density_kg_m3,
                              double tube_radius_m, double height_m, int grains) {
   // Seeds have to be prime numbers.
@@ -92,19 +104,6 @@ std::string clump_file(const dem::ClumpShape& shape) {
   }
   return text;
 }
-
-/// Of its last run but `later` ones.
-double loop_time_s(const std::string& output, int later) {
-  const std::string words = "Loop time of ";
-  std::size_t at = output.rfind(words);
-  for (int k = 0; k < later && at != std::string::npos && at > 0; ++k) {
-    at = output.rfind(words, at - 1);
-  }
-  if (at == std::string::npos) throw std::runtime_error("LIGGGHTS tells no time");
-  return std::stod(output.substr(at + words.size()));
-}
-
-}  // namespace
 
 Packing settled_spheres(const testing::TemporaryFolder& folder, int grains) {
   const dem::Simulation poured = grains > kMostPoured ? testing::wide_box_of_spheres(grains, 1)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 
 namespace repose::testing {
@@ -13,6 +14,8 @@ constexpr double kTimestep_s = 2e-5;
 constexpr double kTubeRadius_m = .05;
 constexpr double kHalfLength_m = .01124;
 constexpr double kHalfWidth_m = .00892;
+constexpr int kClumpSpheres = 11;
+constexpr int kTiles = 9;
 
 /// Uniform in -1/2 ... 1/2, the same on every machine.
 double uniform(std::mt19937& random) {
@@ -70,6 +73,46 @@ dem::Wall side(const Vector& position, const Vector& inwards) {
   return wall;
 }
 
+dem::Simulation box_of(const dem::ClumpShape& shape, int grains, int threads) {
+  const double reach = shape.reach_m();
+  // As deep as it is wide, once settled.
+  const double half = 1.13 * std::cbrt(grains * shape.volume_m3 * 3 / (4 * std::numbers::pi));
+  const std::vector<dem::Wall> walls = {
+      side({0, 0, 0}, {0, 0, 1}), side({-half, 0, 0}, {1, 0, 0}), side({half, 0, 0}, {-1, 0, 0}),
+      side({0, -half, 0}, {0, 1, 0}), side({0, half, 0}, {0, -1, 0})};
+  const double room = half - 1.02 * reach;
+  return poured(
+      setup_of(shape, walls, threads), grains, 2.06 * reach, half,
+      [room](const Vector& at) { return std::max(std::abs(at.x()), std::abs(at.y())) <= room; });
+}
+
+/// A grain that is round about its x axis, in a mirror across x = x_m, y = y_m or both.
+dem::Grain mirrored(const dem::Grain& grain, std::optional<double> x_m, std::optional<double> y_m) {
+  Vector at = grain.position;
+  Vector axis = grain.orientation * Vector::UnitX();
+  if (x_m) at.x() = 2 * *x_m - at.x();
+  if (x_m) axis.x() = -axis.x();
+  if (y_m) at.y() = 2 * *y_m - at.y();
+  if (y_m) axis.y() = -axis.y();
+  return {.position = at, .orientation = dem::Quaternion::FromTwoVectors(Vector::UnitX(), axis)};
+}
+
+dem::Simulation mirrored(const dem::Simulation& tile) {
+  dem::SimulationSetup setup = tile.setup();
+  const double half = std::abs(setup.walls.back().pose.position.y());
+  for (dem::Wall& wall : setup.walls) wall.pose.position *= 3;
+  dem::Simulation simulation(setup);
+  const auto mirror = [half](int i) { return i == 0 ? std::nullopt : std::optional(i * half); };
+  for (const int i : {-1, 0, 1}) {
+    for (const int j : {-1, 0, 1}) {
+      for (int k = 0; k < tile.grain_count(); ++k) {
+        simulation.add(mirrored(tile.grain(k), mirror(i), mirror(j)));
+      }
+    }
+  }
+  return simulation;
+}
+
 }  // namespace
 
 dem::ClumpShape spheroid_nut(int spheres) {
@@ -93,7 +136,7 @@ dem::SimulationSetup tube_setup(int threads) {
   const dem::Wall floor;  // a plane
   dem::Wall tube;
   tube.shape = dem::Tube{kTubeRadius_m, .002, 100};
-  return setup_of(spheroid_nut(11), {floor, tube}, threads);
+  return setup_of(spheroid_nut(kClumpSpheres), {floor, tube}, threads);
 }
 
 dem::Simulation tube_of_clumps(int grains, int threads) {
@@ -103,37 +146,19 @@ dem::Simulation tube_of_clumps(int grains, int threads) {
 }
 
 dem::Simulation box_of_spheres(int grains, int threads) {
-  const dem::ClumpShape sphere = spheroid_nut(1);
-  const double radius = sphere.reach_m();
-  // As deep as it is wide, once settled.
-  const double half = 1.13 * radius * std::cbrt(static_cast<double>(grains));
-  const std::vector<dem::Wall> walls = {
-      side({0, 0, 0}, {0, 0, 1}), side({-half, 0, 0}, {1, 0, 0}), side({half, 0, 0}, {-1, 0, 0}),
-      side({0, -half, 0}, {0, 1, 0}), side({0, half, 0}, {0, -1, 0})};
-  const double room = half - 1.02 * radius;
-  return poured(
-      setup_of(sphere, walls, threads), grains, 2.06 * radius, half,
-      [room](const Vector& at) { return std::max(std::abs(at.x()), std::abs(at.y())) <= room; });
+  return box_of(spheroid_nut(1), grains, threads);
+}
+
+dem::Simulation box_of_clumps(int grains, int threads) {
+  return box_of(spheroid_nut(kClumpSpheres), grains, threads);
 }
 
 dem::Simulation wide_box_of_spheres(int grains, int threads) {
-  constexpr int kTiles = 9;
-  const dem::Simulation tile = box_of_spheres((grains + kTiles - 1) / kTiles, threads);
-  dem::SimulationSetup setup = tile.setup();
-  const double half = std::abs(setup.walls.back().pose.position.y());
-  for (dem::Wall& wall : setup.walls) wall.pose.position *= 3;
-  dem::Simulation simulation(setup);
-  for (const int i : {-1, 0, 1}) {
-    for (const int j : {-1, 0, 1}) {
-      for (int k = 0; k < tile.grain_count(); ++k) {
-        Vector at = tile.grain(k).position;
-        if (i != 0) at.x() = 2 * i * half - at.x();
-        if (j != 0) at.y() = 2 * j * half - at.y();
-        simulation.add({.position = at});
-      }
-    }
-  }
-  return simulation;
+  return mirrored(box_of_spheres((grains + kTiles - 1) / kTiles, threads));
+}
+
+dem::Simulation wide_box_of_clumps(int grains, int threads) {
+  return mirrored(box_of_clumps((grains + kTiles - 1) / kTiles, threads));
 }
 
 }  // namespace repose::testing

@@ -14,10 +14,12 @@ dem::ClumpShape spheroid_nut(int spheres);
 /// @param threads  for the runs afterwards; the packing is the same for any number
 dem::Simulation tube_of_clumps(int grains, int threads);
 dem::Simulation box_of_spheres(int grains, int threads);
+dem::Simulation box_of_clumps(int grains, int threads);
 
 /// A box poured with a ninth of the grains and mirrored at its sides to 3 x 3, so that what touched
 /// a side touches its image: at rest for a ninth of the pouring. `grains` is rounded up.
 dem::Simulation wide_box_of_spheres(int grains, int threads);
+dem::Simulation wide_box_of_clumps(int grains, int threads);
 
 /// The empty tube of tube_of_clumps.
 dem::SimulationSetup tube_setup(int threads);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/dem/experiment_model.h"
@@ -105,6 +107,25 @@ TEST(Drop, AGrainWithoutSpheresIsRefused) {
   Model model = test::sphere_bench();
   model.grain = {};
   EXPECT_THROW(run_drop(model, {}, 1), std::invalid_argument);
+}
+
+TEST(Drop, FramesShowTheFlightUpToTheTopThatIsRead) {
+  const Model model = test::clump_bench();
+  const DropProtocol protocol{.height_m = .3, .grains = 1};
+  RunRecord record;
+  record.frame_interval_s = 1e-3;
+  double highest = 0;
+  record.frame = [&](const Simulation& simulation) {
+    highest = std::max(highest, simulation.grain(0).position.z());
+  };
+  const Repeat filmed = run_drop(model, protocol, 1, {}, record);
+  const Repeat read = run_drop(model, protocol, 1);
+  EXPECT_EQ(filmed.value, read.value);
+  EXPECT_EQ(filmed.readings, read.readings);
+  const Grain first = filmed.state->grain(0);
+  EXPECT_NEAR(first.position.z(), highest, 1e-5);
+  EXPECT_NEAR(first.velocity.z(), 0, 1e-4);
+  EXPECT_LT(read.steps, filmed.steps / 4);
 }
 
 }  // namespace

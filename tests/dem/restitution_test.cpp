@@ -92,7 +92,7 @@ double worst_error(double restitution, double timestep_fraction) {
 TEST(Restitution, ComesOutAtEveryAcceptedTimestep) {
   for (const double e : {.05, .1, .2, .3, .4, .5, .6, .7, .8, .9, 1.0}) {
     EXPECT_LT(worst_error(e, kImpactFraction), .001) << e;
-    EXPECT_LT(worst_error(e, kHeapFraction), .002) << e;
+    EXPECT_LT(worst_error(e, kCourseFraction), .002) << e;
   }
 }
 

@@ -69,7 +69,7 @@ double energy_kept(bool on_ball, double angle_rad, double late) {
   constexpr double kSpeed = 2;
   SimulationSetup setup = ball_scene({.sliding_friction = .3});
   if (!on_ball) setup.walls = {tilted_plane(0)};
-  setup.timestep_s = accurate_timestep_s(setup, kSpeed, kHeapFraction);
+  setup.timestep_s = accurate_timestep_s(setup, kSpeed, kCourseFraction);
   Simulation simulation(setup);
   const Vector velocity = kSpeed * Vector(std::sin(angle_rad), 0, -std::cos(angle_rad));
   simulation.add({.position = {0, 0, kBallRadius_m - late * setup.timestep_s * velocity.z()},
@@ -94,8 +94,8 @@ TEST(HeapTimestep, ElasticImpactsMakeAThousandthOfEnergyAtMost) {
 
 TEST(HeapTimestep, IsLongerThanThatOfASingleImpactAndRefusedThere) {
   const SimulationSetup setup = ball_on_plane(.5);
-  const double step = accurate_timestep_s(setup, .1, kHeapFraction);
-  EXPECT_NO_THROW(check_timestep(step, setup, .1, kHeapFraction));
+  const double step = accurate_timestep_s(setup, .1, kCourseFraction);
+  EXPECT_NO_THROW(check_timestep(step, setup, .1, kCourseFraction));
   EXPECT_THROW(check_timestep(step, setup, .1), std::invalid_argument);
 }
 
@@ -135,7 +135,7 @@ TEST(StableTimestep, FrictionAddsTheSwingAboutTheContact) {
 
 TEST(StableTimestep, SettledPackingStaysAtRestAtTheAcceptedStep) {
   SimulationSetup setup = packing_setup();
-  setup.timestep_s = accurate_timestep_s(setup, 1, kHeapFraction);
+  setup.timestep_s = accurate_timestep_s(setup, 1, kCourseFraction);
   Simulation simulation = loose_packing(setup, 16);
   const double fall_j = simulation.mass_kg(0) * kStandardGravity_m_s2 * .001;
   const auto settle = [&simulation](double until_s, double rest_j) {

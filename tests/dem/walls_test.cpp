@@ -147,5 +147,26 @@ TEST(WallSet, GreatestSpeedCountsSpinAndForgetsWhatIsOver) {
   EXPECT_EQ(walls.greatest_speed(0, .5), 0);
 }
 
+TEST(WallSet, OnlySpheresThatTouchNothingAreClear) {
+  const Pose turned{.position = {.1, 0, 0}, .orientation = Quaternion(.8, .6, 0, 0)};
+  const Pose moved{.position = {.1, -.2, .3}};
+  const WallSet walls({{.shape = kTube, .pose = moved},
+                       {.shape = kBox, .pose = moved},
+                       {.shape = Plane{}, .pose = moved},
+                       {.shape = kTube, .pose = turned},
+                       {.shape = kBox, .pose = turned}});
+  constexpr double kRadius = .4;
+  for (int wall = 0; wall < walls.size(); ++wall) {
+    int clear = 0;
+    for (int k = 0; k < 20000; ++k) {
+      const Vector centre(8 * std::sin(1.3 * k), 8 * std::sin(2.9 * k), 8 * std::sin(.7 * k));
+      if (!walls.is_clear(wall, centre, kRadius)) continue;
+      ++clear;
+      EXPECT_GE(walls.contact(wall, 0, centre).distance, kRadius) << wall << ": " << centre;
+    }
+    EXPECT_EQ(clear > 1000, wall < 3) << wall;
+  }
+}
+
 }  // namespace
 }  // namespace repose::dem

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace repose::bench {
+
+/// The sample's heap, filled, lifted and settled: here, in LIGGGHTS, and its pictures.
+struct HeapTimes {
+  std::vector<double> ours_s;    ///< CPU time
+  std::vector<double> theirs_s;  ///< CPU time of the same seconds of a heap
+  std::vector<double> views_s;   ///< CPU time of drawing and measuring our heap from 18 sides
+  int grains = 0;
+};
+
+/// Runs both, turn about. LIGGGHTS gets the same clump, materials and rolling friction (its own), a
+/// step 1.25 times ours, and a tube of triangles. It fills the tube in its own way, by a fall from
+/// a loose cloud, and then lifts and settles for as long as ours took.
+/// @param settings  of the study, as "experiment.heap.grains=100"
+HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds);
+
+}  // namespace repose::bench
