@@ -119,7 +119,7 @@ const cutOnPaper = async (page) => {
   const kPaper_px = 680;
   await page.setViewport({width: kPaper_px, height: 980});
   await page.emulateMediaType('print');
-  const cut = await page.evaluate(() => [...document.querySelectorAll('.chart .main-svg')].filter((drawing) => {
+  const cut = await page.evaluate(() => [...document.querySelectorAll('[data-kind="plane"] .main-svg, [data-kind="contour"] .main-svg')].filter((drawing) => {
     const figure = drawing.closest('.chart').getBoundingClientRect(), box = drawing.getBoundingClientRect();
     return box.right > figure.right + 1 || figure.right > innerWidth + 1 || !drawing.getAttribute('viewBox');
   }).map((drawing) => drawing.closest('.chart').id));
