@@ -106,7 +106,7 @@ std::string measured_text(const dem::Measured& measured, std::size_t pictures) {
   }
   if (!measured.mean) return "nothing";
   return fmt::format("mean of {}{}", measured.count.value_or(1),
-                     measured.sd ? ", sd " + shown(*measured.sd) : ", scatter assumed");
+                     measured.sd ? ", sd " + shown(measured.sd) : ", scatter assumed");
 }
 
 void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry,
