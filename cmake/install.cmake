@@ -16,13 +16,16 @@ foreach(module base vision dem render calibrate)
   install(EXPORT repose_${module}
     NAMESPACE repose:: DESTINATION ${package_folder} FILE repose_${module}.cmake)
 endforeach()
-install(TARGETS repose_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The component "program" is what a package for users has.
+install(TARGETS repose_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 set(help_folder ${PROJECT_BINARY_DIR}/help)
-install(FILES ${help_folder}/repose DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${help_folder}/_repose DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-install(DIRECTORY ${help_folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${help_folder}/repose
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install(FILES ${help_folder}/_repose
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+install(DIRECTORY ${help_folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
 
 configure_package_config_file(cmake/reposeConfig.cmake.in reposeConfig.cmake
   INSTALL_DESTINATION ${package_folder})

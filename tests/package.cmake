@@ -19,3 +19,10 @@ add_test(NAME package
       -DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}
     --test-command stranger)
 set_tests_properties(package PROPERTIES FIXTURES_REQUIRED installed_package LABELS package)
+
+# The version from the repository, and the Debian package that has it.
+add_test(NAME version COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/version.cmake)
+add_test(NAME package_deb
+  COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/package/make_deb ${CMAKE_CPACK_COMMAND}
+    ${PROJECT_BINARY_DIR}/CPackConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/package/deb)
+set_tests_properties(version package_deb PROPERTIES LABELS package SKIP_RETURN_CODE 77)

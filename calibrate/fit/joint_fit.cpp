@@ -65,8 +65,11 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
       std::sqrt(experiment_named(problem, observable.experiment).readings_per_run) *
       fitted.simulated_sd;
   fitted.difference_sigma = solution.misfit.difference(i, best);
-  fitted.reachable = {extreme_of(surrogate, dimensions, false).reading,
-                      extreme_of(surrogate, dimensions, true).reading};
+  const auto readable = [&](double reading) {
+    return std::clamp(reading, observable.least, observable.most);
+  };
+  fitted.reachable = {readable(extreme_of(surrogate, dimensions, false).reading),
+                      readable(extreme_of(surrogate, dimensions, true).reading)};
   return fitted;
 }
 

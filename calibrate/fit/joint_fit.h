@@ -45,7 +45,7 @@ struct FittedObservable {
   double simulated_sd = 0;      ///< scatter from seed to seed
   double predicted_sd = 0;      ///< scatter that it expects of single bench readings
   double difference_sigma = 0;  ///< (simulated - measured) / sigma of the fit
-  Interval reachable;           ///< of the simulated mean, over all parameters in their bounds
+  Interval reachable;  ///< of the simulated mean within the bounds, as far as a bench can read it
 };
 
 /// A set of parameters that the data cannot tell from the best one; to be checked by simulation.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -51,6 +52,10 @@ struct Observable {
   std::optional<double> assumed_sd_fraction;
   /// A difference between bench and simulation up to this does not matter; see tolerance_of().
   std::optional<double> tolerance = {};
+  /// What a bench can read. A simulated reading may lie outside, as a grain's that stays on the
+  /// incline; what the simulation reaches is told within.
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
 };
 
 /// How much may be spent, and how the fit is made.

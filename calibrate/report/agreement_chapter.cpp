@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -9,9 +10,17 @@
 namespace repose::calibrate::report {
 namespace {
 
+/// Of a scatter that was assumed as if it were known; else of as many readings as there were.
+double bench_half_width(const ResultObservable& observable) {
+  const double uncertainty = observable.measured_uncertainty;
+  if (observable.sd_assumed) return half_width_95(uncertainty);
+  const double root_n = observable.measured_sd / uncertainty;
+  return half_width_95(uncertainty, std::round(root_n * root_n) - 1);
+}
+
 Table agreement_table(const JointResult& joint) {
   Table table{.name = "agreement",
-              .title = "± is the standard uncertainty of the mean",
+              .title = "± is the half-width of the 95 % interval, here of means",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "measured", .unit = {}},
                                    {.name = "±", .unit = {}},
@@ -19,17 +28,32 @@ Table agreement_table(const JointResult& joint) {
                                    {.name = "±", .unit = {}},
                                    {.name = "fresh seeds", .unit = {}},
                                    {.name = "±", .unit = {}},
-                                   {.name = "off", .unit = "σ", .decimals = 1},
-                                   {.name = "within reach from", .unit = {}},
-                                   {.name = "to", .unit = {}}},
+                                   {.name = "difference / σ", .unit = {}, .decimals = 1}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
     const Agreement& checked = observable.verification;
     table.data.add({axis_of_observable(observable.name, observable.unit), cell(observable.measured),
-                    cell(observable.measured_uncertainty), cell(observable.simulated),
-                    cell(observable.simulated_uncertainty), cell(checked.simulated),
-                    cell(checked.simulated_uncertainty), cell(checked.difference_sigma),
-                    cell(observable.reachable.low), cell(observable.reachable.high)});
+                    cell(bench_half_width(observable)), cell(observable.simulated),
+                    cell(half_width_95(observable.simulated_uncertainty)), cell(checked.simulated),
+                    cell(half_width_95(checked.simulated_uncertainty, checked.runs - 1)),
+                    cell(checked.difference_sigma)});
+  }
+  return table;
+}
+
+Table reach_table(const JointResult& joint) {
+  Table table{.name = "reach",
+              .title = "What the simulation can give between the bounds of the coefficients",
+              .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                                   {.name = "measured", .unit = {}},
+                                   {.name = "from", .unit = {}},
+                                   {.name = "to", .unit = {}}},
+                       .rows = {}}};
+  for (const ResultObservable& observable : joint.observables) {
+    const std::string& unit = observable.unit;
+    table.data.add({axis_of_observable(observable.name, unit), cell(observable.measured),
+                    cell(readable(observable.reachable.low, unit)),
+                    cell(readable(observable.reachable.high, unit))});
   }
   return table;
 }
@@ -63,7 +87,9 @@ Table verdicts_table(const JointResult& joint) {
 
 Table surrogate_table(const JointResult& joint) {
   Table table{.name = "surrogate_checks",
-              .title = "What the fitted curves expected of these runs before they knew them",
+              .title =
+                  "What the fitted curves expected of the last check's runs before they knew "
+                  "them; ± is the half-width of the 95 % interval",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "expected", .unit = {}},
                                    {.name = "±", .unit = {}},
@@ -74,7 +100,8 @@ Table surrogate_table(const JointResult& joint) {
   for (const ResultObservable& observable : joint.observables) {
     const SurrogateCheck& check = observable.surrogate;
     table.data.add({axis_of_observable(observable.name, observable.unit), cell(check.predicted),
-                    cell(check.uncertainty), cell(check.simulated), cell(100 * check.chance),
+                    cell(half_width_95(check.uncertainty)), cell(check.simulated),
+                    cell(100 * check.chance),
                     cell(std::string(check.misses ? "missed" : "holds"))});
   }
   return table;
@@ -115,10 +142,7 @@ Chapter agreement_chapter(const JointResult& joint) {
   chapter.blocks.push_back(Paragraph{titled(joint.agreement.text) + '.'});
   chapter.blocks.push_back(Paragraph{rounds_text(joint)});
   chapter.blocks.push_back(agreement_table(joint));
-  chapter.blocks.push_back(
-      Paragraph{"σ is the uncertainty of the difference. Within reach is what the simulation can "
-                "give between "
-                "the bounds."});
+  chapter.blocks.push_back(Paragraph{"σ is the standard uncertainty of the difference."});
   chapter.blocks.push_back(verdicts_table(joint));
   chapter.blocks.push_back(Paragraph{
       "Agrees: two one-sided tests at 5 % show that the difference is within the tolerance, which "
@@ -130,6 +154,12 @@ Chapter agreement_chapter(const JointResult& joint) {
       "would have been seen is the true difference that such a check finds in four of five cases; "
       "none under runs to decide: it is decided, or the bench's own readings leave more open than "
       "any number of runs could settle."});
+  return chapter;
+}
+
+Chapter checks_chapter(const JointResult& joint) {
+  Chapter chapter{.id = "checks", .title = "Reach, checks and scatter", .blocks = {}};
+  chapter.blocks.push_back(reach_table(joint));
   chapter.blocks.push_back(surrogate_table(joint));
   chapter.blocks.push_back(scatter_table(joint));
   chapter.blocks.push_back(

@@ -85,10 +85,6 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   chapter.blocks.push_back(coefficients_table(joint));
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
-  if (!pictures.has_photographs) {
-    chapter.blocks.push_back(Paragraph{
-        "The study names no photographs of heaps: nothing can be held beside the simulated one."});
-  }
   chapter.blocks.push_back(Paragraph{
       "A coefficient belongs to its clump, contact model, stiffness and time step; all are under "
       "“Where the numbers come from”. In another program the same number may mean something "

@@ -11,13 +11,21 @@ namespace repose::calibrate::report {
 
 /// Coefficients, intervals, verdicts, and both heaps.
 Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures);
+/// What was done on the bench and simulated.
+Chapter protocol_chapter(const ReportedStudy& study);
 /// What bench and simulation gave.
 Chapter agreement_chapter(const JointResult& joint);
-/// Each observable along each coefficient.
+/// How that was decided: what the fit had expected, and how readings scatter.
+Chapter checks_chapter(const JointResult& joint);
+/// Along each coefficient the experiment that tells it best.
+Chapter telling_curves_chapter(const ReportedStudy& study, const JointResult& joint);
+/// All others.
 Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint);
 /// Each observable over pairs of coefficients, with the line on which it has the measured value.
 Chapter surfaces_chapter(const ReportedStudy& study, const JointResult& joint);
-/// Profile likelihoods, equally good parameter sets, correlations.
+/// Equally good parameter sets.
+Chapter family_chapter(const JointResult& joint);
+/// Profile likelihoods, correlations.
 Chapter knowledge_chapter(const JointResult& joint);
 /// Polynomials through the runs, with their analysis of variance.
 Chapter statistics_chapter(const JointResult& joint);
@@ -26,7 +34,7 @@ void add_regression(const SurfaceSummary& regression, const std::string& of,
                     std::vector<Block>& blocks);
 /// How the fit went, round by round, and how well its surrogates know the simulation.
 Chapter convergence_chapter(const JointResult& joint);
-Chapter methods_chapter(const StudyResult& result);
+Chapter methods_chapter(const ReportedStudy& study, const StudyResult& result);
 /// What the numbers do not say.
 Chapter limits_chapter(const StudyResult& result);
 Chapter provenance_chapter(const ReportedStudy& study);

@@ -11,7 +11,8 @@ Chart rounds_chart(const JointResult& joint) {
   chart.y_range = {{-0.05, 1.05}};
   chart.has_whole_x = true;
   chart.caption =
-      "Middle and standard deviation of what was plausible after each round of simulations. What "
+      "Middle of what was plausible, with one standard deviation to either side, after each round "
+      "of simulations. What "
       "the measurements tell settles and narrows.";
   for (std::size_t k = 0; k < joint.parameters.size(); ++k) {
     const ResultParameter& parameter = joint.parameters[k];

@@ -57,6 +57,9 @@ enum class ChartKind {
   heap,     ///< columns: series, kind, three coordinates or corners, a rotation w x y z
 };
 
+/// Of red, green and blue, 0 to 1.
+using ChartColour = std::array<double, 3>;
+
 struct Chart {
   std::string name;  ///< of its CSV file; letters, digits and _
   ChartKind kind = ChartKind::plane;
@@ -66,7 +69,8 @@ struct Chart {
   std::string y_title;
   std::string z_title;
   std::optional<std::array<double, 2>> y_range = {};
-  bool has_whole_x = false;  ///< x counts something
+  bool has_whole_x = false;                ///< x counts something
+  std::optional<ChartColour> colour = {};  ///< of grains; none: brown
   std::vector<Layer> layers = {};
   DataTable data = {};
 };
@@ -129,6 +133,7 @@ struct Chapter {
   std::string id;
   std::string title;
   std::vector<Block> blocks;
+  bool is_appendix = false;  ///< for who wants to check: after all others
 };
 
 struct Document {

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "calibrate/experiment/picture_angles.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/heap_model.h"
 #include "calibrate/report/picture_data.h"
@@ -25,6 +27,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kViews_deg = {0.0, 60.0, 120.0};
+constexpr double kNothing_deg = 360;        // farther off than any angle
+constexpr std::size_t kFewPhotographs = 6;  // that fit on half a page
 
 /// A picture and what was measured in it.
 struct MeasuredHeap {
@@ -88,18 +92,41 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
   }
 }
 
-/// The photographs; returns the first that gave an angle.
+/// The place of the photograph that stands for all of them; none where none gave an angle.
+std::optional<std::size_t> most_typical(const std::vector<MeasuredHeap>& heaps) {
+  std::vector<PictureAngle> angles;
+  for (const MeasuredHeap& heap : heaps) {
+    angles.push_back({heap.angle.status, heap.angle.angle_rad});
+  }
+  const PictureMean mean = mean_of_pictures(angles);
+  if (!mean.angle_deg) return std::nullopt;
+  const auto rank = [&](std::size_t k) {
+    const auto& [status, angle_rad] = angles[k];
+    const bool counts = angle_rad && counts_in_mean(status);
+    const double off_deg =
+        counts ? std::abs(*angle_rad / kDegree - mean.angle_deg->mean) : kNothing_deg;
+    return std::pair(!counts || status != vision::MeasureStatus::ok, off_deg);
+  };
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < heaps.size(); ++k) {
+    if (rank(k) < rank(best)) best = k;
+  }
+  return best;
+}
+
+/// The photographs; returns the one that stands for them.
 std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPictures& shown) {
   const int side_px = longest_side_px(study.pictures.size());
-  std::optional<MeasuredHeap> best;
+  std::vector<MeasuredHeap> heaps;
   for (const PictureReading& picture : study.pictures) {
     std::optional<MeasuredHeap> heap = measured_photograph(picture, shown.remarks);
     if (!heap) continue;
-    if (!best && heap->angle.angle_rad) shown.best_photograph = shown.photographs.size();
     shown.photographs.push_back(with_overlay(*heap, side_px, "Photograph"));
-    if (!best && heap->angle.angle_rad) best = std::move(heap);
+    heaps.push_back(*std::move(heap));
   }
-  return best;
+  shown.best_photograph = most_typical(heaps);
+  if (!shown.best_photograph) return std::nullopt;
+  return std::move(heaps[*shown.best_photograph]);
 }
 
 MeasuredHeap rendered(const render::Scene& scene, double azimuth_deg) {
@@ -113,11 +140,12 @@ MeasuredHeap rendered(const render::Scene& scene, double azimuth_deg) {
   return heap;
 }
 
-ShownPicture camera_look(const render::Scene& scene) {
+ShownPicture camera_look(const render::Scene& scene,
+                         const std::optional<render::Colour>& grain_colour) {
   constexpr render::PictureSize kSize{.width = 1050, .height = 700};
   constexpr int kPasses = 8;
   const render::LabStand stand{.distance_m = 1.5, .height_m = 0.038};
-  render::PhotoStyle style;
+  render::PhotoStyle style = render::photo_of_grains(grain_colour);
   style.passes = kPasses;
   render::Renderer renderer;
   MeasuredHeap heap{.title = "as a camera sees it", .picture = {}, .angle = {}};
@@ -197,9 +225,9 @@ void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, Heap
 
 HeapPictures heap_pictures(const ReportedStudy& study) {
   HeapPictures shown;
-  shown.has_photographs = !study.pictures.empty();
   const std::optional<MeasuredHeap> photograph = show_photographs(study, shown);
   if (!study.result) return shown;
+  if (!has_heap(*study.result)) return shown;
   if (study.heap.empty()) {
     shown.remarks.emplace_back(study.has_other_heap
                                    ? "The simulated heap in the folder (heap.vtp) is of other "
@@ -215,7 +243,9 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
   }
   try {
     const render::Scene scene = render::scene_of(dem::read_state(study.heap));
+    const auto colour = study.record ? study.record->study.grain_colour : std::nullopt;
     shown.heap_model = heap_model(scene);
+    shown.heap_model->colour = colour;
     constexpr int kRenderSide_px = 900;
     std::optional<MeasuredHeap> compared;
     for (const double azimuth_deg : kViews_deg) {
@@ -224,7 +254,7 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
       shown.renders.push_back(with_overlay(heap, kRenderSide_px, "Simulated heap"));
       if (!compared && heap.angle.angle_rad) compared = std::move(heap);
     }
-    shown.look = camera_look(scene);
+    shown.look = camera_look(scene, colour);
     if (photograph && compared) compare(*photograph, *compared, shown);
   } catch (const std::exception& error) {
     shown.remarks.push_back(
@@ -233,35 +263,63 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
   return shown;
 }
 
+namespace {
+
+PictureRow photographs_between(const HeapPictures& pictures, std::size_t from, std::size_t to) {
+  PictureRow row;
+  const std::size_t end = std::min(to, pictures.photographs.size());
+  for (std::size_t k = from; k < end; ++k) row.pictures.push_back(pictures.photographs[k]);
+  return row;
+}
+
+void add_comparison(const HeapPictures& pictures, Chapter& chapter) {
+  chapter.blocks.push_back(Heading{"Outlines compared"});
+  chapter.blocks.push_back(PictureRow{{*pictures.outlines}});
+  chapter.blocks.push_back(*pictures.comparison);
+  chapter.blocks.push_back(Paragraph{
+      "Two heaps of the same grains differ, too: this says how alike these two are, not how well "
+      "the coefficients fit."});
+}
+
+}  // namespace
+
 Chapter heap_chapter(const HeapPictures& pictures) {
   Chapter chapter{.id = "heaps", .title = "The heaps", .blocks = {}};
   for (const std::string& remark : pictures.remarks) chapter.blocks.push_back(Remark{remark});
-  chapter.blocks.push_back(Paragraph{
-      "Photographs and pictures of the simulation are measured by the same program in the same "
-      "way: on each side a line is fitted to the heap's edge between 20 and 80 % of its height, "
+  if (pictures.photographs.empty() && pictures.renders.empty()) return chapter;
+  chapter.blocks.push_back(Paragraph{fmt::format(
+      "{}: on each side a line is fitted to the heap's edge between 20 and 80 % of its height, "
       "and the angle of repose is the mean of both sides, from the ground line. What was found is "
-      "drawn in; ± is a 95 % interval."});
+      "drawn in; ± is the half-width of the 95 % interval.",
+      pictures.photographs.empty() ? "How the pictures of the simulation are measured"
+      : pictures.renders.empty()   ? "How the photographs are measured"
+                                   : "Photographs and pictures of the simulation are measured by "
+                                     "the same program in the same way")});
   if (!pictures.photographs.empty()) {
+    const std::size_t count = pictures.photographs.size();
     chapter.blocks.push_back(Heading{"Photographs"});
-    chapter.blocks.push_back(PictureRow{pictures.photographs});
+    chapter.blocks.push_back(photographs_between(pictures, 0, kFewPhotographs));
+    if (count > kFewPhotographs) {
+      chapter.blocks.push_back(
+          Paragraph{fmt::format("The other {} are in the appendix.", count - kFewPhotographs)});
+    }
   }
   if (!pictures.renders.empty()) {
     chapter.blocks.push_back(Heading{"The simulated heap from three sides"});
     chapter.blocks.push_back(PictureRow{pictures.renders});
   }
-  if (pictures.outlines) {
-    chapter.blocks.push_back(Heading{"Outlines compared"});
-    chapter.blocks.push_back(PictureRow{{*pictures.outlines}});
-    chapter.blocks.push_back(ChartRow{{*pictures.outline_chart}});
-    chapter.blocks.push_back(*pictures.comparison);
-    chapter.blocks.push_back(Paragraph{
-        "Two heaps of the same grains differ, too: this says how alike these two are, not how well "
-        "the coefficients fit."});
-  }
-  if (pictures.heap_model) {
-    chapter.blocks.push_back(Heading{"3-D view"});
-    chapter.blocks.push_back(ChartRow{{*pictures.heap_model}});
-  }
+  if (pictures.outlines) add_comparison(pictures, chapter);
+  return chapter;
+}
+
+Chapter more_heaps_chapter(const HeapPictures& pictures) {
+  Chapter chapter{.id = "more_heaps", .title = "More of the heaps", .blocks = {}};
+  PictureRow others = photographs_between(pictures, kFewPhotographs, pictures.photographs.size());
+  if (!others.pictures.empty()) chapter.blocks.push_back(std::move(others));
+  ChartRow charts;
+  if (pictures.outline_chart) charts.charts.push_back(*pictures.outline_chart);
+  if (pictures.heap_model) charts.charts.push_back(*pictures.heap_model);
+  if (!charts.charts.empty()) chapter.blocks.push_back(std::move(charts));
   return chapter;
 }
 

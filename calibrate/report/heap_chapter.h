@@ -12,11 +12,11 @@ namespace repose::calibrate::report {
 /// measured in the same way, and both outlines.
 struct HeapPictures {
   std::vector<ShownPicture> photographs;       ///< with what was measured
-  bool has_photographs = false;                ///< the study names some, to be shown or not
-  std::optional<std::size_t> best_photograph;  ///< the first that gave an angle
-  std::vector<ShownPicture> renders;           ///< silhouettes, with what was measured
-  std::size_t best_render = 0;                 ///< the first that gave an angle
-  std::optional<ShownPicture> look;            ///< as a camera would see the simulated heap
+  std::optional<std::size_t> best_photograph;  ///< one that counted: see heap_pictures
+
+  std::vector<ShownPicture> renders;  ///< silhouettes, with what was measured
+  std::size_t best_render = 0;        ///< the first that gave an angle
+  std::optional<ShownPicture> look;   ///< as a camera would see the simulated heap
   std::optional<ShownPicture> outlines;
   std::optional<Chart> outline_chart;
   std::optional<Table> comparison;
@@ -24,8 +24,13 @@ struct HeapPictures {
   std::vector<std::string> remarks;  ///< what is not there, and why
 };
 
+/// The photograph that stands for all is the one among those of the mean, without a flag if there
+/// is one, whose angle is nearest to the mean.
 HeapPictures heap_pictures(const ReportedStudy& study);
 
+/// The first photographs, the simulated heap, and both compared.
 Chapter heap_chapter(const HeapPictures& pictures);
+/// The other photographs, and the 3-D view.
+Chapter more_heaps_chapter(const HeapPictures& pictures);
 
 }  // namespace repose::calibrate::report

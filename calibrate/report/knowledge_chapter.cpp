@@ -40,9 +40,9 @@ Chart profile_chart(const ResultParameter& parameter) {
 }
 
 Chart family_chart(const JointResult& joint) {
-  Chart chart = plane_chart("equivalence_family", "Equally good parameter sets",
-                            {.name = "coefficient", .unit = {}},
-                            {.name = "place between the bounds, 0 … 1", .unit = {}});
+  Chart chart =
+      plane_chart("equivalence_family", "Where they lie", {.name = "coefficient", .unit = {}},
+                  {.name = "place between the bounds, 0 … 1", .unit = {}});
   chart.x_title = "";
   chart.y_range = {{-0.05, 1.05}};
   chart.caption =
@@ -66,7 +66,7 @@ Chart family_chart(const JointResult& joint) {
 }
 
 Table family_table(const JointResult& joint) {
-  Table table{.name = "equivalence_sets", .title = "Equally good parameter sets", .data = {}};
+  Table table{.name = "equivalence_sets", .title = {}, .data = {}};
   table.data.columns = {{.name = "set", .unit = {}}};
   for (const ResultParameter& parameter : joint.parameters) {
     table.data.columns.push_back({.name = label_of(parameter.name), .unit = {}});
@@ -86,7 +86,7 @@ Table family_table(const JointResult& joint) {
 
 Table correlation_table(const JointResult& joint) {
   Table table{.name = "correlation",
-              .title = "Correlation of what is not known (±1: only a combination is known)",
+              .title = "Correlation of what is not known (1 or −1: only a combination is known)",
               .data = {}};
   table.data.columns = {{.name = "coefficient", .unit = {}}};
   for (const ResultParameter& parameter : joint.parameters) {
@@ -102,6 +102,14 @@ Table correlation_table(const JointResult& joint) {
 
 }  // namespace
 
+Chapter family_chapter(const JointResult& joint) {
+  Chapter chapter{.id = "family", .title = "Equally good parameter sets", .blocks = {}};
+  if (joint.equivalence_family.empty()) return chapter;
+  chapter.blocks.push_back(ChartRow{{family_chart(joint)}});
+  chapter.blocks.push_back(family_table(joint));
+  return chapter;
+}
+
 Chapter knowledge_chapter(const JointResult& joint) {
   Chapter chapter{.id = "knowledge", .title = "Uncertainty", .blocks = {}};
   ChartRow profiles;
@@ -116,11 +124,6 @@ Chapter knowledge_chapter(const JointResult& joint) {
         "Values whose misfit χ² rises by less than {:.2f} form the 95 % interval.",
         kChi2Limit)});
     chapter.blocks.push_back(std::move(profiles));
-  }
-  if (!joint.equivalence_family.empty()) {
-    chapter.blocks.push_back(Heading{"Equivalence family"});
-    chapter.blocks.push_back(ChartRow{{family_chart(joint)}});
-    chapter.blocks.push_back(family_table(joint));
   }
   if (!joint.correlation.empty()) {
     chapter.blocks.push_back(Heading{"Correlations"});

@@ -1,8 +1,8 @@
 #include "calibrate/report/measure_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -98,32 +98,59 @@ Table pictures_table(const std::vector<MeasuredPhotograph>& pictures) {
   return table;
 }
 
-/// Dots stacked where angles are alike.
+constexpr std::size_t kManyPictures = 40;  // more names than fit below a chart
+
+/// The angles, and a little more than their error bars; long bars are cut.
+std::array<double, 2> range_of(const Chart& chart) {
+  constexpr double kLongest_deg = 12, kRoom_deg = 1, kUpright_deg = 90;
+  double low = kUpright_deg, high = 0;
+  for (const std::vector<Cell>& row : chart.data.rows) {
+    const auto number = [&](std::size_t column) { return std::get_if<double>(&row[column]); };
+    if (number(2) == nullptr) continue;
+    const double angle = *number(2);
+    const double from = number(3) == nullptr ? angle : *number(3);
+    const double to = number(4) == nullptr ? angle : *number(4);
+    low = std::min(low, std::max(from, angle - kLongest_deg));
+    high = std::max(high, std::min(to, angle + kLongest_deg));
+  }
+  return {std::max(0.0, std::floor(low - kRoom_deg)),
+          std::min(kUpright_deg, std::ceil(high + kRoom_deg))};
+}
+
+/// Each picture's angle with its interval, in the order of the pictures, and the mean with its own.
 Chart angles_chart(const std::vector<MeasuredPhotograph>& pictures,
                    const std::optional<calibrate::Summary>& mean) {
-  Chart chart = plane_chart("angles", "The angles", {.name = "angle of repose", .unit = "°"},
-                            {.name = "pictures", .unit = {}});
-  constexpr double kBin_deg = 0.5;
-  std::map<long, int> stacks;
-  for (const MeasuredPhotograph& picture : pictures) {
-    const auto angle = degrees(picture.angle.angle_rad);
-    if (!angle || !picture.error.empty()) continue;
-    const int height = ++stacks[std::lround(*angle / kBin_deg)];
-    const bool is_ok = picture.angle.status == MeasureStatus::ok;
-    add_point(chart, is_ok ? "ok" : "flagged, not in the mean", is_ok ? Look::dots : Look::runs,
-              *angle, static_cast<double>(height));
+  Chart chart = plane_chart("angles", "The angles", {.name = "picture", .unit = {}},
+                            {.name = "angle of repose", .unit = "°"});
+  const bool has_names = pictures.size() <= kManyPictures;
+  const auto place = [&](std::size_t k) -> Cell {
+    if (!has_names) return static_cast<double>(k + 1);
+    return fmt::format("{}: {}", k + 1, name_of_file(pictures[k]));
+  };
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    const vision::ReposeAngle& measured = pictures[k].angle;
+    if (!pictures[k].error.empty() || !measured.angle_rad) continue;
+    shown.push_back(k);
+    const double angle = *degrees(measured.angle_rad);
+    const auto half = degrees(measured.uncertainty_rad);
+    const bool is_ok = measured.status == MeasureStatus::ok;
+    add_point(chart, is_ok ? "ok" : "flagged", is_ok ? Look::dots : Look::runs, place(k), angle,
+              half ? Cell(angle - *half) : Cell(), half ? Cell(angle + *half) : Cell());
   }
-  int highest = 1;
-  for (const auto& [bin, height] : stacks) highest = std::max(highest, height);
-  if (mean) {
+  if (mean && shown.size() > 1) {
     const double half = mean->mean_uncertainty.value_or(0);
-    add_point(chart, "mean with its 95 % interval", Look::best, mean->mean, 0.0, mean->mean - half,
-              mean->mean + half);
+    for (const std::size_t k : {shown.front(), shown.back()}) {
+      add_point(chart, "mean, 95 %", Look::measured, place(k), mean->mean, mean->mean - half,
+                mean->mean + half);
+    }
   }
-  chart.y_range = {{-0.6, highest + 0.8}};
+  if (!shown.empty()) chart.y_range = range_of(chart);
+  chart.has_whole_x = !has_names;
   chart.caption =
-      "Each dot is a picture. The diamond is the mean of those with status ok, its bar the "
-      "interval of the mean.";
+      "Bars are the 95 % intervals of single pictures; the band is that of their mean, from how "
+      "much "
+      "they differ.";
   return chart;
 }
 

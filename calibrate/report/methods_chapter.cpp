@@ -104,12 +104,12 @@ void add_simulation(const Provenance& provenance, Methods& methods) {
       shortened(rolling_text(provenance.rolling_definition), 400), stiffness_text(provenance)));
 }
 
-void add_angle(Methods& methods) {
-  methods.add(
-      "The angle of repose was measured in photographs and in silhouettes of the simulated heaps "
-      "by the same program: on each side a straight line was fitted to the heap's edge between 20 "
-      "and 80 % of its height, and the angle is the mean of both sides' angles to the ground "
-      "line,");
+void add_angle(bool has_photographs, Methods& methods) {
+  methods.add(fmt::format(
+      "The angle of repose was measured in {}silhouettes of the simulated heaps{}: on each side a "
+      "straight line was fitted to the heap's edge between 20 and 80 % of its height, and the "
+      "angle is the mean of both sides' angles to the ground line,",
+      has_photographs ? "photographs and in " : "", has_photographs ? " by the same program" : ""));
   methods.add_equation("θ = (θ_left + θ_right) / 2",
                        "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})");
 }
@@ -160,10 +160,10 @@ void add_paper_way(Methods& methods) {
 
 }  // namespace
 
-Chapter methods_chapter(const StudyResult& result) {
+Chapter methods_chapter(const ReportedStudy& study, const StudyResult& result) {
   Methods methods;
   add_simulation(result.provenance, methods);
-  add_angle(methods);
+  if (has_heap(result)) add_angle(!study.pictures.empty(), methods);
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     add_joint_fit(*joint, methods);
   } else {

@@ -136,11 +136,17 @@ std::string html_of(const Document& document) {
   if (!document.state.empty()) {
     page.AddSectionDictionary("STATE")->SetValue("TEXT", document.state);
   }
+  bool is_appendix = false;
   for (const Chapter& chapter : document.chapters) {
+    const bool begins_appendix = chapter.is_appendix && !is_appendix;
+    is_appendix = chapter.is_appendix;
     Dictionary& link = *page.AddSectionDictionary("LINK");
     link.SetValue("ID", chapter.id);
     link.SetValue("TEXT", chapter.title);
     Dictionary& section = *page.AddSectionDictionary("CHAPTER");
+    for (Dictionary* part : {&link, &section}) {
+      if (begins_appendix) part->ShowSection("APPENDIX");
+    }
     section.SetValue("ID", chapter.id);
     section.SetValue("TITLE", chapter.title);
     for (const Block& block : chapter.blocks) {

@@ -59,7 +59,7 @@ void add_model(const StudyResult& result, DataTable& data) {
   add(data, "clump", fmt::format("{}, {} spheres", from.clump.source, from.clump.spheres));
   add(data, "clump's error of volume", percent(from.clump.volume_error));
   add(data, "clump's error of inertia", percent(from.clump.inertia_error));
-  add(data, "share of the real stiffness", by_experiment(from.stiffness_factor, ""));
+  add(data, "fraction of the real stiffness", by_experiment(from.stiffness_factor, ""));
   add(data, "shortest time step", by_experiment(from.shortest_timestep_s, " s"));
 }
 
@@ -98,15 +98,17 @@ Chapter limits_chapter(const StudyResult& result) {
   }
   chapter.blocks.push_back(
       Remark{"Budget: " + shortened(result.provenance.study.budget_description, 1000) + "."});
-  for (const char* text :
-       {"An interval says what these measurements allow if the simulation can be right at all: "
-        "errors of the contact model, of the clump's shape and of the protocol on the bench are "
-        "not in it.",
-        "Coefficients found at a lower stiffness than the real one belong to that stiffness.",
+  std::vector<const char*> limits = {
+      "An interval says what these measurements allow if the simulation can be right at all: "
+      "errors of the contact model, of the clump's shape and of the protocol on the bench are "
+      "not in it.",
+      "Coefficients found at a lower stiffness than the real one belong to that stiffness."};
+  if (has_heap(result)) {
+    limits.push_back(
         "A heap's angle hardly tells restitution, and tells sliding and rolling friction between "
-        "grains together, not one by one."}) {
-    chapter.blocks.push_back(Paragraph{text});
+        "grains together, not one by one.");
   }
+  for (const char* text : limits) chapter.blocks.push_back(Paragraph{text});
   return chapter;
 }
 

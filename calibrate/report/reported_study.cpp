@@ -92,11 +92,18 @@ std::vector<SavedRun> runs_in(const fs::path& folder) {
   return runs;
 }
 
+std::optional<StudyRecord> record_in(const fs::path& folder) {
+  try {
+    return read_study_record(folder);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // a page without it is worth having
+  }
+}
+
 /// What a study without a result is to be fitted to, as far as it can be read.
-std::vector<MeasuredNumber> measured_of_record(const fs::path& folder) {
+std::vector<MeasuredNumber> measured_of(const StudyRecord& record) {
   std::vector<MeasuredNumber> numbers;
   try {
-    const StudyRecord record = read_study_record(folder);
     for (const Observable& observable :
          problem_of(record.study, record.grain, record.budget).problem.observables) {
       numbers.push_back({.name = observable.name,
@@ -154,6 +161,7 @@ bool is_heap_of(const fs::path& heap, const StudyResult& result) {
 ReportedStudy reported(const StudyResult& result, const std::vector<PictureReading>& pictures,
                        const fs::path& heap) {
   ReportedStudy study{.folder = {},
+                      .record = {},
                       .study = result.provenance.study,
                       .result = result,
                       .runs = {},
@@ -184,6 +192,7 @@ ReportedStudy read_reported_study(const fs::path& folder) {
   }
   const std::vector<PictureReading> pictures =
       notes ? notes->pictures : decltype(notes->pictures){};
+  std::optional<StudyRecord> record = record_in(folder);
   ReportedStudy study;
   if (result && (!notes || is_same_study(result->provenance.study, notes->study))) {
     const fs::path heap = folder / kHeapFile;
@@ -195,10 +204,11 @@ ReportedStudy read_reported_study(const fs::path& folder) {
     study.has_other_result = result.has_value();
     if (notes) study.study = notes->study;
     study.runs = runs_in(folder / "runs");
-    study.measured = measured_of_record(folder);
+    if (record) study.measured = measured_of(*record);
     study.pictures = pictures;
   }
   study.folder = folder;
+  study.record = std::move(record);
   return study;
 }
 

@@ -32,6 +32,7 @@ struct MeasuredNumber {
 /// All that a report is made of: a result, or the runs of a study that has none yet.
 struct ReportedStudy {
   std::filesystem::path folder;        ///< of repose calibrate --out; empty: there is none
+  std::optional<StudyRecord> record;   ///< none: no folder, or its copy of the study is damaged
   std::optional<StudyIdentity> study;  ///< none: an unfinished one whose study.json is gone
   std::optional<StudyResult> result;   ///< none: unfinished
   bool has_other_result = false;       ///< the folder has a result of other settings

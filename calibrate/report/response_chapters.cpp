@@ -11,7 +11,6 @@
 namespace repose::calibrate::report {
 namespace {
 
-constexpr double kNormal95 = 1.96;
 constexpr const char* kRuns = "simulated runs";
 constexpr const char* kMeasured = "measured, 95 %";
 constexpr const char* kBest = "best fit";
@@ -20,9 +19,10 @@ std::string unit_shown(const std::string& unit) { return unit == "deg" ? "°" : 
 
 void add_measured(Chart& chart, const MeasuredNumber& measured, std::array<double, 2> x_range) {
   if (!measured.measured) return;
-  const double half = kNormal95 * measured.uncertainty.value_or(0);
+  const double half = half_width_95(measured.uncertainty.value_or(0));
   add_level(chart, kMeasured, Look::measured, x_range, *measured.measured,
-            *measured.measured - half, *measured.measured + half);
+            readable(*measured.measured - half, measured.unit),
+            readable(*measured.measured + half, measured.unit));
 }
 
 /// Returns what the coefficient spans.
@@ -35,7 +35,7 @@ std::array<double, 2> add_runs(Chart& chart, const ReportedStudy& study,
     const auto x = run.values.find(parameter);
     const auto y = run.readings.find(measured.reading);
     if (x == run.values.end() || y == run.readings.end()) continue;
-    add_point(chart, kRuns, Look::runs, x->second, y->second);
+    add_point(chart, kRuns, Look::runs, x->second, readable(y->second, measured.unit));
     span = {std::min(span[0], x->second), std::max(span[1], x->second)};
   }
   return span;
@@ -56,18 +56,19 @@ Chart curve_chart(const ReportedStudy& study, const JointResult& joint,
   const ResultParameter& parameter = joint.parameters[curve.parameter];
   Chart chart = response_chart(measured, parameter.name);
   const std::vector<double>&x = curve.values, &fit = curve.simulated;
+  const auto read = [&](double value) { return cell(readable(value, measured.unit)); };
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const double half = kNormal95 * curve.uncertainty[k];
-    add_point(chart, "95 % of the fit", Look::band, x[k], {}, cell(fit[k] - half),
-              cell(fit[k] + half));
+    const double half = half_width_95(curve.uncertainty[k]);
+    add_point(chart, "95 % of the fit", Look::band, x[k], {}, read(fit[k] - half),
+              read(fit[k] + half));
   }
   for (std::size_t k = 0; k < x.size(); ++k) {
-    add_point(chart, "scatter of single runs (± sd)", Look::scatter, x[k], {},
-              cell(fit[k] - curve.scatter[k]), cell(fit[k] + curve.scatter[k]));
+    add_point(chart, "scatter of single runs: one sd", Look::scatter, x[k], {},
+              read(fit[k] - curve.scatter[k]), read(fit[k] + curve.scatter[k]));
   }
   add_runs(chart, study, measured, parameter.name);
   for (std::size_t k = 0; k < x.size(); ++k) {
-    add_point(chart, "fit", Look::fit, x[k], cell(fit[k]));
+    add_point(chart, "fit", Look::fit, x[k], read(fit[k]));
   }
   add_measured(chart, measured, {x.front(), x.back()});
   const Interval& interval = parameter.interval;
@@ -105,7 +106,7 @@ Chart surface_chart(const ReportedStudy& study, const JointResult& joint,
   for (std::size_t row = 0; row < y.size(); ++row) {
     for (std::size_t column = 0; column < x.size(); ++column) {
       chart.data.add({std::string("fit"), cell(x[column]), cell(y[row]),
-                      cell(surface.simulated[row][column])});
+                      cell(readable(surface.simulated[row][column], measured.unit))});
     }
   }
   const auto add = [&](const std::string& series, Look look, const Cell& at_x, const Cell& at_y,
@@ -150,12 +151,55 @@ std::vector<Chart> run_charts(const ReportedStudy& study, const MeasuredNumber& 
   return charts;
 }
 
+namespace {
+
+constexpr const char* kCurvesText =
+    "The line is the fit with the other coefficients at their best values, its band what the fit "
+    "does not know, dots how far single runs scatter; dashed is what the bench measured. Circles "
+    "are the simulated runs, each with its own values of the other coefficients: that is why they "
+    "lie off the line.";
+
+/// How far a coefficient moves an experiment between its bounds, in that experiment's uncertainty.
+double effect_of(const JointResult& joint, const ResponseCurve& curve) {
+  const auto [low, high] = std::minmax_element(curve.simulated.begin(), curve.simulated.end());
+  const ResultObservable& observable = joint.observables[curve.observable];
+  const double sigma =
+      std::hypot(observable.measured_uncertainty, observable.simulated_uncertainty);
+  return low == curve.simulated.end() ? 0 : (*high - *low) / sigma;
+}
+
+/// Whether no other experiment is moved more by the same coefficient; of equals the first.
+bool is_telling(const JointResult& joint, const ResponseCurve& curve) {
+  for (const ResponseCurve& other : joint.responses) {
+    if (other.parameter != curve.parameter || &other == &curve) continue;
+    const double here = effect_of(joint, curve), there = effect_of(joint, other);
+    if (there > here || (there == here && &other < &curve)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Chapter telling_curves_chapter(const ReportedStudy& study, const JointResult& joint) {
+  Chapter chapter{.id = "telling", .title = "What tells each coefficient", .blocks = {}};
+  ChartRow row;
+  for (const ResponseCurve& curve : joint.responses) {
+    if (is_telling(joint, curve)) row.charts.push_back(curve_chart(study, joint, curve));
+  }
+  if (row.charts.empty()) return chapter;
+  chapter.blocks.push_back(Paragraph{
+      std::string("Along each coefficient the experiment that it moves most. ") + kCurvesText});
+  chapter.blocks.push_back(std::move(row));
+  return chapter;
+}
+
 Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint) {
   Chapter chapter{.id = "curves", .title = "Response curves", .blocks = {}};
   for (std::size_t k = 0; k < joint.observables.size(); ++k) {
     ChartRow row;
     for (const ResponseCurve& curve : joint.responses) {
-      if (curve.observable == k) row.charts.push_back(curve_chart(study, joint, curve));
+      if (curve.observable != k || is_telling(joint, curve)) continue;
+      row.charts.push_back(curve_chart(study, joint, curve));
     }
     if (row.charts.empty()) continue;
     chapter.blocks.push_back(Heading{titled(axis_of_observable(joint.observables[k].name, ""))});
@@ -163,10 +207,8 @@ Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint) {
   }
   if (chapter.blocks.empty()) return chapter;
   const Block lead = Paragraph{
-      "Every experiment along every coefficient that moves it. The line is the fit with the other "
-      "coefficients at their best values, its band what the fit does not know, dots how far single "
-      "runs scatter; dashed is what the bench measured. Circles are the simulated runs, each with "
-      "its own values of the other coefficients: that is why they lie off the line."};
+      "The other curves, of every experiment along every coefficient that moves it; read like "
+      "those above."};
   chapter.blocks.insert(chapter.blocks.begin(), lead);
   return chapter;
 }

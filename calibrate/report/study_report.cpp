@@ -17,20 +17,32 @@
 namespace repose::calibrate::report {
 namespace {
 
+void add(std::vector<Chapter> more, bool is_appendix, std::vector<Chapter>& chapters) {
+  for (Chapter& chapter : more) {
+    chapter.is_appendix = is_appendix;
+    chapters.push_back(std::move(chapter));
+  }
+}
+
+/// The answer and what speaks for it, then what it takes to check that.
 std::vector<Chapter> finished_chapters(const ReportedStudy& study, const StudyResult& result) {
   const HeapPictures pictures = heap_pictures(study);
   std::vector<Chapter> chapters;
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
-    chapters = {answer_chapter(*joint, pictures), heap_chapter(pictures),
-                agreement_chapter(*joint),        curves_chapter(study, *joint),
-                surfaces_chapter(study, *joint),  knowledge_chapter(*joint),
-                statistics_chapter(*joint),       convergence_chapter(*joint)};
+    add({answer_chapter(*joint, pictures), protocol_chapter(study), heap_chapter(pictures),
+         agreement_chapter(*joint), telling_curves_chapter(study, *joint), family_chapter(*joint),
+         limits_chapter(result)},
+        false, chapters);
+    add({more_heaps_chapter(pictures), checks_chapter(*joint), curves_chapter(study, *joint),
+         surfaces_chapter(study, *joint), knowledge_chapter(*joint), statistics_chapter(*joint),
+         convergence_chapter(*joint)},
+        true, chapters);
   } else {
-    chapters = paper_chapters(std::get<PublishedResult>(result.found), pictures);
+    add(paper_chapters(std::get<PublishedResult>(result.found), pictures), false, chapters);
+    add({protocol_chapter(study), limits_chapter(result)}, false, chapters);
+    add({more_heaps_chapter(pictures)}, true, chapters);
   }
-  chapters.push_back(limits_chapter(result));
-  chapters.push_back(methods_chapter(result));
-  chapters.push_back(provenance_chapter(study));
+  add({methods_chapter(study, result), provenance_chapter(study)}, true, chapters);
   return chapters;
 }
 
@@ -47,8 +59,13 @@ Document document_of(const ReportedStudy& study) {
   } else {
     document.state = "Unfinished: this study has no result yet.";
     chapters = unfinished_chapters(study);
-    if (!study.pictures.empty()) chapters.push_back(heap_chapter(heap_pictures(study)));
-    if (study.study) chapters.push_back(provenance_chapter(study));
+    add({protocol_chapter(study)}, false, chapters);
+    if (!study.pictures.empty()) {
+      const HeapPictures pictures = heap_pictures(study);
+      add({heap_chapter(pictures)}, false, chapters);
+      add({more_heaps_chapter(pictures)}, true, chapters);
+    }
+    if (study.study) add({provenance_chapter(study)}, true, chapters);
   }
   for (Chapter& chapter : chapters) {
     if (!chapter.blocks.empty()) document.chapters.push_back(std::move(chapter));
@@ -56,19 +73,11 @@ Document document_of(const ReportedStudy& study) {
   return document;
 }
 
-/// What the study says of itself; nothing where its copy is gone or damaged.
-dem::StudyHeading heading_in(const std::filesystem::path& folder) {
-  try {
-    return read_study_record(folder).study.heading;
-  } catch (const std::invalid_argument&) {
-    return {};
-  }
-}
-
 /// Above all else: the study's own title, author, date and note.
-void put_heading(const std::filesystem::path& folder, Document& document) {
+void put_heading(const ReportedStudy& study, Document& document) {
   constexpr std::size_t kLongest = 1000;
-  const dem::StudyHeading heading = heading_in(folder);
+  if (!study.record) return;
+  const dem::StudyHeading& heading = study.record->study.heading;
   if (!heading.title.empty()) document.title = shortened(heading.title);
   if (document.chapters.empty()) return;
   std::string line = shortened(heading.author);
@@ -115,8 +124,9 @@ Report study_report(const StudyResult& result, const std::vector<PictureReading>
 }
 
 Report study_report(const std::filesystem::path& folder) {
-  Document document = document_of(read_reported_study(folder));
-  put_heading(folder, document);
+  const ReportedStudy study = read_reported_study(folder);
+  Document document = document_of(study);
+  put_heading(study, document);
   return report_of(std::move(document));
 }
 

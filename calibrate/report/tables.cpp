@@ -97,6 +97,7 @@ Json chart_json(const Chart& chart) {
           {"z_title", chart.z_title},
           {"y_range", chart.y_range ? Json(*chart.y_range) : Json(nullptr)},
           {"whole_x", chart.has_whole_x},
+          {"colour", chart.colour ? Json(*chart.colour) : Json(nullptr)},
           {"layers", std::move(layers)},
           {"columns", columns_json(chart.data)}};
 }

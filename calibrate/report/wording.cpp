@@ -1,5 +1,6 @@
 #include "calibrate/report/wording.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -8,19 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "base/distributions.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate::report {
 namespace {
 
 bool is_inside_letter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
-
-std::string spaced(std::string name) {
-  for (char& letter : name) {
-    if (letter == '_') letter = ' ';
-  }
-  return name;
-}
 
 /// An exponent.
 std::string raised(long power) {
@@ -50,6 +45,13 @@ std::string shown(const Cell& cell, const Column& column) {
   if (const auto* number = std::get_if<double>(&cell)) return shown(*number, column.decimals);
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   return "–";
+}
+
+std::string spaced(std::string name) {
+  for (char& letter : name) {
+    if (letter == '_') letter = ' ';
+  }
+  return name;
 }
 
 std::string shortened(const std::string& text, std::size_t most) {
@@ -85,6 +87,13 @@ std::string axis_of_observable(const std::string& name, const std::string& unit)
   return fmt::format("{} [{}]", what, unit == "deg" ? "°" : unit);
 }
 
+bool has_heap(const StudyResult& result) {
+  const NamedValues& experiments = result.provenance.stiffness_factor;
+  return std::any_of(experiments.begin(), experiments.end(), [](const auto& experiment) {
+    return experiment.first == dem::name_of(dem::Experiment::heap);
+  });
+}
+
 std::string titled(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
@@ -107,6 +116,18 @@ std::string file_stem(const std::string& text) {
     }
   }
   return stem.empty() ? "table" : stem;
+}
+
+double half_width_95(double standard_uncertainty, double df) {
+  constexpr double kNormal = 1.96, kUpper = .975;
+  if (standard_uncertainty == 0 || !(df >= 1)) return kNormal * standard_uncertainty;
+  if (!std::isfinite(df)) return kNormal * standard_uncertainty;
+  return base::student_t_quantile(kUpper, df) * standard_uncertainty;
+}
+
+double readable(double value, const std::string& unit) {
+  const dem::Range range = dem::readable_in(unit);
+  return std::clamp(value, range.from, range.to);
 }
 
 Cell cell(std::optional<double> value) {

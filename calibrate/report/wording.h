@@ -1,9 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "calibrate/report/document.h"
+#include "calibrate/result/result.h"
 
 /// How a report writes numbers and names.
 namespace repose::calibrate::report {
@@ -18,17 +20,31 @@ std::string shortened(const std::string& text, std::size_t most = 80);
 /// "restitution, particle–wall" for "contact.particle_wall.restitution"; other names as they are.
 std::string label_of(const std::string& parameter);
 
+/// "tube diameter" for "tube_diameter".
+std::string spaced(std::string name);
+
 /// "mm" for "drop"; empty for what is not known.
 std::string unit_of_experiment(const std::string& name);
 
 /// "rebound height [mm]" for an observable called "drop" in mm.
 std::string axis_of_observable(const std::string& name, const std::string& unit);
 
+/// Whether the study has heaps at all.
+bool has_heap(const StudyResult& result);
+
 /// With a capital letter.
 std::string titled(std::string text);
 
 /// A name for a file: letters, digits and _, not too long, without the "contact." of coefficients.
 std::string file_stem(const std::string& text);
+
+/// Half-width of the 95 % interval of a number with this standard uncertainty, known by so many
+/// degrees of freedom: what ± means on a page.
+double half_width_95(double standard_uncertainty,
+                     double df = std::numeric_limits<double>::infinity());
+
+/// The nearest number that a bench can read in this unit.
+double readable(double value, const std::string& unit);
 
 Cell cell(std::optional<double> value);
 Cell cell(const std::string& text);

@@ -47,11 +47,14 @@ OverallAgreement agreement_of(const StudyOutcome& outcome) {
           .values = outcome.best.values};
 }
 
-/// Sets that were simulated first; then those of the last fit that are not close to one of them.
+/// Sets that were simulated first, but for those that failed; then those of the last fit that are
+/// not close to one that was simulated.
 std::vector<EquivalentSet> family_of(const Problem& problem, const StudyOutcome& outcome) {
   std::vector<EquivalentSet> family;
   std::vector<Point> told;
   for (const auto& [check, chi2] : outcome.family) {
+    told.push_back(to_unit(problem, check.values));
+    if (check.verdict == AgreementVerdict::disagrees) continue;
     EquivalentSet& set = family.emplace_back();
     set.values = check.values;
     set.chi2 = chi2;
@@ -59,7 +62,6 @@ std::vector<EquivalentSet> family_of(const Problem& problem, const StudyOutcome&
     for (const Agreement& agreement : check.observables) {
       set.simulated.push_back(agreement.simulated);
     }
-    told.push_back(to_unit(problem, check.values));
   }
   for (const ParameterSet& set : outcome.fit.equivalence_family) {
     const Point point = to_unit(problem, set.values);

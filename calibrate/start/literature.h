@@ -29,7 +29,8 @@ struct GrainKind {
   double poisson_ratio = 0;
   ContactBounds with_wall;
   ContactBounds with_grain;
-  std::string_view source;  ///< of the bounds; empty: they are wide, and of no one kind
+  std::array<int, 3> colour = {};  ///< about that of the grains: red, green, blue, 0 to 255
+  std::string_view source;         ///< of the bounds; empty: they are wide, and of no one kind
 };
 
 struct PlateKind {

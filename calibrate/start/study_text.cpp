@@ -90,7 +90,10 @@ std::string particle_section(const NewStudy& study) {
   text += fmt::format("density_kg_m3 = {}\n", number(study.density_kg_m3));
   text += comment("Assumed. They hardly matter to where grains come to rest.");
   text += fmt::format("young_modulus_pa = {}\n", number(study.grain.young_modulus_pa));
-  return text + fmt::format("poisson_ratio = {}\n", number(study.grain.poisson_ratio));
+  text += fmt::format("poisson_ratio = {}\n", number(study.grain.poisson_ratio));
+  const auto& [red, green, blue] = study.grain.colour;
+  text += comment("About their colour, for pictures: red, green and blue from 0 to 255.");
+  return text + fmt::format("colour = [{}, {}, {}]\n", red, green, blue);
 }
 
 std::string wall_section(const PlateKind& plate) {

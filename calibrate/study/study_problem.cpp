@@ -164,6 +164,9 @@ class Maker {
     observable.experiment = name;
     observable.reading = reading;
     observable.unit = unit_of(entry, reading);
+    const dem::Range readable = dem::readable_in(observable.unit);
+    observable.least = readable.from;
+    observable.most = readable.to;
     if (!observable.sd || observable.n < 2) {
       observable.sd.reset();
       observable.assumed_sd_fraction = kAssumedSdFraction;

@@ -124,16 +124,19 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
   return true;
 }
 
-/// Those of the sets that were simulated and still fit as well as the best.
+/// Those of the sets that were simulated and that the fit still takes for as good as the best: with
+/// what their own simulations say.
 void judge_family(const Problem& problem, StudyOutcome& outcome) {
   int ruled_out = 0;
   for (std::size_t k = 1; k < outcome.fit.asked.size(); ++k) {
     const PredictedSet& set = outcome.fit.asked[k];
     if (set.chi2 > kChi2Limit) {
       ++ruled_out;
-    } else {
-      outcome.family.push_back({verify(problem, set.values, outcome.runs, &outcome.fit), set.chi2});
+      continue;
     }
+    const Verification check = verify(problem, set.values, outcome.runs, &outcome.fit);
+    if (check.verdict == AgreementVerdict::disagrees) ++ruled_out;
+    outcome.family.push_back({check, set.chi2});
   }
   if (ruled_out == 0) return;
   outcome.notes.push_back(
@@ -143,14 +146,17 @@ void judge_family(const Problem& problem, StudyOutcome& outcome) {
 }
 
 void note_checks(const Problem& problem, StudyOutcome& outcome) {
+  constexpr double kNormal95 = 1.96;
   for (const SurrogateCheck& check : outcome.surrogates) {
     if (!check.misses) continue;
     outcome.notes.push_back(fmt::format(
-        "{}: the surrogate missed its own check: it expected {:.4g} ± {:.2g} and fresh runs gave "
+        "{}: the surrogate missed its own check: it expected {:.4g} ± {:.2g} (95 %) and fresh runs "
+        "gave "
         "{:.4g}, by chance in {:.2g} % of cases only. These runs are in the fit now; a larger "
         "budget "
         "would show how well it knows the rest.",
-        check.observable, check.predicted, check.uncertainty, check.simulated, 100 * check.chance));
+        check.observable, check.predicted, kNormal95 * check.uncertainty, check.simulated,
+        100 * check.chance));
   }
   const PredictedSet& checked = outcome.fit.asked.front();
   if (is_near(outcome.fit, checked)) return;

@@ -27,7 +27,7 @@ struct StudyOutcome {
   Verification best;  ///< the last check: `fit`'s parameters, or those nearest to it
   int check_rounds = 0;
   std::vector<SurrogateCheck> surrogates;  ///< what was expected of that check before
-  std::vector<CheckedSet> family;          ///< those simulated and not ruled out by it
+  std::vector<CheckedSet> family;          ///< those simulated that still fit
   std::vector<Run> runs;                   ///< those that the fit was made from
   std::vector<Run> checks;                 ///< those of the last check
   std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs

@@ -17,6 +17,7 @@ struct RenderArguments {
   std::string show;    ///< mesh|spheres|both
   std::string seed;
   std::string passes;
+  std::string study;
   std::string turntable;  ///< frames
   std::string mask_file;
   std::string truth_file;

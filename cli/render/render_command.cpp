@@ -47,6 +47,8 @@ Command render_command() {
                   {"--show", "mesh|spheres|both", "How grains are shown (mesh)", &given->show},
                   {"--seed", "N", "For a photo's textures and noise (1)", &given->seed},
                   {"--passes", "N", "Photo; more: smoother shadows (24)", &given->passes},
+                  {"--study", "STUDY.toml", "Photo; grains have its particle.colour",
+                   &given->study},
                   {"--mask", "FILE.png", "Grains white, all else black", &given->mask_file},
                   {"--truth", "FILE.json", "Exact geometry of the picture", &given->truth_file},
                   {"--turntable", "FRAMES", "A film from all around", &given->turntable},

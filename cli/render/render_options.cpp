@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output_places.h"
+#include "dem/study/study.h"
 
 namespace repose::cli {
 namespace {
@@ -24,6 +26,17 @@ void read_view(const std::string& text, RenderPlan& plan) {
                                       "xz, or an azimuth: --view 90 looks at the heap from its "
                                       "right");
   plan.level.azimuth_rad = azimuth_rad.value_or(plan.level.azimuth_rad);
+}
+
+/// As the study has it; none where it does not say, or where there is no study.
+std::optional<render::Colour> grain_colour(const RenderArguments& arguments, RenderPlan& plan) {
+  if (arguments.study.empty()) return std::nullopt;
+  try {
+    return dem::read_study_copy(arguments.study).grain_colour;
+  } catch (const std::invalid_argument& error) {
+    plan.errors.emplace_back(error.what());
+    return std::nullopt;
+  }
 }
 
 void read_photo(const RenderArguments& arguments, render::PhotoStyle& photo, RenderPlan& plan) {
@@ -43,18 +56,21 @@ void read_style(const RenderArguments& arguments, RenderPlan& plan) {
   const auto kind = read_choice<Kind>({"--style", arguments.style, plan.errors},
                                       {{"silhouette", Kind::silhouette}, {"photo", Kind::photo}});
   if (kind == Kind::photo) {
-    render::PhotoStyle photo{.shown = shown};
+    render::PhotoStyle photo = render::photo_of_grains(grain_colour(arguments, plan));
+    photo.shown = shown;
     read_photo(arguments, photo, plan);
     plan.style = photo;
     return;
   }
   plan.style = render::SilhouetteStyle{.shown = shown};
   for (const auto& [option, text] :
-       {std::pair{"--seed", &arguments.seed}, std::pair{"--passes", &arguments.passes}}) {
+       {std::pair{"--seed", &arguments.seed}, std::pair{"--passes", &arguments.passes},
+        std::pair{"--study", &arguments.study}}) {
     if (text->empty() || (!kind && !arguments.style.empty())) continue;
-    plan.errors.push_back(fmt::format(
-        "{}: a silhouette has neither noise nor shadows. Fix: --style photo, or leave it out.",
-        option));
+    plan.errors.push_back(
+        fmt::format("{}: a silhouette has neither noise nor shadows nor colours. Fix: --style "
+                    "photo, or leave it out.",
+                    option));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -51,6 +52,10 @@ std::string experiment_names() {
 }
 
 std::string name_of(Experiment experiment) { return std::string(entry_of(experiment).name); }
+
+Range readable_in(std::string_view unit) {
+  return unit == "deg" ? from_to(0, 90) : from_to(0, std::numeric_limits<double>::infinity());
+}
 
 bool depends_on(const ExperimentEntry& entry, std::string_view coefficient) {
   return std::find(entry.coefficients.begin(), entry.coefficients.end(), coefficient) !=

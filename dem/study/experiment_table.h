@@ -80,6 +80,9 @@ std::string experiment_names();
 
 std::string name_of(Experiment experiment);
 
+/// What a bench can read in a unit: lengths, angles and counts are 0 or more, angles at most 90.
+Range readable_in(std::string_view unit);
+
 /// Whether a coefficient of the study moves the experiment's readings.
 bool depends_on(const ExperimentEntry& entry, std::string_view coefficient);
 

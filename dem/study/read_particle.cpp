@@ -151,6 +151,19 @@ void read_filling(Section& particle, GrainSource& grain) {
   }
 }
 
+void read_colour(Section& particle, Study& study) {
+  constexpr double kWhite = 255;
+  const char* example = "colour = [217, 196, 143]";
+  const auto colour = particle.numbers("colour", from_to(0, kWhite), example);
+  if (!colour) return;
+  if (colour->size() != 3) {
+    particle.wrong(*particle.value("colour"), "red, green and blue",
+                   fmt::format("for example {}", example));
+    return;
+  }
+  study.grain_colour = {(*colour)[0] / kWhite, (*colour)[1] / kWhite, (*colour)[2] / kWhite};
+}
+
 /// Exactly one of three.
 void check_one_shape(Section& particle) {
   const ConfigValue* first = nullptr;
@@ -193,6 +206,7 @@ void read_particle(Section particle, const NamedFiles& files, Study& study) {
   }
   check_one_shape(particle);
   read_filling(particle, study.grain);
+  read_colour(particle, study);
   read_material(particle, "particle", study.model.grain_material);
   study.model.grain_material.density_kg_m3 =
       particle.needed_number("density_kg_m3", kDensity.possible, "density_kg_m3 = 851");

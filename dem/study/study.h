@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -82,6 +83,8 @@ struct Study {
   /// time, making spheres does; `study.model.grain = build_grain(study.grain).shape` when needed.
   Model model;
   GrainSource grain;
+  /// Red, green, blue as on a screen, 0 to 1, for pictures; none: they choose one.
+  std::optional<std::array<double, 3>> grain_colour;
   CoefficientSet particle_wall;
   CoefficientSet particle_particle;
   std::map<Experiment, StudyExperiment> experiments;  ///< those that it describes

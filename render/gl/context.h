@@ -8,8 +8,8 @@ namespace repose::render::gl {
 
 /// OpenGL 3.3 core, drawn by the processor into memory: no window, no screen, no graphics card.
 ///
-/// The one place that knows which library does it (OSMesa); another one need only replace
-/// context.cpp.
+/// The one place that knows which library does it: OSMesa (context.cpp), or EGL where there is no
+/// OSMesa (context_egl.cpp).
 class Context {
  public:
   /// @throws std::runtime_error  the driver gives no such context.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <variant>
 
 /// What a picture looks like.
@@ -47,6 +48,15 @@ struct PhotoStyle {
   int passes = 24;                 ///< pictures averaged, to kMaxPasses; more: smoother shadows
   std::uint64_t seed = 1;          ///< of grains' looks, textures and noise
 };
+
+/// The same light and camera; grains of a colour of their own are plain, without stripes and spot.
+inline PhotoStyle photo_of_grains(const std::optional<Colour>& colour) {
+  PhotoStyle style;
+  if (!colour) return style;
+  style.grain = style.spot = *colour;
+  style.pattern = 0;
+  return style;
+}
 
 using Style = std::variant<SilhouetteStyle, PhotoStyle>;
 

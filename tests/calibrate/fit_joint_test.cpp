@@ -216,6 +216,15 @@ TEST(JointFit, ATargetOutOfReachIsToldWithTheRangeAndTheBoundThatLimitsIt) {
   EXPECT_THAT(fit.warnings, Contains(HasSubstr("no set of parameters fits everything")));
 }
 
+TEST(JointFit, ReachIsToldAsFarAsABenchCanReadIt) {
+  Problem problem = plate(60, .9, 10);
+  problem.observables[0].least = 12;
+  problem.observables[0].most = 30;
+  const JointFit fit = plate_fit(problem);
+  EXPECT_EQ(fit.observables[0].reachable.low, 12);
+  EXPECT_EQ(fit.observables[0].reachable.high, 30);
+}
+
 TEST(JointFit, WithinReachNothingIsSaidOfIt) {
   EXPECT_THAT(plate_fit(plate(20, .9, 10)).warnings, IsEmpty());
 }

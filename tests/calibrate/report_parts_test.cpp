@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -96,6 +97,23 @@ TEST(Page, TextsStayTexts) {
 vision::Picture grey_picture() {
   return {
       .width = 40, .height = 20, .bgr = std::vector<std::uint8_t>(std::size_t{40} * 20 * 3, 128)};
+}
+
+TEST(MeasureReport, DrawsEachAngleWithItsIntervalOnAxesThatFitThem) {
+  std::vector<MeasuredPhotograph> pictures(2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    pictures[k].file = "photos/heap.jpg";
+    pictures[k].angle.status = vision::MeasureStatus::ok;
+    pictures[k].angle.angle_rad = 0.4;
+    pictures[k].angle.uncertainty_rad = k == 0 ? 0.1 : 1;  // 57 degrees would flatten the rest
+  }
+  const Report report = measure_report(pictures);
+  ASSERT_THAT(report.tables, Not(IsEmpty()));
+  const auto chart = std::find_if(report.tables.begin(), report.tables.end(),
+                                  [](const CsvFile& file) { return file.name == "angles.csv"; });
+  ASSERT_NE(chart, report.tables.end());
+  EXPECT_THAT(chart->text, HasSubstr("ok,1: heap.jpg,22.9183,17.1887,28.6479\n"));
+  EXPECT_THAT(report.html, HasSubstr("\"y_range\":[9.0,36.0]"));
 }
 
 TEST(MeasureReport, SaysMeanAndWhatWasLeftOut) {

@@ -97,6 +97,72 @@ TEST_F(StudyReport, BeginsWithTheAnswer) {
             "\"sliding friction, particle–wall\",0.3,0.1,0.8,0.1,0.8,undetermined\n");
 }
 
+TEST_F(StudyReport, WhatIsForCheckingComesAfterTheAnswerInAnAppendix) {
+  const std::string page = shown(study_report(result_));
+  const std::size_t appendix = page.find("id=\"appendix\"");
+  ASSERT_NE(appendix, std::string::npos);
+  for (const char* first : {"id=\"answer\"", "id=\"agreement\"", "id=\"limits\""}) {
+    EXPECT_LT(page.find(first), appendix) << first;
+  }
+  for (const char* later : {"id=\"surfaces\"", "id=\"statistics\"", "id=\"methods\""}) {
+    EXPECT_GT(page.find(later), appendix) << later;
+  }
+}
+
+TEST_F(StudyReport, ShowsEachCurveOnceTheMostTellingBeforeTheAppendix) {
+  JointResult& joint = joint_in(result_);
+  ResponseCurve flat = joint.responses[0];
+  flat.simulated = {24, 26};
+  joint.observables.push_back(joint.observables[0]);
+  joint.observables[1].name = "tilt";
+  flat.observable = 1;
+  joint.responses.push_back(flat);
+  const std::string page = shown(study_report(result_));
+  const std::size_t appendix = page.find("id=\"appendix\"");
+  EXPECT_LT(page.find("id=\"chart-response_drop_particle_wall_restitution\""), appendix);
+  const std::size_t other = page.find("id=\"chart-response_tilt_particle_wall_restitution\"");
+  EXPECT_NE(other, std::string::npos);
+  EXPECT_GT(other, appendix);
+}
+
+TEST_F(StudyReport, PlusMinusIsTheHalfWidthOfThe95PercentInterval) {
+  const Report report = study_report(result_);
+  EXPECT_THAT(shown(report), Not(HasSubstr("± sd")));
+  // Four readings of sd 1: 3.18 times .5, by Student. Three checks: 4.30 times .3. The fit: 1.96
+  // times .2.
+  EXPECT_THAT(table_in(report, "agreement.csv"),
+              HasSubstr("rebound height [mm],25,1.59122,25.1,0.392,25.4,1.2908,"));
+}
+
+TEST_F(StudyReport, ShowsNothingThatNoBenchCanRead) {
+  JointResult& joint = joint_in(result_);
+  joint.observables[0].reachable = {-36, 80};
+  joint.responses[0].simulated = {-36, 80};
+  joint.surfaces[0].simulated = {{-36, 80}, {2, 81}};
+  joint.runs[0].readings["value"] = -36;
+  joint.observables[0].verification.difference = {1, 2};
+  for (const CsvFile& file : study_report(result_).tables) {
+    if (file.name.starts_with("terms") || file.name.starts_with("corr")) continue;
+    EXPECT_THAT(file.text, Not(HasSubstr("-36"))) << file.name;
+  }
+  EXPECT_THAT(table_in(study_report(result_), "reach.csv"), HasSubstr(",25,0,80\n"));
+}
+
+TEST_F(StudyReport, SaysPhotographOnlyWhereThereAreSome) {
+  const std::string without = shown(study_report(result_));
+  EXPECT_THAT(without, Not(HasSubstr("hotograph")));
+  const std::string with = shown(study_report(
+      result_, {{.file = "/nowhere/heap.jpg", .status = "ok", .angle_deg = 23.1, .reason = {}}}));
+  EXPECT_THAT(with, HasSubstr("was measured in photographs and in silhouettes"));
+}
+
+TEST_F(StudyReport, WithoutHeapsSaysNothingOfThem) {
+  result_.provenance.stiffness_factor = {{"drop", 1}};
+  EXPECT_THAT(shown(study_report(result_)),
+              AllOf(Not(HasSubstr("id=\"heaps\"")), Not(HasSubstr("angle of repose")),
+                    Not(HasSubstr("heap.vtp")), Not(HasSubstr("A heap"))));
+}
+
 TEST_F(StudyReport, IsOneFileThatFetchesNothing) {
   const std::string page = shown(study_report(result_));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));

@@ -158,6 +158,19 @@ MadeUpStudy plate() {
   return made;
 }
 
+TEST(Result, SetsThatFailedTheirCheckAreNotAmongTheEquallyGoodOnes) {
+  MadeUpStudy made = plate();
+  Verification check = made.outcome.best;
+  check.values = {.45};
+  check.verdict = AgreementVerdict::disagrees;
+  made.outcome.family = {{check, 1.5}};
+  made.outcome.fit.equivalence_family = {{{.46}, 1.4}, {{.7}, 3}};
+  const StudyResult result = result_of(made.record, made.problem, made.outcome);
+  const auto& family = std::get<JointResult>(result.found).equivalence_family;
+  ASSERT_THAT(family, SizeIs(1)) << "neither the set nor its neighbour";
+  EXPECT_EQ(family[0].values[0], .7);
+}
+
 TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
   const MadeUpStudy made = plate();
   StudyResult result = result_of(made.record, made.problem, made.outcome);

@@ -93,6 +93,8 @@ TEST_F(StudyRun, TakesItsProblemFromTheStudy) {
   EXPECT_NEAR(made.problem.observables[1].mean, 20.475, 1e-12);
   EXPECT_EQ(made.problem.observables[1].n, 4);
   ASSERT_THAT(made.problem.experiments, SizeIs(2));
+  EXPECT_EQ(made.problem.observables[0].least, 0) << "no rebound is below the floor";
+  EXPECT_EQ(made.problem.observables[1].most, 90);
   EXPECT_THAT(made.problem.experiments[1].parameters, ElementsAre(1)) << "friction alone";
   EXPECT_THAT(made.notes, IsEmpty());
 }

@@ -87,6 +87,15 @@ TEST_F(StudyFile, TheSmallestStudyHasTheUsualValues) {
   EXPECT_FALSE(study.threads);
 }
 
+TEST_F(StudyFile, GrainsMayHaveAColourForPictures) {
+  EXPECT_FALSE(read(kStudy).grain_colour);
+  const auto colour = read(kStudy, {"particle.colour=[255, 51, 0]"}).grain_colour;
+  ASSERT_TRUE(colour);
+  EXPECT_EQ(*colour, (std::array<double, 3>{1, .2, 0}));
+  EXPECT_THAT(errors(kStudy, {"particle.colour=[255, 51]"}), HasSubstr("red, green and blue"));
+  EXPECT_THAT(errors(kStudy, {"particle.colour=[256, 51, 0]"}), HasSubstr("particle.colour"));
+}
+
 TEST_F(StudyFile, MaterialsInAnotherUnitAreFoundOut) {
   EXPECT_THAT(errors(kStudy, {"particle.young_modulus_pa=1.254"}),
               AllOf(HasSubstr("particle.young_modulus_pa = 1.254. Rule: 1e+06 to 1.3e+12 Pa"),

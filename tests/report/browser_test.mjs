@@ -8,11 +8,12 @@
 //   MADE_UP_RESULT  the program that writes a result
 //
 // What must hold: nothing is fetched, no error is told, no name becomes markup, every chart is drawn
-// with its titles inside it, on a desk and on a telephone, and what can be clicked reacts. Load times
-// are only printed.
+// with its titles inside it, on a desk, on a telephone and on paper, what can be scrolled sideways has a
+// sign, and what can be clicked reacts. Before the appendix there are eight pages of paper at most. Load
+// times are only printed.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {copyFileSync, mkdtempSync, rmSync, statSync} from 'node:fs';
+import {copyFileSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
@@ -99,6 +100,50 @@ const checkPage = async (page, errors) => {
   assert.deepEqual(errors, []);
 };
 
+// Names of boxes with something out of sight to their right that nothing tells of.
+const hiddenWithoutSign = (page) => page.evaluate(() => [...document.querySelectorAll('main *')]
+  .filter((box) => box.scrollWidth > box.clientWidth + 1 && getComputedStyle(box).overflowX !== 'visible' && getComputedStyle(box).display !== 'inline')
+  .filter((box) => !box.closest('.plot') && !box.matches('.scrolls'))
+  .map((box) => `${box.tagName}.${box.className}`));
+
+// How much of the page's width the widest of its texts takes.
+const widthOfText = (page) => page.evaluate(() => {
+  const body = getComputedStyle(document.body);
+  const room = document.body.clientWidth - parseFloat(body.paddingLeft) - parseFloat(body.paddingRight);
+  const boxes = [...document.querySelectorAll('main section > *')].map((box) => box.getBoundingClientRect());
+  return (Math.max(...boxes.map(({right}) => right)) - Math.min(...boxes.map(({left}) => left))) / room;
+});
+
+// Charts that are wider than their column on paper.
+const cutOnPaper = async (page) => {
+  const kPaper_px = 680;
+  await page.setViewport({width: kPaper_px, height: 980});
+  await page.emulateMediaType('print');
+  const cut = await page.evaluate(() => [...document.querySelectorAll('[data-kind="plane"] .main-svg, [data-kind="contour"] .main-svg')].filter((drawing) => {
+    const figure = drawing.closest('.chart').getBoundingClientRect(), box = drawing.getBoundingClientRect();
+    return box.right > figure.right + 1 || figure.right > innerWidth + 1 || !drawing.getAttribute('viewBox');
+  }).map((drawing) => drawing.closest('.chart').id));
+  await page.emulateMediaType('screen');
+  return cut;
+};
+
+// Pages that the browser prints from the command line.
+const printedPages = (html, folder) => {
+  const file = join(folder, 'printed.html'), pdf = join(folder, 'printed.pdf');
+  writeFileSync(file, html);
+  runProgram(chromium, '--headless', '--no-sandbox', `--print-to-pdf=${pdf}`, pathToFileURL(file).href);
+  return [...readFileSync(pdf, 'latin1').matchAll(/\/Type\s*\/Page\b(?!s)/g)].length;
+};
+
+const checkPaper = (file, folder) => {
+  const html = readFileSync(file, 'utf8');
+  const before = html.replace(/<p class="part" id="appendix">[\s\S]*<\/main>/, '</main>');
+  assert.notEqual(before, html, 'there is no appendix');
+  const pages = printedPages(before, folder), all = printedPages(html, folder);
+  console.log(`${pages} pages of ${all} before the appendix`);
+  assert.ok(pages >= 1 && pages <= 8 && all > pages, `${pages} pages of ${all} before the appendix`);
+};
+
 const click = (page, figure, text) => page.evaluate((id, wanted) => {
   const button = [...document.querySelectorAll(`${id} button`)].find(({textContent}) => textContent === wanted);
   button.click();
@@ -158,10 +203,14 @@ try {
     for (const width of [1280, 390]) {
       const {page, errors} = await open(browser, file, width);
       await checkPage(page, errors);
+      assert.deepEqual(await hiddenWithoutSign(page), []);
+      if (width === 1280) assert.ok(await widthOfText(page) > .95, 'text leaves a part of the page empty');
       if (file === reports[0] && width === 1280) {
         await checkInteraction(page);
         await page.pdf({preferCSSPageSize: true, printBackground: true, timeout: kPatience_ms});
+        assert.deepEqual(await cutOnPaper(page), []);
         assert.deepEqual(errors, []);
+        checkPaper(file, folder);
       }
       await page.close();
     }

@@ -38,8 +38,8 @@
   const valuesOf = (chart, rows, column) => rows.map((row) => chart.columns[column].values[row]);
 
   const traceMakers = {
-    runs: (s) => [{mode: 'markers', marker: {symbol: 'circle-open', size: 6, color: kSoft, line: {width: 1}}, x: s.x, y: s.y}],
-    dots: (s) => [{mode: 'markers', marker: {symbol: 'circle', size: 12, color: kInk}, x: s.x, y: s.y}],
+    runs: (s) => [{mode: 'markers', marker: {symbol: 'circle-open', size: 6, color: kSoft, line: {width: 1}}, x: s.x, y: s.y, ...s.errors}],
+    dots: (s) => [{mode: 'markers', marker: {symbol: 'circle', size: 9, color: kInk}, x: s.x, y: s.y, ...s.errors}],
     points: (s) => [{mode: 'lines+markers', marker: {symbol: kSymbols[s.index % kSymbols.length], size: 8, color: kInk},
       line: {color: kInk, width: 1.2, dash: kDashes[s.index % kDashes.length]}, x: s.x, y: s.y, ...s.errors}],
     fit: (s) => [{mode: 'lines', line: {color: kInk, width: 2.6}, x: s.x, y: s.y}],
@@ -64,7 +64,7 @@
     const rows = rowsOf(chart, layer.series);
     const column = (number) => (number < chart.columns.length ? valuesOf(chart, rows, number) : rows.map(() => null));
     const s = {index, x: column(1), y: column(2), low: column(3), high: column(4), errors: {}};
-    if (s.low.some((value) => value !== null) && (layer.look === 'points' || layer.look === 'line')) {
+    if (s.low.some((value) => value !== null) && ['points', 'line', 'dots', 'runs'].includes(layer.look)) {
       s.errors = {error_y: {type: 'data', symmetric: false, thickness: 1, width: 3, color: kSoft,
         array: s.high.map((high, k) => high - s.y[k]), arrayminus: s.low.map((low, k) => s.y[k] - low)}};
     }
@@ -104,7 +104,8 @@
     layout.showlegend = true;
     if (hasNames(chart)) {
       layout.xaxis.tickangle = width < 500 ? -90 : -30;
-      layout.xaxis.tickvals = [...new Set(traces[0].x)];
+      layout.xaxis.tickvals = [...new Set(chart.columns[1].values)];
+      Object.assign(layout.xaxis, {categoryorder: 'array', categoryarray: layout.xaxis.tickvals});
       layout.xaxis.ticktext = layout.xaxis.tickvals.map((text) => wrapped(text, width < 500 ? 16 : 18));
       layout.xaxis.tickfont = {size: 11};
     }
@@ -205,7 +206,8 @@
         mesh.z.push(z[row] + pz + a * tz + b * ty - c * tx);
       }
       const tone = (number * 0.61803398875) % 1;  // neighbours in the list differ
-      const colour = `rgb(${Math.round(146 + 62 * tone)},${Math.round(112 + 58 * tone)},${Math.round(78 + 54 * tone)})`;
+      const shade = (chart.colour ?? [.69, .55, .41]).map((part) => Math.min(255, Math.round(255 * part * (.82 + .36 * tone))));
+      const colour = `rgb(${shade.join(',')})`;
       for (const [p, q, r] of triangles.get(kind[row]) ?? []) {
         mesh.i.push(base + p); mesh.j.push(base + q); mesh.k.push(base + r); mesh.facecolor.push(colour);
       }
@@ -224,6 +226,15 @@
   };
 
   const partsOf = {plane: planeParts, contour: contourParts, heap: heapParts};
+
+  // Printed as wide as there is room, whatever width it was drawn at.
+  const letScale = (plot) => {
+    const box = plot.querySelector('.svg-container');
+    if (!box) return;
+    const [width, height] = [box.style.width, box.style.height].map(parseFloat);
+    plot.style.setProperty('--ratio', `${width} / ${height}`);
+    for (const drawing of box.querySelectorAll(':scope > .main-svg')) drawing.setAttribute('viewBox', `0 0 ${width} ${height}`);
+  };
 
   // What is drawn with WebGL is printed as a picture.
   const keepPrintImage = async (plot) => {
@@ -284,6 +295,7 @@
       panel.hidden = !panel.hidden;
       toggle.setAttribute('aria-expanded', String(!panel.hidden));
       if (!panel.hidden) panel.replaceChildren(dataTable(current()));
+      panel.classList.toggle('scrolls', panel.scrollWidth > panel.clientWidth + 1);
     });
     toggle.setAttribute('aria-expanded', 'false');
     button(tools, 'CSV', () => {
@@ -334,7 +346,10 @@
     const height = heightOf(chart, width);
     plot.style.minHeight = `${height}px`;
     try {
-      await Plotly.newPlot(plot, traces, {...layout, width, height}, kConfig);
+      const drawn = Plotly.newPlot(plot, traces, {...layout, width, height}, kConfig);
+      letScale(plot);  // a page that is printed at once does not wait
+      await drawn;
+      letScale(plot);
       if (chart.kind === 'heap') {
         addHeapButtons(tools, plot);
         await keepPrintImage(plot);
@@ -403,20 +418,29 @@
     }
     const height = heightOf(chart, width);
     plot.style.minHeight = `${height}px`;
-    Plotly.relayout(plot, {width, height, 'margin.b': spaceBelow(chart, width)});
+    Plotly.relayout(plot, {width, height, 'margin.b': spaceBelow(chart, width)}).then(() => letScale(plot));
+    letScale(plot);
   };
+  const markScrolling = () => {
+    for (const box of document.querySelectorAll('.table, .data')) box.classList.toggle('scrolls', box.scrollWidth > box.clientWidth + 1);
+  };
+  markScrolling();
   let resizing = null;
   window.addEventListener('resize', () => {
     clearTimeout(resizing);
-    resizing = setTimeout(() => figures.forEach((figure) => fit(figure, figure.querySelector('.plot').clientWidth)), 150);
+    resizing = setTimeout(() => {
+      markScrolling();
+      figures.forEach((figure) => fit(figure, figure.querySelector('.plot').clientWidth));
+    }, 150);
   });
   // A4 less its margins, at 96 pixels an inch; charts beside each other have half of it.
-  const kPaper_px = 665;
+  const kPaper_px = 665, kPaperAlone_px = 490;
   window.addEventListener('beforeprint', () => {
     for (const figure of figures) {
+      if (figure.dataset.kind !== 'plane' && figure.dataset.kind !== 'contour') continue;
       drawAny(figure);
       const alone = !figure.matches('.charts > .chart:not(:only-child)');
-      if (figure.dataset.kind === 'plane' || figure.dataset.kind === 'contour') fit(figure, alone ? kPaper_px : kPaper_px / 2 - 10);
+      fit(figure, alone ? kPaperAlone_px : kPaper_px / 2 - 10);
     }
   });
   window.addEventListener('afterprint', () => figures.forEach((figure) => fit(figure, figure.querySelector('.plot').clientWidth)));

@@ -1,0 +1,156 @@
+// What was done on the bench and simulated: grain, wall, each experiment's settings, what was
+// measured, and which of it the study does not state.
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/whole_file.h"
+#include "calibrate/report/chapters.h"
+#include "calibrate/report/wording.h"
+#include "calibrate/study/study_folder.h"
+#include "dem/study/config.h"
+#include "dem/study/experiment_table.h"
+
+namespace repose::calibrate::report {
+namespace {
+
+constexpr double kMm = 1e3;
+
+/// The study's text as it stands in the folder, to see what it states; an empty table where it
+/// cannot be read.
+dem::ConfigValue stated_in(const ReportedStudy& study) {
+  try {
+    const std::string file = (study.folder / kStudyCopy).string();
+    dem::StudyErrors ignored;
+    return dem::parse_config(file, base::read_whole_file(file), study.record->settings, ignored);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+const dem::ConfigValue* within(const dem::ConfigValue* table, const std::string& key) {
+  return table == nullptr ? nullptr : table->find(key);
+}
+
+bool states(const dem::ConfigValue* table, const std::string& key) {
+  return within(table, key) != nullptr;
+}
+
+/// "tube_diameter_mm": "tube diameter", "mm".
+std::pair<std::string, std::string> name_and_unit(const std::string& key) {
+  for (const auto& [ending, unit] :
+       {std::pair("_mm_s", "mm/s"), {"_deg_s", "°/s"}, {"_mm", "mm"}, {"_deg", "°"}}) {
+    const std::string_view end = ending;
+    if (key.ends_with(end)) return {spaced(key.substr(0, key.size() - end.size())), unit};
+  }
+  return {spaced(key), ""};
+}
+
+/// What holds of a grain, a wall or an experiment: stated in the study, or assumed.
+class Settings {
+ public:
+  void add(const std::string& what, const std::string& value, bool is_stated) {
+    std::string& text = is_stated ? stated_ : assumed_;
+    if (!text.empty()) text += ", ";
+    text += what + ' ' + shortened(value, 200);
+  }
+
+  void add_to(Table& table, const std::string& of, const std::string& measured) const {
+    table.data.add({of, stated_, assumed_.empty() ? "–" : assumed_, measured});
+  }
+
+ private:
+  std::string stated_;
+  std::string assumed_;
+};
+
+std::string shape_text(const dem::GrainSource& grain) {
+  if (grain.scan) return "scan " + grain.scan->filename().string();
+  if (grain.clump) return "clump " + grain.clump->filename().string();
+  const dem::CalliperSizes& sizes = *grain.sizes;
+  return fmt::format("{} × {} × {} mm by calliper", shown(kMm * sizes.length_m),
+                     shown(kMm * sizes.width_m), shown(kMm * sizes.thickness_m));
+}
+
+void add_material(const dem::Material& material, Settings& settings) {
+  settings.add("Young's modulus", shown(material.young_modulus_pa) + " Pa", true);
+  settings.add("Poisson's ratio", shown(material.poisson_ratio), true);
+}
+
+void add_materials(const StudyRecord& record, const dem::ConfigValue& stated, Table& table) {
+  const dem::Study& study = record.study;
+  const dem::ConfigValue* particle = within(&stated, "particle");
+  Settings grain;
+  grain.add("shape:", shape_text(study.grain), true);
+  grain.add("spheres", fmt::format("{}", record.grain.shape.spheres.size()),
+            study.grain.clump || states(particle, "spheres") || states(particle, "volume_error"));
+  grain.add("density", shown(study.model.grain_material.density_kg_m3) + " kg/m³", true);
+  add_material(study.model.grain_material, grain);
+  grain.add_to(table, "grain: " + shortened(study.model.grain_material.name), "–");
+  Settings wall;
+  add_material(study.model.wall_material, wall);
+  wall.add_to(table, "wall: " + shortened(study.model.wall_material.name), "–");
+}
+
+/// "10 readings", "mean of 10, scatter assumed".
+std::string measured_text(const dem::Measured& measured, std::size_t pictures) {
+  if (pictures > 0) {
+    return fmt::format("{} photograph{} of heaps", pictures, pictures == 1 ? "" : "s");
+  }
+  if (!measured.values.empty()) {
+    return fmt::format("{} reading{}{}", measured.values.size(),
+                       measured.values.size() == 1 ? ", scatter assumed" : "s",
+                       measured.sheet ? " in " + measured.sheet->filename().string() : "");
+  }
+  if (!measured.mean) return "nothing";
+  return fmt::format("mean of {}{}", measured.count.value_or(1),
+                     measured.sd ? ", sd " + shown(measured.sd) : ", scatter assumed");
+}
+
+void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry,
+                    const dem::ConfigValue* stated, Table& table) {
+  const auto described = record.study.experiments.find(entry.experiment);
+  if (described == record.study.experiments.end()) return;
+  Settings settings;
+  dem::Protocol protocol = described->second.protocol;
+  for (const dem::ProtocolKey& key : entry.keys(protocol)) {
+    const auto value = dem::value_of(key);
+    const auto [what, unit] = name_and_unit(key.name);
+    settings.add(what, value ? shown(value) + (unit.empty() ? "" : ' ' + unit) : "as many as fit",
+                 states(stated, key.name));
+  }
+  settings.add("fraction of the real stiffness", shown(described->second.stiffness_factor),
+               states(stated, "stiffness_factor"));
+  const std::size_t pictures = entry.is_pictured ? record.pictures.size() : 0;
+  settings.add_to(table, std::string(entry.name),
+                  measured_text(described->second.measured, pictures));
+}
+
+}  // namespace
+
+Chapter protocol_chapter(const ReportedStudy& study) {
+  Chapter chapter{.id = "protocol", .title = "Grains and experiments", .blocks = {}};
+  if (!study.record) return chapter;
+  const dem::ConfigValue stated = stated_in(study);
+  Table table{.name = "protocol",
+              .title = {},
+              .data = {.columns = {{.name = "of", .unit = {}},
+                                   {.name = "stated in the study", .unit = {}},
+                                   {.name = "assumed: usual values", .unit = {}},
+                                   {.name = "measured", .unit = {}}},
+                       .rows = {}}};
+  add_materials(*study.record, stated, table);
+  const dem::ConfigValue* experiments = within(&stated, "experiment");
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    add_experiment(*study.record, entry, within(experiments, std::string(entry.name)), table);
+  }
+  chapter.blocks.push_back(std::move(table));
+  chapter.blocks.push_back(
+      Paragraph{"Each experiment was simulated as it was done on the bench. The fraction of the "
+                "real stiffness is that of the simulations, with what the budget softens."});
+  return chapter;
+}
+
+}  // namespace repose::calibrate::report

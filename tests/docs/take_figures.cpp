@@ -1,0 +1,99 @@
+// Draws the figures of docs/tutorial.md from a sample photograph, as repose measure --overlay draws
+// them:
+// take_figures PHOTOGRAPH FOLDER           writes them
+// take_figures PHOTOGRAPH FOLDER --check   compares them with those that are there
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "vision/drawing/overlay.h"
+#include "vision/measure/hints.h"
+#include "vision/measure/repose_angle.h"
+#include "vision/picture/picture.h"
+
+namespace repose {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSide_px = 800, kQuality = 80;
+constexpr std::size_t kMost_bytes = 150'000;
+
+struct Figure {
+  const char* name = "";
+  vision::Box part;  ///< of the photograph; empty: all of it
+};
+
+std::vector<std::uint8_t> drawn(const vision::Picture& photograph, const Figure& figure) {
+  const bool is_whole = figure.part.width == 0;
+  const vision::Picture part = is_whole ? photograph : vision::part_of(photograph, figure.part);
+  const vision::Picture overlay = vision::draw_overlay(part, vision::measure_repose_angle(part),
+                                                       {.title = figure.name, .excluded = {}});
+  return vision::jpeg_of(vision::reduced(overlay, kSide_px), kQuality);
+}
+
+/// How much they differ on average, in grey levels; other libraries round a pixel here and there.
+double difference(const fs::path& one, const fs::path& other) {
+  const vision::Picture a = vision::read_picture(one), b = vision::read_picture(other);
+  if (a.width != b.width || a.height != b.height) return 255;
+  double sum = 0;
+  for (std::size_t k = 0; k < a.bgr.size(); ++k) sum += std::abs(int{a.bgr[k]} - int{b.bgr[k]});
+  return sum / static_cast<double>(a.bgr.size());
+}
+
+bool write(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  if (bytes.size() <= kMost_bytes) return true;
+  std::fprintf(stderr, "%s: %zu bytes are too many\n", file.c_str(), bytes.size());
+  return false;
+}
+
+bool is_fresh(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
+  constexpr double kSame = 1;
+  const fs::path now = fs::temp_directory_path() / ("repose_" + file.filename().string());
+  bool same = write(now, bytes);
+  same = same && fs::exists(file) && difference(now, file) < kSame;
+  fs::remove(now);
+  if (!same) {
+    std::fprintf(stderr, "%s is not what would be drawn now. Fix: docs/take_figures\n",
+                 file.c_str());
+  }
+  return same;
+}
+
+bool take(const vision::Picture& photograph, const fs::path& folder, bool only_checks) {
+  const vision::Box whole{};
+  const vision::Box half{
+      .x = 0, .y = 0, .width = photograph.width / 2, .height = photograph.height};
+  const vision::Box low{.x = 0,
+                        .y = photograph.height * 23 / 50,
+                        .width = photograph.width,
+                        .height = photograph.height * 27 / 50};
+  bool is_good = true;
+  for (const Figure& figure :
+       {Figure{"measured.jpg", whole}, {"half_a_heap.jpg", half}, {"crest_cut_off.jpg", low}}) {
+    const fs::path file = folder / figure.name;
+    const std::vector<std::uint8_t> bytes = drawn(photograph, figure);
+    is_good = (only_checks ? is_fresh(file, bytes) : write(file, bytes)) && is_good;
+  }
+  return is_good;
+}
+
+}  // namespace
+}  // namespace repose
+
+int main(int count, char** words) {
+  if (count != 3 && (count != 4 || std::string(words[3]) != "--check")) return 2;
+  try {
+    return repose::take(repose::vision::read_picture(words[1]), words[2], count == 4) ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

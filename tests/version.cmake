@@ -1,0 +1,20 @@
+# cmake -P version.cmake: the version that a description of the repository gives.
+set(PROJECT_VERSION 0.1.0)
+set(PROJECT_SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR}/none)
+include(${CMAKE_CURRENT_LIST_DIR}/../cmake/version.cmake)
+
+function(expect described version)
+  repose_describe_version("${described}" 0.1.0 found)
+  if(NOT found STREQUAL version)
+    message(SEND_ERROR "${described}: ${found} instead of ${version}")
+  endif()
+endfunction()
+
+if(NOT REPOSE_VERSION STREQUAL "0.1.0")
+  message(SEND_ERROR "an archive: ${REPOSE_VERSION}")
+endif()
+expect("" 0.1.0)
+expect(1a2b3c4 0.1.0+g1a2b3c4)
+expect(v0.2.0-0-g1a2b3c4 0.2.0)
+expect(v0.2.0-13-g1a2b3c4 0.2.0+13.g1a2b3c4)
+expect(vanity-0-g1a2b3c4 0.1.0)
