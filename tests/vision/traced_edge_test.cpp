@@ -68,6 +68,7 @@ TEST(TracedEdge, MeasuresAHeapBeforeManyColours) {
     ASSERT_TRUE(result.angle_rad) << seed << ": " << result.reason;
     EXPECT_NEAR(*result.left.angle_rad, *heap.left_rad, 3 * kDegree) << seed;
     EXPECT_NEAR(*result.right.angle_rad, *heap.right_rad, 3 * kDegree) << seed;
+    EXPECT_NEAR(*result.angle_rad, *heap.mean_rad(), *result.uncertainty_rad) << seed;
   }
 }
 

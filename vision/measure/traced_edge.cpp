@@ -20,7 +20,8 @@ constexpr double kChance = 0.8;    // part of all places that show less contrast
                                    // a pixel of edge is worth what it shows beyond that
 constexpr double kTurnBack = 0.3;  // what a pixel of falling before the crest costs, or of rising
                                    // behind it: grains stick out, but a heap has one crest
-constexpr double kRoughness = 2;   // weight beside lightness and colours
+constexpr double kDeviation_px = 2;  // of the edge's place: half of the least reach of a contrast
+constexpr double kRoughness = 2;     // weight beside lightness and colours
 
 constexpr double kCorridor = 0.06;  // of the height, on either side of the straight flanks
 
@@ -193,7 +194,7 @@ Segmentation traced_segmentation(const WorkingPicture& work) {
   const HeapTemplate shape = best_template(contrast, ground);
   if (!shape.left && !shape.right) return {kTraced, cv::Mat1f(whole, -1.F)};
   const std::vector<int> rows = EdgeSearch(contrast, ground, corridor_along(shape, ground)).rows();
-  Segmentation traced{kTraced, cv::Mat1f(whole)};
+  Segmentation traced{kTraced, cv::Mat1f(whole), kDeviation_px / down};
   for (int col = 0; col < whole.width; ++col) {
     const double place = std::clamp((col + 0.5) * across - 0.5, 0.0, size.width - 1.0);
     const auto before = static_cast<std::size_t>(place);
