@@ -247,10 +247,11 @@ void keep_what_is_traced(std::vector<Reading>& readings) {
     return reading.segmentation.name == kTraced && reading.has_flank();
   });
   if (traced == readings.end() || traced->score < kSeesTheHeap * best_of(readings).score) return;
-  const Reading told = *traced;
-  std::erase_if(readings, [&](const Reading& reading) {
-    return !reading.has_flank() || edge_distance(told, reading) > kBeside;
-  });
+  std::vector<Reading> same;
+  for (const Reading& reading : readings) {
+    if (reading.has_flank() && edge_distance(*traced, reading) <= kBeside) same.push_back(reading);
+  }
+  readings = std::move(same);
 }
 
 /// The readings that need nothing but the picture and what a person has said.

@@ -105,7 +105,8 @@ cv::Mat1f contrast_along(double slope, const ColumnSums& sums) {
 SideContrast::SideContrast(const cv::Mat4f& material, const cv::Mat1b& valid_mask) {
   const ColumnSums sums(material, valid_mask);
   for (int rise = -kSteepest; rise <= kSteepest; ++rise) {
-    cv::Mat1f& best = contrast_[static_cast<std::size_t>(rise + kSteepest)];
+    const int slope_index = rise + kSteepest;
+    cv::Mat1f& best = contrast_[static_cast<std::size_t>(slope_index)];
     best = contrast_along(rise, sums);
     for (const double slope : {rise - 0.5, rise + 0.5}) {
       if (std::abs(slope) < kSteepest) best = cv::max(best, contrast_along(slope, sums));

@@ -25,7 +25,8 @@ class SideContrast {
 
   float at(int row, int col, int rise) const { return of(rise)(row, col); }
   const cv::Mat1f& of(int rise) const {
-    return contrast_[static_cast<std::size_t>(rise + kSteepest)];
+    const int slope = rise + kSteepest;
+    return contrast_[static_cast<std::size_t>(slope)];
   }
 
  private:
