@@ -41,6 +41,20 @@ TEST(Uncertainty, GrainsCountByStudentsFactor) {
   EXPECT_NEAR(u.right_rad, std::hypot(kStudent10 * 0.02, kFloor_rad), 1e-6);
 }
 
+TEST(Uncertainty, AnEdgeThatIsRoughlyKnownTurnsTheLine) {
+  Choice choice = choice_of(0.01, 0.01);
+  for (FlankFit* fit : {&choice.best.left, &choice.best.right}) {
+    fit->along = {0, 40};
+    fit->robust.slope = -0.75;  // 50 px long
+  }
+  const Uncertainty before = uncertainty_of(choice);
+  choice.best.segmentation.deviation_px = 2;
+  const Uncertainty after = uncertainty_of(choice);
+  const double turn = 1.96 * std::sqrt(2) * 2 / 50;
+  EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, turn), 1e-9);
+  EXPECT_NEAR(after.mean_rad, std::hypot(before.mean_rad, turn / std::sqrt(2)), 1e-9);
+}
+
 TEST(Uncertainty, MeanOfTwoFlanksHasBothTheirPoints) {
   const Uncertainty u = uncertainty_of(choice_of(0.01, 0.01));
   EXPECT_NEAR(u.mean_rad, std::hypot(kStudent20 * 0.01 / std::sqrt(2), kFloor_rad), 1e-6);

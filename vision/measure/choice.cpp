@@ -6,9 +6,11 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/measure/edge_distance.h"
 #include "vision/measure/refinement.h"
 #include "vision/measure/regions.h"
 #include "vision/measure/segmentation.h"
+#include "vision/measure/traced_edge.h"
 
 namespace repose::vision {
 namespace {
@@ -23,7 +25,9 @@ constexpr double kHardlyAnEdge = 0.25;  // score of a chance line through clutte
 constexpr double kSeesTheHeap = 0.5;    // of the best score: such a reading knows where the foot is
 constexpr double kCrossed = 0.1;        // of the heap's height above its foot: no error of the line
 constexpr double kSameLine_px = 3;      // grounds that two segmentations see so close are one
-constexpr double kCarried = 0.8;        // of a body's columns, under which another one begins
+constexpr double kBeside =
+    0.06;  // of the height, root mean square: edges that are not the same one
+constexpr double kCarried = 0.8;  // of a body's columns, under which another one begins
 
 /// A body whose sides stand upright: says more than a chance line through clutter.
 bool is_upright(const Reading& reading) {
@@ -236,6 +240,20 @@ void look_again(std::vector<Reading>& readings, const WorkingPicture& work,
 
 namespace {
 
+/// Between a box and a ground line there is one heap. Readings of another edge than the one traced
+/// there are of something else.
+void keep_what_is_traced(std::vector<Reading>& readings) {
+  const auto traced = std::find_if(readings.begin(), readings.end(), [](const Reading& reading) {
+    return reading.segmentation.name == kTraced && reading.has_flank();
+  });
+  if (traced == readings.end() || traced->score < kSeesTheHeap * best_of(readings).score) return;
+  std::vector<Reading> same;
+  for (const Reading& reading : readings) {
+    if (reading.has_flank() && edge_distance(*traced, reading) <= kBeside) same.push_back(reading);
+  }
+  readings = std::move(same);
+}
+
 /// The readings that need nothing but the picture and what a person has said.
 std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOptions& options) {
   std::vector<Reading> readings;
@@ -247,6 +265,10 @@ std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOpt
   }
   if (work.told.has_box || work.told.has_places()) {
     readings.push_back(read_heap(pointed_segmentation(work, options.seed), work, options));
+  }
+  if (work.told.has_box && work.told.ground) {
+    readings.push_back(read_heap(traced_segmentation(work), work, options));
+    keep_what_is_traced(readings);
   }
   return readings;
 }
@@ -272,8 +294,10 @@ Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options)
     }
   }
   if (best_of(readings).score > 0 && !knows_ground) agree_on_ground(readings, work, options);
-  if (best_of(readings).score > 0 && !is_settled(best_of(readings), readings)) {
+  const bool is_traced = best_of(readings).segmentation.name == kTraced;
+  if (best_of(readings).score > 0 && !is_traced && !is_settled(best_of(readings), readings)) {
     look_again(readings, work, options);
+    keep_what_is_traced(readings);
   }
   const Reading& best = middle_of_best(readings);
   const std::vector<const Reading*> rivals = rivals_of(best, readings);

@@ -15,6 +15,8 @@ namespace repose::vision {
 struct Segmentation {
   std::string name;
   cv::Mat1f inside;
+  /// Standard uncertainty of where the edge is, beside the grains' scatter [working px].
+  double deviation_px = 0;
 };
 
 /// Segmentations that need nothing but the picture: Otsu on several channels, distance from a

@@ -43,16 +43,26 @@ double unseen_foot_95(const FlankFit& flank, const Ground& ground) {
   return ground.behind ? std::abs(flank.bend_rad) : 0;
 }
 
+/// What an edge that is only roughly known may turn the line: both its ends may be off.
+double place_95(const FlankFit& flank, const Segmentation& segmentation) {
+  if (segmentation.deviation_px <= 0 || flank.along.size() < 2) return 0;
+  const double run = std::abs(flank.along.back() - flank.along.front());
+  const double length = run * std::hypot(1, flank.robust.slope);
+  return kNormal95 * std::numbers::sqrt2 * segmentation.deviation_px / std::max(1.0, length);
+}
+
 double combined(std::initializer_list<double> parts) {
   double squares = kFloor_rad * kFloor_rad;
   for (const double part : parts) squares += part * part;
   return std::sqrt(squares);
 }
 
-double side_95(const FlankFit& flank, const Ground& ground, double disagreement_rad) {
+double side_95(const FlankFit& flank, const Reading& reading, double disagreement_rad) {
   if (flank.status != FlankStatus::ok) return 0;
+  const Ground& ground = reading.body.ground;
   return combined({grains_95(flank), window_95(flank), unseen_foot_95(flank, ground),
-                   kNormal95 * ground.deviation_rad, disagreement_rad});
+                   place_95(flank, reading.segmentation), kNormal95 * ground.deviation_rad,
+                   disagreement_rad});
 }
 
 }  // namespace
@@ -61,14 +71,17 @@ Uncertainty uncertainty_of(const Choice& choice) {
   const Reading& best = choice.best;
   const Ground& ground = best.body.ground;
   Uncertainty u;
-  u.left_rad = side_95(best.left, ground, choice.left_disagreement_rad);
-  u.right_rad = side_95(best.right, ground, choice.right_disagreement_rad);
+  u.left_rad = side_95(best.left, best, choice.left_disagreement_rad);
+  u.right_rad = side_95(best.right, best, choice.right_disagreement_rad);
   const bool left = best.left.status == FlankStatus::ok;
   const bool right = best.right.status == FlankStatus::ok;
   if (left && right) {
     u.mean_rad = combined(
         {grains_95(best.left, best.right), (window_95(best.left) + window_95(best.right)) / 2,
          (unseen_foot_95(best.left, ground) + unseen_foot_95(best.right, ground)) / 2,
+         std::hypot(place_95(best.left, best.segmentation),
+                    place_95(best.right, best.segmentation)) /
+             2,
          choice.disagreement_rad});
   } else {
     u.mean_rad = left ? u.left_rad : u.right_rad;
