@@ -309,7 +309,7 @@ REPOSE_INLINE Lanes add_with(std::span<const Touching<Other>> touching,
       deepest = greatest(add_four<is_round, model>(last.four, timestep, pairs), deepest);
       break;
     }
-    FourTouching<Other> four;
+    FourTouching<Other> four = {};
     for (std::size_t k = 0; k < kLanes; ++k) {
       four.touching[k] = &left[k];
       four.pair[k] = &motions[left[k].pair];

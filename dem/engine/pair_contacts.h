@@ -8,11 +8,11 @@
 
 namespace repose::dem {
 
-/// Works out the contacts of a chunk of kPairsTogether pairs of the list (the last one has fewer),
-/// as many as there are `loads`, and brings their memories up to date. Each pair's load is the sum
-/// over its contacts in the list's order.
+/// Works out the contacts of a chunk (number: of kPairsTogether pairs of the list each, the last
+/// fewer), as many as there are `loads`, and brings their memories up to date. Each pair's load is
+/// the sum over its contacts in the list's order.
 /// @return the deepest overlap, as a fraction of the smaller sphere's radius
-double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t chunk,
+double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t number,
                        std::span<PairLoad> loads);
 
 }  // namespace repose::dem
