@@ -133,22 +133,22 @@ class EdgeSearch {
   }
 
   void find() {
-    std::vector<double> sums(places(), kNever);
+    std::vector<double> before(places(), kNever);
     for (int row = corridor_.front().first; row <= corridor_.front().last; ++row) {
-      sums[place(row, rising)] = sums[place(row, falling)] = 0;
+      before[place(row, rising)] = before[place(row, falling)] = 0;
     }
     const int last = static_cast<int>(ground_.size()) - 1;
     for (int col = 1; col <= last; ++col) {
-      std::vector<double> next(places(), kNever);
-      go_on(sums, col, next);
-      sums = std::move(next);
+      std::vector<double> sums(places(), kNever);
+      go_on(before, col, sums);
+      before = std::move(sums);
     }
     int row = ground_.back();
     int leg = falling;
     double best = kNever;
     for (int end = corridor_.back().first; end <= corridor_.back().last; ++end) {
       for (const int on : {rising, falling}) {
-        const double sum = sums[place(end, on)];
+        const double sum = before[place(end, on)];
         if (sum <= best) continue;
         best = sum;
         row = end;
