@@ -28,11 +28,17 @@ constexpr double kCorridor = 0.06;  // of the height, on either side of the stra
 constexpr int kRises = 2 * SideContrast::kSteepest + 1;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-enum Leg { rising, falling, kLegs };
+enum Leg { rising, falling };
+constexpr int kLegs = 2;
+
+std::size_t index_of(int rise) {
+  const int slope = rise + SideContrast::kSteepest;
+  return static_cast<std::size_t>(slope);
+}
 
 /// How the best edge came to a place: from which leg, by which rise.
 struct Step {
-  std::int8_t leg = rising;
+  std::uint8_t leg = rising;
   std::int8_t rise = 0;
 };
 
@@ -97,7 +103,7 @@ class EdgeSearch {
     return gain - kTurnBack * back;
   }
 
-  void reach(std::vector<double>& sums, int col, const std::vector<double>& before) {
+  void go_on(const std::vector<double>& before, int col, std::vector<double>& sums) {
     const auto here = static_cast<std::size_t>(col);
     for (int row = corridor_[here].first; row <= corridor_[here].last; ++row) {
       std::array<double, kRises> worths[kLegs];
@@ -115,13 +121,11 @@ class EdgeSearch {
           if (from < 0 || from > ground_[here - 1]) continue;
           const bool on_ground = row == ground_[here] && from == ground_[here - 1];
           for (int earlier = rising; earlier <= leg; ++earlier) {
-            const double gain =
-                on_ground ? 0
-                          : worths[leg][static_cast<std::size_t>(rise + SideContrast::kSteepest)];
+            const double gain = on_ground ? 0 : worths[leg][index_of(rise)];
             const double sum = before[place(from, earlier)] + gain;
             if (sum <= best) continue;
             best = sum;
-            step = {static_cast<std::int8_t>(earlier), static_cast<std::int8_t>(rise)};
+            step = {static_cast<std::uint8_t>(earlier), static_cast<std::int8_t>(rise)};
           }
         }
       }
@@ -129,22 +133,22 @@ class EdgeSearch {
   }
 
   void find() {
-    std::vector<double> sums(places(), kNever);
+    std::vector<double> before(places(), kNever);
     for (int row = corridor_.front().first; row <= corridor_.front().last; ++row) {
-      sums[place(row, rising)] = sums[place(row, falling)] = 0;
+      before[place(row, rising)] = before[place(row, falling)] = 0;
     }
     const int last = static_cast<int>(ground_.size()) - 1;
     for (int col = 1; col <= last; ++col) {
-      std::vector<double> next(places(), kNever);
-      reach(next, col, sums);
-      sums = std::move(next);
+      std::vector<double> sums(places(), kNever);
+      go_on(before, col, sums);
+      before = std::move(sums);
     }
     int row = ground_.back();
     int leg = falling;
     double best = kNever;
     for (int end = corridor_.back().first; end <= corridor_.back().last; ++end) {
       for (const int on : {rising, falling}) {
-        const double sum = sums[place(end, on)];
+        const double sum = before[place(end, on)];
         if (sum <= best) continue;
         best = sum;
         row = end;
