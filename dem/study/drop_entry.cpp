@@ -17,9 +17,9 @@ Range possible(const Model& model, const Protocol& protocol) {
 }
 
 double cost_s(const Model& model, const Protocol& protocol) {
-  constexpr double kSpeed_m_s = 3, kBounce_s = .01;
+  constexpr double kSpeed_m_s = 3, kBounce_s = .005;
   return kAloneStep_s * std::get<DropProtocol>(protocol).grains * kBounce_s /
-         timestep_on_plane_s(model, kSpeed_m_s);
+         impact_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace

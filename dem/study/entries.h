@@ -3,7 +3,6 @@
 #include <string_view>
 #include <vector>
 
-#include "dem/engine/time_step.h"
 #include "dem/study/experiment_table.h"
 
 /// The rows of the table of experiments, each in a file of its own.
@@ -24,8 +23,9 @@ inline constexpr std::string_view kGrainRolling = "contact.particle_particle.rol
 /// One step of a grain that touches walls alone, on a core of 2020 or so.
 inline constexpr double kAloneStep_s = 1.5e-6;
 
-/// Time step of the model's grains on a plane that they meet this fast, s, where a step may be this
-/// fraction of 2/omega.
-double timestep_on_plane_s(const Model& model, double speed_m_s, double fraction = kImpactFraction);
+/// Time step of the model's grains on a plane that they meet this fast, s: for readings of single
+/// impacts, and for those that no single impact decides.
+double impact_timestep_s(const Model& model, double speed_m_s);
+double course_timestep_s(const Model& model, double speed_m_s);
 
 }  // namespace repose::dem

@@ -69,8 +69,14 @@ bool has_grain_contacts(Experiment experiment) {
       [](std::string_view name) { return name.starts_with("contact.particle_particle."); });
 }
 
-double timestep_on_plane_s(const Model& model, double speed_m_s, double fraction) {
-  return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, fraction).timestep_s;
+double impact_timestep_s(const Model& model, double speed_m_s) {
+  return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, kImpactFraction)
+      .timestep_s;
+}
+
+double course_timestep_s(const Model& model, double speed_m_s) {
+  return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, kCourseFraction)
+      .timestep_s;
 }
 
 }  // namespace repose::dem

@@ -33,7 +33,7 @@ double cost_s(const Model& model, const Protocol& protocol) {
   const auto& heap = std::get<HeapProtocol>(protocol);
   const double simulated_s = heap.tube_diameter_m / heap.lift_speed_m_s + kFillAndSettle_s;
   return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains_in(heap, model.grain) *
-         simulated_s / timestep_on_plane_s(model, kFallSpeed_m_s, kCourseFraction);
+         simulated_s / course_timestep_s(model, kFallSpeed_m_s);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ Range possible(const Model& model, const Protocol& protocol) {
 
 double cost_s(const Model& model, const Protocol& /*protocol*/) {
   constexpr double kSpeed_m_s = 1, kRun_s = 3;
-  return kAloneStep_s * kRun_s / timestep_on_plane_s(model, kSpeed_m_s, kCourseFraction);
+  return kAloneStep_s * kRun_s / course_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
 }
 
 double cost_s(const Model& model, const Protocol& /*protocol*/) {
-  constexpr double kSpeed_m_s = 1, kRun_s = 2;
-  return kAloneStep_s * kRun_s / timestep_on_plane_s(model, kSpeed_m_s, kCourseFraction);
+  constexpr double kSpeed_m_s = 1, kRun_s = .4;
+  return kAloneStep_s * kRun_s / course_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace

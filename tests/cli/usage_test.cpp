@@ -46,7 +46,8 @@ TEST(Usage, VersionIsOneLine) {
   const TemporaryFolder folder;
   const Finished run = run_repose(folder, {"--version"});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.out, MatchesRegex("repose [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(run.out,
+              MatchesRegex("repose [0-9]+\\.[0-9]+\\.[0-9]+(\\+([0-9]+\\.)?g[0-9a-f]+)?\n"));
 }
 
 TEST(Usage, MistypedWordsAreGuessed) {
