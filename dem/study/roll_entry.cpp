@@ -25,30 +25,31 @@ double cost_s(const Model& model, const Protocol& /*protocol*/) {
 }  // namespace
 
 ExperimentEntry roll_entry() {
-  return {.experiment = Experiment::roll,
-          .name = "roll",
-          .unit = "mm",
-          .value_name = "rolling distance",
-          .description =
-              "A grain is let go on an incline and rolls on along the flat plate. The distance is "
-              "from the foot of the incline.",
-          .readings = {{"lateral_mm", "mm"},
-                       {"stopped_on_incline", ""},
-                       {"releases", ""},
-                       {"time_s", "s"}},
-          .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
-          .sheet = {.test = "rolling",
-                    .value = "stopped_mm",
-                    .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},
-          .usual = RollProtocol{},
-          .keys = keys_of,
-          .run =
-              [](const Model& model, const Protocol& protocol, std::uint64_t seed,
-                 const ProgressReport& report, const RunRecord& record) {
-                return run_roll(model, std::get<RollProtocol>(protocol), seed, report, record);
-              },
-          .possible = possible,
-          .cost_s = cost_s};
+  return {
+      .experiment = Experiment::roll,
+      .name = "roll",
+      .unit = "mm",
+      .value_name = "rolling distance",
+      .description =
+          "A grain is laid across an incline, let go, and rolls on along the flat plate. One that "
+          "stays on the incline is let go again. The distance is from the foot of the incline.",
+      .readings = {{"lateral_mm", "mm"},
+                   {"stopped_on_incline", ""},
+                   {"releases", ""},
+                   {"time_s", "s"}},
+      .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+      .sheet = {.test = "rolling",
+                .value = "stopped_mm",
+                .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},
+      .usual = RollProtocol{},
+      .keys = keys_of,
+      .run =
+          [](const Model& model, const Protocol& protocol, std::uint64_t seed,
+             const ProgressReport& report, const RunRecord& record) {
+            return run_roll(model, std::get<RollProtocol>(protocol), seed, report, record);
+          },
+      .possible = possible,
+      .cost_s = cost_s};
 }
 
 }  // namespace repose::dem
