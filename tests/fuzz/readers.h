@@ -20,20 +20,22 @@ void read_restart(Bytes bytes);
 void read_result(Bytes bytes);
 void read_picture(Bytes bytes);
 void read_hints(Bytes bytes);
+void read_names(Bytes bytes);  ///< into the decks for other programs
 
 struct Reader {
   std::string_view name;  ///< also of its folder in the corpus
   void (*read)(Bytes bytes);
 };
 
-inline constexpr std::array<Reader, 9> kReaders = {{{"study", read_study},
-                                                    {"table", read_table},
-                                                    {"clump", read_clump},
-                                                    {"scan", read_scan},
-                                                    {"state", read_state},
-                                                    {"restart", read_restart},
-                                                    {"result", read_result},
-                                                    {"picture", read_picture},
-                                                    {"hints", read_hints}}};
+inline constexpr std::array<Reader, 10> kReaders = {{{"study", read_study},
+                                                     {"table", read_table},
+                                                     {"clump", read_clump},
+                                                     {"scan", read_scan},
+                                                     {"state", read_state},
+                                                     {"restart", read_restart},
+                                                     {"result", read_result},
+                                                     {"picture", read_picture},
+                                                     {"hints", read_hints},
+                                                     {"names", read_names}}};
 
 }  // namespace repose::fuzz
