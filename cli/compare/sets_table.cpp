@@ -32,7 +32,7 @@ std::string verdict_text(const vision::SetComparison& comparison, double margin_
   std::string text =
       fmt::format("cannot tell: the interval includes 0, but also more than {:g}°.", margin);
   if (comparison.heaps_to_tell) {
-    text += fmt::format(" If the means are the same, {} heaps in each set would show it.",
+    text += fmt::format(" If the difference stays as it is, {} heaps in each set would decide.",
                         *comparison.heaps_to_tell);
   }
   return text;

@@ -62,6 +62,12 @@ TEST(CompareSets, ManyHeapsOfOneMeanAreEquivalentAndFewCannotTell) {
   EXPECT_EQ(few.heaps_to_tell, 6);
 }
 
+TEST(CompareSets, ADifferenceNearTheMarginTakesMoreHeapsToTell) {
+  // 1 deg apart: half-width 1 is needed. t(.975; 2n - 2) 1.5 sqrt(2 / n): 1.01 for n = 18, .98
+  // for 19.
+  EXPECT_EQ(compare({21.5, 24.5, 23}, {22.5, 25.5, 24}).heaps_to_tell, 19);
+}
+
 TEST(CompareSets, MeansThatDifferByMoreThanHeapsDoAreDifferent) {
   EXPECT_EQ(compare({20, 20.5, 21}, {27, 27.5, 28}).angle->verdict, Agreement::different);
 }

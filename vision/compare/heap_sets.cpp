@@ -1,5 +1,6 @@
 #include "vision/compare/heap_sets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -69,9 +70,13 @@ double half_width(const std::array<double, 2>& sd, const std::array<int, 2>& n) 
   return base::student_t_quantile(kUpperTail, df) * std::sqrt(variance);
 }
 
-std::optional<int> heaps_to_tell(const std::array<double, 2>& sd, double margin_rad) {
+/// Of each set, until the interval about the same difference excludes 0 or lies within the margin.
+std::optional<int> heaps_to_tell(const std::array<double, 2>& sd, double difference_rad,
+                                 double margin_rad) {
+  const double distance = std::abs(difference_rad);
+  const double enough = std::max(distance, margin_rad - distance);
   for (int n = 2; n <= kMostHeaps; ++n) {
-    if (half_width(sd, {n, n}) <= margin_rad) return n;
+    if (half_width(sd, {n, n}) <= enough) return n;
   }
   return std::nullopt;
 }
@@ -85,7 +90,7 @@ void compare_angles(SetComparison& result, double margin_rad) {
   result.angle =
       angle_difference({*first.mean_rad, uncertainty}, {*second.mean_rad, 0}, margin_rad, false);
   if (result.angle->verdict == Agreement::cannot_tell) {
-    result.heaps_to_tell = heaps_to_tell(sd, margin_rad);
+    result.heaps_to_tell = heaps_to_tell(sd, result.angle->difference_rad, margin_rad);
   }
 }
 

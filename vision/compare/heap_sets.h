@@ -44,8 +44,8 @@ struct SetComparison {
   std::array<SetOfHeaps, 2> sets;
   /// Empty when a set has no angle, or both have but one.
   std::optional<AngleDifference> angle;
-  /// Where the verdict is that one cannot tell: the heaps in each set with which, if the means are
-  /// the same and heaps scatter as these do, the interval would lie within the margin.
+  /// Where the verdict is that one cannot tell: the heaps in each set that would decide it, if the
+  /// difference stays as it is and heaps scatter as these do.
   std::optional<int> heaps_to_tell;
 
   LengthUnit unit = LengthUnit::root_area;
