@@ -140,33 +140,6 @@ void check_names(const Things& things, const char* what, ErrorList& errors) {
   }
 }
 
-/// Parameters that nothing measured depends on.
-void check_dependence(const Problem& problem, ErrorList& errors) {
-  for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
-    const auto depends = [&](const Experiment& experiment) {
-      return std::find(experiment.parameters.begin(), experiment.parameters.end(), i) !=
-             experiment.parameters.end();
-    };
-    const bool seen = std::any_of(
-        problem.observables.begin(), problem.observables.end(), [&](const Observable& observable) {
-          return std::any_of(problem.experiments.begin(), problem.experiments.end(),
-                             [&](const Experiment& experiment) {
-                               return experiment.name == observable.experiment &&
-                                      depends(experiment);
-                             });
-        });
-    if (seen) continue;
-    std::string able;
-    for (const Experiment& experiment : problem.experiments) {
-      if (depends(experiment)) able += (able.empty() ? "" : " or ") + experiment.name;
-    }
-    errors.push_back(
-        fmt::format("{}: nothing that was measured depends on it. Fix: give it a value"
-                    "{}",
-                    problem.parameters[i].name, able.empty() ? "" : ", or measure " + able));
-  }
-}
-
 void check_settings(const Problem& problem, ErrorList& errors) {
   const FitSettings& settings = problem.settings;
   if (settings.max_rounds < 1) {
@@ -208,7 +181,6 @@ std::vector<std::string> errors_of(const Problem& problem) {
   for (const Observable& observable : problem.observables) {
     check_observable(problem, observable, errors);
   }
-  check_dependence(problem, errors);
   check_settings(problem, errors);
   return errors;
 }

@@ -280,6 +280,20 @@ TEST(JointFit, AnExperimentNotMadeIsAdvised) {
   EXPECT_THAT(fit.parameters[1].advice, HasSubstr("measure the drop experiment"));
 }
 
+TEST(JointFit, AParameterThatNothingMeasuredDependsOnStaysOpenAndTheOthersAreFound) {
+  Problem problem = plate(20, .9, 10);
+  const FittedParameter alone = plate_fit(problem).parameters[0];
+  problem.parameters.push_back({"bounce", .2, .9, {}});
+  const JointFit fit = plate_fit(problem);
+  EXPECT_NEAR(fit.parameters[0].value, alone.value, .001);
+  EXPECT_NEAR(fit.parameters[0].interval.low, alone.interval.low, .001);
+  EXPECT_NEAR(fit.parameters[0].interval.high, alone.interval.high, .001);
+  EXPECT_EQ(fit.parameters[1].verdict, Verdict::undetermined);
+  EXPECT_EQ(fit.parameters[1].interval.low, .2);
+  EXPECT_EQ(fit.parameters[1].interval.high, .9);
+  EXPECT_THAT(fit.parameters[1].advice, HasSubstr("not identifiable from these experiments"));
+}
+
 TEST(JointFit, FailedRunsAreCountedAndKeptAwayFrom) {
   Problem problem = fake::problem(kTruth, 3);
   problem.settings.budget_s = 700;
