@@ -11,16 +11,17 @@
 #include "cli/shape/shape_command.h"
 #include "cli/simulate/simulate_command.h"
 #include "cli/statistics/statistics_commands.h"
+#include "cli/track/track_command.h"
 #include "cli/verify/verify_command.h"
 
 namespace repose::cli {
 
 std::vector<Command> all_commands() {
-  std::vector<Command> commands = {measure_command(),   compare_command(), shape_command(),
-                                   simulate_command(),  render_command(),  new_command(),
-                                   calibrate_command(), report_command(),  export_command(),
-                                   bench_command(),     design_command(),  regress_command(),
-                                   verify_command()};
+  std::vector<Command> commands = {measure_command(), compare_command(),   track_command(),
+                                   shape_command(),   simulate_command(),  render_command(),
+                                   new_command(),     calibrate_command(), report_command(),
+                                   export_command(),  bench_command(),     design_command(),
+                                   regress_command(), verify_command()};
   const std::vector<Command> of_help = help_commands(commands);
   commands.insert(commands.end(), of_help.begin(), of_help.end());
   return commands;

@@ -10,8 +10,8 @@ namespace repose::cli {
 namespace {
 
 // Value names of files and folders contain one of them.
-constexpr std::array<std::string_view, 8> kOfFiles = {"FILE",     "FOLDER", "PICTURE", "STUDY",
-                                                      "READINGS", "SCAN",   "STATE",   "TABLE"};
+constexpr std::array<std::string_view, 9> kOfFiles = {
+    "FILE", "FOLDER", "PICTURE", "STUDY", "READINGS", "SCAN", "STATE", "TABLE", "VIDEO"};
 
 bool is_word(const std::string& part) {
   return !part.empty() && std::all_of(part.begin(), part.end(), [](unsigned char c) {

@@ -76,6 +76,54 @@ def silhouette_png(width=960, height=640, slope=0.45):
             + chunk(b"IDAT", zlib.compress(bytes(rows))) + chunk(b"IEND", b""))
 
 
+def dropped_grain_avi(restitution, width=160, height=120, frames_per_s=60, frames=60, mm_per_px=2.6):
+    """A film without compression: a dark disc before a light wall falls 200 mm and bounces."""
+    gravity, radius, held_s = 9806.65, 5.0, 0.1
+    floor = height - 14
+
+    def height_mm(t):
+        speed = math.sqrt(2 * gravity * 200)
+        t -= held_s
+        if t <= 0:
+            return 200.0
+        if t < speed / gravity:
+            return 200 - gravity * t * t / 2
+        t -= speed / gravity
+        speed *= restitution
+        while t > 2 * speed / gravity and speed > 1:
+            t -= 2 * speed / gravity
+            speed *= restitution
+        return max(0.0, speed * t - gravity * t * t / 2)
+
+    def frame(k):
+        rows = [bytearray(bytes([190, 200, 205]) * width if y < floor else bytes([70, 90, 110]) * width)
+                for y in range(height)]
+        x0, y0 = 60 + 0.2 * k, floor - radius - height_mm(k / frames_per_s) / mm_per_px
+        for y in range(max(0, int(y0 - radius) - 1), min(height, int(y0 + radius) + 2)):
+            for x in range(int(x0 - radius) - 1, int(x0 + radius) + 2):
+                cover = min(1.0, max(0.0, radius + 0.5 - math.hypot(x + 0.5 - x0, y + 0.5 - y0)))
+                for c, dark in enumerate((40, 60, 90)):
+                    rows[y][3 * x + c] = round(rows[y][3 * x + c] * (1 - cover) + dark * cover)
+        return b"".join(reversed(rows))
+
+    def chunk(kind, data):
+        return kind + struct.pack("<I", len(data)) + data
+
+    def chunks(kind, data):
+        return chunk(b"LIST", kind + data)
+
+    size = 3 * width * height
+    main = struct.pack("<14I", 1000000 // frames_per_s, size * frames_per_s, 0, 0, frames, 0, 1, size, width,
+                       height, 0, 0, 0, 0)
+    stream = b"vidsDIB " + struct.pack("<5I", 0, 0, 0, 1, frames_per_s) + struct.pack(
+        "<5I4H", 0, frames, size, 0, 0, 0, 0, width, height)
+    bitmap = struct.pack("<IiiHHIIiiII", 40, width, height, 1, 24, 0, size, 0, 0, 0, 0)
+    header = chunks(b"hdrl", chunk(b"avih", main)
+                    + chunks(b"strl", chunk(b"strh", stream) + chunk(b"strf", bitmap)))
+    film = chunks(b"movi", b"".join(chunk(b"00db", frame(k)) for k in range(frames)))
+    return chunk(b"RIFF", b"AVI " + header + film)
+
+
 # What a bench may have measured, a column each; the protocol's are those of a new study.
 BENCH = {"drop_mm": (500, 500, 500), "rebound_mm": (150, 162, 156), "angle_deg": (17.4, 18.1, 17.9),
          "incline_deg": (20, 20, 20), "released_mm": (150, 150, 150), "stopped_mm": (410, 440, 425)}
@@ -115,6 +163,8 @@ def prepare(folder, root, repose):
         (folder / name).write_text(study, encoding="utf-8")
     (folder / "nut.stl").write_text(stl_of(ellipsoid((11.2, 9.1, 8.7))), encoding="utf-8")
     (folder / "render.png").write_bytes(silhouette_png())
+    (folder / "drop_01.avi").write_bytes(dropped_grain_avi(0.6))
+    (folder / "drop_02.avi").write_bytes(dropped_grain_avi(0.5))
     (folder / "drops.csv").write_text(DROPS, encoding="utf-8")
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
     for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):

@@ -1,0 +1,62 @@
+#include "cli/track/track.h"
+
+#include <algorithm>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/output.h"
+#include "cli/common/terminal.h"
+#include "cli/track/track_batch.h"
+#include "cli/track/track_json.h"
+#include "cli/track/track_options.h"
+#include "cli/track/track_table.h"
+
+namespace repose::cli {
+namespace {
+
+void print_errors(const std::vector<TrackedFilm>& films) {
+  for (const TrackedFilm& film : films) {
+    const std::string whose = film.is_internal_error ? "internal error: " : "";
+    if (!film.error.empty()) print_line(whose + film.error);
+    if (!film.overlay_error.empty()) print_line(film.overlay_error);
+  }
+}
+
+ExitCode exit_code(const std::vector<TrackedFilm>& films) {
+  const auto any = [&](auto predicate) {
+    return std::any_of(films.begin(), films.end(), predicate);
+  };
+  if (any([](const auto& film) { return film.is_internal_error; })) return ExitCode::internal_error;
+  if (any([](const auto& film) { return !film.error.empty() || !film.overlay_error.empty(); }))
+    return ExitCode::bad_input;
+  return any([](const auto& film) { return !film.drop.bounces.empty(); })
+             ? ExitCode::done
+             : ExitCode::nothing_measurable;
+}
+
+}  // namespace
+
+ExitCode run_track(const TrackArguments& arguments) {
+  const TrackPlan plan = plan_track(arguments);
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
+  print_lines(plan.notes);
+
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
+  const std::vector<TrackedFilm> films = track_batch(plan, is_interrupted);
+  if (is_interrupted) {
+    print_line("interrupted, no results were written");
+    return ExitCode::interrupted;
+  }
+  Outputs outputs;
+  const bool any_was_read =
+      std::any_of(films.begin(), films.end(), [](const auto& film) { return film.error.empty(); });
+  if (any_was_read) outputs.show(track_table(films, columns_of(stdout), wants_colour(stdout)));
+  outputs.add(arguments.json_file, track_json(films));
+  outputs.add(arguments.csv_file, track_csv(films, plan.tells_all_bounces));
+  outputs.write_files();
+  print_errors(films);
+  outputs.write();
+  return exit_code(films);
+}
+
+}  // namespace repose::cli

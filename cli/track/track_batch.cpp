@@ -1,0 +1,99 @@
+#include "cli/track/track_batch.h"
+
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "cli/common/memory.h"
+#include "cli/common/picture_list.h"
+#include "cli/common/progress.h"
+#include "vision/drawing/drop_overlay.h"
+
+namespace repose::cli {
+namespace {
+
+/// Thrown from where progress is reported.
+struct Interrupted {};
+
+/// How far all films are.
+class FilmsProgress {
+ public:
+  explicit FilmsProgress(std::size_t films) : done_(films) {}
+
+  void report(std::size_t film, double fraction) {
+    if (!line_.is_shown()) return;
+    const std::lock_guard lock(mutex_);
+    done_[film] = fraction;
+    const double films = std::accumulate(done_.begin(), done_.end(), 0.0);
+    const double part = films / static_cast<double>(done_.size());
+    line_.report(fmt::format("tracked {:.0f} %", 100 * part), part);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<double> done_;
+  ProgressLine line_;
+};
+
+void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
+  try {
+    const std::string title = plan.videos[index].filename().string();
+    vision::write_picture(plan.overlays[index], vision::draw_drop_overlay(tracked.drop, title));
+  } catch (const std::invalid_argument& error) {
+    tracked.overlay_error = error.what();
+  }
+}
+
+TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
+                      const std::function<void(double)>& progress) {
+  TrackedFilm tracked{.file = plan.videos[index].string()};
+  try {
+    tracked.drop = vision::track_drop(
+        plan.videos[index],
+        {.scale = plan.scale, .draws_strobe = !plan.overlays.empty(), .progress = progress});
+    if (!plan.overlays.empty()) draw(plan, index, tracked);
+    tracked.drop.strobe = {};
+  } catch (const std::invalid_argument& error) {
+    tracked.error = naming_file(tracked.file, error.what());
+  } catch (const std::exception& error) {
+    tracked.is_internal_error = !is_out_of_memory(error);
+    tracked.error = tracked.is_internal_error
+                        ? naming_file(tracked.file, error.what())
+                        : no_memory(tracked.file, "a smaller film, or fewer --threads");
+  }
+  return tracked;
+}
+
+}  // namespace
+
+std::vector<TrackedFilm> track_batch(const TrackPlan& plan,
+                                     const std::atomic<bool>& is_interrupted) {
+  std::vector<TrackedFilm> results(plan.videos.size());
+  FilmsProgress progress(results.size());
+  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(plan.threads));
+  tbb::task_arena arena(plan.threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t index) {
+      const auto report = [&](double fraction) {
+        if (is_interrupted) throw Interrupted{};
+        progress.report(index, fraction);
+      };
+      try {
+        report(0);
+        results[index] = track_one(plan, index, report);
+      } catch (const Interrupted&) {
+        return;
+      }
+    });
+  });
+  return results;
+}
+
+}  // namespace repose::cli

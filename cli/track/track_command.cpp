@@ -1,0 +1,54 @@
+#include "cli/track/track_command.h"
+
+#include <memory>
+
+#include "cli/track/track.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr const char* kNotes = R"(
+VIDEO is a film of one grain from the side, by a camera that stands still: MP4,
+MOV, AVI, MKV, WebM or GIF. FILE may be - for standard output.
+
+  drop   The grain falls on a level plate and bounces. Parabolas are fitted
+         to its flights, all with one gravity, which is the ruler: the ratio
+         of the speeds at an impact needs no scale.
+
+Heights are those of a fall without air to the speed at the impact. With
+--scale they are in its millimetres, and the film's frame rate is checked
+against gravity. Without, they follow from gravity and the frame rate, and are
+wrong where a film does not play as fast as it was taken (slow motion).
+
+The table for --csv has the columns drop_mm and rebound_mm that repose bench
+restitution reads, and a film's name as sample.
+
+Uncertainties are half-widths of 95 % intervals.
+
+Examples:
+  repose track drop drop_01.mp4 --overlay drop_01.png
+  repose track drop drop_01.mp4 drop_02.mp4 --csv drops.csv
+  repose bench restitution drops.csv
+)";
+
+}  // namespace
+
+Command track_command() {
+  const auto given = std::make_shared<TrackArguments>();
+  return {
+      .name = "track",
+      .summary = "Read bench experiments off films",
+      .options = {{"experiment", "drop", "Which experiment is filmed", &given->experiment, true},
+                  {"videos", "VIDEO ...", "Films, a repeat each", &given->videos, true},
+                  {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale},
+                  {"--bounces", "first|all", "Bounces in the CSV table (first)", &given->bounces},
+                  {"--overlay", "FILE.png|FOLDER", "Draw what was tracked", &given->overlay},
+                  {"--json", "FILE|-", "All results, for programs", &given->json_file},
+                  {"--csv", "FILE|-", "A row for each bounce", &given->csv_file},
+                  {"--threads", "N", "Films at a time (all cores)", &given->threads}},
+      .notes = kNotes,
+      .missing = "an experiment and a film are needed. Fix: repose track drop VIDEO.",
+      .run = [given] { return run_track(*given); }};
+}
+
+}  // namespace repose::cli

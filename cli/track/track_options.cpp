@@ -1,0 +1,69 @@
+#include "cli/track/track_options.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/common/number.h"
+#include "cli/common/option_value.h"
+#include "cli/common/output_places.h"
+#include "cli/common/picture_list.h"
+
+namespace repose::cli {
+namespace {
+
+void read_scale(const std::string& text, TrackPlan& plan) {
+  if (text.empty()) return;
+  const auto numbers = numbers_in<double, 5>(text);
+  constexpr double kLeast_px = 10;
+  if (!numbers || !((*numbers)[4] > 0) ||
+      std::hypot((*numbers)[2] - (*numbers)[0], (*numbers)[3] - (*numbers)[1]) < kLeast_px) {
+    plan.errors.push_back(fmt::format(
+        "--scale {}: must be two points in pixels, at least {:g} apart, and their distance in mm: "
+        "X1,Y1,X2,Y2,MM. Fix: --scale 310,95,310,980,500, of a ruler in the grain's plane.",
+        text, kLeast_px));
+    return;
+  }
+  const auto& [x1, y1, x2, y2, length_mm] = *numbers;
+  plan.scale = vision::ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
+}
+
+void read_overlay(const TrackArguments& arguments, TrackPlan& plan,
+                  std::vector<OutputPlace>& places) {
+  if (arguments.overlay.empty()) return;
+  if (arguments.overlay.ends_with(".png")) {
+    places.push_back({"--overlay", arguments.overlay});
+    plan.overlays.emplace_back(arguments.overlay);
+    if (plan.videos.size() > 1) {
+      plan.errors.push_back(
+          fmt::format("--overlay {}: is one picture, and there are {} films. Fix: name a folder.",
+                      arguments.overlay, plan.videos.size()));
+    }
+    return;
+  }
+  make_output_folder("--overlay", arguments.overlay, plan.errors);
+  OverlayFiles overlays = name_overlays(plan.videos, arguments.overlay);
+  plan.overlays = std::move(overlays.files);
+  plan.notes = std::move(overlays.notes);
+}
+
+}  // namespace
+
+TrackPlan plan_track(const TrackArguments& arguments) {
+  TrackPlan plan;
+  read_word({"track", arguments.experiment, plan.errors}, {"drop"});
+  plan.videos = {arguments.videos.begin(), arguments.videos.end()};
+  read_scale(arguments.scale, plan);
+  plan.tells_all_bounces = read_choice<bool>({"--bounces", arguments.bounces, plan.errors},
+                                             {{"first", false}, {"all", true}})
+                               .value_or(false);
+  plan.threads = read_threads({"--threads", arguments.threads, plan.errors});
+  std::vector<OutputPlace> places = {{"--json", arguments.json_file},
+                                     {"--csv", arguments.csv_file}};
+  read_overlay(arguments, plan, places);
+  check_output_places(places, plan.videos, plan.errors);
+  return plan;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/track/track.h"
+#include "vision/track/track.h"
+
+namespace repose::cli {
+
+/// A `repose track` that can be carried out.
+struct TrackPlan {
+  std::vector<std::filesystem::path> videos;
+  std::vector<std::filesystem::path> overlays;  ///< one a film, or none
+  std::optional<vision::ScaleBar> scale;
+  bool tells_all_bounces = false;
+  int threads = 1;
+
+  std::vector<std::string> errors;  ///< empty: it can be carried out
+  std::vector<std::string> notes;   ///< for the user to know
+};
+
+/// Reads and checks all that was typed, also whether the output can be written. All errors at once.
+TrackPlan plan_track(const TrackArguments& arguments);
+
+}  // namespace repose::cli

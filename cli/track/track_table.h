@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/common/table.h"
+#include "cli/track/track_batch.h"
+
+namespace repose::cli {
+
+/// The films' bounces as a table, what is to be known of each film, and the mean of first bounces.
+std::string track_table(const std::vector<TrackedFilm>& films, int columns, bool has_colour);
+
+}  // namespace repose::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace repose::vision {
+
+/// The scene without what moves in it.
+struct Background {
+  cv::Mat bgr;
+  double noise = 0;  ///< standard deviation of a grey level from frame to frame
+};
+
+/// The median of frames from all over a film. Where something lay for long at the beginning or at
+/// the end (a hand, the grain at rest), whichever of the two has no edge around it.
+Background background_of(const std::vector<cv::Mat>& samples);
+
+}  // namespace repose::vision

@@ -1,0 +1,201 @@
+#include "vision/track/blobs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace repose::vision {
+namespace {
+
+constexpr int kReducedSide_px = 960;
+constexpr double kLeastDifference = 12;  ///< grey levels; films' compression leaves less
+constexpr double kSigmas = 5;
+constexpr std::size_t kMostBlobs = 24;
+constexpr int kShiftWidth_px = 240;
+
+/// Of the channel that differs most.
+cv::Mat difference_of(const cv::Mat& a, const cv::Mat& b) {
+  cv::Mat difference;
+  cv::absdiff(a, b, difference);
+  cv::Mat greatest(difference.size(), CV_8U);
+  for (int row = 0; row < difference.rows; ++row) {
+    const auto* from = difference.ptr<cv::Vec3b>(row);
+    auto* to = greatest.ptr<uchar>(row);
+    for (int k = 0; k < difference.cols; ++k) {
+      to[k] = std::max({from[k][0], from[k][1], from[k][2]});
+    }
+  }
+  return greatest;
+}
+
+cv::Mat shift_picture(const cv::Mat& frame) {
+  const double scale = std::min(1.0, kShiftWidth_px / static_cast<double>(frame.cols));
+  cv::Mat small, grey;
+  cv::resize(frame, small, {}, scale, scale, cv::INTER_AREA);
+  cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
+  grey.convertTo(grey, CV_32F);
+  cv::GaussianBlur(grey, grey, {5, 5}, 1);
+  return grey;
+}
+
+/// The difference that all but a few of a thing's pixels stay below: where nothing of the
+/// background or a shadow is mixed in.
+double full_difference(const cv::Mat& difference, const cv::Mat& mask) {
+  std::vector<uchar> values;
+  for (int row = 0; row < mask.rows; ++row) {
+    for (int k = 0; k < mask.cols; ++k) {
+      if (mask.at<uchar>(row, k) != 0) values.push_back(difference.at<uchar>(row, k));
+    }
+  }
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(93 * values.size() / 100);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Of the pixels that show nothing but the thing.
+cv::Vec3d own_colour(const cv::Mat& frame, const cv::Mat& difference, const cv::Mat& mask,
+                     double full) {
+  constexpr double kPure = .75;
+  cv::Vec3d sum(0, 0, 0);
+  double count = 0;
+  for (int row = 0; row < mask.rows; ++row) {
+    for (int k = 0; k < mask.cols; ++k) {
+      if (mask.at<uchar>(row, k) == 0 || difference.at<uchar>(row, k) < kPure * full) continue;
+      sum += cv::Vec3d(frame.at<cv::Vec3b>(row, k));
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : sum;
+}
+
+}  // namespace
+
+double cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing) {
+  const cv::Vec3d step = thing - cv::Vec3d(background);
+  const double length = step.dot(step);
+  if (length <= 0) return 0;
+  const double part = (cv::Vec3d(seen) - cv::Vec3d(background)).dot(step) / length;
+  constexpr double kNone = .3, kFull = .7;
+  return std::clamp((part - kNone) / (kFull - kNone), 0.0, 1.0);
+}
+
+BlobFinder::BlobFinder(Background background) : background_(std::move(background)) {
+  const cv::Mat& scene = background_.bgr;
+  reduction_ = std::max(
+      1, static_cast<int>(std::lround(std::max(scene.cols, scene.rows) / double{kReducedSide_px})));
+  cv::resize(scene, reduced_, scene.size() / reduction_, 0, 0, cv::INTER_AREA);
+  grey_ = shift_picture(reduced_);
+  cv::Sobel(grey_, across_, CV_32F, 1, 0, 3, 1. / 8);
+  cv::Sobel(grey_, down_, CV_32F, 0, 1, 3, 1. / 8);
+}
+
+std::vector<cv::Rect> BlobFinder::rough_places(const cv::Mat& small, cv::Mat& labels,
+                                               std::vector<int>& numbers) const {
+  cv::Mat difference = difference_of(small, reduced_);
+  cv::GaussianBlur(difference, difference, {3, 3}, 0);
+  const double least = std::max(kLeastDifference, kSigmas * background_.noise);
+  const cv::Mat mask = difference > least;
+  cv::Mat stats, centres;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centres);
+  std::vector<int> order;
+  constexpr int kLeast_px = 4;
+  for (int label = 1; label < count; ++label) {
+    if (stats.at<int>(label, cv::CC_STAT_AREA) >= kLeast_px) order.push_back(label);
+  }
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const int area_a = stats.at<int>(a, cv::CC_STAT_AREA);
+    const int area_b = stats.at<int>(b, cv::CC_STAT_AREA);
+    return area_a != area_b ? area_a > area_b : a < b;
+  });
+  if (order.size() > kMostBlobs) order.resize(kMostBlobs);
+  std::vector<cv::Rect> places;
+  for (const int label : order) {
+    places.emplace_back(
+        stats.at<int>(label, cv::CC_STAT_LEFT), stats.at<int>(label, cv::CC_STAT_TOP),
+        stats.at<int>(label, cv::CC_STAT_WIDTH), stats.at<int>(label, cv::CC_STAT_HEIGHT));
+  }
+  numbers = order;
+  return places;
+}
+
+Blob BlobFinder::refine(const cv::Mat& frame, const cv::Rect& place, const cv::Mat& mask) const {
+  const cv::Mat seen = frame(place), scene = background_.bgr(place);
+  const cv::Mat difference = difference_of(seen, scene);
+  Blob blob{.box = place};
+  blob.contrast = full_difference(difference, mask);
+  blob.colour = own_colour(seen, difference, mask, blob.contrast);
+  double x = 0, y = 0;
+  for (int row = 0; row < mask.rows; ++row) {
+    for (int k = 0; k < mask.cols; ++k) {
+      if (mask.at<uchar>(row, k) == 0) continue;
+      const double cover =
+          cover_of(seen.at<cv::Vec3b>(row, k), scene.at<cv::Vec3b>(row, k), blob.colour);
+      if (cover <= 0) continue;
+      const cv::Point at(place.x + k, place.y + row);
+      x += cover * (at.x + .5);
+      y += cover * (at.y + .5);
+      blob.area_px += cover;
+      if (at.x == 0 || at.y == 0 || at.x == frame.cols - 1 || at.y == frame.rows - 1)
+        blob.touches_edge = true;
+    }
+  }
+  if (blob.area_px > 0) blob.centre = {x / blob.area_px, y / blob.area_px};
+  return blob;
+}
+
+Look BlobFinder::look(const cv::Mat& frame) const {
+  cv::Mat small, labels;
+  cv::resize(frame, small, reduced_.size(), 0, 0, cv::INTER_AREA);
+  std::vector<int> numbers;
+  const std::vector<cv::Rect> places = rough_places(small, labels, numbers);
+  Look look{.shift = reduction_ * shift(small)};
+  std::vector<Blob>& blobs = look.blobs;
+  const cv::Rect whole({0, 0}, labels.size());
+  const cv::Mat dot = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    constexpr int kMargin_px = 2;
+    const cv::Rect rough =
+        cv::Rect(places[k].x - kMargin_px, places[k].y - kMargin_px,
+                 places[k].width + 2 * kMargin_px, places[k].height + 2 * kMargin_px) &
+        whole;
+    cv::Mat mask = labels(rough) == numbers[k], full;
+    cv::dilate(mask, mask, dot, {-1, -1}, kMargin_px);
+    cv::Rect place(rough.tl() * reduction_, rough.size() * reduction_);
+    if (rough.br().x == labels.cols) place.width = frame.cols - place.x;
+    if (rough.br().y == labels.rows) place.height = frame.rows - place.y;
+    cv::resize(mask, full, place.size(), 0, 0, cv::INTER_NEAREST);
+    Blob blob = refine(frame, place, full);
+    if (blob.area_px > 0) blobs.push_back(blob);
+  }
+  std::sort(blobs.begin(), blobs.end(),
+            [](const Blob& a, const Blob& b) { return a.centre.x < b.centre.x; });
+  return look;
+}
+
+cv::Point2d BlobFinder::shift(const cv::Mat& small) const {
+  const cv::Mat now = shift_picture(small);
+  // now = gain scene + offset - shift . gradient, where nothing stands before the scene.
+  cv::Matx44d normal = cv::Matx44d::zeros();
+  cv::Vec4d right(0, 0, 0, 0);
+  constexpr double kOtherThing = 20;
+  for (int row = 0; row < now.rows; ++row) {
+    for (int k = 0; k < now.cols; ++k) {
+      const double scene = grey_.at<float>(row, k);
+      const double difference = now.at<float>(row, k) - scene;
+      if (std::abs(difference) > kOtherThing) continue;
+      const cv::Vec4d terms(-across_.at<float>(row, k), -down_.at<float>(row, k), scene / 128, 1);
+      normal += terms * terms.t();
+      right += difference * terms;
+    }
+  }
+  constexpr double kLeastGradient = 50;  // of a scene with anything to hold on to
+  if (normal(0, 0) < kLeastGradient || normal(1, 1) < kLeastGradient) return {0, 0};
+  for (int k = 0; k < 4; ++k) normal(k, k) += 1e-6;
+  const cv::Vec4d solution = normal.solve(right, cv::DECOMP_CHOLESKY);
+  const double scale = static_cast<double>(small.cols) / now.cols;
+  return {scale * solution[0], scale * solution[1]};
+}
+
+}  // namespace repose::vision

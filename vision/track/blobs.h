@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "vision/track/background.h"
+
+namespace repose::vision {
+
+/// Something in a frame that is not the background.
+struct Blob {
+  cv::Point2d centre = {};  ///< [px], pixel centres at (.5, .5)
+  double area_px = 0;       ///< in full pixels' worth of it
+  double contrast = 0;      ///< how much it differs from the background, in grey levels
+  cv::Vec3d colour = {};
+  cv::Rect box;
+  bool touches_edge = false;  ///< of the frame: not all of it is seen
+};
+
+/// How much of a pixel a thing covers, 0 to 1: where its colour lies between the background's and
+/// the thing's own. Shadows of the background do not get far that way.
+double cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing);
+
+struct Look {
+  std::vector<Blob> blobs = {};  ///< the largest ones, from the left to the right
+  cv::Point2d shift;  ///< of the scene as a whole from where it lay in the background [px]
+};
+
+/// Finds blobs in one frame after the other: roughly in a reduced frame, their centres in the full
+/// one, weighed by how much each pixel is covered. That holds for blurred ones too, whose centre is
+/// that of the middle of the exposure, and leaves out shadows fainter than a fourth of the thing.
+class BlobFinder {
+ public:
+  explicit BlobFinder(Background background);
+
+  Look look(const cv::Mat& frame) const;
+
+  const cv::Mat& scene() const { return background_.bgr; }
+
+ private:
+  std::vector<cv::Rect> rough_places(const cv::Mat& small, cv::Mat& labels,
+                                     std::vector<int>& numbers) const;
+  cv::Point2d shift(const cv::Mat& small) const;
+  Blob refine(const cv::Mat& frame, const cv::Rect& place, const cv::Mat& mask) const;
+
+  Background background_;
+  int reduction_ = 1;
+  cv::Mat reduced_;
+  cv::Mat grey_, across_, down_;  ///< of the scene, much reduced
+};
+
+}  // namespace repose::vision

@@ -1,0 +1,182 @@
+#include "vision/track/drop_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vision/track/drop_candidate.h"
+#include "vision/track/drop_verdict.h"
+#include "vision/track/film_grains.h"
+#include "vision/track/strobe.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kGravity_mm_s2 = 9806.65;
+constexpr double kMmPerM = 1e3;
+
+FilmFacts facts_of(const FilmSurvey& survey) {
+  return {.width = survey.size.width,
+          .height = survey.size.height,
+          .frames = static_cast<int>(survey.times_s.size()),
+          .frames_per_s = survey.interval_s > 0 ? 1 / survey.interval_s : 0,
+          .length_s = survey.times_s.empty() ? 0 : survey.times_s.back(),
+          .dropped_frames = survey.dropped_frames};
+}
+
+/// Those that flew most, the best first.
+std::vector<DropCandidate> candidates_in(const FilmGrains& film) {
+  constexpr std::size_t kMost = 24;
+  std::vector<DropCandidate> candidates;
+  for (const GrainPath& path : film.paths) {
+    if (candidates.size() == kMost) break;
+    candidates.push_back(drop_candidate(path, film));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    // What is seen more clearly comes before its shadow.
+    const auto rank = [](const DropCandidate& one) {
+      return one.impacts.empty() ? 0 : one.flown() * one.path->back().blob.contrast;
+    };
+    return rank(a) > rank(b);
+  });
+  return candidates;
+}
+
+/// The straight line sideways that a flight follows: place and speed at a time.
+std::array<double, 2> sideways(const DropCandidate& grain, std::size_t k, double time_s) {
+  const auto [from, to] = grain.flights.spans[k];
+  double mean_t = 0, mean_x = 0, tt = 0, tx = 0;
+  const auto count = static_cast<double>(to - from);
+  for (std::size_t n = from; n < to; ++n) {
+    mean_t += grain.seen[n].time_s / count;
+    mean_x += grain.seen[n].x_px / count;
+  }
+  for (std::size_t n = from; n < to; ++n) {
+    const double t = grain.seen[n].time_s - mean_t;
+    tt += t * t;
+    tx += t * (grain.seen[n].x_px - mean_x);
+  }
+  const double speed = tt > 0 ? tx / tt : 0;
+  return {mean_x + speed * (time_s - mean_t), speed};
+}
+
+Point place_at(const DropCandidate& grain, std::size_t k, double time_s) {
+  const FlightCurve& curve = grain.fit->curves()[k];
+  const double y = height_at(curve, time_s, grain.fit->pull());
+  const cv::Point2d at = upright(sideways(grain, k, time_s)[0], y, grain.used_lean_rad);
+  return {at.x, at.y};
+}
+
+FlightPath path_of(const DropCandidate& grain, std::size_t k) {
+  const FlightFit& fit = *grain.fit;
+  const FlightCurve& curve = fit.curves()[k];
+  const double begin_s =
+      k > 0 && fit.has_impact_after(k - 1) ? fit.impact_time_s(k - 1) : curve.begins_s;
+  const double end_s = fit.has_impact_after(k) ? fit.impact_time_s(k) : curve.ends_s;
+  FlightPath path;
+  constexpr int kParts = 48;
+  for (int n = 0; n <= kParts; ++n) {
+    path.curve.push_back(place_at(grain, k, begin_s + (end_s - begin_s) * n / kParts));
+  }
+  const double highest_s = top_s(curve, fit.pull());
+  path.has_top = highest_s > begin_s && highest_s < end_s;
+  if (path.has_top) path.top = place_at(grain, k, highest_s);
+  return path;
+}
+
+/// Height of a fall to a speed, mm: of the scale, or of the millimetres that gravity makes.
+Estimate height_mm(const DropCandidate& grain, std::size_t k, bool is_before,
+                   const std::optional<ScaleBar>& scale) {
+  const Estimate mm = scale ? mm_per_px(*scale) : Estimate{};
+  Estimate height = grain.fit->estimate(
+      k, k + 1, [&](const FlightCurve& before, const FlightCurve& after, const Pull& pull) {
+        const double time_s = meeting_time_s(before, after, pull);
+        const double speed = speed_at(is_before ? before : after, time_s, pull);
+        return speed * speed / (2 * pull.gravity) *
+               (scale ? mm.value : kGravity_mm_s2 / pull.gravity);
+      });
+  if (scale) {
+    height.uncertainty = std::hypot(height.uncertainty, height.value * mm.uncertainty / mm.value);
+  }
+  return height;
+}
+
+Bounce bounce_after(const DropCandidate& grain, std::size_t k, const TrackOptions& options) {
+  const FlightFit& fit = *grain.fit;
+  Bounce bounce{.time_s = fit.impact_time_s(k)};
+  bounce.place = place_at(grain, k, bounce.time_s);
+  bounce.restitution = fit.estimate(
+      k, k + 1, [](const FlightCurve& before, const FlightCurve& after, const Pull& pull) {
+        const double time_s = meeting_time_s(before, after, pull);
+        return -speed_at(after, time_s, pull) / speed_at(before, time_s, pull);
+      });
+  bounce.drop_mm = height_mm(grain, k, true, options.scale);
+  bounce.rebound_mm = height_mm(grain, k, false, options.scale);
+  bounce.sightings_before = fit.curves()[k].sightings;
+  bounce.sightings_after = fit.curves()[k + 1].sightings;
+  return bounce;
+}
+
+void read_scale(const DropCandidate& grain, const TrackOptions& options, DropTrack& track) {
+  track.gravity_px_s2 = grain.fit->pull().gravity;
+  track.has_scale = options.scale.has_value();
+  track.mm_per_px = kGravity_mm_s2 / track.gravity_px_s2;
+  if (!options.scale) return;
+  const Estimate mm = mm_per_px(*options.scale);
+  track.mm_per_px = mm.value;
+  Estimate gravity =
+      grain.fit->estimate(0, 0, [&](const FlightCurve&, const FlightCurve&, const Pull& pull) {
+        return pull.gravity * mm.value / kMmPerM;
+      });
+  gravity.uncertainty = std::hypot(gravity.uncertainty, gravity.value * mm.uncertainty / mm.value);
+  track.gravity_m_s2 = gravity;
+}
+
+void read_grain(const DropCandidate& grain, const FilmGrains& film, const TrackOptions& options,
+                DropTrack& track) {
+  const FlightFit& fit = *grain.fit;
+  read_scale(grain, options, track);
+  track.lean_rad = grain.used_lean_rad;
+  track.readout_ms = kMmPerM * fit.readout_s_per_px() * film.survey.size.height;
+  track.noise_px = fit.noise_px();
+  std::vector<double> areas;
+  for (const Sighting& one : *grain.path) {
+    areas.push_back(one.blob.area_px);
+    track.places.push_back({one.time_s, {one.blob.centre.x, one.blob.centre.y}});
+  }
+  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+  std::nth_element(areas.begin(), middle, areas.end());
+  track.grain_px = 2 * std::sqrt(*middle / CV_PI);
+  for (std::size_t k = 0; k < fit.curves().size(); ++k) track.flights.push_back(path_of(grain, k));
+  for (const std::size_t k : grain.impacts) {
+    track.bounces.push_back(bounce_after(grain, k, options));
+  }
+}
+
+/// The part of the grain's path that was fitted.
+GrainPath flown_path(const DropCandidate& grain) {
+  GrainPath path;
+  const double begin_s = grain.fit->curves().front().begins_s;
+  const double end_s = grain.fit->curves().back().ends_s;
+  for (const Sighting& one : *grain.path) {
+    if (one.time_s >= begin_s && one.time_s <= end_s) path.push_back(one);
+  }
+  return path;
+}
+
+}  // namespace
+
+DropTrack track_drop(const std::filesystem::path& file, const TrackOptions& options) {
+  const FilmGrains film = grains_in_film(file, options.progress);
+  DropTrack track{.film = facts_of(film.survey)};
+  const std::vector<DropCandidate> candidates = candidates_in(film);
+  const bool has_grain = !candidates.empty() && !candidates.front().impacts.empty();
+  if (has_grain) read_grain(candidates.front(), film, options, track);
+  judge_drop(film, candidates, track);
+  if (options.draws_strobe && !film.scene.empty()) {
+    track.strobe =
+        strobe_picture(file, film.scene, has_grain ? flown_path(candidates.front()) : GrainPath{});
+  }
+  return track;
+}
+
+}  // namespace repose::vision

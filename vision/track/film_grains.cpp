@@ -1,0 +1,36 @@
+#include "vision/track/film_grains.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "vision/track/film_reader.h"
+
+namespace repose::vision {
+
+FilmGrains grains_in_film(const std::filesystem::path& file, const TrackProgress& progress) {
+  constexpr double kSurveyPart = .4;
+  const auto part = [&](double from, double length) -> TrackProgress {
+    return [=, &progress](double done) {
+      if (progress) progress(from + length * done);
+    };
+  };
+  FilmGrains grains{.survey = survey_film(file, part(0, kSurveyPart))};
+  if (grains.survey.cut || grains.survey.times_s.size() < kFewestFrames) return grains;
+  const BlobFinder finder(background_of(std::exchange(grains.survey.samples, {})));
+  const TrackProgress report = part(kSurveyPart, 1 - kSurveyPart);
+  FilmReader film(file);
+  PathFinder paths(grains.survey.interval_s);
+  const std::size_t count = grains.survey.times_s.size();
+  for (FilmFrame frame; grains.shifts.size() < count && film.next(frame);) {
+    const auto number = static_cast<int>(grains.shifts.size());
+    const Look look = finder.look(frame.bgr);
+    paths.add(number, frame.time_s, look.blobs);
+    grains.shifts.push_back(look.shift);
+    report(static_cast<double>(number + 1) / static_cast<double>(count));
+  }
+  grains.paths = std::move(paths).paths();
+  grains.scene = finder.scene();
+  return grains;
+}
+
+}  // namespace repose::vision

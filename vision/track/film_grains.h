@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "vision/track/film_survey.h"
+#include "vision/track/grain_path.h"
+
+namespace repose::vision {
+
+/// All that moved in a film.
+struct FilmGrains {
+  FilmSurvey survey;
+  cv::Mat scene = {};
+  std::vector<GrainPath> paths = {};     ///< the longest way first
+  std::vector<cv::Point2d> shifts = {};  ///< of the scene in each frame [px]
+};
+
+/// Looks through the film twice: for the scene, and for what moves before it. Scenes that change as
+/// a whole, and films of a few frames, are looked through once: they have no paths.
+/// @throws std::invalid_argument  see FilmReader.
+FilmGrains grains_in_film(const std::filesystem::path& file, const TrackProgress& progress);
+
+/// Fewer frames show no movement.
+inline constexpr int kFewestFrames = 8;
+
+}  // namespace repose::vision

@@ -1,0 +1,118 @@
+#include "vision/track/film_survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "vision/track/film_reader.h"
+
+namespace repose::vision {
+namespace {
+
+/// Keeps every frame, then every second, every fourth ... so that at most as many stay as fit.
+class Samples {
+ public:
+  void add(const cv::Mat& frame) {
+    if (most_ == 0) most_ = most_of(frame);
+    if (seen_++ % stride_ != 0) return;
+    if (kept_.size() == most_) {
+      for (std::size_t k = 0; 2 * k < kept_.size(); ++k) std::swap(kept_[k], kept_[2 * k]);
+      kept_.resize((kept_.size() + 1) / 2);
+      stride_ *= 2;
+      if ((seen_ - 1) % stride_ != 0) return;
+    }
+    kept_.push_back(frame.clone());
+  }
+  std::vector<cv::Mat> take() { return std::move(kept_); }
+
+ private:
+  static std::size_t most_of(const cv::Mat& frame) {
+    constexpr double kMemory = 160e6;
+    constexpr double kFewest = 14, kMost = 30;
+    const double bytes = static_cast<double>(frame.total() * frame.elemSize());
+    return 2 * static_cast<std::size_t>(std::clamp(kMemory / bytes, kFewest, kMost) / 2);
+  }
+
+  std::vector<cv::Mat> kept_;
+  std::size_t most_ = 0;
+  std::size_t stride_ = 1;
+  std::size_t seen_ = 0;
+};
+
+/// Whether nearly everything changed at once.
+class CutFinder {
+ public:
+  bool is_cut(const cv::Mat& frame) {
+    constexpr int kSide_px = 64;
+    constexpr double kChanged = 24;
+    constexpr double kPart = .6;
+    cv::Mat small, grey;
+    cv::resize(frame, small, {kSide_px, kSide_px}, 0, 0, cv::INTER_NEAREST);
+    cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
+    double part = 0;
+    if (!before_.empty()) {
+      cv::Mat difference;
+      cv::absdiff(grey, before_, difference);
+      part = cv::countNonZero(difference > kChanged) / static_cast<double>(difference.total());
+    }
+    before_ = grey;
+    return part > kPart;
+  }
+
+ private:
+  cv::Mat before_;
+};
+
+void read_rate(FilmSurvey& survey) {
+  const std::vector<double>& times = survey.times_s;
+  if (times.size() < 2) return;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
+  std::vector<double> sorted = steps;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  survey.interval_s = sorted[sorted.size() / 2];
+  constexpr double kGap = 1.6, kUneven = .2, kUnevenPart = .1;
+  double uneven = 0;
+  for (const double step : steps) {
+    const double ratio = step / survey.interval_s;
+    if (ratio > kGap) {
+      survey.dropped_frames += static_cast<int>(std::lround(ratio)) - 1;
+    } else if (std::abs(ratio - 1) > kUneven) {
+      uneven += 1;
+    }
+  }
+  survey.has_variable_rate = uneven > kUnevenPart * static_cast<double>(steps.size());
+}
+
+}  // namespace
+
+FilmSurvey survey_film(const std::filesystem::path& file, const TrackProgress& progress) {
+  FilmReader film(file);
+  FilmSurvey survey;
+  survey.claimed_frames = film.claimed_frames();
+  Samples samples;
+  CutFinder cuts;
+  // Of a long film it is enough to look at every fourth frame.
+  constexpr int kLooks = 60, kMostStep = 4;
+  const int step = std::clamp(film.claimed_frames() / kLooks, 1, kMostStep);
+  FilmFrame frame;
+  for (int number = 0;; ++number) {
+    const bool looks = number % step == 0;
+    if (!(looks ? film.next(frame) : film.skip(frame))) break;
+    if (looks) {
+      survey.size = frame.bgr.size();
+      if (cuts.is_cut(frame.bgr) && !survey.cut) survey.cut = number;
+      samples.add(frame.bgr);
+    }
+    survey.times_s.push_back(frame.time_s);
+    const auto done = static_cast<double>(survey.times_s.size());
+    if (progress) progress(done / std::max({1.0, done, 1.0 * survey.claimed_frames}));
+  }
+  survey.samples = samples.take();
+  read_rate(survey);
+  return survey;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,260 @@
+#include "vision/track/flight_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace repose::vision {
+namespace {
+
+constexpr int kRounds = 4;
+constexpr double kStraySigmas = 4;
+/// Between two flights with nothing but an impact between them, in frames.
+constexpr double kLongestGap = 4.5;
+/// Centres are not better than this, whatever the residuals of a few say.
+constexpr double kLeastNoise_px = .03;
+/// The slowest that grains fall at in the end, by which drag is judged beforehand.
+constexpr double kTerminal_m_s = 8;
+constexpr double kGravity_m_s2 = 9.80665;
+
+/// Unknowns are of very different size: all are made alike first.
+cv::Mat inverse_of(const cv::Mat& normal) {
+  cv::Mat size, sizes, inverse;
+  cv::sqrt(normal.diag(), size);
+  sizes = size * size.t();
+  cv::invert(normal / sizes, inverse, cv::DECOMP_SVD);
+  return inverse / sizes;
+}
+
+}  // namespace
+
+double top_s(const FlightCurve& curve, const Pull& pull) {
+  return curve.t0_s - curve.v_px_s / pull.gravity;
+}
+
+double speed_at(const FlightCurve& curve, double time_s, const Pull& pull) {
+  const double s = time_s - top_s(curve, pull);
+  return pull.gravity * s - pull.drag * s * s * std::abs(s) / 3;
+}
+
+double height_at(const FlightCurve& curve, double time_s, const Pull& pull) {
+  const double t = time_s - curve.t0_s;
+  const double s = time_s - top_s(curve, pull);
+  return curve.y0_px + t * (curve.v_px_s + .5 * pull.gravity * t) -
+         pull.drag * s * s * s * std::abs(s) / 12;
+}
+
+double meeting_time_s(const FlightCurve& before, const FlightCurve& after, const Pull& pull) {
+  double time_s = .5 * (before.ends_s + after.begins_s);
+  constexpr int kSteps = 4;  // the flights are nearly parabolas, whose difference is a line
+  for (int step = 0; step < kSteps; ++step) {
+    time_s += (height_at(after, time_s, pull) - height_at(before, time_s, pull)) /
+              (speed_at(before, time_s, pull) - speed_at(after, time_s, pull));
+  }
+  return time_s;
+}
+
+FlightFit::FlightFit(const std::vector<SeenAt>& path, const Flights& flights,
+                     double frame_interval_s, double frame_height_px)
+    : interval_s_(frame_interval_s),
+      most_readout_s_per_px_(std::min(frame_interval_s, 1. / 30) / frame_height_px),
+      pull_{.gravity = flights.gravity_px_s2} {
+  for (std::size_t k = 0; k < flights.spans.size(); ++k) {
+    const auto& [from, to] = flights.spans[k];
+    curves_.push_back({.t0_s = .5 * (path[from].time_s + path[to - 1].time_s),
+                       .begins_s = path[from].time_s,
+                       .ends_s = path[to - 1].time_s});
+    for (std::size_t n = from; n < to; ++n) observations_.push_back({path[n], k});
+  }
+  drop_loose_ends();
+  for (int round = 0; round < kRounds; ++round) {
+    solve();
+    drop_blurred();
+    drop_strays();
+  }
+  solve();
+}
+
+double FlightFit::fitted_y(const Observation& one) const {
+  return height_at(curves_[one.flight], one.seen.time_s + readout_ * one.seen.row_px, pull_);
+}
+
+/// One step of Gauss and Newton; only readout and drag make it nonlinear, and little.
+void FlightFit::solve() {
+  const auto flights = static_cast<int>(curves_.size());
+  const int unknowns = 2 * flights + 3;
+  const int gravity = unknowns - 3, drag = unknowns - 2, readout = unknowns - 1;
+  cv::Mat normal = cv::Mat::zeros(unknowns, unknowns, CV_64F);
+  cv::Mat right = cv::Mat::zeros(unknowns, 1, CV_64F);
+  for (const Observation& one : observations_) {
+    if (!one.is_used) continue;
+    const FlightCurve& curve = curves_[one.flight];
+    const double time_s = one.seen.time_s + readout_ * one.seen.row_px;
+    const double t = time_s - curve.t0_s;
+    // The first round does not know the speeds yet.
+    const double s = curve.v_px_s == 0 ? 0 : time_s - top_s(curve, pull_);
+    const int at = 2 * static_cast<int>(one.flight);
+    const std::array<std::pair<int, double>, 5> terms = {
+        {{at, 1},
+         {at + 1, t},
+         {gravity, .5 * t * t},
+         {drag, -s * s * s * std::abs(s) / 12},
+         {readout, s == 0 ? 0 : one.seen.row_px * speed_at(curve, time_s, pull_)}}};
+    const double off = one.seen.y_px - height_at(curve, time_s, pull_);
+    for (const auto& [i, a] : terms) {
+      for (const auto& [j, b] : terms) normal.at<double>(i, j) += a * b;
+      right.at<double>(i) += a * off;
+    }
+  }
+  const auto know = [&](int which, double value, double sd) {
+    const double weight = std::pow(std::max(noise_px_, kLeastNoise_px) / sd, 2);
+    normal.at<double>(which, which) += weight;
+    right.at<double>(which) -= weight * value;
+  };
+  know(readout, readout_, most_readout_s_per_px_);
+  // Air carries a grain at its terminal speed: v_t^2 = gravity^3 / drag in these units.
+  const double terminal_px_s = kTerminal_m_s * pull_.gravity / kGravity_m_s2;
+  know(drag, pull_.drag, std::pow(pull_.gravity, 3) / (terminal_px_s * terminal_px_s));
+  covariance_ = inverse_of(normal);
+  const cv::Mat step = covariance_ * right;
+  for (int k = 0; k < flights; ++k) {
+    curves_[static_cast<std::size_t>(k)].y0_px += step.at<double>(2 * k);
+    curves_[static_cast<std::size_t>(k)].v_px_s += step.at<double>(2 * k + 1);
+  }
+  pull_.gravity += step.at<double>(gravity);
+  pull_.drag += step.at<double>(drag);
+  readout_ += step.at<double>(readout);
+  read_residuals();
+}
+
+void FlightFit::read_residuals() {
+  double squares = 0, products = 0, before = 0;
+  const Observation* last = nullptr;
+  sightings_ = 0;
+  for (FlightCurve& curve : curves_) curve.sightings = 0;
+  for (const Observation& one : observations_) {
+    if (!one.is_used) continue;
+    const double off = one.seen.y_px - fitted_y(one);
+    squares += off * off;
+    if (last != nullptr && last->flight == one.flight) products += off * before;
+    before = off;
+    last = &one;
+    ++sightings_;
+    ++curves_[one.flight].sightings;
+  }
+  const auto flights = static_cast<int>(curves_.size());
+  const int freedom = std::max(1, sightings_ - 2 * flights - 1);
+  noise_px_ = std::max(kLeastNoise_px, std::sqrt(squares / freedom));
+  correlation_ = squares > 0 ? std::clamp(products / squares, 0.0, .8) : 0;
+}
+
+/// Where no other flight follows at once, the first and last sighting may be half held, or half
+/// past an impact that is not seen.
+void FlightFit::drop_loose_ends() {
+  constexpr std::size_t kEnough = 6;
+  const auto is_loose = [&](std::size_t before, std::size_t after) {
+    return after >= curves_.size() ||
+           curves_[after].begins_s - curves_[before].ends_s > kLongestGap * interval_s_;
+  };
+  for (std::size_t n = 0; n < observations_.size(); ++n) {
+    const std::size_t k = observations_[n].flight;
+    const bool is_first = n == 0 || observations_[n - 1].flight != k;
+    const bool is_last = n + 1 == observations_.size() || observations_[n + 1].flight != k;
+    const auto length = std::count_if(observations_.begin(), observations_.end(),
+                                      [&](const Observation& one) { return one.flight == k; });
+    if (length < static_cast<std::ptrdiff_t>(kEnough)) continue;
+    if (is_first && (k == 0 || is_loose(k - 1, k))) observations_[n].is_used = false;
+    if (is_last && is_loose(k, k + 1)) observations_[n].is_used = false;
+  }
+}
+
+/// Frames whose exposure may hold an impact show the grain in two flights at once.
+void FlightFit::drop_blurred() {
+  for (std::size_t k = 0; k + 1 < curves_.size(); ++k) {
+    if (!has_impact_after(k)) continue;
+    const double impact_s = impact_time_s(k);
+    for (Observation& one : observations_) {
+      if (one.flight != k && one.flight != k + 1) continue;
+      const double time_s = one.seen.time_s + readout_ * one.seen.row_px;
+      const double off_s = (one.flight == k ? 1 : -1) * (impact_s - time_s);
+      constexpr double kExposure = .6;
+      if (off_s < kExposure * interval_s_) one.is_used = false;
+    }
+  }
+}
+
+void FlightFit::drop_strays() {
+  for (Observation& one : observations_) {
+    const double off = std::abs(one.seen.y_px - fitted_y(one));
+    if (off > kStraySigmas * noise_px_) one.is_used = false;
+  }
+}
+
+bool FlightFit::has_impact_after(std::size_t k) const {
+  if (k + 1 >= curves_.size()) return false;
+  const FlightCurve& before = curves_[k];
+  const FlightCurve& after = curves_[k + 1];
+  constexpr int kFewest = 4;
+  if (before.sightings < kFewest || after.sightings < kFewest) return false;
+  const double gap_s = after.begins_s - before.ends_s;
+  constexpr double kSlack = 1.5;
+  if (gap_s > kLongestGap * interval_s_) return false;
+  const double time_s = impact_time_s(k);
+  return speed_at(before, time_s, pull_) > 0 && speed_at(after, time_s, pull_) < 0 &&
+         time_s > before.ends_s - kSlack * interval_s_ &&
+         time_s < after.begins_s + kSlack * interval_s_;
+}
+
+double FlightFit::impact_time_s(std::size_t k) const {
+  return meeting_time_s(curves_[k], curves_[k + 1], pull_);
+}
+
+/// What the noise of one sighting counts as, for 95 %: residuals that follow each other tell less.
+double FlightFit::factor() const {
+  const auto flights = static_cast<int>(curves_.size());
+  const double inflation = std::sqrt((1 + correlation_) / (1 - correlation_));
+  const double freedom =
+      std::max(2.0, (sightings_ - 2 * flights - 1) * (1 - correlation_) / (1 + correlation_));
+  const boost::math::students_t student(freedom);
+  return boost::math::quantile(student, .975) * noise_px_ * inflation;
+}
+
+Estimate FlightFit::estimate(std::size_t before, std::size_t after, const Reading& reading) const {
+  const double value = reading(curves_[before], curves_[after], pull_);
+  const int unknowns = covariance_.rows;
+  const double length_s = std::max(1e-3, curves_[before].ends_s - curves_[before].begins_s);
+  const double step_px = std::max(1e-4, noise_px_);
+  cv::Mat slopes = cv::Mat::zeros(unknowns, 1, CV_64F);
+  const auto slope = [&](double step, auto change) {
+    const auto moved = [&](double by) {
+      FlightCurve a = curves_[before], b = curves_[after];
+      Pull pull = pull_;
+      change(a, b, pull, by);
+      return reading(a, b, pull);
+    };
+    return (moved(step) - moved(-step)) / (2 * step);
+  };
+  const int a = 2 * static_cast<int>(before), b = 2 * static_cast<int>(after);
+  const double step_s = step_px / length_s;
+  using Curve = FlightCurve;
+  slopes.at<double>(a) = slope(step_px, [](Curve& x, Curve&, Pull&, double by) { x.y0_px += by; });
+  slopes.at<double>(a + 1) =
+      slope(step_s, [](Curve& x, Curve&, Pull&, double by) { x.v_px_s += by; });
+  if (after != before) {
+    slopes.at<double>(b) =
+        slope(step_px, [](Curve&, Curve& y, Pull&, double by) { y.y0_px += by; });
+    slopes.at<double>(b + 1) =
+        slope(step_s, [](Curve&, Curve& y, Pull&, double by) { y.v_px_s += by; });
+  }
+  slopes.at<double>(unknowns - 3) =
+      slope(step_s / length_s, [](Curve&, Curve&, Pull& pull, double by) { pull.gravity += by; });
+  slopes.at<double>(unknowns - 2) = slope(step_s / length_s / length_s / length_s,
+                                          [](Curve&, Curve&, Pull& p, double by) { p.drag += by; });
+  const cv::Mat variance = slopes.t() * covariance_ * slopes;
+  return {value, factor() * std::sqrt(std::max(0.0, variance.at<double>(0)))};
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "vision/track/blobs.h"
+
+namespace repose::vision {
+
+/// Where one thing was seen, in the order of time.
+struct Sighting {
+  int frame = 0;
+  double time_s = 0;
+  Blob blob;
+};
+using GrainPath = std::vector<Sighting>;
+
+/// Joins blobs of successive frames that are the same thing: near where it was expected, had it
+/// flown on, come to rest or bounced, and of like size and colour.
+class PathFinder {
+ public:
+  /// @param interval_s  between frames
+  explicit PathFinder(double interval_s) : interval_s_(interval_s) {}
+
+  void add(int frame, double time_s, const std::vector<Blob>& blobs);
+
+  /// Those that moved, the longest way first.
+  std::vector<GrainPath> paths() &&;
+
+ private:
+  /// How badly a blob fits a path; infinite: not at all.
+  double cost(const GrainPath& path, double time_s, const Blob& blob) const;
+  void forget_lost(double time_s);
+
+  double interval_s_;
+  std::vector<GrainPath> open_;
+  std::vector<GrainPath> closed_;
+};
+
+/// The length of the way along a path, without the jitter of a thing at rest [px].
+double way_px(const GrainPath& path);
+
+}  // namespace repose::vision

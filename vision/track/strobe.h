@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "vision/picture/picture.h"
+#include "vision/track/grain_path.h"
+
+namespace repose::vision {
+
+/// The scene with the grain in it at successive places of its path, about its width apart or more.
+Picture strobe_picture(const std::filesystem::path& file, const cv::Mat& scene,
+                       const GrainPath& path);
+
+}  // namespace repose::vision
