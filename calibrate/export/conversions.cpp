@@ -174,7 +174,7 @@ void add_pair(const ExportFacts& facts, ExportTarget target, Partner partner,
 std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget target) {
   std::vector<Conversion> all;
   add_pair(facts, target, Partner::wall, all);
-  if (facts.has(dem::Experiment::heap)) add_pair(facts, target, Partner::grain, all);
+  if (facts.has_grain_contacts()) add_pair(facts, target, Partner::grain, all);
   return all;
 }
 

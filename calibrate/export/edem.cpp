@@ -36,8 +36,10 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   fields.set("WALL_SHEAR", shear_modulus_pa(wall));
   fields.set("WALL_POISSON", wall.poisson_ratio);
   add_interaction("contact.particle_wall.", sanitized(wall.name), conversions, fields);
-  if (facts.has(dem::Experiment::heap)) {
+  if (facts.has_grain_contacts()) {
     add_interaction("contact.particle_particle.", "itself", conversions, fields);
+  }
+  if (facts.has(dem::Experiment::heap)) {
     fields.add_section("HEAP").set("STIFFNESS", facts.stiffness(dem::Experiment::heap));
   }
   for (const dem::Experiment experiment : facts.experiments()) {

@@ -16,6 +16,7 @@
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
+#include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
@@ -64,13 +65,15 @@ ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<Fi
   }
   base::ErrorList errors;
   for (const NamedCoefficient& named : coefficients_of(study_)) {
-    const bool is_needed =
-        named.name.starts_with("contact.particle_wall") || has(dem::Experiment::heap);
+    const bool is_needed = named.name.starts_with("contact.particle_wall") || has_grain_contacts();
     errors.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.model)),
                    fmt::format("{}: has no value in the result. Fix: give the study a value for "
                                "it, or bounds and something measured to find it by.",
                                named.name));
   }
+  errors.require(!experiments().empty(),
+                 "the study has no experiment that decks are written for. Rule: one of drop, tilt, "
+                 "roll and heap at least. Fix: add a section for one, such as [experiment.drop].");
   errors.throw_if_any();
 }
 
@@ -84,8 +87,15 @@ double ExportFacts::ball_density_kg_m3() const {
 
 std::vector<Experiment> ExportFacts::experiments() const {
   std::vector<Experiment> there;
-  for (const auto& [experiment, described] : study_.experiments) there.push_back(experiment);
+  for (const auto& [experiment, described] : study_.experiments) {
+    if (dem::entry_of(experiment).is_usual) there.push_back(experiment);
+  }
   return there;
+}
+
+bool ExportFacts::has_grain_contacts() const {
+  return std::any_of(study_.experiments.begin(), study_.experiments.end(),
+                     [](const auto& one) { return dem::has_grain_contacts(one.first); });
 }
 
 double ExportFacts::stiffness(Experiment experiment) const {

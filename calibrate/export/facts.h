@@ -31,8 +31,10 @@ class ExportFacts {
   /// With which the first sphere alone has the grain's mass.
   double ball_density_kg_m3() const;
   bool has(dem::Experiment experiment) const { return dem::has_protocol(study_, experiment); }
-  /// Of those that the study has, in the order drop, tilt, roll, heap.
+  /// Of those that the study has the ones with decks, in the order drop, tilt, roll, heap.
   std::vector<dem::Experiment> experiments() const;
+  /// Grains touch each other in one of the study's experiments, with a deck or not.
+  bool has_grain_contacts() const;
 
   /// Materials and coefficients as an experiment has them, softened as there.
   dem::ContactTable contacts(dem::Experiment experiment) const;

@@ -205,9 +205,10 @@ std::vector<NewSheet> sheets_of(const NewStudy& study) {
   std::vector<NewSheet> sheets;
   for (const dem::Experiment experiment : study.experiments) {
     const dem::ExperimentEntry& entry = dem::entry_of(experiment);
-    sheets.push_back({.experiment = experiment,
-                      .name = fmt::format("{}s.csv", entry.name),
-                      .columns = column_names(bench_test_named(entry.sheet.test))});
+    sheets.push_back(
+        {.experiment = experiment,
+         .name = fmt::format("{}{}.csv", entry.name, entry.name.ends_with('s') ? "" : "s"),
+         .columns = column_names(bench_test_named(entry.sheet.test))});
   }
   return sheets;
 }

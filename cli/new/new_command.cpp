@@ -47,7 +47,7 @@ Command new_command() {
                    .target = &given->plate,
                    .words = plate_names()},
                   {"--tube-mm", "DxH", "Inner diameter and height (by the grain)", &given->tube_mm},
-                  {"--experiments", "A,B,...", "Of drop, tilt, roll, heap (all)",
+                  {"--experiments", "A,B,...", "Of the experiments (drop,tilt,roll,heap)",
                    &given->experiments}},
       .notes = kNotes,
       .missing = "no study file is named. Fix: repose new my_study.toml.",

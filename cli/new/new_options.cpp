@@ -104,7 +104,7 @@ void read_tube(const NewArguments& arguments, NewPlan& plan) {
   }
 }
 
-/// All of them, or those typed, each once, in the order of the table.
+/// The usual ones, or those typed, each once, in the order of the table.
 void read_experiments(const NewArguments& arguments, NewPlan& plan) {
   std::vector<std::string> names;
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) names.emplace_back(entry.name);
@@ -121,7 +121,8 @@ void read_experiments(const NewArguments& arguments, NewPlan& plan) {
     read_word(one, names);
   }
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    if (typed.empty() || std::find(typed.begin(), typed.end(), entry.name) != typed.end()) {
+    const bool is_typed = std::find(typed.begin(), typed.end(), entry.name) != typed.end();
+    if (is_typed || (typed.empty() && entry.is_usual)) {
       plan.study.experiments.push_back(entry.experiment);
     }
   }

@@ -112,12 +112,12 @@ void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunW
     warnings.push_back({"not_at_rest", seed, "grains were still moving when the time was up."});
   }
   const double never_rose = reading_of(run, "never_rose", 0);
-  const auto* drop = std::get_if<dem::DropProtocol>(&plan.spec.protocol);
-  if (drop != nullptr && never_rose > 0) {
+  auto* const grains_per_run = dem::entry_of(plan.experiment).readings_per_run;
+  if (grains_per_run != nullptr && never_rose > 0) {
     warnings.push_back(
         {"never_rose", seed,
          fmt::format("{:g} of {} grains did not rise again; they count as 0 in the mean.",
-                     never_rose, drop->grains)});
+                     never_rose, grains_per_run(plan.spec.protocol))});
   }
   add_grain_warning(plan, run, warnings);
 }

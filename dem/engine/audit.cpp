@@ -54,7 +54,9 @@ void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTab
       const FacetContact facet = walls.contact(pair.wall, list.facets[at].facet, a.centre);
       const double overlap = a.radius - facet.distance;
       if (overlap <= 0) continue;
-      visit(AuditedTouch{pair.body, -1, law, -facet.normal, overlap, a.radius, a.radius,
+      const double curved = a.radius * facet.curvature;
+      visit(AuditedTouch{pair.body, -1, law, -facet.normal, overlap, a.radius / (1 + curved),
+                         a.radius / std::max(1.0, curved),
                          a.centre - facet.normal * (a.radius - overlap / 2),
                          list.wall_memories[at]});
     }

@@ -150,10 +150,11 @@ REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const La
 REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Lanes& radius,
                                 Contacts& c) {
   const Columns facet = gather([&](std::size_t k) { return load_row(*four.touching[k]->other); });
+  const Lanes curvature = each([&](std::size_t k) { return four.touching[k]->other->curvature; });
   c.touch.normal = -facet.xyz;
   c.touch.overlap = radius - facet.w;
-  c.touch.reduced_radius = radius;
-  c.smaller_radius = radius;
+  c.touch.reduced_radius = radius / (1 + radius * curvature);
+  c.smaller_radius = radius / greatest(Lanes(1), radius * curvature);
 }
 
 template <bool is_round, typename Other>

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/free_flight.h"
+#include "dem/experiment/glued_bed.h"
 #include "dem/experiment/grain_limit.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
@@ -18,18 +20,25 @@ namespace {
 /// Steps between two reports; every step is looked at, since an impact is some 48 steps long.
 constexpr int kStepsBetweenReports = 16;
 
-void check(const Model& model, const DropProtocol& protocol) {
-  base::ErrorList errors;
-  find_errors(model, errors);
-  errors.require(std::isfinite(protocol.height_m) && protocol.height_m > 0,
-                 fmt::format("drop.height_m is {:g}. Rule: above 0. Fix: the height of the drop "
+void find_errors_of(std::string_view experiment, double height_m, int grains,
+                    base::ErrorList& errors) {
+  errors.require(std::isfinite(height_m) && height_m > 0,
+                 fmt::format("{}.height_m is {:g}. Rule: above 0. Fix: the height of the drop "
                              "test, such as 0.5.",
-                             protocol.height_m));
+                             experiment, height_m));
   errors.require(
-      protocol.grains >= 1 && protocol.grains <= kMaxGrains,
-      fmt::format("drop.grains is {}. Rule: 1 to {}. Fix: 10.", protocol.grains, kMaxGrains));
-  errors.throw_if_any();
+      grains >= 1 && grains <= kMaxGrains,
+      fmt::format("{}.grains is {}. Rule: 1 to {}. Fix: 10.", experiment, grains, kMaxGrains));
 }
+
+/// What the grains fall on, and how.
+struct Dropping {
+  double height_m = 0;
+  int grains = 0;
+  std::vector<Wall> ground;
+  double top_m = 0;   ///< highest point of the ground
+  double tile_m = 0;  ///< places are random within as much; 0: all are alike
+};
 
 /// How one grain's bounce goes.
 struct Bounce {
@@ -64,31 +73,35 @@ void read_top(Bounce& bounce, const Simulation& simulation, const Grain& grain) 
 /// At the top of its first flight a grain stops rising and nothing touches it: its time comes out
 /// beforehand once it is so high that no part of it can reach the wall. One that stops while it
 /// stands on the wall is toppling, and still bouncing.
-void follow(Bounce& bounce, const Simulation& simulation, int number) {
+void follow(Bounce& bounce, const Simulation& simulation, double top_m, int number) {
   const Grain grain = simulation.grain(number);
   const double height = grain.position.z();
   bounce.lowest_m = std::min(bounce.lowest_m, height);
   const bool was_rising = bounce.is_rising;
   bounce.is_rising = grain.velocity.z() > 0;
   const bool is_out_of_reach =
-      bounce.is_rising && height > simulation.setup().kinds.front().shape.reach_m();
+      bounce.is_rising && height > top_m + simulation.setup().kinds.front().shape.reach_m();
   const bool is_at_top = was_rising && !bounce.is_rising;
   if (!is_out_of_reach && !is_at_top) return;
   if (touches_nothing(simulation, number)) read_top(bounce, simulation, grain);
 }
 
-/// The grains just above the wall, as fast as the fall made them: sqrt(2 g h) from rest, and far
+/// The grains just above the ground, as fast as the fall made them: sqrt(2 g h) from rest, and far
 /// enough from each other not to meet.
-std::vector<Bounce> drop_grains(Simulation& simulation, const DropProtocol& protocol,
-                                double speed_m_s, std::uint64_t seed) {
-  Random random(seed);
+std::vector<Bounce> drop_grains(Simulation& simulation, const Dropping& dropping, double speed_m_s,
+                                Random& random) {
   const ClumpShape& shape = simulation.setup().kinds.front().shape;
-  const double spacing = 8 * (protocol.height_m + shape.reach_m());
+  const double spacing = 8 * (dropping.height_m + shape.reach_m());
   std::vector<Bounce> bounces;
-  for (int k = 0; k < protocol.grains; ++k) {
+  for (int k = 0; k < dropping.grains; ++k) {
     Grain grain{.orientation = random.orientation(), .velocity = {0, 0, -speed_m_s}};
-    const double height = reach_towards(shape, grain.orientation, -Vector::UnitZ());
+    const double height =
+        dropping.top_m + reach_towards(shape, grain.orientation, -Vector::UnitZ());
     grain.position = {k * spacing, 0, height};
+    if (dropping.tile_m > 0) {
+      grain.position.x() += random.between(0, dropping.tile_m);
+      grain.position.y() += random.between(0, dropping.tile_m);
+    }
     simulation.add(grain);
     bounces.push_back({.first_touch_m = height, .lowest_m = height});
   }
@@ -116,15 +129,11 @@ std::map<std::string, double> readings_of(const std::vector<Bounce>& bounces) {
           {"never_rose", never_rose}};
 }
 
-}  // namespace
-
-Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report, const RunRecord& record) {
-  check(model, protocol);
-  const double speed = std::sqrt(2 * kStandardGravity_m_s2 * protocol.height_m);
-  ExperimentRun run(Simulation(model_setup(model, model.grain, {study_wall(Plane{})}, speed)),
-                    {report, record});
-  std::vector<Bounce> bounces = drop_grains(run.simulation(), protocol, speed, seed);
+Repeat dropped(const Model& model, const Dropping& dropping, Random random, std::uint64_t seed,
+               const Observers& observers) {
+  const double speed = std::sqrt(2 * kStandardGravity_m_s2 * dropping.height_m);
+  ExperimentRun run(Simulation(model_setup(model, model.grain, dropping.ground, speed)), observers);
+  std::vector<Bounce> bounces = drop_grains(run.simulation(), dropping, speed, random);
   // No flight takes longer than the fall did; a grain that has not left the wall within as long
   // again and the time to topple lies still.
   const double longest_s = 2 * speed / kStandardGravity_m_s2 +
@@ -133,17 +142,47 @@ Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t 
   for (int step = 0; !are_over && run.simulation().time_s() < longest_s; ++step) {
     run.advance(1);
     are_over = true;
-    for (int k = 0; k < protocol.grains; ++k) {
+    for (int k = 0; k < dropping.grains; ++k) {
       Bounce& bounce = bounces[static_cast<std::size_t>(k)];
-      if (!bounce.is_over) follow(bounce, run.simulation(), k);
+      if (!bounce.is_over) follow(bounce, run.simulation(), dropping.top_m, k);
       // Frames show the whole flight.
-      const double end_s = record.frame ? bounce.top_s : 0;
+      const double end_s = observers.record.frame ? bounce.top_s : 0;
       are_over = are_over && bounce.is_over && run.simulation().time_s() >= end_s;
     }
     if (step % kStepsBetweenReports == 0)
       run.report_progress(run.simulation().time_s() / longest_s);
   }
   return run.finish(mean_mm(bounces, &Bounce::rise_m), seed, readings_of(bounces));
+}
+
+}  // namespace
+
+Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report, const RunRecord& record) {
+  base::ErrorList errors;
+  find_errors(model, errors);
+  find_errors_of("drop", protocol.height_m, protocol.grains, errors);
+  errors.throw_if_any();
+  const Dropping dropping{
+      .height_m = protocol.height_m, .grains = protocol.grains, .ground = {study_wall(Plane{})}};
+  return dropped(model, dropping, Random(seed), seed, {report, record});
+}
+
+Repeat run_drop_on_grains(const Model& model, const GrainDropProtocol& protocol, std::uint64_t seed,
+                          const ProgressReport& report, const RunRecord& record) {
+  base::ErrorList errors;
+  find_errors(model, errors);
+  find_errors_of("drop_on_grains", protocol.height_m, protocol.grains, errors);
+  find_coverage_error("drop_on_grains", protocol.coverage, errors);
+  errors.throw_if_any();
+  Random random(seed);
+  const SphereBed bed = glued_bed(model.grain, protocol.coverage, random);
+  const Dropping dropping{.height_m = protocol.height_m,
+                          .grains = protocol.grains,
+                          .ground = grain_covered(study_wall(Plane{}), bed),
+                          .top_m = top_m(bed),
+                          .tile_m = bed.tile};
+  return dropped(model, dropping, random, seed, {report, record});
 }
 
 }  // namespace repose::dem

@@ -18,7 +18,7 @@
 
 namespace repose::dem {
 
-/// What all four experiments share: grain, materials, coefficients, and how to compute.
+/// What all experiments share: grain, materials, coefficients, and how to compute.
 struct Model {
   ClumpShape grain;
   Material grain_material;
@@ -106,11 +106,42 @@ struct HeapProtocol {
   bool may_be_fewer = false;
 };
 
+/// Grains bonded side by side, as in TiltProtocol, on a plate that is covered with glued grains of
+/// the same kind (glued_bed.h): nothing but grains touch.
+///
+/// They are put down at random places of a random bed, fall into its hollows, and the plate turns
+/// from level. Value: the plate's angle when they last stood still before they slid by a grain's
+/// diameter, degrees, mean of the places: shifts within a hollow do not count. It has interlocking
+/// in it, and is above the angle of friction. Readings: "first_shift_deg" (the angle at a shift of
+/// a tenth of a diameter, their mean) and "sd_deg" (scatter of the value between places). Throws
+/// NoReading for grains that hold on up to 89 degrees.
+struct GrainTiltProtocol {
+  int bonded = 3;
+  double rate_deg_s = 5;
+  int places = 10;        ///< each with grains of its own: one repeat is their mean
+  double coverage = .75;  ///< part of the plate that the glued grains hide
+};
+
+/// The same with single grains, which roll out of their hollows.
+struct GrainRollProtocol {
+  double rate_deg_s = 5;
+  int places = 10;
+  double coverage = .75;
+};
+
+/// Single grains dropped on such a plate, else as in DropProtocol: same value, same readings.
+struct GrainDropProtocol {
+  double height_m = .2;  ///< of the lowest point above the highest glued grain
+  int grains = 20;       ///< in random poses over random places, each on its own
+  double coverage = .75;
+};
+
 /// Every experiment there is, in the order in which they are listed.
-enum class Experiment { drop, tilt, roll, heap };
+enum class Experiment { drop, tilt, roll, heap, drop_on_grains, tilt_on_grains, roll_on_grains };
 
 /// How an experiment is done; its alternatives are in the order of Experiment.
-using Protocol = std::variant<DropProtocol, TiltProtocol, RollProtocol, HeapProtocol>;
+using Protocol = std::variant<DropProtocol, TiltProtocol, RollProtocol, HeapProtocol,
+                              GrainDropProtocol, GrainTiltProtocol, GrainRollProtocol>;
 
 /// One repeat of an experiment.
 struct Repeat {
@@ -165,6 +196,12 @@ Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t 
                 const ProgressReport& report = {}, const RunRecord& record = {});
 Repeat run_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
+Repeat run_drop_on_grains(const Model& model, const GrainDropProtocol& protocol, std::uint64_t seed,
+                          const ProgressReport& report = {}, const RunRecord& record = {});
+Repeat run_tilt_on_grains(const Model& model, const GrainTiltProtocol& protocol, std::uint64_t seed,
+                          const ProgressReport& report = {}, const RunRecord& record = {});
+Repeat run_roll_on_grains(const Model& model, const GrainRollProtocol& protocol, std::uint64_t seed,
+                          const ProgressReport& report = {}, const RunRecord& record = {});
 
 /// Goes on with a heap that was interrupted, to the same bytes as one that was not. `from` must be
 /// of the same bench, protocol and seed, which is not checked.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -12,11 +11,11 @@
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
+#include "dem/experiment/tilting_plate.h"
 
 namespace repose::dem {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kPlate = 0;
 constexpr double kSteepest_deg = 89;
 /// The onset comes out within .01 degrees up to here, and half a degree low at 50.
@@ -59,24 +58,6 @@ double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
     if (is_low) foot = std::max(foot, centre.x());
   }
   return std::atan2(foot, height) / kDegree;
-}
-
-/// Turned by an angle about y: what pointed along +x points down the slope.
-Quaternion slope(double angle_deg) {
-  return Quaternion(Eigen::AngleAxisd(angle_deg * kDegree, Vector::UnitY()));
-}
-
-/// The body as the plate sees it.
-struct OnPlate {
-  double down_slope_m = 0;
-  Quaternion orientation = Quaternion::Identity();
-};
-
-OnPlate on_plate(const Simulation& simulation) {
-  const Quaternion from_world = simulation.wall(kPlate).pose.orientation.conjugate();
-  const Grain body = simulation.grain(0);
-  return {.down_slope_m = (from_world * body.position).x(),
-          .orientation = from_world * body.orientation};
 }
 
 /// What is noted while the body slides.
@@ -137,7 +118,8 @@ double look_interval_s(const ClumpShape& grain, double rate_deg_s) {
 Slide slide_off(ExperimentRun& run, const ClumpShape& grain, double begin_deg, double rate_deg_s) {
   Simulation& simulation = run.simulation();
   const double begin_s = simulation.time_s();
-  const OnPlate before = on_plate(simulation);
+  const double before_m = on_plate(simulation, kPlate, 0).x();
+  const Quaternion lay = turn_on_plate(simulation, kPlate, 0);
   simulation.set_motions(kPlate,
                          {{.spin = rate_deg_s * kDegree * Vector::UnitY(), .start_s = begin_s}});
   const double least = kMinSlip * grain.reach_m();
@@ -147,14 +129,13 @@ Slide slide_off(ExperimentRun& run, const ClumpShape& grain, double begin_deg, d
   for (double slip = 0; slip <= std::max(most, kReportedSlip_m);) {
     run.advance(steps);
     const double angle = begin_deg + rate_deg_s * (simulation.time_s() - begin_s);
-    const OnPlate now = on_plate(simulation);
-    slip = now.down_slope_m - before.down_slope_m;
+    slip = on_plate(simulation, kPlate, 0).x() - before_m;
     if (slip > least && slip <= most) {
       slide.angle_deg.push_back(angle);
       slide.slip_m.push_back(slip);
     }
     if (slip > kReportedSlip_m && !slide.reported_deg) slide.reported_deg = angle;
-    if (now.orientation.angularDistance(before.orientation) > kTipped_deg * kDegree) {
+    if (turn_on_plate(simulation, kPlate, 0).angularDistance(lay) > kTipped_deg * kDegree) {
       throw NoReading(
           fmt::format("tilt: the body tipped or rolled at {:.2f} degrees instead of "
                       "sliding. Fix: bond more grains, or lower the sliding friction.",

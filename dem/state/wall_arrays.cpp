@@ -1,7 +1,10 @@
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "dem/state/setup_arrays.h"
 
@@ -23,7 +26,63 @@ const Mesh* mesh_of(const WallShape& shape) {
   return surface == nullptr ? &kNone : &surface->mesh;
 }
 
-/// `shape` counts as WallShape does.
+constexpr const char* kBeds = "wall_bed_tile_from_to_spheres";
+constexpr const char* kBedSpheres = "wall_bed_sphere";
+constexpr int kBed = 4;  ///< number of the shape
+
+/// Arrays of their own too, in files of walls with beds alone.
+void add_beds(ArrayWriter& arrays, const std::vector<Wall>& walls) {
+  std::vector<double> beds, spheres;
+  for (const Wall& wall : walls) {
+    const auto* bed = std::get_if<SphereBed>(&wall.shape);
+    if (bed == nullptr) continue;
+    const auto count = static_cast<double>(bed->spheres.size());
+    beds.insert(beds.end(), {bed->tile, bed->from_x, bed->to_x, count});
+    for (const FixedSphere& sphere : bed->spheres) {
+      append(spheres, sphere.centre);
+      spheres.push_back(sphere.radius);
+    }
+  }
+  if (beds.empty()) return;
+  arrays.numbers(kBeds, 4, std::move(beds));
+  arrays.numbers(kBedSpheres, 4, std::move(spheres));
+}
+
+/// A length above 0 and no longer than `most`.
+double take_length(NumberStream& numbers, double most) {
+  const double length = numbers.take();
+  if (length > 0 && length <= most) return length;
+  throw std::invalid_argument(
+      fmt::format("array {} holds a length of {:g} m, must be above 0 and at "
+                  "most {:g}",
+                  numbers.name(), length, most));
+}
+
+SphereBed take_bed(NumberStream& beds, NumberStream& spheres) {
+  constexpr double kWidest = 1e6;
+  SphereBed bed;
+  bed.tile = take_length(beds, kWidest);
+  bed.from_x = beds.take();
+  bed.to_x = beds.take();
+  const double count = beds.take();
+  for (double k = 0; k < count; ++k) {
+    const Vector centre = take_vector(spheres);
+    bed.spheres.push_back({.centre = centre, .radius = take_length(spheres, bed.tile / 4)});
+  }
+  return bed;
+}
+
+std::vector<SphereBed> beds_in(const ArrayReader& arrays) {
+  std::vector<SphereBed> read;
+  if (!arrays.has(kBeds)) return read;
+  NumberStream beds = arrays.numbers(kBeds, 4);
+  NumberStream spheres = arrays.numbers(kBedSpheres, 4);
+  while (!beds.is_at_end()) read.push_back(take_bed(beds, spheres));
+  check_end(spheres.is_at_end(), spheres.name());
+  return read;
+}
+
+/// `shape` counts as WallShape does; beds are set apart.
 WallShape shape_of(int shape, const Vector& size, Mesh mesh) {
   switch (shape) {
     case 0:
@@ -36,8 +95,8 @@ WallShape shape_of(int shape, const Vector& size, Mesh mesh) {
       return MeshSurface{.mesh = std::move(mesh)};
   }
 }
-static_assert(std::is_same_v<WallShape, std::variant<Plane, Box, Tube, MeshSurface>>,
-              "shape_of knows these");
+static_assert(std::is_same_v<WallShape, std::variant<Plane, Box, Tube, MeshSurface, SphereBed>>,
+              "shape_of and kBed know these");
 
 void append_motion(std::vector<double>& values, const Motion& motion) {
   append(values, motion.velocity);
@@ -78,6 +137,7 @@ void add_walls(ArrayWriter& arrays, const std::vector<Wall>& walls) {
   arrays.numbers("wall_pose", 7, std::move(poses));
   arrays.numbers("wall_motion", kMotionNumbers, std::move(motions));
   add_meshes(arrays, "wall", meshes);
+  add_beds(arrays, walls);
 }
 
 std::vector<Wall> walls_in(const ArrayReader& arrays) {
@@ -86,11 +146,17 @@ std::vector<Wall> walls_in(const ArrayReader& arrays) {
   NumberStream poses = arrays.numbers("wall_pose", 7);
   NumberStream motions = arrays.numbers("wall_motion", kMotionNumbers);
   std::vector<Mesh> meshes = meshes_in(arrays, "wall");
+  std::vector<SphereBed> beds = beds_in(arrays);
+  auto next_bed = beds.begin();
   std::vector<Wall> walls;
   for (Mesh& mesh : meshes) {
     const int shape = take_index(integers, std::variant_size_v<WallShape>);
     Wall wall;
     wall.shape = shape_of(shape, take_vector(sizes), std::move(mesh));
+    if (shape == kBed) {
+      if (next_bed == beds.end()) throw std::invalid_argument("a wall's bed of spheres is missing");
+      wall.shape = *next_bed++;
+    }
     wall.material = take_index(integers, std::numeric_limits<int>::max());
     const int count = take_index(integers, motions.left() / kMotionNumbers + 1);
     wall.is_present = take_index(integers, 2) == 1;

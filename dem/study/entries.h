@@ -12,6 +12,9 @@ ExperimentEntry drop_entry();
 ExperimentEntry tilt_entry();
 ExperimentEntry roll_entry();
 ExperimentEntry heap_entry();
+ExperimentEntry drop_on_grains_entry();
+ExperimentEntry tilt_on_grains_entry();
+ExperimentEntry roll_on_grains_entry();
 
 inline constexpr std::string_view kWallRestitution = "contact.particle_wall.restitution";
 inline constexpr std::string_view kWallSliding = "contact.particle_wall.sliding_friction";

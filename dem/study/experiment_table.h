@@ -43,6 +43,7 @@ struct ExperimentEntry {
   std::vector<std::string_view> coefficients;
   BenchSheet sheet;
   bool is_stochastic = true;  ///< false: the seed changes nothing
+  bool is_usual = true;       ///< part of a new study that names no experiments
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
   /// How many readings of a bench a run's number is the mean of; null: one.
   int (*readings_per_run)(const Protocol& protocol) = nullptr;

@@ -18,6 +18,8 @@ std::vector<VerifyCase> motion_cases();
 std::vector<VerifyCase> rolling_cases();
 /// Free rotation.
 std::vector<VerifyCase> rotation_cases();
+/// Beds of fixed spheres.
+std::vector<VerifyCase> bed_cases();
 /// Energy and momentum of collisions.
 std::vector<VerifyCase> conservation_cases();
 

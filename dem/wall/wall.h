@@ -34,7 +34,22 @@ struct MeshSurface {
   Mesh mesh;
 };
 
-using WallShape = std::variant<Plane, Box, Tube, MeshSurface>;
+struct FixedSphere {
+  Vector centre = Vector::Zero();  ///< m
+  double radius = 0;               ///< m
+};
+
+/// Spheres fixed to each other, touched from outside: a tile of them that repeats itself without
+/// end along x and y of the wall's frame, as far as `from_x` and `to_x` allow.
+struct SphereBed {
+  std::vector<FixedSphere> spheres;
+  double tile = 0;  ///< m, both ways; much wider than what touches it
+  /// Spheres whose centres lie outside are left out, m.
+  double from_x = -1e9;
+  double to_x = 1e9;
+};
+
+using WallShape = std::variant<Plane, Box, Tube, MeshSurface, SphereBed>;
 
 /// Moves at a steady rate from `start_s` to `stop_s`, and stands still before and after.
 struct Motion {

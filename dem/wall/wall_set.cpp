@@ -14,10 +14,14 @@ WallSet::WallSet(std::vector<Wall> walls)
       clearances_(walls_.size()),
       is_turned_(walls_.size()),
       is_placed_(walls_.size()),
-      meshes_(walls_.size()) {
+      meshes_(walls_.size()),
+      beds_(walls_.size()) {
   for (std::size_t k = 0; k < walls_.size(); ++k) {
     if (const auto* surface = std::get_if<MeshSurface>(&walls_[k].shape)) {
       meshes_[k] = std::make_shared<const MeshFacets>(surface->mesh);
+    }
+    if (const auto* bed = std::get_if<SphereBed>(&walls_[k].shape)) {
+      beds_[k] = std::make_shared<const BedFacets>(*bed);
     }
   }
   move_to(0);
@@ -45,6 +49,8 @@ WallSet::Clearance WallSet::clearance(std::size_t wall) const {
     clear.from = 0;
     clear.to = tube->height;
     clear.bore = tube->inner_radius;
+  } else if (beds_[wall]) {
+    clear.from = clear.to = beds_[wall]->top();
   }
   return clear;
 }
@@ -77,6 +83,10 @@ void WallSet::facets_near(int wall, const Vector& point, double distance,
     meshes_[k]->near(in_frame_of(k, point), distance, facets);
     return;
   }
+  if (beds_[k]) {
+    beds_[k]->near(in_frame_of(k, point), distance, facets);
+    return;
+  }
   facets.clear();
   if (contact(wall, 0, point).distance < distance) facets.push_back(0);
 }
@@ -86,15 +96,21 @@ FacetContact WallSet::contact(int wall, int facet, const Vector& point) const {
   const Vector own = in_frame_of(k, point);
   const Closest spot = std::visit(
       [&](const auto& shape) -> Closest {
-        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, MeshSurface>) {
+        using Shape = std::decay_t<decltype(shape)>;
+        if constexpr (std::is_same_v<Shape, MeshSurface>) {
           return meshes_[k]->closest(facet, own);
+        } else if constexpr (std::is_same_v<Shape, SphereBed>) {
+          return beds_[k]->closest(facet, own);
         } else {
           return closest(shape, own);
         }
       },
       walls_[k].shape);
-  if (!is_turned_[k]) return {.normal = spot.normal, .distance = spot.distance};
-  return {.normal = axes_[k] * spot.normal, .distance = spot.distance};
+  const double curvature = beds_[k] ? beds_[k]->curvature(facet) : 0;
+  if (!is_turned_[k]) {
+    return {.normal = spot.normal, .distance = spot.distance, .curvature = curvature};
+  }
+  return {.normal = axes_[k] * spot.normal, .distance = spot.distance, .curvature = curvature};
 }
 
 Vector WallSet::in_frame_of(std::size_t wall, const Vector& point) const {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "dem/wall/bed_facets.h"
 #include "dem/wall/mesh_facets.h"
 #include "dem/wall/wall.h"
 
@@ -12,6 +13,7 @@ namespace repose::dem {
 struct FacetContact {
   Vector normal = Vector::Zero();  ///< unit, from the wall to the point
   double distance = 0;             ///< m; without end when another facet has the contact
+  double curvature = 0;            ///< of the facet, 1/m; 0: flat
 };
 
 /// All walls of a simulation, placed for one moment.
@@ -24,7 +26,7 @@ class WallSet {
   const WallMoment& moment(int index) const { return moments_[static_cast<std::size_t>(index)]; }
   bool is_present(int index) const { return wall(index).is_present; }
 
-  /// Whether a sphere can touch it at several places, and move from one to the next.
+  /// Whether a sphere can move from one of its facets to the next and still be in touch.
   bool has_facets(int index) const { return meshes_[static_cast<std::size_t>(index)] != nullptr; }
 
   void move_to(double time_s);
@@ -74,7 +76,8 @@ class WallSet {
   std::vector<Clearance> clearances_;
   std::vector<char> is_turned_;  ///< whether the axes are others than the world's
   std::vector<char> is_placed_;  ///< for good: it has no motions
-  std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< empty for plain walls
+  std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< empty for other walls
+  std::vector<std::shared_ptr<const BedFacets>> beds_;     ///< likewise
 };
 
 }  // namespace repose::dem

@@ -237,6 +237,28 @@ void append_flat(Surface& surface, const dem::Mesh& mesh) {
   }
 }
 
+/// The spheres of a bed within half a side of a place, as many as can be drawn.
+void append_bed(Surface& surface, const dem::SphereBed& bed, const Vector& middle, double half_m) {
+  constexpr double kMostSpheres = 20000, kTolerance = .02;  // of the radius
+  const double most =
+      .5 * bed.tile * std::sqrt(kMostSpheres / static_cast<double>(bed.spheres.size()));
+  const double half = std::min(half_m, most);
+  const auto from = [&](double place, double centre) {
+    return std::ceil((place - half - centre) / bed.tile) * bed.tile + centre;
+  };
+  for (const dem::FixedSphere& sphere : bed.spheres) {
+    const double from_x = from(middle.x(), sphere.centre.x());
+    const double from_y = from(middle.y(), sphere.centre.y());
+    for (double x = from_x; x <= middle.x() + half; x += bed.tile) {
+      if (x < bed.from_x || x > bed.to_x) continue;
+      for (double y = from_y; y <= middle.y() + half; y += bed.tile) {
+        append_sphere(surface, {{.centre = {x, y, sphere.centre.z()}, .radius = sphere.radius}}, 0,
+                      kTolerance * sphere.radius);
+      }
+    }
+  }
+}
+
 /// Twice the area of all triangles.
 double area_of(const Surface& surface) {
   const auto at = [&surface](std::uint32_t corner) {
@@ -308,6 +330,8 @@ Surface wall_surface(const dem::WallShape& shape, const Vector& slab_middle, dou
     append_tube(surface, *tube, edge_m);
   } else if (const auto* mesh = std::get_if<dem::MeshSurface>(&shape)) {
     append_flat(surface, mesh->mesh);
+  } else if (const auto* bed = std::get_if<dem::SphereBed>(&shape)) {
+    append_bed(surface, *bed, slab_middle, slab_half_m);
   } else {
     constexpr double kThinness = 100;
     const double half_thickness = .5 * slab_half_m / kThinness;

@@ -70,6 +70,9 @@ TEST(Bench, ReadingsAreInTheUnitsOfTheirNames) {
   EXPECT_NEAR(value(BenchTest::sliding, {22.70}), .4183, 5e-5);
   EXPECT_NEAR(value(BenchTest::rolling, {20, 150, 322.81}), .1106, 5e-5);
   EXPECT_NEAR(value(BenchTest::density, {2.553, 40, 43}), 851, 1e-9);
+  EXPECT_NEAR(value(BenchTest::drop_on_grains, {200, 31}), 31, 1e-12);
+  EXPECT_NEAR(value(BenchTest::tilt_on_grains, {44.8}), 44.8, 1e-12);
+  EXPECT_NEAR(value(BenchTest::roll_on_grains, {39.1}), 39.1, 1e-12);
   // 1000 N on a spot of 4 mm, a tenth of the height.
   EXPECT_NEAR(value(BenchTest::young, {1000, 4, 18, 1.8}), 1000 / (4e-6 * std::numbers::pi) / .1,
               1);

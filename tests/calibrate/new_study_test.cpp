@@ -95,6 +95,15 @@ TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new/drops.csv"));
 }
 
+TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
+  const dem::Study study =
+      written(study_of(grain("pea"), {Experiment::tilt_on_grains, Experiment::roll_on_grains}));
+  EXPECT_TRUE(study.particle_particle.sliding_friction.is_sought());
+  EXPECT_FALSE(study.particle_particle.restitution.is_sought());
+  EXPECT_FALSE(study.particle_wall.sliding_friction.is_sought());
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "new/tilt_on_grains.csv"));
+}
+
 TEST_F(NewStudyTest, HasTheTubeThatWasAskedFor) {
   NewStudy asked = study_of(grain("pea"), kAll);
   asked.tube_diameter_mm = 55;

@@ -20,7 +20,8 @@ TEST(ExperimentTable, HasEachExperimentInItsPlace) {
     EXPECT_EQ(name_of(entry.experiment), entry.name);
     EXPECT_TRUE(entry.unit == "mm" || entry.unit == "deg") << entry.name;
   }
-  EXPECT_EQ(experiment_names(), "drop, tilt, roll or heap");
+  EXPECT_EQ(experiment_names(),
+            "drop, tilt, roll, heap, drop_on_grains, tilt_on_grains or roll_on_grains");
   EXPECT_THAT(error_of([] { experiment_named("spin"); }),
               HasSubstr("experiment spin: there is no such experiment. Fix: drop,"));
 }
@@ -43,6 +44,9 @@ TEST(ExperimentTable, ATiltDependsOnSlidingFrictionAlone) {
   EXPECT_FALSE(tilt.is_stochastic);
   EXPECT_FALSE(has_grain_contacts(Experiment::roll));
   EXPECT_TRUE(has_grain_contacts(Experiment::heap));
+  EXPECT_TRUE(has_grain_contacts(Experiment::roll_on_grains));
+  EXPECT_FALSE(
+      depends_on(entry_of(Experiment::roll_on_grains), "contact.particle_wall.rolling_friction"));
 }
 
 TEST(ExperimentTable, CostsGrowWithStiffnessAndGrains) {

@@ -15,13 +15,10 @@ inline SimulationSetup packing_setup(RollingModel rolling = RollingModel::elasti
       scene_of(block_shape({.010, .007, .005}, .004), soft, soft,
                {.restitution = .3, .sliding_friction = .5, .rolling_friction = .05}, rolling);
   setup.kinds.push_back({.shape = block_shape({.006, .005, .004}, .003), .material = 0});
-  Wall plate;
-  plate.shape = Box{.half_size = {.1, .1, .01}};
-  plate.material = 1;
-  plate.pose.position.z() = -.01;
-  Wall tube;
-  tube.shape = Tube{.inner_radius = .03, .thickness = .003, .height = .2};
-  tube.material = 1;
+  const Wall plate{
+      .shape = Box{.half_size = {.1, .1, .01}}, .material = 1, .pose = {.position = {0, 0, -.01}}};
+  const Wall tube{.shape = Tube{.inner_radius = .03, .thickness = .003, .height = .2},
+                  .material = 1};
   setup.walls = {plate, tube};
   setup.gravity = {0, 0, -kStandardGravity_m_s2};
   setup.timestep_s = 2e-5;

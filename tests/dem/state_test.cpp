@@ -135,6 +135,28 @@ TEST_F(StateFile, WallsGoOnAsTheyWereToldTo) {
   EXPECT_GT(resumed.wall(2).pose.position.z(), .003);
 }
 
+TEST_F(StateFile, BedsOfSpheresComeBackAndGoOn) {
+  Wall bed = steel(SphereBed{
+      .spheres = {{{0, 0, -.003}, .004}, {{.02, .01, -.003}, .003}}, .tile = .05, .from_x = -.4});
+  SimulationSetup setup{.kinds = {{sphere_shape(.004), 0}},
+                        .walls = {steel(Plane{}), bed},
+                        .contacts = contacts(),
+                        .timestep_s = 2e-5};
+  Simulation whole(setup);
+  whole.add({.position = {.05, .001, .0049}, .spin = {0, 3, 0}});
+  whole.advance(10);
+  ASSERT_FALSE(whole.contacts().empty());
+  write_state(file(), whole, "{}");
+  const SavedState state = read_state(file());
+  Simulation resumed(state.setup, state.checkpoint);
+  whole.advance(1000);
+  resumed.advance(1000);
+  EXPECT_EQ(bits(resumed), bits(whole));
+  const auto& read = std::get<SphereBed>(state.setup.walls.at(1).shape);
+  EXPECT_EQ(read.from_x, -.4);
+  EXPECT_EQ(read.spheres.at(1).centre, Vector(.02, .01, -.003));
+}
+
 TEST_F(StateFile, ThreadsDoNotShowInIt) {
   Simulation one = heap(1), two = heap(2);
   one.advance(2000);
@@ -297,6 +319,24 @@ TEST_F(StateFile, NumbersBeyondAllBoundsAreRefused) {
               HasSubstr("array timestep holds what is no finite number"));
   EXPECT_THAT(error(with_numbers(whole, "gravity", base64_of({0, 0, -1e200}))),
               HasSubstr("array gravity holds a number beyond 1e+12"));
+}
+
+TEST_F(StateFile, BedsThatCannotBeAreRefused) {
+  Simulation simulation({.kinds = {{peanut(), 0}},
+                         .walls = {steel(SphereBed{.spheres = {{{0, 0, 0}, .004}}, .tile = .05})},
+                         .contacts = contacts(),
+                         .timestep_s = 2e-5});
+  simulation.add({});
+  const std::string whole = without_fingerprint(state_text(simulation, "{}"));
+  EXPECT_THAT(error(replaced(whole, "\"wall_bed_sphere\"", "\"wall_bed_spoon!\"")),
+              HasSubstr("array wall_bed_sphere is missing"));
+  const auto with_bed = [&](const std::vector<double>& bed) {
+    return error(with_numbers(whole, "wall_bed_tile_from_to_spheres", base64_of(bed)));
+  };
+  EXPECT_THAT(with_bed({-.05, -1, 1, 1}), HasSubstr("holds a length of -0.05 m"));
+  EXPECT_THAT(with_bed({.01, -1, 1, 1}), HasSubstr("holds a length of 0.004 m"));
+  EXPECT_THAT(with_bed({.05, -1, 1, 9}), HasSubstr("ends after 4 values, too soon"));
+  EXPECT_THAT(with_bed({.05, -1, 1, 0}), HasSubstr("more values than belong to it"));
 }
 
 TEST_F(StateFile, NoEditedByteCrashesTheReader) {

@@ -12,7 +12,7 @@ import tempfile
 
 import documents
 
-SECTION = re.compile(r"^###? `?([a-z.]+)`?$")
+SECTION = re.compile(r"^###? `?([a-z._]+)`?$")
 ROW = re.compile(r"^\| `(\w+)` \|(.*)\|$")
 NUMBER = re.compile(r"(?<![\w.])-?\d[\d,]*(?:\.\d+)?(?:e\d+)?")
 WRONG = "-1e30"
@@ -61,7 +61,8 @@ def rules_of(keys, folder, repose):
 
 def defaults_of(folder, repose):
     """Of the experiments' keys, as a new study has them."""
-    subprocess.run([repose, "new", "ranges.toml", "--experiments", "drop,tilt,roll"], cwd=folder, check=True,
+    subprocess.run([repose, "new", "ranges.toml", "--experiments",
+                    "drop,tilt,roll,drop_on_grains,tilt_on_grains,roll_on_grains"], cwd=folder, check=True,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     section, defaults = "", {}
     for line in (folder / "ranges.toml").read_text(encoding="utf-8").splitlines():

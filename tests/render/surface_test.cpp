@@ -50,6 +50,17 @@ TEST(Surface, FewerTrianglesKeepTheSilhouettesArea) {
   }
 }
 
+TEST(Surface, ABedIsDrawnAsFarAsTheSlabReachesAndNoFarther) {
+  const dem::SphereBed bed{.spheres = {{{.01, .02, 0}, .003}}, .tile = .05};
+  const auto triangles = [&](double half_m) {
+    return wall_surface(bed, {.01, .02, 0}, half_m, 1e9).triangles();
+  };
+  const std::size_t one = triangles(.04);
+  EXPECT_GT(one, 20U);
+  EXPECT_EQ(triangles(.06), 9 * one);
+  EXPECT_LT(triangles(1e6), 30000 * one) << "a board without end has a limit";
+}
+
 TEST(Surface, NoToleranceLeavesAGrainWithoutTriangles) {
   EXPECT_GT(grain_surface(nut().surface, 1).triangles(), 0U);
   EXPECT_GT(sphere_surface({{.centre = Vector::Zero(), .radius = 1e-3}}, 1).triangles(), 0U);

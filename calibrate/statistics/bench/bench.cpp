@@ -30,6 +30,12 @@ Method method_of(BenchTest test) {
       return poisson_method();
     case BenchTest::size:
       return size_method();
+    case BenchTest::drop_on_grains:
+      return drop_on_grains_method();
+    case BenchTest::tilt_on_grains:
+      return tilt_on_grains_method();
+    case BenchTest::roll_on_grains:
+      return roll_on_grains_method();
     case BenchTest::heap:
       break;
   }

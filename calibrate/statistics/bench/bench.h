@@ -13,11 +13,24 @@
 /// Bench tests: raw readings in, the quantity with its scatter and interval out.
 namespace repose::calibrate {
 
-enum class BenchTest { restitution, sliding, rolling, density, young, poisson, size, heap };
+enum class BenchTest {
+  restitution,
+  sliding,
+  rolling,
+  density,
+  young,
+  poisson,
+  size,
+  heap,
+  drop_on_grains,
+  tilt_on_grains,
+  roll_on_grains
+};
 
 /// All of them, in the order of the enum.
-inline constexpr std::array<std::string_view, 8> kBenchTestNames = {
-    "restitution", "sliding", "rolling", "density", "young", "poisson", "size", "heap"};
+inline constexpr std::array<std::string_view, 11> kBenchTestNames = {
+    "restitution", "sliding", "rolling",        "density",        "young",         "poisson",
+    "size",        "heap",    "drop_on_grains", "tilt_on_grains", "roll_on_grains"};
 
 /// Something that is read off in a test. A reading must lie between `above` and `below`.
 struct ReadingColumn {

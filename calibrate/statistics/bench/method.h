@@ -42,5 +42,8 @@ Method young_method();
 Method poisson_method();
 Method size_method();
 Method heap_method();
+Method drop_on_grains_method();
+Method tilt_on_grains_method();
+Method roll_on_grains_method();
 
 }  // namespace repose::calibrate

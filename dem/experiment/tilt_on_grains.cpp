@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dem/experiment/bonded.h"
+#include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_run.h"
+#include "dem/experiment/glued_bed.h"
+#include "dem/experiment/grain_limit.h"
+#include "dem/experiment/model_setup.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/rest_test.h"
+#include "dem/experiment/tilting_plate.h"
+
+namespace repose::dem {
+namespace {
+
+constexpr int kBoard = 0;
+constexpr int kBed = 1;
+constexpr double kSteepest_deg = 89;
+constexpr double kFastest_deg_s = 10;
+constexpr int kMostBonded = 10;
+constexpr double kLongestSettling_s = 5;
+/// Shifts down the slope, in diameters of a grain: a body moves, and has set off for good.
+constexpr double kShift = .1;
+constexpr double kSetOff = 1;
+/// Slower than this, as a fraction of sqrt(g d), a body stands still.
+constexpr double kStill = .01;
+/// From body to body across the slope, in lengths of a body: they never meet.
+constexpr double kLane = 20;
+
+/// What both experiments are: a tilt of bodies, a roll of single grains.
+struct Tilting {
+  std::string_view name;
+  int bonded = 1;
+  double rate_deg_s = 0;
+  int places = 1;
+  double coverage = 0;
+};
+
+void check(const Model& model, const Tilting& tilting) {
+  base::ErrorList errors;
+  find_errors(model, errors);
+  find_coverage_error(tilting.name, tilting.coverage, errors);
+  errors.require(tilting.bonded >= 1 && tilting.bonded <= kMostBonded,
+                 fmt::format("{}.bonded is {}. Rule: 1 to {}. Fix: 3.", tilting.name,
+                             tilting.bonded, kMostBonded));
+  errors.require(tilting.places >= 1 && tilting.places <= kMaxGrains,
+                 fmt::format("{}.places is {}. Rule: 1 to {}. Fix: 10.", tilting.name,
+                             tilting.places, kMaxGrains));
+  errors.require(tilting.rate_deg_s > 0 && tilting.rate_deg_s <= kFastest_deg_s,
+                 fmt::format("{}.rate_deg_s is {:g}. Rule: above 0, at most {:g}: faster, the "
+                             "plate's own motion throws the grains. Fix: the rate of the bench, "
+                             "such as 5.",
+                             tilting.name, tilting.rate_deg_s, kFastest_deg_s));
+  errors.throw_if_any();
+}
+
+/// How one body leaves its place.
+struct Leaving {
+  double begin_m = 0;    ///< its place down the slope
+  double shift_m = 0;    ///< from there
+  double still_deg = 0;  ///< the plate's angle when it last stood still
+  std::optional<double> first_shift_deg;
+  bool is_over = false;
+};
+
+class TiltRun {
+ public:
+  TiltRun(const Model& model, const Tilting& tilting, std::uint64_t seed,
+          const Observers& observers)
+      : tilting_(tilting),
+        diameter_m_(diameter_m(model.grain)),
+        run_(put_down(model, tilting, seed, observers)),
+        bodies_(static_cast<std::size_t>(tilting.places)) {}
+
+  Repeat result(std::uint64_t seed) {
+    settle();
+    tilt();
+    double mean = 0, first = 0, squares = 0;
+    const auto count = static_cast<double>(bodies_.size());
+    for (const Leaving& body : bodies_) {
+      mean += body.still_deg / count;
+      first += body.first_shift_deg.value_or(0) / count;
+    }
+    for (const Leaving& body : bodies_) squares += std::pow(body.still_deg - mean, 2);
+    return run_.finish(
+        mean, seed,
+        {{"first_shift_deg", first}, {"sd_deg", std::sqrt(squares / std::max(1.0, count - 1))}});
+  }
+
+ private:
+  /// Each body over a random place of the bed, in a lane of its own.
+  static ExperimentRun put_down(const Model& model, const Tilting& tilting, std::uint64_t seed,
+                                const Observers& observers) {
+    Random random(seed);
+    const ClumpShape body = bonded_shape(model.grain, tilting.bonded);
+    const SphereBed bed = glued_bed(model.grain, tilting.coverage, random);
+    // Rolling out of one hollow and into the next.
+    const double speed = std::sqrt(2 * kStandardGravity_m_s2 * diameter_m(model.grain));
+    ExperimentRun run(Simulation(model_setup(model, body, grain_covered(study_wall(Plane{}), bed),
+                                             speed, kCourseFraction)),
+                      observers);
+    const Quaternion lying = lying_pose(model.grain);
+    const double height = top_m(bed) + reach_towards(body, lying, -Vector::UnitZ());
+    for (int k = 0; k < tilting.places; ++k) {
+      const double down = random.between(0, bed.tile);
+      const double across = random.between(0, bed.tile) + kLane * body.reach_m() * k;
+      run.simulation().add({.position = {down, across, height}, .orientation = lying});
+    }
+    return run;
+  }
+
+  /// Waits until all bodies have fallen into the bed's hollows and lie still on the level plate.
+  void settle() {
+    RestTest rest(run_.simulation().setup());
+    const std::int64_t steps = run_.steps_of(rest.interval_s());
+    while (!rest.is_at_rest(run_.simulation())) {
+      if (run_.simulation().time_s() > kLongestSettling_s) {
+        throw NoReading(fmt::format(
+            "{}: the grains do not come to rest on the level plate in {:g} s. Fix: a rolling "
+            "friction above 0.",
+            tilting_.name, kLongestSettling_s));
+      }
+      run_.advance(steps);
+    }
+  }
+
+  /// Turns the plate until all bodies have left their places for good.
+  void tilt() {
+    Simulation& simulation = run_.simulation();
+    const double begin_s = simulation.time_s();
+    for (int k = 0; k < tilting_.places; ++k) at(k).begin_m = on_plate(simulation, kBoard, k).x();
+    for (const int wall : {kBoard, kBed}) {
+      simulation.set_motions(
+          wall, {{.spin = tilting_.rate_deg_s * kDegree * Vector::UnitY(), .start_s = begin_s}});
+    }
+    // A body that starts from rest on a slope takes some ten looks for a tenth of its diameter.
+    const std::int64_t steps = run_.steps_of(.01 * std::sqrt(diameter_m_ / kStandardGravity_m_s2));
+    for (bool are_over = false; !are_over;) {
+      run_.advance(steps);
+      const double angle = tilting_.rate_deg_s * (simulation.time_s() - begin_s);
+      are_over = true;
+      for (int k = 0; k < tilting_.places; ++k) are_over = look_at(k, angle, steps) && are_over;
+      if (angle > kSteepest_deg && !are_over) {
+        throw NoReading(
+            fmt::format("{}: grains hold on up to {:g} degrees. Fix: fewer bonded "
+                        "grains, or less friction.",
+                        tilting_.name, kSteepest_deg));
+      }
+      run_.report_progress(angle / kSteepest_deg);
+    }
+  }
+
+  /// @return whether the body has left; it is taken away then, but for the last one, to look at
+  bool look_at(int number, double angle_deg, std::int64_t steps) {
+    Leaving& body = at(number);
+    if (body.is_over) return true;
+    const Simulation& simulation = run_.simulation();
+    const double look_s = static_cast<double>(steps) * simulation.setup().timestep_s;
+    const double still_m = kStill * std::sqrt(kStandardGravity_m_s2 * diameter_m_) * look_s;
+    const double shift = on_plate(simulation, kBoard, number).x() - body.begin_m;
+    if (shift - body.shift_m < still_m) body.still_deg = angle_deg;
+    body.shift_m = shift;
+    if (shift > kShift * diameter_m_ && !body.first_shift_deg) body.first_shift_deg = angle_deg;
+    body.is_over = shift > kSetOff * diameter_m_;
+    if (body.is_over && --left_ > 0) run_.simulation().remove(number);
+    return body.is_over;
+  }
+
+  Leaving& at(int body) { return bodies_[static_cast<std::size_t>(body)]; }
+
+  Tilting tilting_;
+  double diameter_m_;
+  ExperimentRun run_;
+  std::vector<Leaving> bodies_;
+  int left_ = tilting_.places;
+};
+
+}  // namespace
+
+Repeat run_tilt_on_grains(const Model& model, const GrainTiltProtocol& protocol, std::uint64_t seed,
+                          const ProgressReport& report, const RunRecord& record) {
+  const Tilting tilting{.name = "tilt_on_grains",
+                        .bonded = protocol.bonded,
+                        .rate_deg_s = protocol.rate_deg_s,
+                        .places = protocol.places,
+                        .coverage = protocol.coverage};
+  check(model, tilting);
+  return TiltRun(model, tilting, seed, {report, record}).result(seed);
+}
+
+Repeat run_roll_on_grains(const Model& model, const GrainRollProtocol& protocol, std::uint64_t seed,
+                          const ProgressReport& report, const RunRecord& record) {
+  const Tilting tilting{.name = "roll_on_grains",
+                        .rate_deg_s = protocol.rate_deg_s,
+                        .places = protocol.places,
+                        .coverage = protocol.coverage};
+  check(model, tilting);
+  return TiltRun(model, tilting, seed, {report, record}).result(seed);
+}
+
+}  // namespace repose::dem
