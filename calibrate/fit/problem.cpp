@@ -160,10 +160,10 @@ void check_dependence(const Problem& problem, ErrorList& errors) {
     for (const Experiment& experiment : problem.experiments) {
       if (depends(experiment)) able += (able.empty() ? "" : " or ") + experiment.name;
     }
-    errors.push_back(
-        fmt::format("{}: nothing that was measured depends on it. Fix: give it a value"
-                    "{}",
-                    problem.parameters[i].name, able.empty() ? "" : ", or measure " + able));
+    errors.push_back(fmt::format(
+        "{}: no measured experiment depends on it. Fix: give it a number instead of bounds"
+        "{}",
+        problem.parameters[i].name, able.empty() ? "" : ", or measure " + able));
   }
 }
 

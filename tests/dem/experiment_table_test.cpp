@@ -22,7 +22,7 @@ TEST(ExperimentTable, HasEachExperimentInItsPlace) {
   }
   EXPECT_EQ(experiment_names(), "drop, tilt, roll or heap");
   EXPECT_THAT(error_of([] { experiment_named("spin"); }),
-              HasSubstr("experiment spin: there is no such experiment. Fix: drop,"));
+              HasSubstr("experiment spin: unknown experiment. Fix: drop,"));
 }
 
 TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {
