@@ -161,7 +161,7 @@ TEST_F(Folders, AStudyThatWasChangedAndInterruptedHasNoResult) {
   folder_.write("d/result.json", first);
   const Finished mixed = run({"export", "d", "--to", "yade"});
   EXPECT_EQ(mixed.exit_code, 2);
-  EXPECT_THAT(mixed.err, HasSubstr("result.json is not of the study in study.json"));
+  EXPECT_THAT(mixed.err, HasSubstr("result.json does not belong to the study in study.json"));
   EXPECT_FALSE(exists("d/export"));
 }
 
