@@ -73,7 +73,7 @@ Command bench_command() {
       .options = {{"test", "TEST", "Bench test", &given->test, true},
                   {"readings", "READINGS.csv ...", "Tables of readings", &given->files},
                   {"--set", "NAME=VALUE,...", "One or more readings; repeatable", &given->settings},
-                  {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kBenchNotes,
       .missing = "no test given. Fix: repose bench sliding READINGS.csv; see repose bench --help.",
       .run = [given] { return run_bench(*given); }};
@@ -119,7 +119,7 @@ Command regress_command() {
                    &given->codings},
                   {"--target", "VALUE[±U]", "Find where the response has this value",
                    &given->target},
-                  {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kRegressNotes,
       .missing =
           "a table and its response are needed. Fix: repose regress TABLE.csv --response COLUMN.",

@@ -93,7 +93,7 @@ TEST_F(StudyReport, BeginsWithTheAnswer) {
   EXPECT_LT(page.find("id=\"answer\""), page.find("id=\"heaps\""));
   EXPECT_THAT(page, HasSubstr("Sliding friction, particle–wall: tilt a plate"));
   EXPECT_EQ(table_in(study_report(result_), "coefficients.csv"),
-            "coefficient,value,from,to,lower bound,upper bound,verdict\n"
+            "coefficient,value,95 % from,95 % to,lower bound,upper bound,verdict\n"
             "\"restitution, particle–wall\",0.4,0.35,0.45,0.1,0.9,determined\n"
             "\"sliding friction, particle–wall\",0.3,0.1,0.8,0.1,0.8,undetermined\n");
 }
