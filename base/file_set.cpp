@@ -66,7 +66,7 @@ void check_nothing_is_lost(const fs::path& folder, const std::vector<NamedText>&
   }
   if (lost.empty()) return;
   throw std::invalid_argument(
-      fmt::format("{}: these files are not as repose wrote them, and would be lost: {}. Fix: "
+      fmt::format("{}: these files are not as written by repose, and would be lost: {}. Fix: "
                   "choose another folder, or move them away.",
                   folder.string(), fmt::join(lost, ", ")));
 }
@@ -78,7 +78,7 @@ void check_file_set(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (std::error_code ignored; error || !fs::is_directory(folder, ignored)) {
     throw std::invalid_argument(
-        fmt::format("{}: the folder cannot be made ({}). Fix: choose a place you may write to.",
+        fmt::format("{}: the folder cannot be created ({}). Fix: choose a writable place.",
                     folder.string(), error ? error.message() : "there is a file of that name"));
   }
   check_can_write(folder / kList);

@@ -35,7 +35,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesyste
     : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAsUsual)) {
   if (descriptor_ < 0) {
     throw std::invalid_argument(
-        fmt::format("{}: cannot be written ({}). Fix: choose a folder you may write to, or free "
+        fmt::format("{}: cannot be written ({}). Fix: choose a writable folder, or free "
                     "some space there.",
                     file.string(), std::generic_category().message(errno)));
   }
@@ -45,7 +45,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesyste
   const std::string owner = owner_of(descriptor_);
   ::close(descriptor_);
   throw std::invalid_argument(
-      fmt::format("{}: {} works in it at this moment. Fix: wait until it has ended, or choose "
+      fmt::format("{}: {} is using it. Fix: wait until it has finished, or choose "
                   "another folder.",
                   folder.string(), owner));
 }

@@ -32,15 +32,15 @@ bool is_device(const fs::path& file) {
 void check_place(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) {
-    refuse(file, "is a folder, no file can have this name", "name a file inside it.");
+    refuse(file, "is a folder, so no file can have this name", "name a file inside it.");
   }
   if (!fs::is_directory(folder_of(file), ignored)) {
     refuse(file, fmt::format("there is no folder {}", folder_of(file).string()),
            "create the folder or correct the name.");
   }
   if (fs::exists(file, ignored) && ::access(file.c_str(), W_OK) != 0) {
-    refuse(file, "is there already and must not be written to",
-           "choose another name, or allow yourself to write it.");
+    refuse(file, "exists and is write-protected",
+           "choose another name, or get permission to write it.");
   }
 }
 
@@ -60,7 +60,7 @@ std::error_code write_to_device(const fs::path& file, std::span<const std::byte>
 
 [[noreturn]] void refuse_writing(const fs::path& file, const std::error_code& error) {
   refuse(file, fmt::format("cannot be written ({})", error.message()),
-         "choose a folder you may write to, or free some space there.");
+         "choose a writable folder, or free some space there.");
 }
 
 }  // namespace

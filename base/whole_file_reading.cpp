@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_unreadable(const fs::path& file, int error) {
   refuse(file, fmt::format("cannot be read ({})", std::generic_category().message(error)),
-         "correct the name, or who may read it.");
+         "correct the name, or get permission to read it.");
 }
 
 [[noreturn]] void refuse_large(const fs::path& file, std::uintmax_t bytes, std::uintmax_t largest) {
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
       file,
       fmt::format("has {:.1f} MiB. Rule: at most {:.0f} MiB",
                   static_cast<double>(bytes) / kMebibyte, static_cast<double>(largest) / kMebibyte),
-      "name the right file, or make it smaller.");
+      "give the right file, or make it smaller.");
 }
 
 /// A file opened for reading.
@@ -65,7 +65,7 @@ std::uintmax_t checked_size(const fs::path& file, const struct stat& status,
                             std::uintmax_t largest) {
   if (S_ISDIR(status.st_mode)) refuse(file, "is a folder", "name a file inside it.");
   if (!S_ISREG(status.st_mode)) {
-    refuse(file, kind_of(status.st_mode), "save what comes out of it to a file, and name that.");
+    refuse(file, kind_of(status.st_mode), "save its output to a file, and give that.");
   }
   const auto size = static_cast<std::uintmax_t>(status.st_size);
   if (size > largest) refuse_large(file, size, largest);

@@ -98,8 +98,8 @@ std::string empty_value(const Registered& parsed) {
     if (std::find(given.begin(), given.end(), "") == given.end()) continue;
     const std::string name = option->get_name();
     const std::string typed = option->get_positional() ? "" : name + ' ';
-    return fmt::format("{} {}: nothing is given for it. Fix: give {}{}{}.", parsed.command.name,
-                       name, typed, option->get_option_text(),
+    return fmt::format("{} {}: no value given. Fix: give {}{}{}.", parsed.command.name, name, typed,
+                       option->get_option_text(),
                        option->get_required() ? "" : ", or leave it out");
   }
   return {};

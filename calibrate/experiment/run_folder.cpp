@@ -31,7 +31,7 @@ bool is_there(const fs::path& file) {
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw std::invalid_argument(
-      fmt::format("{}: {}. Fix: delete it, and its run starts anew.", file.string(), what));
+      fmt::format("{}: {}. Fix: delete it, and its run starts again.", file.string(), what));
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ RunFolder::RunFolder(fs::path folder)
   fs::create_directories(runs(), error);
   if (error) {
     throw std::invalid_argument(
-        fmt::format("{}: the folder cannot be made ({}). Fix: choose a place you may write to.",
+        fmt::format("{}: the folder cannot be created ({}). Fix: choose a writable place.",
                     runs().string(), error.message()));
   }
   base::check_can_write(runs() / "run.json");
@@ -77,7 +77,7 @@ std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t s
 }
 
 void RunFolder::note_damaged(const fs::path& file, const std::string& reason) const {
-  note(fmt::format("{}: {}. It is not used; its run is simulated anew.", file.string(), reason));
+  note(fmt::format("{}: {}. It is not used; its run is simulated again.", file.string(), reason));
 }
 
 void RunFolder::note(const std::string& line) const {

@@ -23,20 +23,22 @@ struct RestitutionLaw {
 RestitutionLaw restitution_law(ExportTarget target) {
   constexpr const char* kPulls =
       "The damper may pull and has the textbook factor, which then gives the same rebound of a "
-      "sphere. Spheres of a clump that land at once lose another share of the speed than with us.";
+      "sphere. Spheres of a clump that land at once lose a different fraction of the speed from "
+      "ours.";
   switch (target) {
     case ExportTarget::liggghts:
       return {"coefficientRestitution", "speed after per speed before a central impact", kPulls};
     case ExportTarget::lammps:
-      return {"damping tsuji",
-              "damper p(value) sqrt(2/3 S_n m*), p a polynomial of degree 6; it may pull",
-              "The value is that for which p is the textbook factor times sqrt(3/2), and may be "
-              "below 0. Spheres of a clump that land at once lose another share of the speed than "
-              "with us."};
+      return {
+          "damping tsuji",
+          "damper p(value) sqrt(2/3 S_n m*), p a polynomial of degree 6; it may pull",
+          "The value is that for which p is the textbook factor times sqrt(3/2), and may be "
+          "below 0. Spheres of a clump that land at once lose a different fraction of the speed "
+          "from ours."};
     case ExportTarget::yade:
       return {"betan",
               "damper 2 betan sqrt(S_n m*), which never pulls: betan is half of our factor c(e)",
-              "A clump's spheres are given the clump's mass, which YADE damps them by."};
+              "A clump's spheres are given the clump's mass, which YADE uses for damping."};
     case ExportTarget::edem:
       break;
   }
@@ -90,7 +92,7 @@ Conversion restitution(ExportTarget target, const std::string& pair, double valu
   if (target == ExportTarget::edem) converted.fidelity = Fidelity::close;
   if (target == ExportTarget::liggghts && converted.exported > value) {
     converted.fidelity = Fidelity::approximate;
-    converted.limits = "LIGGGHTS takes values above .05 only.";
+    converted.limits = "LIGGGHTS accepts only values above .05.";
   }
   return converted;
 }
@@ -119,7 +121,7 @@ Conversion sliding(ExportTarget target, const std::string& pair, double value) {
   if (target == ExportTarget::liggghts || target == ExportTarget::yade) {
     converted.limits =
         "Their spring keeps its force when the contact unloads, ours shrinks with the contact: "
-        "oblique impacts turn a little more.";
+        "oblique impacts cause slightly more spin.";
   }
   return converted;
 }

@@ -33,12 +33,12 @@ std::vector<std::string> warnings_of(const ExportFacts& facts) {
   for (const FittedValue& value : facts.fitted()) {
     if (value.verdict == "determined") continue;
     if (value.verdict.empty()) {
-      warnings.push_back(fmt::format("{} = {:.4g} is a single point without an interval.",
+      warnings.push_back(fmt::format("{} = {:.4g} is a point estimate without an interval.",
                                      value.name, value.value));
     } else {
       warnings.push_back(
           fmt::format("{} = {:.4g} is {}: the measurements allow {:.3g} to {:.3g}. It is exported "
-                      "all the same.",
+                      "nevertheless.",
                       value.name, value.value, value.verdict, value.low, value.high));
     }
   }

@@ -68,7 +68,7 @@ ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<Fi
     const bool is_needed = named.name.starts_with("contact.particle_wall") || has_grain_contacts();
     errors.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.model)),
                    fmt::format("{}: has no value in the result. Fix: give the study a value for "
-                               "it, or bounds and something measured to find it by.",
+                               "it, or bounds and a measurement that determines it.",
                                named.name));
   }
   errors.require(!experiments().empty(),

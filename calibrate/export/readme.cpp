@@ -50,6 +50,13 @@ void add_conversion(const Conversion& conversion, DeckFields& fields) {
   if (!conversion.limits.empty()) one.add_section("BUT").set("LIMITS", conversion.limits);
 }
 
+/// Only heaps are softened by a budget.
+std::string heap_stiffness_text(const ExportFacts& facts) {
+  if (!facts.has(dem::Experiment::heap)) return "The study has no heaps.";
+  return fmt::format("Heaps, and their decks, have Young's moduli times {}.",
+                     number(facts.stiffness(dem::Experiment::heap)));
+}
+
 }  // namespace
 
 ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
@@ -58,9 +65,7 @@ ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
   fields.set("TARGET", program_of(target));
   fields.set("ROLLING_MODEL", dem::name_of(facts.study().model.rolling));
   fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
-  fields.set("STIFFNESS_HEAP", facts.has(dem::Experiment::heap)
-                                   ? number(facts.stiffness(dem::Experiment::heap))
-                                   : std::string("no heap"));
+  fields.set("HEAP_STIFFNESS", heap_stiffness_text(facts));
   fields.set_lines("RUNNING", text_of(target, "running.txt"));
   fields.set_lines("LIMITS", text_of(target, "limits.txt"));
   for (const Conversion& conversion : conversions) add_conversion(conversion, fields);

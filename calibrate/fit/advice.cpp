@@ -111,22 +111,22 @@ std::string Advisor::advice(std::size_t parameter) const {
   }
   if (best != nullptr) {
     text = fmt::format(
-        "measure {} of the {} too: ten readings would narrow this to about {:.0f} % "
-        "of its scatter now",
+        "also measure {} in the {} experiment: ten readings would reduce the uncertainty of this "
+        "coefficient to about {:.0f} % of its present value",
         best->reading, best->experiment, 100 * std::sqrt(1 - most));
   }
   for (const Experiment& experiment : problem_.experiments) {
     if (is_measured(problem_, experiment.name) || !depends(experiment, parameter)) continue;
-    text += fmt::format("{}measure the {} experiment, which depends on it",
-                        text.empty() ? "" : "; or ", experiment.name);
+    text += fmt::format("{}do the {} experiment, which depends on it", text.empty() ? "" : "; or ",
+                        experiment.name);
   }
   if (more_runs_would_help(parameter)) {
-    text += fmt::format("{}simulate more: the surrogates are less sure than the measurements",
+    text += fmt::format("{}simulate more: the surrogates are less certain than the measurements",
                         text.empty() ? "" : "; or ");
   }
   if (text.empty()) {
-    return "not identifiable from these experiments: fix it to a literature value, and expect that "
-           "it hardly matters for them";
+    return "not identifiable from these experiments: fix it to a literature value, which will "
+           "hardly affect them";
   }
   return text;
 }

@@ -52,9 +52,9 @@ std::string too_few(const Observable& observable, std::size_t readings,
   std::string text =
       fmt::format("{}: {} of {} runs of {} have the reading \"{}\": too few.", observable.name,
                   readings, attempts, observable.experiment, observable.reading);
-  if (!names.empty()) text += " Readings there are:" + names + ".";
+  if (!names.empty()) text += " Available readings:" + names + ".";
   if (!failure.empty()) text += " Some failed: " + failure + ".";
-  return text + " Fix: other bounds, or another reading";
+  return text + " Fix: change the bounds, or use another reading";
 }
 
 }  // namespace

@@ -28,10 +28,10 @@ void warn_of_reach(const Problem& problem, const Solution& solution, std::size_t
                    const FittedObservable& fitted, std::vector<std::string>& warnings) {
   const Surrogate& surrogate = solution.misfit.surrogates()[i];
   if (surrogate.constant()) {
-    warnings.push_back(
-        fmt::format("{}: every simulation gave {} {}: it determines nothing. Fix: wider bounds, or "
-                    "leave it out",
-                    fitted.name, fitted.simulated, fitted.unit));
+    warnings.push_back(fmt::format(
+        "{}: every simulation gave {} {}, so it determines nothing. Fix: widen the bounds, "
+        "or leave it out",
+        fitted.name, fitted.simulated, fitted.unit));
     return;
   }
   const bool above = fitted.measured > fitted.reachable.high;
@@ -40,8 +40,8 @@ void warn_of_reach(const Problem& problem, const Solution& solution, std::size_t
   const double sigma = std::hypot(extreme.uncertainty, fitted.measured_uncertainty);
   if (std::abs(fitted.measured - extreme.reading) < kBeyond * sigma) return;
   warnings.push_back(fmt::format(
-      "{}: the measured {:.4g} {} is out of reach: within the bounds the simulation gives {:.4g} "
-      "... {:.4g}; what limits it: {}. Fix: move that bound, or check the protocol",
+      "{}: the measured {:.4g} {} cannot be reached: within the bounds the simulation gives {:.4g} "
+      "... {:.4g}, limited by {}. Fix: move that bound, or check the protocol",
       fitted.name, fitted.measured, fitted.unit, fitted.reachable.low, fitted.reachable.high,
       limits_text(problem, extreme)));
 }
@@ -55,11 +55,10 @@ void warn_of_scatter(const Observable& observable, const FittedObservable& fitte
   warnings.push_back(
       is_by_chance
           ? fmt::format(
-                "{}: its scatter was not measured; assumed: {:.3g} {}, as much as chance does "
-                "to single readings in the simulation. Every interval depends on it. Fix: measure "
-                "the scatter",
+                "{}: its scatter was not measured; assumed: sd {:.3g} {}, that of single readings "
+                "in the simulation. Every interval depends on it. Fix: measure the scatter",
                 fitted.name, fitted.measured_sd, fitted.unit)
-          : fmt::format("{}: its scatter was not measured; assumed: {:.3g} % of the mean. Every "
+          : fmt::format("{}: its scatter was not measured; assumed: sd {:.3g} % of the mean. Every "
                         "interval depends on it. Fix: measure the scatter",
                         fitted.name, assumed));
 }
@@ -71,8 +70,7 @@ void warn_of_prior(const Parameter& parameter, const FittedParameter& fitted,
   const double known = 2 * std::sqrt(kChi2Limit) * parameter.prior->sd;
   if (fitted.interval.high - fitted.interval.low < kHardlyNarrower * known) return;
   warnings.push_back(fmt::format(
-      "{}: its interval is what was known beforehand; these measurements add next to nothing",
-      fitted.name));
+      "{}: its interval is that of the prior; these measurements add almost nothing", fitted.name));
 }
 
 }  // namespace
@@ -87,20 +85,20 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
     warn_of_scatter(problem.observables[i], fitted, warnings);
     if (quality.inflation > kDoubtful) {
       warnings.push_back(fmt::format(
-          "{}: the surrogate missed runs by {:.1f} times what it claimed; its uncertainty was "
-          "enlarged accordingly",
+          "{}: the surrogate's errors were {:.1f} times its uncertainty, which was increased "
+          "accordingly",
           fitted.name, quality.inflation));
     }
     if (quality.failed_runs > 0) {
       warnings.push_back(
-          fmt::format("{}: {} of {} runs gave no reading; sets of parameters near "
-                      "them are taken as unlikely",
+          fmt::format("{}: {} of {} runs gave no reading; parameter sets near "
+                      "them are considered unlikely",
                       fitted.name, quality.failed_runs, quality.failed_runs + quality.runs));
     }
     if (solution.misfit.surrogate_variance_fraction(i, solution.best.point) > kSurrogateFraction) {
       warnings.push_back(
-          fmt::format("{}: the simulations are less sure than the measurement: a "
-                      "larger budget narrows the intervals",
+          fmt::format("{}: the simulations are less certain than the measurement: a "
+                      "larger budget would narrow the intervals",
                       fitted.name));
     }
   }
@@ -108,14 +106,15 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
     warn_of_prior(problem.parameters[j], fit.parameters[j], warnings);
   }
   if (solution.best.chi2 > kChi2Limit) {
-    std::string text = "no set of parameters fits everything at once:";
+    std::string text = "no parameter set fits all measurements at once:";
     for (const FittedObservable& fitted : fit.observables) {
       text += fmt::format(" {} {:+.1f} sigma,", fitted.name, fitted.difference_sigma);
     }
     text.back() = '.';
-    warnings.push_back(text +
-                       " The intervals hold only if the model does. Fix: check readings, protocols "
-                       "and bounds");
+    warnings.push_back(
+        text +
+        " The intervals are valid only if the model is. Fix: check readings, protocols "
+        "and bounds");
   }
   return warnings;
 }

@@ -20,7 +20,7 @@ double bench_half_width(const ResultObservable& observable) {
 
 Table agreement_table(const JointResult& joint) {
   Table table{.name = "agreement",
-              .title = "± is the half-width of the 95 % interval, here of means",
+              .title = "Measured and simulated means; ± is the half-width of the 95 % interval",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "measured", .unit = {}},
                                    {.name = "±", .unit = {}},
@@ -43,7 +43,7 @@ Table agreement_table(const JointResult& joint) {
 
 Table reach_table(const JointResult& joint) {
   Table table{.name = "reach",
-              .title = "What the simulation can give between the bounds of the coefficients",
+              .title = "Range that the simulation can reach within the bounds of the coefficients",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "measured", .unit = {}},
                                    {.name = "from", .unit = {}},
@@ -63,11 +63,11 @@ Table verdicts_table(const JointResult& joint) {
               .title = "Do they agree?",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "simulated − measured", .unit = {}},
-                                   {.name = "90 %: from", .unit = {}},
-                                   {.name = "to", .unit = {}},
+                                   {.name = "90 % from", .unit = {}},
+                                   {.name = "90 % to", .unit = {}},
                                    {.name = "tolerance", .unit = {}},
-                                   {.name = "by chance", .unit = "%", .decimals = 2},
-                                   {.name = "would have been seen", .unit = {}},
+                                   {.name = "p", .unit = "%", .decimals = 2},
+                                   {.name = "detectable difference", .unit = {}},
                                    {.name = "runs", .unit = {}, .decimals = 0},
                                    {.name = "runs to decide", .unit = {}, .decimals = 0},
                                    {.name = "verdict", .unit = {}}},
@@ -88,14 +88,14 @@ Table verdicts_table(const JointResult& joint) {
 Table surrogate_table(const JointResult& joint) {
   Table table{.name = "surrogate_checks",
               .title =
-                  "What the fitted curves expected of the last check's runs before they knew "
-                  "them; ± is the half-width of the 95 % interval",
+                  "Predictions of the fitted curves for the runs of the last check, before these "
+                  "entered the fit; ± is the half-width of the 95 % interval",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
-                                   {.name = "expected", .unit = {}},
+                                   {.name = "predicted", .unit = {}},
                                    {.name = "±", .unit = {}},
                                    {.name = "fresh seeds", .unit = {}},
-                                   {.name = "by chance", .unit = "%", .decimals = 2},
-                                   {.name = "", .unit = {}}},
+                                   {.name = "p", .unit = "%", .decimals = 2},
+                                   {.name = "prediction", .unit = {}}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
     const SurrogateCheck& check = observable.surrogate;
@@ -112,8 +112,8 @@ Table scatter_table(const JointResult& joint) {
               .title = "Scatter of single readings: standard deviations",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "bench", .unit = {}},
-                                   {.name = "", .unit = {}},
-                                   {.name = "expected by the simulation", .unit = {}},
+                                   {.name = "bench value is", .unit = {}},
+                                   {.name = "predicted by the simulation", .unit = {}},
                                    {.name = "one simulated run", .unit = {}}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
@@ -127,11 +127,10 @@ Table scatter_table(const JointResult& joint) {
 
 std::string rounds_text(const JointResult& joint) {
   return fmt::format(
-      "The coefficients found were simulated again with seeds that the fit had not seen, {}. All "
-      "of "
-      "these runs then entered the fit, whatever they showed; what is reported is the last fit, "
-      "and "
-      "the check below is of its coefficients or of those nearest to them that were simulated.",
+      "The best fit was simulated again with fresh seeds, {}. All of these runs then entered the "
+      "fit, whatever they showed. The last fit is reported; the check below is of its "
+      "coefficients, "
+      "or of the nearest ones that were simulated.",
       joint.agreement.rounds == 1 ? "once" : fmt::format("in {} rounds", joint.agreement.rounds));
 }
 
@@ -145,29 +144,28 @@ Chapter agreement_chapter(const JointResult& joint) {
   chapter.blocks.push_back(Paragraph{"σ is the standard uncertainty of the difference."});
   chapter.blocks.push_back(verdicts_table(joint));
   chapter.blocks.push_back(Paragraph{
-      "Agrees: two one-sided tests at 5 % show that the difference is within the tolerance, which "
-      "the study states or which is 2° for angles and for others 5 % of the measured value or the "
-      "bench's own 95 % interval where its scatter was measured. Disagrees: all experiments "
-      "together differ by more than chance "
-      "makes them in 5 % of cases, and this one does by itself. Cannot tell: neither is shown. "
-      "What "
-      "would have been seen is the true difference that such a check finds in four of five cases; "
-      "none under runs to decide: it is decided, or the bench's own readings leave more open than "
-      "any number of runs could settle."});
+      "p is the probability of so large a difference by chance. Agrees: two one-sided tests at 5 % "
+      "show that the difference is within the tolerance. The tolerance is stated in the study; by "
+      "default it is 2° for angles, and otherwise 5 % of the measured value or, if larger and the "
+      "scatter was measured, the half-width of the bench's 95 % interval. Disagrees: the "
+      "differences "
+      "of all experiments together have a probability below 5 %, and so has this one by itself. "
+      "Cannot tell: neither is shown. The detectable difference is the true difference that such a "
+      "check detects in four of five cases. No number of runs to decide means that it is decided, "
+      "or "
+      "that the bench readings are too uncertain for any number of runs to decide."});
   return chapter;
 }
 
 Chapter checks_chapter(const JointResult& joint) {
-  Chapter chapter{.id = "checks", .title = "Reach, checks and scatter", .blocks = {}};
+  Chapter chapter{.id = "checks", .title = "Range, checks and scatter", .blocks = {}};
   chapter.blocks.push_back(reach_table(joint));
   chapter.blocks.push_back(surrogate_table(joint));
   chapter.blocks.push_back(scatter_table(joint));
   chapter.blocks.push_back(
-      Paragraph{"A run whose reading is the mean of several grains scatters less than one reading "
-                "of a bench: "
-                "by the root of their number. Readings of one experiment are judged by how its "
-                "runs move them "
-                "together, since what they share counts once."});
+      Paragraph{"A run that averages several grains scatters less than a single bench reading, by "
+                "the square root of their number. Several readings of one experiment enter with "
+                "their covariance, so that what they share counts only once."});
   return chapter;
 }
 

@@ -22,26 +22,26 @@ std::string verdicts_text(const JointResult& joint) {
           : fmt::format("{} of {} coefficients are determined by these measurements.", determined,
                         all);
   if (const auto one_sided = with(Verdict::one_sided); one_sided > 0) {
-    text += fmt::format(" For {} only one end is known.", one_sided);
+    text += fmt::format(" For {}, only one end of the interval is determined.", one_sided);
   }
   if (const auto open = with(Verdict::undetermined); open > 0) {
     text +=
-        fmt::format(" {} cannot be told from these data: any value of the interval fits.", open);
+        fmt::format(" {} cannot be determined: any value in the interval fits these data.", open);
   }
   text += fmt::format(" Simulated again with fresh seeds, {}.", joint.agreement.text);
   if (joint.verdict == AgreementVerdict::disagrees) {
-    text += " Do not use these coefficients before you know why.";
+    text += " Do not use these coefficients until you know why.";
   }
   return text;
 }
 
 Table coefficients_table(const JointResult& joint) {
   Table table{.name = "coefficients",
-              .title = "Coefficients of contact, with 95 % intervals",
+              .title = "Contact coefficients with 95 % intervals",
               .data = {.columns = {{.name = "coefficient", .unit = {}},
                                    {.name = "value", .unit = {}, .decimals = 3},
-                                   {.name = "from", .unit = {}, .decimals = 3},
-                                   {.name = "to", .unit = {}, .decimals = 3},
+                                   {.name = "95 % from", .unit = {}, .decimals = 3},
+                                   {.name = "95 % to", .unit = {}, .decimals = 3},
                                    {.name = "lower bound", .unit = {}},
                                    {.name = "upper bound", .unit = {}},
                                    {.name = "verdict", .unit = {}}},
@@ -86,12 +86,13 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
   chapter.blocks.push_back(Paragraph{
-      "A coefficient belongs to its clump, contact model, stiffness and time step; all are under "
-      "“Where the numbers come from”. In another program the same number may mean something "
-      "else."});
+      "These coefficients are valid only with their clump, contact model, stiffness and time step, "
+      "which are listed under “Provenance”. In another program the same number may have a "
+      "different "
+      "meaning."});
   const std::vector<std::string> advice = advice_of(joint);
   if (!advice.empty()) {
-    chapter.blocks.push_back(Heading{"What would tell the open ones"});
+    chapter.blocks.push_back(Heading{"How to determine the others"});
     for (const std::string& text : advice) chapter.blocks.push_back(Remark{text});
   }
   return chapter;

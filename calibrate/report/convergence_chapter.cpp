@@ -7,13 +7,12 @@ namespace {
 
 Chart rounds_chart(const JointResult& joint) {
   Chart chart = plane_chart("rounds", "Coefficients round by round", {.name = "round", .unit = {}},
-                            {.name = "place between the bounds, 0 … 1", .unit = {}});
+                            {.name = "position between the bounds, 0 … 1", .unit = {}});
   chart.y_range = {{-0.05, 1.05}};
   chart.has_whole_x = true;
   chart.caption =
-      "Middle of what was plausible, with one standard deviation to either side, after each round "
-      "of simulations. What "
-      "the measurements tell settles and narrows.";
+      "Mean and standard deviation of the plausible coefficients after each round of simulations. "
+      "Coefficients that the measurements determine settle, and their bars shrink.";
   for (std::size_t k = 0; k < joint.parameters.size(); ++k) {
     const ResultParameter& parameter = joint.parameters[k];
     const double span = parameter.bounds.high - parameter.bounds.low;
@@ -43,12 +42,12 @@ Table rounds_table(const JointResult& joint) {
 
 Table surrogates_table(const JointResult& joint) {
   Table table{.name = "surrogates",
-              .title = "How well the fitted curves know the simulation",
+              .title = "How well the fitted curves predict the simulation",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "runs", .unit = {}, .decimals = 0},
                                    {.name = "failed", .unit = {}, .decimals = 0},
-                                   {.name = "error of a run left out", .unit = {}},
-                                   {.name = "the same in σ", .unit = {}, .decimals = 2},
+                                   {.name = "leave-one-out error", .unit = {}},
+                                   {.name = "in σ", .unit = {}, .decimals = 2},
                                    {.name = "σ widened by", .unit = {}, .decimals = 2}},
                        .rows = {}}};
   for (const SurrogateQuality& surrogate : joint.surrogates) {
@@ -63,7 +62,7 @@ Table surrogates_table(const JointResult& joint) {
 }  // namespace
 
 Chapter convergence_chapter(const JointResult& joint) {
-  Chapter chapter{.id = "convergence", .title = "How the fit went", .blocks = {}};
+  Chapter chapter{.id = "convergence", .title = "Progress of the fit", .blocks = {}};
   if (!joint.rounds.empty()) {
     chapter.blocks.push_back(ChartRow{{rounds_chart(joint)}});
     chapter.blocks.push_back(rounds_table(joint));
@@ -72,7 +71,7 @@ Chapter convergence_chapter(const JointResult& joint) {
     chapter.blocks.push_back(surrogates_table(joint));
     chapter.blocks.push_back(
         Paragraph{"Each run is predicted from all others; errors should be about 1 σ. Where they "
-                  "are larger, σ was widened by that."});
+                  "are larger, σ was increased by that factor."});
   }
   return chapter;
 }

@@ -80,8 +80,8 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
     const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;
     if (picture.angle_deg && std::abs(now_deg - *picture.angle_deg) > kSame_deg) {
       remarks.push_back(
-          fmt::format("{} gave {}° when the study was made and does not now: the file or the "
-                      "program was changed since.",
+          fmt::format("{} gave {}° when the study was made, but not now: the file or the program "
+                      "has changed since.",
                       name, shown(picture.angle_deg, 2)));
     }
     return heap;
@@ -152,25 +152,25 @@ ShownPicture camera_look(const render::Scene& scene,
   heap.picture = renderer.draw(scene, render::camera_on(stand, scene, kSize), kSize, style).picture;
   heap.angle = vision::measure_repose_angle(heap.picture);
   if (heap.angle.angle_rad) return with_overlay(heap, kSize.width, "Simulated heap");
-  return shown_picture(heap.picture, kSize.width, "The simulated heap as a camera would see it",
-                       "The heap simulated with the coefficients found, drawn as a camera would "
-                       "see it.");
+  return shown_picture(
+      heap.picture, kSize.width, "The simulated heap as a camera would see it",
+      "The heap simulated with the fitted coefficients, as a camera would see it.");
 }
 
 Table comparison_table(const vision::HeapComparison& comparison) {
   Table table{.name = "outline_comparison",
-              .title = "Photograph against simulation, heaps enlarged to the same silhouette",
+              .title = "Photograph and simulation, scaled to the same silhouette area",
               .data = {.columns = {{.name = "quantity", .unit = {}},
                                    {.name = "value", .unit = {}, .decimals = 3}},
                        .rows = {}}};
   const auto add = [&](const char* name, const std::optional<double>& value) {
     table.data.add({std::string(name), cell(value)});
   };
-  add("overlap of the silhouettes (1 is the same)", comparison.iou);
-  add("root mean square difference of height, of the silhouette's side", comparison.profile_rmse);
-  add("farthest distance of the outlines, of the silhouette's side", comparison.hausdorff);
+  add("overlap of the silhouettes (IoU; 1: identical)", comparison.iou);
+  add("root mean square difference in height [√area]", comparison.profile_rmse);
+  add("Hausdorff distance of the outlines [√area]", comparison.hausdorff);
   if (comparison.angle) {
-    add("difference of the angles, photograph minus simulation [°]",
+    add("difference of the angles, photograph − simulation [°]",
         comparison.angle->difference_rad / kDegree);
     add("95 % interval from [°]", comparison.angle->interval_rad[0] / kDegree);
     add("95 % interval to [°]", comparison.angle->interval_rad[1] / kDegree);
@@ -181,10 +181,10 @@ Table comparison_table(const vision::HeapComparison& comparison) {
 Chart outline_chart(const vision::HeapComparison& comparison) {
   const std::string unit = comparison.unit == vision::LengthUnit::metre ? "m" : "√area";
   Chart chart =
-      plane_chart("outlines", "Outlines laid over each other",
-                  {.name = "along the ground", .unit = unit}, {.name = "height", .unit = unit});
+      plane_chart("outlines", "Superimposed outlines", {.name = "along the ground", .unit = unit},
+                  {.name = "height", .unit = unit});
   chart.caption =
-      "Ground on ground, axis on axis. Solid: photograph; dashed: simulation. Single grains may "
+      "Aligned by ground line and axis. Solid: photograph; dashed: simulation. Single grains may "
       "differ; slopes should not.";
   const std::array<std::string, 2> names = {"photograph", "simulation"};
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -205,7 +205,8 @@ void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, Heap
   const vision::HeapComparison comparison =
       vision::compare_heaps(photograph.angle, simulated.angle, options);
   if (comparison.status == vision::MeasureStatus::refused) {
-    shown.remarks.push_back("Photograph and simulation are not compared: " + comparison.reason);
+    shown.remarks.push_back("Photograph and simulation could not be compared: " +
+                            comparison.reason);
     return;
   }
   const vision::ComparisonOverlayNotes notes{.titles = {photograph.title, "simulation"},
@@ -230,16 +231,16 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
   if (!has_heap(*study.result)) return shown;
   if (study.heap.empty()) {
     shown.remarks.emplace_back(study.has_other_heap
-                                   ? "The simulated heap in the folder (heap.vtp) is of other "
-                                     "coefficients, and not shown. "
-                                     "The same repose calibrate again makes that of these."
-                                   : "There is no simulated heap (heap.vtp) to be shown.");
+                                   ? "The simulated heap in the folder (heap.vtp) has different "
+                                     "coefficients and is not shown. Run the same repose calibrate "
+                                     "again to simulate it with these."
+                                   : "There is no simulated heap (heap.vtp) to show.");
     return shown;
   }
   if (has_moved(*study.result)) {
     shown.remarks.emplace_back(
-        "The simulated heap has the coefficients of the last check; what the fit learned from that "
-        "check has moved them a little since.");
+        "The simulated heap has the coefficients of the last check; the final fit, which includes "
+        "that check, differs slightly.");
   }
   try {
     const render::Scene scene = render::scene_of(dem::read_state(study.heap));
@@ -277,7 +278,7 @@ void add_comparison(const HeapPictures& pictures, Chapter& chapter) {
   chapter.blocks.push_back(PictureRow{{*pictures.outlines}});
   chapter.blocks.push_back(*pictures.comparison);
   chapter.blocks.push_back(Paragraph{
-      "Two heaps of the same grains differ, too: this says how alike these two are, not how well "
+      "Two heaps of the same grains differ too: this shows how similar these two are, not how well "
       "the coefficients fit."});
 }
 
@@ -289,8 +290,8 @@ Chapter heap_chapter(const HeapPictures& pictures) {
   if (pictures.photographs.empty() && pictures.renders.empty()) return chapter;
   chapter.blocks.push_back(Paragraph{fmt::format(
       "{}: on each side a line is fitted to the heap's edge between 20 and 80 % of its height, "
-      "and the angle of repose is the mean of both sides, from the ground line. What was found is "
-      "drawn in; ± is the half-width of the 95 % interval.",
+      "and the angle of repose is the mean of both sides, relative to the ground line. The "
+      "measurement is drawn in; ± is the half-width of the 95 % interval.",
       pictures.photographs.empty() ? "How the pictures of the simulation are measured"
       : pictures.renders.empty()   ? "How the photographs are measured"
                                    : "Photographs and pictures of the simulation are measured by "

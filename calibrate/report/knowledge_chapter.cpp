@@ -14,7 +14,7 @@ namespace {
 Chart profile_chart(const ResultParameter& parameter) {
   const std::string label = label_of(parameter.name);
   Chart chart = plane_chart("profile_" + parameter.name, titled(label), {.name = label, .unit = {}},
-                            {.name = "χ² above the best", .unit = {}});
+                            {.name = "χ² above the minimum", .unit = {}});
   std::vector<ProfilePoint> points;
   for (const ProfilePoint& point : parameter.profile) {
     if (std::isfinite(point.value + point.chi2)) points.push_back(point);
@@ -23,7 +23,7 @@ Chart profile_chart(const ResultParameter& parameter) {
             [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
   if (points.empty()) return chart;
   for (const auto& [value, chi2] : points) {
-    add_point(chart, "others fitted again", Look::points, value, chi2);
+    add_point(chart, "others refitted", Look::points, value, chi2);
   }
   add_level(chart, "95 % limit", Look::limit, {points.front().value, points.back().value},
             kChi2Limit, kChi2Limit, kChi2Limit);
@@ -35,19 +35,19 @@ Chart profile_chart(const ResultParameter& parameter) {
                       ? "It rises above the limit on both sides: determined."
                   : parameter.verdict == Verdict::one_sided
                       ? "It rises above the limit on one side only: one-sided."
-                      : "It stays below the limit nearly everywhere: these data do not tell it.";
+                      : "It stays below the limit nearly everywhere: undetermined.";
   return chart;
 }
 
 Chart family_chart(const JointResult& joint) {
-  Chart chart =
-      plane_chart("equivalence_family", "Where they lie", {.name = "coefficient", .unit = {}},
-                  {.name = "place between the bounds, 0 … 1", .unit = {}});
+  Chart chart = plane_chart("equivalence_family", "Where they lie between the bounds",
+                            {.name = "coefficient", .unit = {}},
+                            {.name = "position between the bounds, 0 … 1", .unit = {}});
   chart.x_title = "";
   chart.y_range = {{-0.05, 1.05}};
   chart.caption =
       "Each line is one set of coefficients whose misfit is within the 95 % limit. Where the lines "
-      "meet, the measurements tell the coefficient; where they spread, they do not.";
+      "meet, the measurements determine the coefficient; where they spread, they do not.";
   const auto add = [&](const std::string& series, std::size_t k, double value) {
     const ResultParameter& parameter = joint.parameters[k];
     add_point(
@@ -71,7 +71,7 @@ Table family_table(const JointResult& joint) {
   for (const ResultParameter& parameter : joint.parameters) {
     table.data.columns.push_back({.name = label_of(parameter.name), .unit = {}});
   }
-  table.data.columns.push_back({.name = "χ² above the best", .unit = {}, .decimals = 2});
+  table.data.columns.push_back({.name = "χ² above the minimum", .unit = {}, .decimals = 2});
   table.data.columns.push_back({.name = "simulated", .unit = {}});
   int number = 0;
   for (const EquivalentSet& set : joint.equivalence_family) {
@@ -85,9 +85,10 @@ Table family_table(const JointResult& joint) {
 }
 
 Table correlation_table(const JointResult& joint) {
-  Table table{.name = "correlation",
-              .title = "Correlation of what is not known (1 or −1: only a combination is known)",
-              .data = {}};
+  Table table{
+      .name = "correlation",
+      .title = "Correlation of the coefficients (1 or −1: only a combination is determined)",
+      .data = {}};
   table.data.columns = {{.name = "coefficient", .unit = {}}};
   for (const ResultParameter& parameter : joint.parameters) {
     table.data.columns.push_back({.name = label_of(parameter.name), .unit = {}, .decimals = 2});
@@ -120,8 +121,8 @@ Chapter knowledge_chapter(const JointResult& joint) {
   if (!profiles.charts.empty()) {
     chapter.blocks.push_back(Heading{"Profile likelihoods"});
     chapter.blocks.push_back(Paragraph{fmt::format(
-        "Each coefficient is held at one value after the other while all others are fitted again. "
-        "Values whose misfit χ² rises by less than {:.2f} form the 95 % interval.",
+        "Each coefficient is fixed at one value after another while all others are refitted. The "
+        "values at which the misfit χ² rises by less than {:.2f} form the 95 % interval.",
         kChi2Limit)});
     chapter.blocks.push_back(std::move(profiles));
   }

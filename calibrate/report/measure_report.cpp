@@ -63,10 +63,9 @@ std::string mean_text(const std::vector<MeasuredPhotograph>& pictures,
   const auto left_out = static_cast<long>(pictures.size()) - (mean ? mean->n : 0);
   std::string text;
   if (!mean) {
-    text = "No picture gave a number that can be used.";
+    text = "No picture gave a usable number.";
   } else if (!mean->mean_uncertainty) {
-    text = fmt::format("Angle of repose {}°, from one picture, which has no scatter.",
-                       shown(mean->mean, 2));
+    text = fmt::format("Angle of repose {}°, from a single picture.", shown(mean->mean, 2));
   } else {
     text = fmt::format(
         "Mean angle of repose {}°, 95 % interval {}° to {}° (standard deviation {}°, {} pictures).",
@@ -74,7 +73,7 @@ std::string mean_text(const std::vector<MeasuredPhotograph>& pictures,
         shown(mean->mean + *mean->mean_uncertainty, 2), shown(mean->sd, 2), mean->n);
   }
   if (counting.flagged > 0) text += fmt::format(" Flagged: {} of these.", counting.flagged);
-  if (left_out > 0) text += fmt::format(" Left out: {} refused or not read.", left_out);
+  if (left_out > 0) text += fmt::format(" Excluded: {} refused or unreadable.", left_out);
   return text;
 }
 
@@ -120,7 +119,7 @@ std::array<double, 2> range_of(const Chart& chart) {
 /// Each picture's angle with its interval, in the order of the pictures, and the mean with its own.
 Chart angles_chart(const std::vector<MeasuredPhotograph>& pictures,
                    const std::optional<calibrate::Summary>& mean) {
-  Chart chart = plane_chart("angles", "The angles", {.name = "picture", .unit = {}},
+  Chart chart = plane_chart("angles", "Angles", {.name = "picture", .unit = {}},
                             {.name = "angle of repose", .unit = "°"});
   const bool has_names = pictures.size() <= kManyPictures;
   const auto place = [&](std::size_t k) -> Cell {
@@ -148,9 +147,8 @@ Chart angles_chart(const std::vector<MeasuredPhotograph>& pictures,
   if (!shown.empty()) chart.y_range = range_of(chart);
   chart.has_whole_x = !has_names;
   chart.caption =
-      "Bars are the 95 % intervals of single pictures; the band is that of their mean, from how "
-      "much "
-      "they differ.";
+      "Bars are the 95 % intervals of single pictures; the band is that of their mean, from their "
+      "scatter.";
   return chart;
 }
 
@@ -165,7 +163,7 @@ PictureRow overlays_row(const std::vector<MeasuredPhotograph>& pictures) {
               : "refused: " + shortened(picture.angle.reason, 300);
     const std::string text = name_of_file(picture) + ": " + what;
     row.pictures.push_back(
-        shown_jpeg(picture.overlay, "Photograph with what was measured. " + text, text));
+        shown_jpeg(picture.overlay, "Photograph with the measurement drawn in. " + text, text));
   }
   return row;
 }
@@ -194,16 +192,18 @@ Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
   PictureRow row = overlays_row(pictures);
   if (!row.pictures.empty()) {
     document.chapters.push_back(
-        {.id = "pictures", .title = "What was measured", .blocks = {std::move(row)}});
+        {.id = "pictures", .title = "Pictures", .blocks = {std::move(row)}});
   }
   document.chapters.push_back(
       {.id = "methods",
-       .title = "What the number is",
+       .title = "How the angle is measured",
        .blocks = {Paragraph{
-           "On each flank a straight line is fitted to the heap's edge over the stretch named with "
-           "the result, 20 to 80 % of the height unless chosen otherwise; the angle of repose is "
-           "the mean of both lines' angles to the ground line. ± is a 95 % interval of that one "
-           "heap: how much heaps differ shows in their scatter."}}});
+           "On each flank a straight line is fitted to the heap's edge within the window stated "
+           "with the result, by default 20 to 80 % of the height; the angle of repose is the mean "
+           "of "
+           "both lines' angles to the ground line. ± is the half-width of the 95 % interval for "
+           "that "
+           "one heap; the scatter between heaps is not included."}}});
   return report_of(std::move(document));
 }
 

@@ -129,33 +129,30 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       "where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
       "is Student's quantile. Readings of one experiment enter with the covariance of the runs' "
       "residuals (shrunk: Schäfer and Strimmer 2005). Intervals are 95 % profile-likelihood "
-      "intervals (Venzon and "
-      "Moolgavkar 1988), the values xⱼ for which");
+      "intervals (Venzon and Moolgavkar 1988), the values xⱼ for which");
   methods.add_equation(
       "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
       "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84");
   methods.add(
       "A coefficient is called determined when both ends of its interval lie inside the bounds, "
-      "one-sided when one does, undetermined otherwise. The coefficients found were simulated "
-      "again with seeds that the fit had not seen, and all of these runs entered the fit. "
-      "Simulated "
-      "and measured means were compared by Welch's t (several of one experiment by Hotelling's "
-      "T²), "
-      "over all experiments by the sum of the chi-squares with the same probabilities (Lancaster "
-      "1961), and for equivalence by two "
+      "one-sided when one does, undetermined otherwise. The best fit was simulated again with "
+      "fresh "
+      "seeds, and all of these runs entered the fit. Simulated and measured means were compared by "
+      "Welch's t (several of one experiment by Hotelling's T²), over all experiments by the sum of "
+      "the chi-squares with the same probabilities (Lancaster 1961), and for equivalence by two "
       "one-sided tests at 5 % (Schuirmann 1987).");
 }
 
 void add_paper_way(Methods& methods) {
   methods.add(
-      "The coefficients against the wall were found one after the other: each was swept over nine "
-      "levels, a parabola was fitted to the results, and solved for the measured value. Those "
+      "The particle–wall coefficients were found one after the other: each was swept over nine "
+      "levels, and a parabola was fitted to the results and solved for the measured value. Those "
       "between grains were approached by steepest ascent and refined by a central composite "
-      "design, to whose relative errors of the angle a quadratic surface was fitted:");
+      "design, and a quadratic surface was fitted to its relative errors of the angle:");
   methods.add_equation("|θ − θ_measured| / θ_measured = b₀ + Σ bᵢxᵢ + Σ bᵢⱼxᵢxⱼ + Σ bᵢᵢxᵢ²",
                        "\\frac{|\\theta-\\theta_m|}{\\theta_m} = b_0 + \\sum_i b_i x_i + "
                        "\\sum_{i<j} b_{ij} x_i x_j + \\sum_i b_{ii} x_i^2");
-  methods.add("Its least value in the design's box was taken and simulated ten times.");
+  methods.add("Its minimum within the design's box was simulated ten times.");
 }
 
 }  // namespace
@@ -170,8 +167,8 @@ Chapter methods_chapter(const ReportedStudy& study, const StudyResult& result) {
     add_paper_way(methods);
   }
   Chapter chapter{
-      .id = "methods", .title = "Methods, to be cited", .blocks = std::move(methods.blocks)};
-  chapter.blocks.push_back(CodeText{.label = "The same for LaTeX", .text = methods.latex});
+      .id = "methods", .title = "Methods paragraph", .blocks = std::move(methods.blocks)};
+  chapter.blocks.push_back(CodeText{.label = "As LaTeX", .text = methods.latex});
   return chapter;
 }
 

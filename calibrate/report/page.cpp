@@ -51,7 +51,7 @@ void fill_strip(const Table& table, const std::vector<Cell>& row, Dictionary& in
   strip.SetValue("LOW", fmt::format("{:.1f}", place_in_strip(low, min, max)));
   strip.SetValue("HIGH", fmt::format("{:.1f}", place_in_strip(high, min, max)));
   strip.SetValue("VALUE", fmt::format("{:.1f}", place_in_strip(value, min, max)));
-  strip.SetValue("ALT", fmt::format("{} within {} to {}, of what {} to {} allow", shown(value),
+  strip.SetValue("ALT", fmt::format("{}, 95 % interval {} to {}, bounds {} to {}", shown(value),
                                     shown(low), shown(high), shown(min), shown(max)));
 }
 
@@ -168,7 +168,7 @@ std::string html_of(const Document& document) {
   if (!templates.StringToTemplateCache("report", html.data(), html.size(),
                                        ctemplate::DO_NOT_STRIP) ||
       !templates.ExpandWithData("report", ctemplate::DO_NOT_STRIP, &page, nullptr, &result)) {
-    throw std::runtime_error("the report's template is damaged. Fix: build repose anew.");
+    throw std::runtime_error("the report's template is damaged. Fix: rebuild repose.");
   }
   return result;
 }

@@ -20,11 +20,12 @@ Chapter paper_answer(const PublishedResult& published, const HeapPictures& pictu
   Chapter chapter{.id = "answer", .title = "The answer", .blocks = {}};
   const PublishedVerification& verification = published.verification;
   chapter.blocks.push_back(Paragraph{fmt::format(
-      "Found the published way, one coefficient after the other: single points without intervals. "
-      "With them the heap's angle is {}° (sd {}°); measured {}°.",
+      "Calibrated by the published method, one coefficient after the other: point estimates "
+      "without "
+      "intervals. They give a heap angle of {}° (sd {}°); measured {}°.",
       shown(verification.mean_deg), shown(verification.sd_deg), shown(verification.measured_deg))});
   Table table{.name = "coefficients",
-              .title = "Coefficients of contact",
+              .title = "Contact coefficients",
               .data = {.columns = {{.name = "coefficient", .unit = {}},
                                    {.name = "value", .unit = {}, .decimals = 4}},
                        .rows = {}}};
@@ -35,7 +36,7 @@ Chapter paper_answer(const PublishedResult& published, const HeapPictures& pictu
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
   chapter.blocks.push_back(Remark{
-      "What the measurements determine, and how well, this way does not say. repose calibrate "
+      "This method does not show what the measurements determine, or how well. repose calibrate "
       "--method joint does."});
   return chapter;
 }
@@ -86,7 +87,7 @@ Chart sweep_chart(const PublishedSweep& sweep) {
 }
 
 Chapter sweeps_chapter(const PublishedResult& published) {
-  Chapter chapter{.id = "sweeps", .title = "Sweeps against the wall", .blocks = {}};
+  Chapter chapter{.id = "sweeps", .title = "Particle–wall sweeps", .blocks = {}};
   ChartRow row;
   for (const PublishedSweep& sweep : published.sweeps) {
     row.charts.push_back(sweep_chart(sweep));
@@ -133,7 +134,7 @@ Chart heaps_chart(double measured_deg, const std::vector<PublishedHeap>& heaps,
 }
 
 Chapter grains_chapter(const PublishedResult& published) {
-  Chapter chapter{.id = "grains", .title = "Between the grains", .blocks = {}};
+  Chapter chapter{.id = "grains", .title = "Particle–particle coefficients", .blocks = {}};
   struct Stage {
     const char* name = nullptr;
     const char* title = nullptr;
@@ -143,7 +144,7 @@ Chapter grains_chapter(const PublishedResult& published) {
   const std::array<Stage, 3> stages = {
       {{"steepest_ascent", "Steepest ascent", Look::points, &published.steepest_ascent},
        {"composite", "Central composite design", Look::dots, &published.composite},
-       {"verification", "The result, simulated again", Look::dots, &published.verification.heaps}}};
+       {"verification", "Verification of the result", Look::dots, &published.verification.heaps}}};
   for (const Stage& stage : stages) {
     if (stage.heaps->empty()) continue;
     chapter.blocks.push_back(Heading{stage.title});
@@ -152,10 +153,10 @@ Chapter grains_chapter(const PublishedResult& published) {
                               std::string("chart_") + stage.name, stage.title, stage.look)}});
     chapter.blocks.push_back(heaps_table(*stage.heaps, stage.name, ""));
   }
-  chapter.blocks.push_back(Heading{"Surface of the error"});
+  chapter.blocks.push_back(Heading{"Error surface"});
   add_regression(published.error_surface, "composite", chapter.blocks);
   chapter.blocks.push_back(
-      Paragraph{fmt::format("Least error on the surface, in the design's box: {} %.",
+      Paragraph{fmt::format("Minimum of the error surface within the design's box: {} %.",
                             shown(published.least_error_percent))});
   return chapter;
 }

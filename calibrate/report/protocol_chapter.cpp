@@ -136,9 +136,9 @@ Chapter protocol_chapter(const ReportedStudy& study) {
   const dem::ConfigValue stated = stated_in(study);
   Table table{.name = "protocol",
               .title = {},
-              .data = {.columns = {{.name = "of", .unit = {}},
+              .data = {.columns = {{.name = "item", .unit = {}},
                                    {.name = "stated in the study", .unit = {}},
-                                   {.name = "assumed: usual values", .unit = {}},
+                                   {.name = "assumed", .unit = {}},
                                    {.name = "measured", .unit = {}}},
                        .rows = {}}};
   add_materials(*study.record, stated, table);
@@ -149,7 +149,7 @@ Chapter protocol_chapter(const ReportedStudy& study) {
   chapter.blocks.push_back(std::move(table));
   chapter.blocks.push_back(
       Paragraph{"Each experiment was simulated as it was done on the bench. The fraction of the "
-                "real stiffness is that of the simulations, with what the budget softens."});
+                "real stiffness is that of the simulations, including softening by the budget."});
   return chapter;
 }
 

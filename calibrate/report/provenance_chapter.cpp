@@ -29,8 +29,7 @@ std::string seeds_text(const std::vector<Run>& runs) {
   const auto [least, greatest] = std::minmax_element(
       runs.begin(), runs.end(),
       [](const Run& one, const Run& other) { return one.job.seed < other.job.seed; });
-  return fmt::format("{} … {}, one for each simulation of an experiment", least->job.seed,
-                     greatest->job.seed);
+  return fmt::format("{} … {}, one per simulation", least->job.seed, greatest->job.seed);
 }
 
 std::string settings_text(const std::vector<std::string>& settings) {
@@ -43,7 +42,7 @@ void add_study(const StudyIdentity& study, DataTable& data) {
   add(data, "program", study.program);
   add(data, "study file", study.file);
   add(data, "hash of the study", study.hash);
-  add(data, "settings laid over it", settings_text(study.settings));
+  add(data, "settings (--set)", settings_text(study.settings));
   add(data, "method", study.method);
   add(data, "budget", study.budget + ": " + study.budget_description);
 }
@@ -57,8 +56,8 @@ void add_model(const StudyResult& result, DataTable& data) {
   add(data, "contact model", from.contact_model);
   add(data, "rolling friction", from.rolling_model + ": " + from.rolling_definition);
   add(data, "clump", fmt::format("{}, {} spheres", from.clump.source, from.clump.spheres));
-  add(data, "clump's error of volume", percent(from.clump.volume_error));
-  add(data, "clump's error of inertia", percent(from.clump.inertia_error));
+  add(data, "clump volume error", percent(from.clump.volume_error));
+  add(data, "clump inertia error", percent(from.clump.inertia_error));
   add(data, "fraction of the real stiffness", by_experiment(from.stiffness_factor, ""));
   add(data, "shortest time step", by_experiment(from.shortest_timestep_s, " s"));
 }
@@ -75,38 +74,39 @@ std::vector<std::string> warnings_of(const StudyResult& result) {
 }  // namespace
 
 Chapter provenance_chapter(const ReportedStudy& study) {
-  Chapter chapter{.id = "provenance", .title = "Where the numbers come from", .blocks = {}};
+  Chapter chapter{.id = "provenance", .title = "Provenance", .blocks = {}};
   Table table{.name = "provenance",
               .title = {},
-              .data = {.columns = {{.name = "what", .unit = {}}, {.name = "value", .unit = {}}},
+              .data = {.columns = {{.name = "item", .unit = {}}, {.name = "value", .unit = {}}},
                        .rows = {}}};
   if (study.study) add_study(*study.study, table.data);
   if (study.result) add_model(*study.result, table.data);
   const auto failed = std::count_if(study.runs.begin(), study.runs.end(),
                                     [](const SavedRun& run) { return !run.failure.empty(); });
   if (!study.runs.empty()) {
-    add(table.data, "simulations", fmt::format("{}, {} of them failed", study.runs.size(), failed));
+    add(table.data, "simulations",
+        fmt::format("{}, of which {} failed", study.runs.size(), failed));
   }
   chapter.blocks.push_back(std::move(table));
   return chapter;
 }
 
 Chapter limits_chapter(const StudyResult& result) {
-  Chapter chapter{.id = "limits", .title = "Limits and warnings", .blocks = {}};
+  Chapter chapter{.id = "limits", .title = "Limitations and warnings", .blocks = {}};
   for (const std::string& warning : warnings_of(result)) {
     chapter.blocks.push_back(Remark{shortened(warning, 1500)});
   }
   chapter.blocks.push_back(
       Remark{"Budget: " + shortened(result.provenance.study.budget_description, 1000) + "."});
   std::vector<const char*> limits = {
-      "An interval says what these measurements allow if the simulation can be right at all: "
-      "errors of the contact model, of the clump's shape and of the protocol on the bench are "
-      "not in it.",
-      "Coefficients found at a lower stiffness than the real one belong to that stiffness."};
+      "An interval is what these measurements allow if the model is right: it does not include "
+      "errors of the contact model, the clump's shape or the bench procedure.",
+      "Coefficients calibrated at reduced stiffness are valid only at that stiffness."};
   if (has_heap(result)) {
     limits.push_back(
-        "A heap's angle hardly tells restitution, and tells sliding and rolling friction between "
-        "grains together, not one by one.");
+        "A heap's angle hardly depends on restitution, and constrains only a combination of "
+        "sliding "
+        "and rolling friction between grains.");
   }
   for (const char* text : limits) chapter.blocks.push_back(Paragraph{text});
   return chapter;

@@ -45,7 +45,7 @@ Chart response_chart(const MeasuredNumber& measured, const std::string& paramete
   const std::string label = label_of(parameter);
   return plane_chart(
       "response_" + measured.name + '_' + parameter,
-      fmt::format("{} along {}", titled(axis_of_observable(measured.name, "")), label),
+      fmt::format("{} against {}", titled(axis_of_observable(measured.name, "")), label),
       {.name = label, .unit = {}},
       {.name = axis_of_observable(measured.name, ""), .unit = unit_shown(measured.unit)});
 }
@@ -59,11 +59,11 @@ Chart curve_chart(const ReportedStudy& study, const JointResult& joint,
   const auto read = [&](double value) { return cell(readable(value, measured.unit)); };
   for (std::size_t k = 0; k < x.size(); ++k) {
     const double half = half_width_95(curve.uncertainty[k]);
-    add_point(chart, "95 % of the fit", Look::band, x[k], {}, read(fit[k] - half),
+    add_point(chart, "95 % interval of the fit", Look::band, x[k], {}, read(fit[k] - half),
               read(fit[k] + half));
   }
   for (std::size_t k = 0; k < x.size(); ++k) {
-    add_point(chart, "scatter of single runs: one sd", Look::scatter, x[k], {},
+    add_point(chart, "scatter of single runs: ±1 sd", Look::scatter, x[k], {},
               read(fit[k] - curve.scatter[k]), read(fit[k] + curve.scatter[k]));
   }
   add_runs(chart, study, measured, parameter.name);
@@ -90,9 +90,9 @@ Chart surface_chart(const ReportedStudy& study, const JointResult& joint,
   Chart chart{
       .name = file_stem("surface_" + measured.name + '_' + x_name + '_' + y_name),
       .kind = ChartKind::contour,
-      .title = fmt::format("{} over {} and {}", titled(axis_of_observable(measured.name, "")),
+      .title = fmt::format("{} against {} and {}", titled(axis_of_observable(measured.name, "")),
                            label_of(x_name), label_of(y_name)),
-      .caption = fmt::format("Lines of equal {}.", what),
+      .caption = fmt::format("Contours of equal {}.", what),
       .x_title = label_of(x_name),
       .y_title = label_of(y_name),
       .z_title = what};
@@ -122,8 +122,8 @@ Chart surface_chart(const ReportedStudy& study, const JointResult& joint,
       add(fmt::format("as measured: {} {}", shown(measured.measured), unit_shown(measured.unit)),
           Look::ridge, at_x, at_y, *measured.measured);
     }
-    chart.caption += ridge.empty() ? " The measured value is not on this surface."
-                                   : " On the thick one the measured value is met.";
+    chart.caption += ridge.empty() ? " The surface does not reach the measured value."
+                                   : " The thick contour is the measured value.";
   }
   add(kBest, Look::best, cell(along_x.value), cell(along_y.value),
       cell(joint.observables[surface.observable].simulated));
@@ -145,7 +145,7 @@ std::vector<Chart> run_charts(const ReportedStudy& study, const MeasuredNumber& 
     const auto span = add_runs(chart, study, measured, parameter);
     if (!(span[0] < span[1])) continue;
     add_measured(chart, measured, span);
-    chart.caption = "Each circle is a run; the other coefficients differ, too.";
+    chart.caption = "Each circle is a run; the other coefficients vary too.";
     charts.push_back(std::move(chart));
   }
   return charts;
@@ -154,10 +154,12 @@ std::vector<Chart> run_charts(const ReportedStudy& study, const MeasuredNumber& 
 namespace {
 
 constexpr const char* kCurvesText =
-    "The line is the fit with the other coefficients at their best values, its band what the fit "
-    "does not know, dots how far single runs scatter; dashed is what the bench measured. Circles "
-    "are the simulated runs, each with its own values of the other coefficients: that is why they "
-    "lie off the line.";
+    "The line is the fit with the other coefficients at their best values, the band its "
+    "uncertainty, "
+    "the dotted lines the scatter of single runs; the dashed line is the bench measurement. "
+    "Circles "
+    "are the simulated runs, which lie off the line because each has its own values of the other "
+    "coefficients.";
 
 /// How far a coefficient moves an experiment between its bounds, in that experiment's uncertainty.
 double effect_of(const JointResult& joint, const ResponseCurve& curve) {
@@ -181,14 +183,15 @@ bool is_telling(const JointResult& joint, const ResponseCurve& curve) {
 }  // namespace
 
 Chapter telling_curves_chapter(const ReportedStudy& study, const JointResult& joint) {
-  Chapter chapter{.id = "telling", .title = "What tells each coefficient", .blocks = {}};
+  Chapter chapter{.id = "telling", .title = "What determines each coefficient", .blocks = {}};
   ChartRow row;
   for (const ResponseCurve& curve : joint.responses) {
     if (is_telling(joint, curve)) row.charts.push_back(curve_chart(study, joint, curve));
   }
   if (row.charts.empty()) return chapter;
-  chapter.blocks.push_back(Paragraph{
-      std::string("Along each coefficient the experiment that it moves most. ") + kCurvesText});
+  chapter.blocks.push_back(
+      Paragraph{std::string("For each coefficient, the experiment that is most sensitive to it. ") +
+                kCurvesText});
   chapter.blocks.push_back(std::move(row));
   return chapter;
 }
@@ -207,8 +210,9 @@ Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint) {
   }
   if (chapter.blocks.empty()) return chapter;
   const Block lead = Paragraph{
-      "The other curves, of every experiment along every coefficient that moves it; read like "
-      "those above."};
+      "The other curves, of every experiment against every coefficient that it depends on, drawn "
+      "as "
+      "above."};
   chapter.blocks.insert(chapter.blocks.begin(), lead);
   return chapter;
 }
@@ -227,12 +231,12 @@ Chapter surfaces_chapter(const ReportedStudy& study, const JointResult& joint) {
   if (chapter.blocks.empty()) return chapter;
   const std::vector<Block> lead = {
       Paragraph{
-          "The fitted simulation over two coefficients at a time, the others at their best "
-          "values. The thick black line is the ridge of solutions: every pair on it meets the "
-          "measured value, so one experiment alone does not tell the two apart. Where ridges "
-          "of several experiments cross, the coefficients are determined."},
-      SurfaceViewer{"One of the surfaces below; drag to rotate. The black dots are where "
-                    "the measured value is met."}};
+          "The fitted response to two coefficients at a time, with the others at their best "
+          "values. The thick black line is the ridge of solutions: every pair on it reproduces the "
+          "measured value, so a single experiment cannot separate the two. Where the ridges of "
+          "several experiments cross, the coefficients are determined."},
+      SurfaceViewer{"One of the surfaces below; drag to rotate. The black dots mark the "
+                    "measured value."}};
   chapter.blocks.insert(chapter.blocks.begin(), lead.begin(), lead.end());
   return chapter;
 }

@@ -95,10 +95,11 @@ Chapter statistics_chapter(const JointResult& joint) {
   }
   if (chapter.blocks.empty()) return chapter;
   const Block lead = Paragraph{
-      "A polynomial through each experiment's runs, as a response-surface program would fit it. "
-      "The coefficients above were not found with it, but with Gaussian processes, which follow "
-      "bends that a polynomial cannot; it shows which coefficients move an experiment at all. A "
-      "small p says that chance alone would hardly do it."};
+      "A polynomial fitted to the runs of each experiment, as in response-surface software. It "
+      "shows "
+      "which coefficients affect an experiment at all; a small p means that the effect is unlikely "
+      "to be due to chance. The coefficients above were not fitted with it but with Gaussian "
+      "processes, which follow curvature that a polynomial cannot."};
   chapter.blocks.insert(chapter.blocks.begin(), lead);
   return chapter;
 }

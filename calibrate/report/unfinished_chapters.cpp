@@ -43,7 +43,7 @@ Table counts_table(const ReportedStudy& study) {
     if (!run.failure.empty()) ++failed;
   }
   Table table{.name = "simulations",
-              .title = "Simulations that are there",
+              .title = "Simulations completed",
               .data = {.columns = {{.name = "experiment", .unit = {}},
                                    {.name = "simulations", .unit = {}, .decimals = 0},
                                    {.name = "without a reading", .unit = {}, .decimals = 0}},
@@ -76,19 +76,20 @@ std::vector<MeasuredNumber> shown_numbers(const ReportedStudy& study) {
 }  // namespace
 
 std::vector<Chapter> unfinished_chapters(const ReportedStudy& study) {
-  Chapter state{.id = "answer", .title = "How far it is", .blocks = {}};
+  Chapter state{.id = "answer", .title = "Progress", .blocks = {}};
   state.blocks.push_back(Paragraph{
-      fmt::format("{} simulations are there, and no result yet. Nothing of them is lost: the same "
-                  "command goes on where it was interrupted.",
+      fmt::format("{} simulations are complete, but there is no result yet. Nothing is lost: the "
+                  "same command resumes where it was interrupted.",
                   study.runs.size())});
   if (study.has_other_result) {
-    state.blocks.push_back(Remark{
-        "The folder's result.json is of another study, budget or method, and is not shown here."});
+    state.blocks.push_back(
+        Remark{"The folder's result.json is from another study, budget or method, and is not shown "
+               "here."});
   }
   if (!study.runs.empty()) state.blocks.push_back(counts_table(study));
-  state.blocks.push_back(CodeText{.label = "To go on", .text = command_to_go_on(study)});
+  state.blocks.push_back(CodeText{.label = "To continue", .text = command_to_go_on(study)});
 
-  Chapter runs{.id = "curves", .title = "What the runs gave", .blocks = {}};
+  Chapter runs{.id = "curves", .title = "Results of the runs", .blocks = {}};
   for (const MeasuredNumber& number : shown_numbers(study)) {
     std::vector<Chart> charts = run_charts(study, number);
     if (charts.empty()) continue;

@@ -36,23 +36,24 @@ std::string way_out(const Agreement& agreement) {
     return "too few of its runs gave a reading";
   }
   if (agreement.runs_to_decide) {
-    return fmt::format("about {} runs of it would tell, {} were made", *agreement.runs_to_decide,
+    return fmt::format("about {} runs would decide, {} were made", *agreement.runs_to_decide,
                        agreement.runs);
   }
   const bool is_off = std::abs(agreement.simulated - agreement.measured) >= agreement.tolerance;
-  return is_off ? "more runs would not tell: measure it more often"
-                : "more runs would hardly tell: measure it more often, or state a wider tolerance";
+  return is_off
+             ? "more runs would not decide: take more bench readings"
+             : "more runs would hardly help: take more bench readings, or state a wider tolerance";
 }
 
 std::string disagreement(const Verification& verification) {
   std::string text = "bench and simulation disagree:";
   if (std::isfinite(verification.chance)) {
     text +=
-        fmt::format(" chance makes differences as large as all of these together in {} of cases",
+        fmt::format(" differences as large as all of these together arise by chance in {} of cases",
                     percent(verification.chance));
   }
   std::vector<const Agreement*> found = with(verification, AgreementVerdict::disagrees);
-  if (found.empty()) return text + "; no single experiment shows it alone";
+  if (found.empty()) return text + "; no single experiment shows it by itself";
   return text + fmt::format("; it is {} that {}", names_of(found),
                             found.size() == 1 ? "differs" : "differ");
 }
@@ -66,13 +67,12 @@ std::string agreement_text(const Agreement& agreement, const std::string& unit) 
     return fmt::format("within {:.3g}{} of each other", agreement.tolerance, in_unit);
   }
   if (agreement.verdict == AgreementVerdict::disagrees) {
-    return fmt::format("chance makes as large a difference in {} of cases",
+    return fmt::format("so large a difference arises by chance in {} of cases",
                        percent(agreement.chance));
   }
   if (!std::isfinite(agreement.detectable)) return way_out(agreement);
-  return fmt::format("a difference of {:.3g}{} would have been seen, {:.3g}{} is the tolerance; {}",
-                     agreement.detectable, in_unit, agreement.tolerance, in_unit,
-                     way_out(agreement));
+  return fmt::format("detectable difference {:.3g}{}, tolerance {:.3g}{}; {}", agreement.detectable,
+                     in_unit, agreement.tolerance, in_unit, way_out(agreement));
 }
 
 std::string agreement_text(const Verification& verification) {
@@ -85,8 +85,8 @@ std::string agreement_text(const Verification& verification) {
       break;
   }
   return fmt::format(
-      "whether bench and simulation agree cannot be told: no difference is shown (chance makes as "
-      "large ones in {} of cases), but neither is agreement within the tolerance for {}",
+      "it cannot be told whether bench and simulation agree: no difference is shown (as large ones "
+      "arise by chance in {} of cases), but neither is agreement within the tolerance for {}",
       percent(verification.chance), names_of(with(verification, AgreementVerdict::cannot_tell)));
 }
 

@@ -119,7 +119,7 @@ StudyResult result_from_json(const std::string& json, const std::string& name) {
     reason = error.what();
   }
   throw std::invalid_argument(
-      fmt::format("{}: is no result of this version of repose calibrate ({}). Fix: repose "
+      fmt::format("{}: is not a result of this version of repose calibrate ({}). Fix: repose "
                   "calibrate with the same study and folder writes it anew; what was simulated is "
                   "used again.",
                   name, reason));

@@ -76,28 +76,28 @@ std::string particle_section(const NewStudy& study) {
   const auto& [length, width, thickness] = study.sizes_mm;
   std::string text = "[particle]\n";
   text += fmt::format("name = \"{}\"\n", study.grain.name);
-  text +=
-      comment(study.has_own_sizes
-                  ? "Length, width and thickness by calliper: best the means of 20 grains or more."
-                  : "Length, width and thickness: assumed, measure 20 grains or more with a "
-                    "calliper.");
+  text += comment(
+      study.has_own_sizes
+          ? "Length, width and thickness by calliper, ideally the means of at least 20 grains."
+          : "Length, width and thickness: assumed; measure at least 20 grains with a calliper.");
   text += fmt::format("size_mm = [{}, {}, {}]\n", number(length), number(width), number(thickness));
-  text += comment("How many spheres stand for one grain: more follow its shape, and take longer.");
+  text += comment("Number of spheres per grain: more follow its shape better, but take longer.");
   text += fmt::format("spheres = {}\n", spheres_for(study.sizes_mm));
-  text += comment(study.has_own_density ? "Of a grain, not of the bulk."
-                                        : "Of a grain, not of the bulk: assumed. repose bench "
-                                          "density works it out from a mass and displaced water.");
+  text +=
+      comment(study.has_own_density ? "Density of a grain, not of the bulk."
+                                    : "Density of a grain, not of the bulk: assumed. repose "
+                                      "bench density computes it from a mass and displaced water.");
   text += fmt::format("density_kg_m3 = {}\n", number(study.density_kg_m3));
-  text += comment("Assumed. They hardly matter to where grains come to rest.");
+  text += comment("Assumed. They hardly affect where grains come to rest.");
   text += fmt::format("young_modulus_pa = {}\n", number(study.grain.young_modulus_pa));
   text += fmt::format("poisson_ratio = {}\n", number(study.grain.poisson_ratio));
   const auto& [red, green, blue] = study.grain.colour;
-  text += comment("About their colour, for pictures: red, green and blue from 0 to 255.");
+  text += comment("Approximate colour, for pictures: red, green and blue from 0 to 255.");
   return text + fmt::format("colour = [{}, {}, {}]\n", red, green, blue);
 }
 
 std::string wall_section(const PlateKind& plate) {
-  return "[wall]\n" + comment("What plate, incline and tube are made of; textbook values.") +
+  return "[wall]\n" + comment("Material of plate, incline and tube; textbook values.") +
          fmt::format("name = \"{}\"\nyoung_modulus_pa = {}\npoisson_ratio = {}\n", plate.name,
                      number(plate.young_modulus_pa), number(plate.poisson_ratio));
 }
@@ -113,7 +113,7 @@ std::string coefficient_line(const NewStudy& study, const std::string& pair,
                              const std::string& name, const CoefficientBounds& bounds) {
   const std::string middle = number(std::round(500 * (bounds.min + bounds.max)) / 1000);
   if (!is_told(study, fmt::format("contact.{}.{}", pair, name))) {
-    return fmt::format("{} = {}  # moves no experiment of this study\n", name, middle);
+    return fmt::format("{} = {}  # no experiment of this study depends on it\n", name, middle);
   }
   return fmt::format("{} = {{ value = {}, min = {}, max = {} }}\n", name, middle,
                      number(bounds.min), number(bounds.max));
@@ -129,11 +129,12 @@ std::string contact_section(const NewStudy& study, const std::string& pair,
 
 std::string contacts(const NewStudy& study) {
   std::string text = comment(
-      "What is to be found, each between bounds; the value is for repose simulate. A coefficient "
-      "that you know is just a number: restitution = 0.31");
+      "Coefficients to fit, each between bounds; the value is for repose simulate. For one that "
+      "you "
+      "know, or that no remaining experiment depends on, write a number: restitution = 0.31");
   text += comment(study.grain.source.empty()
-                      ? std::string("Bounds: wide ones, as any dry grain may need; narrow them if "
-                                    "you know better.")
+                      ? std::string("Bounds: wide enough for any dry grain; narrow them if you "
+                                    "know better.")
                       : fmt::format("Bounds: {}.", study.grain.source));
   text += "[contact]\nrolling_model = \"constant_torque\"  # EDEM's standard\n\n";
   text += contact_section(study, "particle_wall", study.grain.with_wall) + '\n';
@@ -150,10 +151,10 @@ std::string columns_text(const dem::ExperimentEntry& entry) {
 }
 
 std::string sheet_comment(const dem::ExperimentEntry& entry, const std::string& sheet) {
-  std::string text = fmt::format("{} has a row for each repeat: {}.", sheet, columns_text(entry));
+  std::string text = fmt::format("{} has one row per reading: {}.", sheet, columns_text(entry));
   for (const auto& [column, key] : entry.sheet.protocol) {
-    text += column == key ? fmt::format(" {} is as below.", column)
-                          : fmt::format(" {} is {} below.", column, key);
+    text += column == key ? fmt::format(" {} must be as below.", column)
+                          : fmt::format(" {} must equal {} below.", column, key);
   }
   return comment(text);
 }
@@ -172,13 +173,13 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
     }
   }
   if (dem::has_grain_contacts(entry.experiment)) {
-    text += comment("Fraction of the real stiffness: softer grains are simulated sooner.");
+    text += comment("Fraction of the real stiffness: softer grains are simulated faster.");
     text +=
         fmt::format("stiffness_factor = {}\n", number(softening_for(study.grain.young_modulus_pa)));
   }
   if (entry.is_pictured) {
     text += comment(fmt::format(
-        "Photographs instead of a sheet: put them into a folder and name it here, as in\n"
+        "To use photographs instead of a sheet, put them into a folder and name it here:\n"
         "measured = {{ pictures = [{}] }}",
         toml_text(folder + "/photos")));
   }
@@ -222,8 +223,8 @@ std::string title_of(const NewStudy& study) {
 std::string study_text(const NewStudy& study, const std::string& folder) {
   std::string text = comment(fmt::format(
       "{}: a study to calibrate. Lines that begin with # are comments; units are part of the "
-      "names: _mm, _deg, _pa. Fill in the sheets in {}/, replace what is assumed, and take out "
-      "what you cannot do.",
+      "names: _mm, _deg, _pa. Fill in the sheets in {}/, replace assumed values by your own, and "
+      "delete the experiments that you cannot do.",
       title_of(study), folder));
   text += fmt::format("\n[study]\ntitle = \"{}\"\n", title_of(study));
   text +=

@@ -27,8 +27,8 @@ class FolderToBe {
     if (::mkdtemp(name.data()) == nullptr) {
       const std::error_code error(errno, std::generic_category());
       throw std::invalid_argument(
-          fmt::format("{}: cannot be made ({}). Fix: choose a place you may write to.",
-                      folder.string(), error.message()));
+          fmt::format("{}: cannot be created ({}). Fix: choose a writable place.", folder.string(),
+                      error.message()));
     }
     path_ = name;
     fs::permissions(path_,
@@ -67,7 +67,7 @@ void check_new_places(const fs::path& file) {
   std::error_code ignored;
   for (const fs::path& place : {file, sheet_folder_of(file)}) {
     errors.require(!fs::exists(fs::symlink_status(place, ignored)),
-                   fmt::format("{}: is there already, and nothing is written over. Fix: choose "
+                   fmt::format("{}: already exists, and nothing is overwritten. Fix: choose "
                                "another name for the study, or move it away.",
                                place.string()));
   }

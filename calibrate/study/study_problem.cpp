@@ -83,18 +83,20 @@ class Maker {
     made_.problem.settings.seed = study_.seed;
     made_.problem.parameters = open_parameters(study_);
     if (made_.problem.parameters.empty()) {
-      throw std::invalid_argument(fmt::format(
-          "{}: every coefficient has a value: nothing is to be found. Fix: give bounds to what you "
-          "seek, as in restitution = {{ min = 0.1, max = 0.6 }}.",
-          study_.file.string()));
+      throw std::invalid_argument(
+          fmt::format("{}: every coefficient has a value, so there is nothing to fit. Fix: give "
+                      "bounds to what you "
+                      "seek, as in restitution = {{ min = 0.1, max = 0.6 }}.",
+                      study_.file.string()));
     }
     for (const dem::ExperimentEntry& entry : dem::all_experiments()) add(entry);
     if (made_.problem.observables.empty()) {
-      throw std::invalid_argument(fmt::format(
-          "{}: nothing was measured in an experiment that depends on what is to be found. Fix: "
-          "give one or more experiments what the bench gave, as in measured = {{ mean = 9.42, sd = "
-          "0.5, n = 10 }}.",
-          study_.file.string()));
+      throw std::invalid_argument(
+          fmt::format("{}: no experiment that depends on a fitted coefficient has readings. Fix: "
+                      "give one or more experiments their bench readings, as in measured = {{ mean "
+                      "= 9.42, sd = "
+                      "0.5, n = 10 }}.",
+                      study_.file.string()));
     }
     allow_a_fit();
     require_sound(made_.problem);
@@ -114,10 +116,10 @@ class Maker {
     const bool is_measured = measured.mean || !measured.values.empty();
     if (with_effect.empty()) {
       if (is_measured) {
-        made_.notes.push_back(fmt::format(
-            "[experiment.{}] depends on nothing that is to be found: what was measured there is "
-            "not used",
-            name));
+        made_.notes.push_back(
+            fmt::format("[experiment.{}] depends on no fitted coefficient: its readings are "
+                        "not used",
+                        name));
       }
       return;
     }

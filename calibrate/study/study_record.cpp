@@ -181,7 +181,7 @@ StudyRecord read_study_record(const fs::path& folder) {
   const std::optional<StudyNotes> notes = read_study_notes(folder);
   if (!notes) {
     throw std::invalid_argument(
-        fmt::format("{}: is no folder of a study, there is no {} in it. Fix: name the output "
+        fmt::format("{}: is not the folder of a study: it contains no {}. Fix: name the output "
                     "folder of repose calibrate.",
                     folder.string(), kNotesFile));
   }

@@ -167,8 +167,8 @@ void note_checks(const Problem& problem, StudyOutcome& outcome) {
                          fitted.simulated - checked.simulated[i], fitted.unit);
   }
   outcome.notes.push_back(fmt::format(
-      "after {} rounds of checks the coefficients still move: those reported differ from those "
-      "checked last, by what the surrogates say so: {}. A larger budget settles them.",
+      "after {} rounds of checks the coefficients still change: according to the surrogates, those "
+      "reported differ from those checked last by: {}. A larger budget would settle them.",
       outcome.check_rounds, moved));
 }
 

@@ -57,11 +57,11 @@ void set_aside_old_result(const CalibratePlan& plan) {
   if (!error) fs::rename(file, plan.out_folder / name, error);
   if (error) {
     throw std::invalid_argument(
-        fmt::format("{}: is of another study and cannot be renamed ({}). Fix: choose another "
+        fmt::format("{}: belongs to another study and cannot be renamed ({}). Fix: choose another "
                     "folder.",
                     file.string(), error.message()));
   }
-  print_line(fmt::format("{}: was of another study, its settings or budget; it is now {}",
+  print_line(fmt::format("{}: belonged to another study, settings or budget; renamed to {}",
                          file.string(), name));
 }
 
@@ -91,8 +91,8 @@ calibrate::StudySimulator simulator_of(const CalibratePlan& plan,
 
 ExitCode interrupted(const calibrate::RunFolder& folder) {
   print_line(
-      fmt::format("interrupted, no result was written. The same command again goes on from here: "
-                  "what was simulated is in {}.",
+      fmt::format("interrupted; no result was written. The same command resumes from here: the "
+                  "simulations are in {}.",
                   folder.runs().string()));
   return ExitCode::interrupted;
 }
@@ -131,7 +131,7 @@ ExitCode run_study_with(const CalibratePlan& plan, const calibrate::StudyContext
   if (!outcome) return interrupted(context.folder);
   if (outcome->reused > 0) {
     print_lines(
-        {fmt::format("{} of {} simulations were there already, in {}", outcome->reused,
+        {fmt::format("{} of {} simulations were taken from {}", outcome->reused,
                      outcome->reused + outcome->simulated, context.folder.runs().string())});
   }
   print_lines(outcome->notes);
@@ -169,13 +169,14 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (calibrate::is_launched_as_rank()) {
     if (arguments.is_dry_run) {
-      print_line("--dry-run: tells of this machine. Fix: start it as one process, without mpirun.");
+      print_line(
+          "--dry-run: times this machine only. Fix: start it as one process, without mpirun.");
       return ExitCode::bad_input;
     }
     if (calibrate::has_ranks()) return run_as_rank(arguments);
     print_lines(
         {"started as several processes, but built without MPI: each would do the whole "
-         "study. Fix: install an MPI (libopenmpi-dev) and build again, or start one "
+         "study. Fix: install MPI (libopenmpi-dev) and rebuild, or start one "
          "process with --jobs."});
     return ExitCode::bad_input;
   }

@@ -12,9 +12,9 @@ STUDY is a study file in which contact coefficients have bounds instead of a
 value, as in restitution = { min = 0.1, max = 0.6 }, and experiments state what
 was measured. All unknowns are fitted to all measurements at once; each gets an
 interval and a verdict: determined, one-sided, or undetermined by these data.
-The fitted values are then simulated with new seeds, all of these runs enter the
-fit too, and a verdict says whether bench and simulation agree: agrees,
-disagrees, or cannot tell.
+The best fit is then simulated with fresh seeds; these runs enter the fit too,
+and a verdict says whether bench and simulation agree: agrees, disagrees, or
+cannot tell.
 
 Simulations are saved in --out: the same command resumes an interrupted study,
 and a study with other bounds or measurements reuses them. The same study gives
@@ -22,15 +22,16 @@ the same result with any number of --jobs.
 
 Methods:
   joint     all unknowns fitted to all measurements at once, with intervals
-  paper     as a published calibration did: point estimates, for comparison
+  paper     a published calibration procedure: point estimates, for comparison
 
 Budgets:
-  quick     13 minutes of one core for the fit; heaps ten times softer, few
-  standard  150 minutes of one core; heaps as stiff as the study says
-  paper     62 simulations at most, as many as a published calibration made
-The minutes are estimates for a few hundred grains; verification is extra.
---dry-run times one run of each experiment here, for 20 seconds at most, and
-tells what each budget would simulate and how long that takes; it saves nothing.
+  quick     13 minutes on one core for the fit; heaps ten times softer, and few
+  standard  150 minutes on one core; heaps as stiff as the study says
+  paper     at most 62 simulations, the number of a published calibration
+The minutes are estimates for heaps of a few hundred grains; verification is
+extra. --dry-run times one run of each experiment, for at most 20 seconds each,
+and reports what each budget would simulate and how long it takes. It needs the
+bench readings, and saves nothing.
 
 Examples:
   repose calibrate study.toml --dry-run
@@ -45,19 +46,18 @@ Command calibrate_command() {
   return {
       .name = "calibrate",
       .summary = "Calibrate a study's coefficients",
-      .options =
-          {{"study", "STUDY.toml", "Study file", &given->study, true},
-           {"--budget", "quick|standard|paper", "How much may be simulated (quick)",
-            &given->budget},
-           {"--method", "joint|paper", "How the coefficients are found (joint)", &given->method},
-           {"--set", "KEY=VALUE", "Replace a value of the study; repeatable", &given->settings},
-           {"--jobs", "N", "Simulations at a time (all cores)", &given->jobs},
-           {"--out", "FOLDER", "Runs, result.json, heap.vtp (STUDY_calibration)",
-            &given->out_folder},
-           {"--dry-run", "", "Only tell how long each budget takes here", &given->is_dry_run},
-           {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+      .options = {{"study", "STUDY.toml", "Study file", &given->study, true},
+                  {"--budget", "quick|standard|paper", "Limit on the simulations (quick)",
+                   &given->budget},
+                  {"--method", "joint|paper", "Method of calibration (joint)", &given->method},
+                  {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
+                   &given->settings},
+                  {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
+                  {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
+                  {"--dry-run", "", "Only estimate how long each budget takes", &given->is_dry_run},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kNotes,
-      .missing = "no study file is named. Fix: repose calibrate STUDY.toml.",
+      .missing = "no study file given. Fix: repose calibrate STUDY.toml.",
       .option_names = {{"the joint method", "--method joint"}},
       .run = [given] { return run_calibrate(*given); }};
 }

@@ -54,7 +54,7 @@ calibrate::PictureReading reading_of(const std::filesystem::path& file) {
 /// What to know about a picture that is not quite as it should be.
 std::string note_on(const calibrate::PictureReading& picture) {
   return calibrate::counts_in_mean(picture.status)
-             ? fmt::format("{}: flagged. It counts; look at it with repose measure --overlay.",
+             ? fmt::format("{}: flagged, but counted; check it with repose measure --overlay.",
                            picture.file.string())
              : fmt::format("{}: refused, left out: {}", picture.file.string(), picture.reason);
 }
@@ -78,7 +78,7 @@ void measure_pictures(const std::vector<std::filesystem::path>& pictures, Calibr
   }
   if (plan.errors.empty() && !any) {
     plan.errors.push_back(fmt::format(
-        "{}: none of the {} pictures of the heap could be measured. Fix: look at them with repose "
+        "{}: none of the {} pictures of the heap could be measured. Fix: check them with repose "
         "measure --overlay, or give the angles as values.",
         plan.record.study.file.string(), list.files.size()));
   }
@@ -105,7 +105,7 @@ void check_places(CalibratePlan& plan) {
   const std::vector<std::string> foreign = calibrate::foreign_files(plan.out_folder, study.file);
   if (!foreign.empty()) {
     plan.errors.push_back(
-        fmt::format("--out {}: is no folder of repose calibrate, and files of yours there would be "
+        fmt::format("--out {}: not a folder of repose calibrate, and your own files there would be "
                     "overwritten: {}. Fix: choose another folder, or move them away.",
                     plan.out_folder.string(), fmt::join(foreign, ", ")));
   }
@@ -125,7 +125,7 @@ void check_dry_run(const CalibrateArguments& arguments, CalibratePlan& plan) {
   }
   if (arguments.method != "joint") {
     plan.errors.push_back(
-        fmt::format("--dry-run: tells of the joint method, not of --method {}, which makes at most "
+        fmt::format("--dry-run: is for the joint method, not for --method {}, which makes at most "
                     "62 simulations. Fix: leave one of them out.",
                     arguments.method));
   }

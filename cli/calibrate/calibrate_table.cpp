@@ -90,7 +90,7 @@ void add_family(const calibrate::JointResult& joint, Page& page) {
     table.add_row(std::move(cells));
   }
   page.add_gap();
-  page.add("equally good parameter sets, in the order of the coefficients above");
+  page.add("Equally good parameter sets, in the order of the coefficients above:");
   page.add(table);
 }
 
@@ -113,8 +113,8 @@ std::string belongs_to_text(const calibrate::Provenance& of) {
   }
   const calibrate::ClumpFacts& clump = of.clump;
   return fmt::format(
-      "These coefficients belong to: {}, rolling friction {} ({}); a clump of {} ({}, "
-      "volume {:+.2f} % off); stiffness factor {}; budget {}: {}.",
+      "These coefficients are valid for: {}, rolling friction {} ({}); a clump of {} ({}, "
+      "volume error {:+.2f} %); stiffness factor {}; budget {}: {}.",
       of.contact_model, of.rolling_model, of.rolling_definition,
       clump.spheres == 1 ? "1 sphere" : fmt::format("{} spheres", clump.spheres), clump.source,
       100 * clump.volume_error, stiffness, of.study.budget, of.study.budget_description);

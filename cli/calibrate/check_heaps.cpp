@@ -35,10 +35,10 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) return;
-  throw std::invalid_argument(
-      fmt::format("{}: cannot be made ({}). Fix: allow yourself to write there, or move away what "
-                  "has that name.",
-                  folder.string(), error.message()));
+  throw std::invalid_argument(fmt::format(
+      "{}: cannot be created ({}). Fix: get permission to write there, or move away what "
+      "has that name.",
+      folder.string(), error.message()));
 }
 
 }  // namespace

@@ -104,23 +104,22 @@ std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
     headings.push_back(number_column(estimate.experiment + "s"));
   }
   headings.push_back(
-      number_column(fmt::format("at most, on {} core{}", plan.jobs, plan.jobs == 1 ? "" : "s")));
+      number_column(fmt::format("time at most, {} core{}", plan.jobs, plan.jobs == 1 ? "" : "s")));
   Table table(headings);
   for (const BudgetPlan& budget : budgets) {
     table.add_row(budget_row(budget, pace, plan.jobs));
     table.add_note("  ", budget.budget.description);
   }
   table.add_row(hour_row(budgets.back(), pace, plan.jobs));
-  table.add_note("  ", "more runs of that budget, for a measure");
+  table.add_note("  ", "additional runs within one hour, for comparison");
   Page page(columns);
-  page.add("Simulations for the fit + for its checks:");
+  page.add("Simulations of each experiment, for the fit + for the checks:");
   page.add_gap();
   page.add(table);
   page.add_gap();
   page.add(
-      "Timed with one run of each experiment on this machine, as busy as it is now. A fit that "
-      "has settled ends earlier; the arithmetic between its rounds comes on top. Nothing was "
-      "saved.");
+      "Timed with one run of each experiment on this machine under its present load. A fit that "
+      "converges early takes less; the computation between rounds is extra. Nothing was saved.");
   return page.text();
 }
 

@@ -66,7 +66,7 @@ std::string check_text(const PublishedResult& published) {
   const calibrate::PublishedVerification& verification = published.verification;
   const double measured = verification.measured_deg;
   std::string text =
-      fmt::format("surface's least error {:.2f} %; heaps measured {:.2f} deg, simulated ",
+      fmt::format("minimum error of the surface {:.2f} %; heaps measured {:.2f} deg, simulated ",
                   published.least_error_percent, measured);
   if (!verification.mean_deg) return text + "none: no heap gave an angle";
   text += fmt::format("{:.2f} deg", *verification.mean_deg);
@@ -98,7 +98,8 @@ std::string paper_table(const PublishedResult& published, const dem::Study& stud
   }
   page.add_gap();
   page.add(
-      "These are single points without intervals, found one after the other: --method joint says "
+      "These are point estimates without intervals, found one after the other: --method joint "
+      "shows "
       "what the measurements determine.");
   return page.text();
 }

@@ -14,7 +14,7 @@ bool is_out_of_memory(const std::exception& error) {
 
 std::string no_memory(const std::string& what, const std::string& fix) {
   return fmt::format(
-      "{}: there is not enough memory for it. Fix: {}, or a machine (or a ulimit -v) with more "
+      "{}: not enough memory. Fix: {}, or a machine (or a ulimit -v) with more "
       "memory.",
       what, fix);
 }

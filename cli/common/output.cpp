@@ -22,8 +22,8 @@ void print(std::string_view text) {
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (is_written && std::fflush(stdout) == 0) return;
   throw std::invalid_argument(
-      "standard output: cannot be written. Fix: look whether the disk is full or the program "
-      "that reads it has ended.");
+      "standard output: cannot be written. Fix: check whether the disk is full or the program "
+      "reading it has ended.");
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void print_line(std::string_view line) noexcept {
   try {
     print_error_text("repose: " + base::printable(line) + '\n');
   } catch (const std::bad_alloc&) {
-    print_error_text("repose: there is no memory left to say what is wrong\n");
+    print_error_text("repose: out of memory, so the error cannot be described\n");
   }
 }
 

@@ -31,15 +31,16 @@ void check_output_places(const std::vector<OutputPlace>& places,
     }
     if (file == kStandardOutput) continue;
     if (has_picture_ending(file) && !vision::is_made_here(file)) {
-      errors.push_back(fmt::format(
-          "{} {}: is there already, and no picture of repose. Fix: choose another name, or move it "
-          "away.",
-          option, file));
+      errors.push_back(
+          fmt::format("{} {}: already exists, and is not a picture written by repose. Fix: choose "
+                      "another name, or move it "
+                      "away.",
+                      option, file));
     }
     for (const fs::path& input : inputs) {
       if (input.empty() || !same_file(input, file)) continue;
       errors.push_back(fmt::format(
-          "{} {}: would overwrite a file that is read. Fix: choose another name.", option, file));
+          "{} {}: would overwrite an input file. Fix: choose another name.", option, file));
     }
     try {
       base::check_can_write(file);
@@ -55,7 +56,7 @@ bool make_output_folder(const char* option, const fs::path& folder,
   fs::create_directories(folder, error);
   if (std::error_code ignored; error || !fs::is_directory(folder, ignored)) {
     errors.push_back(fmt::format(
-        "{} {}: the folder cannot be made ({}). Fix: choose a place you may write to.", option,
+        "{} {}: the folder cannot be created ({}). Fix: choose a writable place.", option,
         folder.string(), error ? error.message() : "there is a file of that name"));
     return false;
   }

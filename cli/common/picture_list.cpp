@@ -26,7 +26,7 @@ void add_folder(const fs::path& folder, PictureList& list) {
   }
   if (error) {
     list.errors.push_back(
-        fmt::format("{}: the folder cannot be read ({}). Fix: allow yourself to read it.",
+        fmt::format("{}: the folder cannot be read ({}). Fix: get permission to read it.",
                     folder.string(), error.message()));
     return;
   }

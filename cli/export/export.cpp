@@ -47,14 +47,15 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
   const calibrate::StudyRecord record = calibrate::read_study_record(folder);
   const auto result = calibrate::read_result(folder);
   if (result && !is_same_study(result->provenance.study, identity_of(record))) {
-    throw std::invalid_argument(fmt::format(
-        "{}: {} is not of the study in {}: the study was changed, and is not finished. Fix: run "
-        "the same repose calibrate command again; it resumes.",
-        folder.string(), calibrate::kResultFile, calibrate::kNotesFile));
+    throw std::invalid_argument(
+        fmt::format("{}: {} does not belong to the study in {}: the study was changed, and is "
+                    "unfinished. Fix: run "
+                    "the same repose calibrate command again; it resumes.",
+                    folder.string(), calibrate::kResultFile, calibrate::kNotesFile));
   }
   if (!result) {
     throw std::invalid_argument(
-        fmt::format("{}: there is no result.json in it: the study is not finished. Fix: run "
+        fmt::format("{}: contains no result.json: the study is unfinished. Fix: run "
                     "the same repose calibrate command again; it resumes.",
                     folder.string()));
   }

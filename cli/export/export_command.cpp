@@ -8,9 +8,9 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kNotes = R"(
-FOLDER is what repose calibrate --out wrote. Material, contacts, clump and a
-deck for each experiment go to FOLDER/export/PROGRAM, with a README.txt that
-explains for each coefficient what it means here and there.
+FOLDER is the output folder of repose calibrate. Material, contacts, clump and a
+deck for each experiment are written to FOLDER/export/PROGRAM, with a README.txt
+that gives both programs' definitions of each coefficient.
 
 Programs:
   liggghts    decks for drop, tilt, roll and heap
@@ -18,10 +18,9 @@ Programs:
   lammps      decks for drop, tilt and roll
   edem        tables to type in
 
-Rolling friction means something different in each. A coefficient that has an
-exact or nearly exact counterpart is converted. Where the law differs, the
-export is refused with the reason; --approximate writes the value that is
-equivalent on average.
+Rolling friction is defined differently in each. A coefficient with an exact or
+nearly exact counterpart is converted. If the law differs, the export is refused
+with the reason; --approximate writes the value that is equivalent on average.
 
 Example:
   repose export hazelnut --to yade --approximate
@@ -33,12 +32,11 @@ Command export_command() {
   const auto given = std::make_shared<ExportArguments>();
   return {
       .name = "export",
-      .summary = "Write a calibrated study for other programs",
+      .summary = "Export a calibrated study to another program",
       .options = {{"folder", "FOLDER", "Folder of a finished study", &given->folder, true},
-                  {"--to", "PROGRAM", "For which program", &given->target, true},
-                  {"--approximate", "", "Convert what has no exact counterpart",
-                   &given->takes_approximate},
-                  {"--out", "FOLDER", "Decks (FOLDER/export/PROGRAM)", &given->out_folder},
+                  {"--to", "PROGRAM", "Program to export to", &given->target, true},
+                  {"--approximate", "", "Allow approximate conversions", &given->takes_approximate},
+                  {"--out", "FOLDER", "Output folder (FOLDER/export/PROGRAM)", &given->out_folder},
                   {"--json", "FILE|-", "Files and conversions, for programs", &given->json_file}},
       .notes = kNotes,
       .missing =

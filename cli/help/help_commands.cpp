@@ -15,10 +15,10 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kCompletionNotes = R"(
-Prints a script. For one user, once:
+Prints a script. To install it for one user:
   bash  repose completion bash >> ~/.bash_completion
-  zsh   repose completion zsh > FOLDER/_repose, FOLDER being one of $fpath
-Then start the shell anew. Installing repose does both for all users.
+  zsh   repose completion zsh > FOLDER/_repose, with FOLDER from $fpath
+Then start a new shell. Installing repose does both for all users.
 )";
 
 constexpr const char* kManualNotes = R"(
@@ -47,7 +47,7 @@ ExitCode write_manual(const std::filesystem::path& folder, const std::vector<Com
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw std::invalid_argument(
-        fmt::format("{}: cannot be made a folder ({}). Fix: name a folder that you may write.",
+        fmt::format("{}: cannot create the folder ({}). Fix: choose a writable folder.",
                     folder.string(), error.message()));
   }
   Outputs outputs;
@@ -63,13 +63,13 @@ ExitCode write_manual(const std::filesystem::path& folder, const std::vector<Com
 std::vector<Command> help_commands(const std::vector<Command>& others) {
   const auto word = std::make_shared<std::string>();
   Command completion = {.name = "completion",
-                        .summary = "Script that completes commands in a shell",
-                        .options = {{"shell", "bash|zsh", "Which shell", word.get(), true}},
+                        .summary = "Print a shell completion script",
+                        .options = {{"shell", "bash|zsh", "Shell", word.get(), true}},
                         .notes = kCompletionNotes,
                         .missing = "a shell is needed. Fix: repose completion bash|zsh."};
   Command manual = {.name = "manual",
-                    .summary = "Write pages for man",
-                    .options = {{"folder", "FOLDER", "Where the pages go", word.get(), true}},
+                    .summary = "Write the man pages",
+                    .options = {{"folder", "FOLDER", "Output folder", word.get(), true}},
                     .notes = kManualNotes,
                     .missing = "a folder is needed. Fix: repose manual FOLDER."};
   std::vector<Command> all = others;

@@ -8,8 +8,8 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kNotes = R"(
-PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP. A folder stands
-for the pictures in it. FILE may be - for standard output.
+PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP. A folder stands for
+all pictures in it. FILE may be - for standard output.
 
 Methods:
   auto   Segments the heap in several ways and takes the most convincing
@@ -23,51 +23,52 @@ Methods:
 
 Window: the part of each side that is fitted, as fractions of the heap's
 height. Sides are concave at the toe and round at the crest, so the angle
-depends on the window: always state it. Other definitions (height over base,
-tangent at half height, whole flank, other windows) are listed by
---definitions and in the JSON.
+depends on the window: always state it. --definitions and the JSON list the
+angle by other definitions (height over base, tangent at half height, whole
+flank, other windows).
 
-Hints: where the heap is not found, say where it is. --heap alone often is
-enough; --ground is needed where the foot is not seen. Positions are in pixels
-from the picture's top left corner. --save-hints writes them, with --exclude
-and --pitch-deg, into PICTURE.repose.toml, which is read whenever PICTURE is
-measured again. What a refused picture needs is tried and proposed.
+Hints: if the heap is not found, mark where it is. --heap alone is often enough;
+--ground is needed if the foot is hidden. Positions are in pixels from the
+picture's top left corner. --save-hints saves them, with --exclude and
+--pitch-deg, in PICTURE.repose.toml, which is read whenever PICTURE is measured
+again. For a refused picture, hints are tried and the best one is suggested.
 
 Uncertainties are half-widths of 95 % intervals. The mean of several pictures
-is over all that could be measured. A flagged picture counts in it, and has a
-warning to be checked by a person; a refused one has a reason instead of an
-angle.
+includes all that could be measured. A flagged picture counts, but has a warning
+to check; a refused one has a reason instead of an angle.
 )";
 
 }  // namespace
 
 Command measure_command() {
   const auto given = std::make_shared<MeasureArguments>();
-  return {.name = "measure",
-          .summary = "Measure heaps in pictures",
-          .options =
-              {{"pictures", "PICTURE|FOLDER ...", "Pictures, or folders of pictures",
-                &given->pictures, true},
-               {"--method", "auto|paper", "How to measure (auto)", &given->method},
-               {"--window", "FROM,TO", "Part of the height (0.2,0.8)", &given->window},
-               {"--exclude", "X,Y,W,H", "Box in pixels to leave out; repeatable", &given->exclude},
-               {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
-               {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
-               {"--keep", "X,Y", "Place on the heap; repeatable", &given->keep},
-               {"--drop", "X,Y", "Place beside the heap; repeatable", &given->drop},
-               {"--mask", "FILE", "Picture: heap light, rest dark", &given->mask_file},
-               {"--save-hints", "", "Keep these beside each picture", &given->saves_hints},
-               {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)", &given->pitch_deg},
-               {"--overlay", "FOLDER", "Draw what was measured", &given->overlay_folder},
-               {"--json", "FILE|-", "All results, for programs", &given->json_file},
-               {"--csv", "FILE|-", "A row for each picture", &given->csv_file},
-               {"--summary", "FILE|-", "Mean and interval, as JSON", &given->summary_file},
-               {"--report", "FILE.html", "All results as a web page", &given->report_file},
-               {"--threads", "N", "Pictures at a time (all cores)", &given->threads},
-               {"--definitions", "", "Show other definitions too", &given->shows_definitions}},
-          .notes = kNotes,
-          .missing = "no picture is named. Fix: repose measure PICTURE, or a folder of pictures.",
-          .run = [given] { return run_measure(*given); }};
+  return {
+      .name = "measure",
+      .summary = "Measure heaps in pictures",
+      .options = {{"pictures", "PICTURE|FOLDER ...", "Pictures, or folders of pictures",
+                   &given->pictures, true},
+                  {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
+                  {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
+                  {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
+                  {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
+                  {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
+                  {"--keep", "X,Y", "Point on the heap; repeatable", &given->keep},
+                  {"--drop", "X,Y", "Point off the heap; repeatable", &given->drop},
+                  {"--mask", "FILE", "Picture with the heap light, rest dark", &given->mask_file},
+                  {"--save-hints", "", "Save these hints beside each picture", &given->saves_hints},
+                  {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)",
+                   &given->pitch_deg},
+                  {"--overlay", "FOLDER", "Folder for pictures with the measurement",
+                   &given->overlay_folder},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file},
+                  {"--csv", "FILE|-", "One row per picture", &given->csv_file},
+                  {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
+                  {"--report", "FILE.html", "Report as a web page", &given->report_file},
+                  {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
+                  {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
+      .notes = kNotes,
+      .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
+      .run = [given] { return run_measure(*given); }};
 }
 
 }  // namespace repose::cli

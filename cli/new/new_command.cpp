@@ -9,16 +9,16 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kNotes = R"(
-Writes a study file with comments and, in a folder of the same name beside it,
-a CSV sheet for each experiment to fill in at the bench: soybean.toml and
-soybean/drops.csv, tilts.csv, rolls.csv, heaps.csv. What is not said is taken
-from what is typical of the grain, and called assumed in the file. Nothing that
-is there already is written over.
+Writes a commented study file and, in a folder of the same name beside it, a
+CSV sheet for each experiment to fill in at the bench: soybean.toml and
+soybean/drops.csv, tilts.csv, rolls.csv, heaps.csv. Values not given are typical
+of the grain, and marked as assumed in the file. Existing files are never
+overwritten.
 
 KIND of grain: soybean, maize, wheat, rice, hazelnut, pea, rapeseed, glass
 (beads), other. KIND of plate: acrylic, steel, aluminium, glass, pvc, wood,
-rubber. Bounds of the coefficients are typical of the grain where literature
-has them, else wide.
+rubber. Bounds of the coefficients are from the literature on that grain where
+there is any, otherwise wide.
 
 Examples:
   repose new my_grain.toml
@@ -32,25 +32,26 @@ Command new_command() {
   const auto given = std::make_shared<NewArguments>();
   return {
       .name = "new",
-      .summary = "Begin a study: its file, and sheets to fill in",
-      .options = {{"study", "STUDY.toml", "Study file to be written", &given->study, true},
+      .summary = "Start a study: a study file and sheets to fill in",
+      .options = {{"study", "STUDY.toml", "Study file to write", &given->study, true},
                   {.name = "--grains",
                    .value_name = "KIND",
                    .help = "Kind of grain (other)",
                    .target = &given->grains,
                    .words = grain_names()},
                   {"--grain-mm", "L,W,T", "Length, width, thickness (typical)", &given->grain_mm},
-                  {"--density-kg-m3", "D", "Of a grain (typical)", &given->density_kg_m3},
+                  {"--density-kg-m3", "D", "Density of a grain (typical)", &given->density_kg_m3},
                   {.name = "--plate",
                    .value_name = "KIND",
-                   .help = "What plate and tube are made of (steel)",
+                   .help = "Material of plate and tube (steel)",
                    .target = &given->plate,
                    .words = plate_names()},
-                  {"--tube-mm", "DxH", "Inner diameter and height (by the grain)", &given->tube_mm},
+                  {"--tube-mm", "DxH", "Inner diameter and height (from grain size)",
+                   &given->tube_mm},
                   {"--experiments", "A,B,...", "Of the experiments (drop,tilt,roll,heap)",
                    &given->experiments}},
       .notes = kNotes,
-      .missing = "no study file is named. Fix: repose new my_study.toml.",
+      .missing = "no study file given. Fix: repose new my_study.toml.",
       .run = [given] { return run_new(*given); }};
 }
 

@@ -28,7 +28,7 @@ std::string page_of(const NewPlan& plan, int columns) {
   const calibrate::NewStudy& study = plan.study;
   const std::filesystem::path folder = calibrate::sheet_folder_of(plan.file);
   Page page(columns);
-  page.add(fmt::format("{} is written: {}.", plan.file.string(), calibrate::title_of(study)));
+  page.add(fmt::format("Wrote {}: {}.", plan.file.string(), calibrate::title_of(study)));
   page.add_gap();
   Table table({{.heading = "sheet"}, {.heading = "measures"}, {.heading = "columns"}});
   for (const calibrate::NewSheet& sheet : calibrate::sheets_of(study)) {
@@ -42,10 +42,10 @@ std::string page_of(const NewPlan& plan, int columns) {
   page.add_gap();
   page.add("Next:");
   page.add("  1. ",
-           fmt::format("fill in the sheets, a row for each reading, ten or more each; take "
-                       "out of {} what you cannot do",
+           fmt::format("fill in the sheets, one row per reading, at least ten readings each; "
+                       "delete from {} the experiments that you cannot do",
                        plan.file.string()));
-  page.add("  2. ", fmt::format("repose calibrate {} --dry-run, which tells how long it will take",
+  page.add("  2. ", fmt::format("repose calibrate {} --dry-run, to see how long it will take",
                                 plan.file.string()));
   page.add("  3. ", fmt::format("repose calibrate {}", plan.file.string()));
   page.add("  4. ", fmt::format("repose report {}_calibration", plan.file.stem().string()));

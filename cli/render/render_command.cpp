@@ -8,18 +8,18 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kNotes = R"(
-STATE is a .vtp file that repose simulate --out wrote, or the trajectory.pvd of
-a run for a film.
+STATE is a .vtp file written by repose simulate --out or, for a film, the
+trajectory.pvd of a run.
 
 Styles:
   silhouette  Black grains on white, every pixel one or the other.
-  photo       What a camera in a laboratory sees: soft light, shadows, a plate
+  photo       As a camera in a laboratory sees it: soft light, shadows, a plate
               before a backdrop, depth of field, noise.
 
-Without --camera the view is orthographic. With it there is a lens on a stand:
+Without --camera the view is orthographic. With it, a lens on a stand is used:
 distance_mm from the centre of the grains, height_mm above the ground, focal_mm
 for a 36 mm wide sensor, pitch_deg (down), roll_deg, k1 and k2 (distortion).
-Values left out are chosen so that the camera is level and all grains fit.
+By default the camera is level and all grains fit.
 
 --truth: camera, mm per pixel, the ground line and the heap's upper edge, in
 pixels from the top left corner.
@@ -38,24 +38,24 @@ Command render_command() {
   return {
       .name = "render",
       .summary = "Render a simulated state",
-      .options = {{"state", "STATE", "State, or trajectory.pvd", &given->state, true},
+      .options = {{"state", "STATE", "State (.vtp), or trajectory.pvd", &given->state, true},
                   {"--view", "xz|DEGREES", "Viewing direction (xz)", &given->view},
                   {"--style", "silhouette|photo", "Appearance (silhouette)", &given->style},
-                  {"--size", "W,H", "Pixels (1920,1080)", &given->size},
-                  {"--mm-per-px", "MM", "Scale (all grains fit)", &given->mm_per_px},
+                  {"--size", "W,H", "Size in pixels (1920,1080)", &given->size},
+                  {"--mm-per-px", "MM", "Scale (such that all grains fit)", &given->mm_per_px},
                   {"--camera", "KEY=NUMBER,...", "Perspective camera; keys below", &given->camera},
                   {"--show", "mesh|spheres|both", "How grains are shown (mesh)", &given->show},
                   {"--seed", "N", "For a photo's textures and noise (1)", &given->seed},
-                  {"--passes", "N", "Photo; more: smoother shadows (24)", &given->passes},
-                  {"--study", "STUDY.toml", "Photo; grains have its particle.colour",
+                  {"--passes", "N", "Photo: more for smoother shadows (24)", &given->passes},
+                  {"--study", "STUDY.toml", "Photo: take the grains' colour from it",
                    &given->study},
-                  {"--mask", "FILE.png", "Grains white, all else black", &given->mask_file},
+                  {"--mask", "FILE.png", "Mask: grains white, all else black", &given->mask_file},
                   {"--truth", "FILE.json", "Exact geometry of the picture", &given->truth_file},
-                  {"--turntable", "FRAMES", "A film from all around", &given->turntable},
+                  {"--turntable", "FRAMES", "Film of one turn around the heap", &given->turntable},
                   {"--out", "FILE", "Picture .png .jpg, model .glb, film .mp4 .gif",
                    &given->out_file}},
       .notes = kNotes,
-      .missing = "no state is named. Fix: repose render STATE.vtp --out heap.png.",
+      .missing = "no state given. Fix: repose render STATE.vtp --out heap.png.",
       .option_names = {{"picture size", "--size"}},
       .run = [given] { return run_render(*given); }};
 }

@@ -8,13 +8,13 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kNotes = R"(
-FOLDER is what repose calibrate --out wrote. The page needs no other file and
-no network: it can be sent by e-mail, printed on A4, and read on a phone. It
-begins with the coefficients and shows how they were found. A study without a
-result yet gets a page that says so. Photographs that the study names are
-measured again; missing ones are listed.
+FOLDER is the output folder of repose calibrate. The report is a single file that
+needs no network: it can be sent by e-mail, printed on A4, and read on a phone.
+It begins with the coefficients and shows how they were found. An unfinished
+study gets a page that says so. Photographs named in the study are measured
+again; missing ones are listed.
 
-The tables hold the numbers of every chart, as CSV.
+The tables are the data of every chart, as CSV.
 
 Examples:
   repose report study_calibration
@@ -27,14 +27,14 @@ Command report_command() {
   const auto given = std::make_shared<ReportArguments>();
   return {
       .name = "report",
-      .summary = "Write a page about a calibrated study",
-      .options = {{"folder", "FOLDER", "What repose calibrate --out wrote", &given->folder, true},
-                  {"--out", "FILE.html", "The page (FOLDER/report.html)", &given->out_file},
-                  {"--tables", "FOLDER|none", "Its numbers (FOLDER/tables)",
+      .summary = "Write the report of a calibrated study",
+      .options = {{"folder", "FOLDER", "Output folder of repose calibrate", &given->folder, true},
+                  {"--out", "FILE.html", "Report (FOLDER/report.html)", &given->out_file},
+                  {"--tables", "FOLDER|none", "Its data as CSV (FOLDER/tables)",
                    &given->tables_folder}},
       .notes = kNotes,
       .missing =
-          "no folder is named. Fix: repose report FOLDER, the one of repose calibrate --out.",
+          "no folder given. Fix: repose report FOLDER, the output folder of repose calibrate.",
       .run = [given] { return run_report(*given); }};
 }
 

@@ -30,14 +30,14 @@ std::string finished_text(const SimulatePlan& plan, const std::vector<Run>& runs
   const std::size_t done = count(runs, RunOutcome::done);
   return fmt::format("{} of {} repeats were finished{}", done, runs.size(),
                      done > 0 && !plan.out_folder.empty()
-                         ? ", their states are in " + plan.out_folder.string()
+                         ? "; their states are in " + plan.out_folder.string()
                          : "");
 }
 
 /// How an interrupted batch goes on.
 std::string continue_text(const SimulatePlan& plan) {
   return plan.out_folder.empty() ? "Add --out FOLDER to make it resumable."
-                                 : "The same command again goes on from here.";
+                                 : "The same command resumes from here.";
 }
 
 /// Says why there is no result. What is wrong with the input is so for every seed, and told once.
@@ -78,7 +78,7 @@ ExitCode run_simulate(const SimulateArguments& arguments) {
   const std::vector<Run> runs = run_repeats(plan, is_interrupted);
   const bool is_all_done = count(runs, RunOutcome::done) == runs.size();
   if (is_interrupted && !is_all_done) {
-    print_line(fmt::format("interrupted, no result was written; {}. {}", finished_text(plan, runs),
+    print_line(fmt::format("interrupted; no result was written; {}. {}", finished_text(plan, runs),
                            continue_text(plan)));
     return ExitCode::interrupted;
   }

@@ -15,10 +15,10 @@ is a study file: samples/hazelnut/study.toml explains all of its keys.
 A heap's final state is rendered as silhouettes from --views directions,
 equally spaced over half a turn, each measured as repose measure does: 1 is the
 XZ view alone, 0 renders none. If at least half of the views of a repeat could
-be measured, their mean is its value, else the angle from the grains' positions;
-both are reported.
+be measured, its value is their mean, otherwise the angle from the grains'
+positions; both are reported.
 
-Each repeat has its own seed: --seed, and those that follow. The same seed
+Each repeat has its own seed: --seed and the following numbers. The same seed
 gives the same result with any number of threads. With --out, the same command
 resumes an interrupted run.
 
@@ -34,17 +34,18 @@ Command simulate_command() {
   return {
       .name = "simulate",
       .summary = "Simulate an experiment of a study",
-      .options =
-          {{"experiment", "drop|tilt|roll|heap", "Which experiment", &given->experiment, true},
-           {"study", "STUDY.toml", "Study file", &given->study, true},
-           {"--set", "KEY=VALUE", "Replace a value of the study; repeatable", &given->settings},
-           {"--seed", "N", "Of the first repeat", &given->seed},
-           {"--repeats", "N", "How many, each with its own seed", &given->repeats},
-           {"--threads", "N", "At a time (all cores)", &given->threads},
-           {"--out", "FOLDER", "States, result.json; resumable", &given->out_folder},
-           {"--trajectory-s", "DT", "A frame each DT of simulated time, s", &given->trajectory_s},
-           {"--views", "N", "Views of each heap that are measured (9)", &given->views},
-           {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+      .options = {{"experiment", "drop|tilt|roll|heap", "Experiment", &given->experiment, true},
+                  {"study", "STUDY.toml", "Study file", &given->study, true},
+                  {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
+                   &given->settings},
+                  {"--seed", "N", "Seed of the first repeat", &given->seed},
+                  {"--repeats", "N", "Number of repeats, each with its own seed", &given->repeats},
+                  {"--threads", "N", "Threads (all cores)", &given->threads},
+                  {"--out", "FOLDER", "Output folder; makes the run resumable", &given->out_folder},
+                  {"--trajectory-s", "DT", "Save a frame every DT s of simulated time",
+                   &given->trajectory_s},
+                  {"--views", "N", "Views of each heap to measure (9)", &given->views},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kNotes,
       .missing = "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml.",
       .run = [given] { return run_simulate(*given); }};

@@ -44,7 +44,7 @@ std::string difference(const Json& saved, const Json& asked) {
     if (differs(key))
       return fmt::format("its {} is {}, not {}", key, text(saved, key), text(asked, key));
   }
-  return "the study, its scan or the --set settings were other ones";
+  return "the study, its scan or the --set settings were different";
 }
 
 /// Names that this run writes and that are there, in a folder that is none of repose: "a, b".
@@ -82,7 +82,7 @@ std::string error_of_saved(const SimulatePlan& plan) {
     const std::string foreign = foreign_files(plan);
     if (foreign.empty()) return {};
     return fmt::format(
-        "--out {}: no repose simulate wrote there, and files of yours would be overwritten: {}. "
+        "--out {}: not a folder of repose simulate, and your own files would be overwritten: {}. "
         "Fix: choose another folder, or move them away.",
         plan.out_folder.string(), foreign);
   }
@@ -90,7 +90,7 @@ std::string error_of_saved(const SimulatePlan& plan) {
   const Json asked = identity_of(plan);
   if (saved == asked) return {};
   return fmt::format(
-      "--out {}: it holds another run: {}. Fix: another folder, or delete this one to start anew.",
+      "--out {}: contains a different run: {}. Fix: choose another folder, or delete this one.",
       plan.out_folder.string(),
       saved.is_object() ? difference(saved, asked) : "run.json was changed");
 }
@@ -109,8 +109,8 @@ std::vector<std::string> notes_on_saved(const SimulatePlan& plan) {
   std::vector<std::string> notes = folder.remarks();
   if (finished + begun == 0) return notes;
   notes.push_back(fmt::format(
-      "{}: resumes an earlier run: of {} {} {} finished already, {} under way. (To start "
-      "anew, delete the folder.)",
+      "{}: resuming an earlier run: of {} {} {} finished, {} in progress. (To start over, "
+      "delete the folder.)",
       plan.out_folder.string(), plan.seeds.size(), plan.seeds.size() == 1 ? "repeat" : "repeats",
       finished, begun));
   return notes;

@@ -57,7 +57,7 @@ void read_numbers(const SimulateArguments& arguments, SimulatePlan& plan) {
                                 "--trajectory-s 0.1", plan);
   if (!arguments.trajectory_s.empty() && arguments.out_folder.empty()) {
     plan.errors.emplace_back(
-        "--trajectory-s: there is no place for its frames. Fix: add --out FOLDER.");
+        "--trajectory-s: needs a folder for its frames. Fix: add --out FOLDER.");
   }
 }
 
@@ -83,10 +83,11 @@ void check_study(SimulatePlan& plan) {
         file, name, name));
   }
   for (const std::string& key : dem::open_coefficients(plan.study, plan.experiment)) {
-    plan.errors.push_back(fmt::format(
-        "{}: {} has bounds but no value, and one run needs one. Fix: --set {}=0.3, or find it with "
-        "repose calibrate.",
-        file, key, key));
+    plan.errors.push_back(
+        fmt::format("{}: {} has bounds but no value, which a simulation needs. Fix: --set {}=0.3, "
+                    "or fit it with "
+                    "repose calibrate.",
+                    file, key, key));
   }
   const double stiffness = dem::model_for(plan.study, plan.experiment).stiffness_factor;
   if (stiffness != 1 && !entry.softening_effect.empty()) {
@@ -147,7 +148,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   plan.json_file = arguments.json_file;
   const dem::ExperimentEntry* experiment = dem::find_experiment(arguments.experiment);
   if (experiment == nullptr) {
-    plan.errors.push_back(fmt::format("simulate {}: there is no such experiment. Fix: {}.",
+    plan.errors.push_back(fmt::format("simulate {}: unknown experiment. Fix: {}.",
                                       arguments.experiment, dem::experiment_names()));
   } else {
     plan.experiment = experiment->experiment;

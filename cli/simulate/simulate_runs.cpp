@@ -99,8 +99,8 @@ class Batch {
     const auto name = std::filesystem::path(state).filename().string();
     if (!folder_->copy_state(spec_, run.result.seed, name)) {
       throw std::invalid_argument(fmt::format(
-          "{}: its run in {} was changed meanwhile. Fix: the same command again simulates it anew.",
-          state, folder_->runs().string()));
+          "{}: its run in {} was changed in the meantime. Fix: run the same command again.", state,
+          folder_->runs().string()));
     }
     run.state_file = state;
     if (run.result.views.empty()) return;

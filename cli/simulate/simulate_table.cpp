@@ -45,7 +45,7 @@ std::string mean_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
   const std::string unit = unit_sign(plan);
   if (!summary) return "no mean: a repeat gave no number";
   if (!summary->sd && summary->n > 1) {
-    return fmt::format("mean {:.3f}{} n = {}, all the same: no scatter and no interval",
+    return fmt::format("mean {:.3f}{} n = {}, all identical: no scatter and no interval",
                        summary->mean, unit, summary->n);
   }
   if (!summary->sd || !summary->mean_uncertainty) {
@@ -112,7 +112,7 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs
   if (n) text += fmt::format(" n = {}", *n);
   if (const auto summary = summarise(runs)) {
     const double difference = summary->mean - *mean;
-    text += fmt::format("; simulated is {:+.3f}{} off", difference, unit);
+    text += fmt::format("; simulated - measured = {:+.3f}{}", difference, unit);
     if (*mean != 0) text += fmt::format(" ({:+.1f} %)", 100 * difference / *mean);
   }
   return text;
@@ -145,7 +145,7 @@ std::string coefficients_text(const dem::PairCoefficients& pair) {
 Table belongs_to_table(const SimulatePlan& plan) {
   const dem::Model& model = plan.spec.model;
   const std::string step =
-      model.timestep_s ? fmt::format("{:g} s, as asked for", *model.timestep_s)
+      model.timestep_s ? fmt::format("{:g} s, as requested", *model.timestep_s)
                        : fmt::format("{:g} of the longest accurate one", model.timestep_fraction);
   Table table({{}, {}});
   table.add_row({"  contact model", std::string(dem::kContactModel)});
@@ -176,7 +176,7 @@ std::string simulate_table(const SimulatePlan& plan, const std::vector<Run>& run
   add_sources(runs, page);
   add_readings(runs, page);
   page.add_gap();
-  page.add("these values belong to");
+  page.add("these values are valid for");
   page.add(belongs_to_table(plan));
   return page.text();
 }

@@ -18,13 +18,13 @@ double reading_of(const Run& run, const std::string& name, double otherwise) {
 
 RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
   std::string message = fmt::format(
-      "all {} repeats gave the same value: they tell nothing about scatter, and there is no "
-      "interval.",
+      "all {} repeats gave the same value: they show no scatter, so there is no interval.",
       repeats);
   if (!dem::entry_of(plan.experiment).is_stochastic) {
     message +=
-        " Nothing in this experiment is left to chance: its seed has no effect. Fix: one repeat; "
-        "what scatters on the bench is the sliding friction, so vary that: --set "
+        " This experiment is deterministic: its seed has no effect. Fix: use one repeat; on the "
+        "bench "
+        "it is the sliding friction that varies, so vary that: --set "
         "contact.particle_wall.sliding_friction=...";
   }
   return {"no_scatter", {}, message};
@@ -47,13 +47,13 @@ std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
   return RunWarning{
       "window",
       {},
-      fmt::format("the angle depends on the stretch that is fitted: {:.2f} degrees between 20 and "
-                  "80 % of the height, {:.2f} between 30 and 70 %, more apart than {} ({:.2f}). "
-                  "Measure pictures in the same stretch, and name it.",
-                  usual, inner,
-                  summary.mean_uncertainty ? "the half-width of the interval"
-                                           : "directions of view scatter",
-                  yardstick)};
+      fmt::format(
+          "the angle depends on the window: {:.2f} degrees between 20 and 80 % of the "
+          "height, {:.2f} between 30 and 70 %, which differ by more than {} ({:.2f}). "
+          "Measure pictures with the same window, and state it.",
+          usual, inner,
+          summary.mean_uncertainty ? "the half-width of the interval" : "the scatter between views",
+          yardstick)};
 }
 
 /// Repeats whose value is not the angle in their pictures.
@@ -80,12 +80,12 @@ void add_picture_warnings(const std::vector<Run>& runs, std::vector<RunWarning>&
   warnings.push_back(
       {"mixed_sources",
        {},
-       fmt::format(
-           "the mean is of {} angles from pictures and {} from positions, which differ: "
-           "heaps this low are hard to see. Fix: leave the latter out, or compare positions "
-           "with positions ({:.2f} degrees in the mean).",
-           angles->pictured, runs.size() - static_cast<std::size_t>(angles->pictured),
-           angles->positions.mean)});
+       fmt::format("the mean is of {} angles from pictures and {} from positions, which differ "
+                   "because such low heaps are hard to see. Fix: leave the latter out, or compare "
+                   "positions "
+                   "with positions ({:.2f} degrees on average).",
+                   angles->pictured, runs.size() - static_cast<std::size_t>(angles->pictured),
+                   angles->positions.mean)});
 }
 
 /// Heaps of fewer grains than the study asks for, since no more fit into the tube.
@@ -95,29 +95,31 @@ void add_grain_warning(const SimulatePlan& plan, const Run& run,
   if (heap == nullptr || !heap->grains) return;
   const double grains = reading_of(run, "grains", *heap->grains);
   if (grains >= *heap->grains) return;
-  warnings.push_back({"fewer_grains", run.result.seed,
-                      fmt::format("of {} grains only {:g} fit into the tube. Fix: fewer grains, or "
-                                  "a taller or wider tube.",
-                                  *heap->grains, grains)});
+  warnings.push_back(
+      {"fewer_grains", run.result.seed,
+       fmt::format("only {1:g} of {0} grains fit into the tube. Fix: use fewer grains, "
+                   "or a taller or wider tube.",
+                   *heap->grains, grains)});
 }
 
 /// What single repeats tell against their values.
 void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
   const std::uint64_t seed = run.result.seed;
   if (reading_of(run, "no_heap", 0) != 0) {
-    warnings.push_back(
-        {"no_heap", seed, "the grains spread in a layer; its angle is no angle of repose."});
+    warnings.push_back({"no_heap", seed,
+                        "the grains spread out in a layer; its angle is not an angle of repose."});
   }
   if (reading_of(run, "at_rest", 1) == 0) {
-    warnings.push_back({"not_at_rest", seed, "grains were still moving when the time was up."});
+    warnings.push_back(
+        {"not_at_rest", seed, "grains were still moving when the time limit was reached."});
   }
   const double never_rose = reading_of(run, "never_rose", 0);
   auto* const grains_per_run = dem::entry_of(plan.experiment).readings_per_run;
   if (grains_per_run != nullptr && never_rose > 0) {
     warnings.push_back(
         {"never_rose", seed,
-         fmt::format("{:g} of {} grains did not rise again; they count as 0 in the mean.",
-                     never_rose, grains_per_run(plan.spec.protocol))});
+         fmt::format("{:g} of {} grains did not rebound; they count as 0 in the mean.", never_rose,
+                     grains_per_run(plan.spec.protocol))});
   }
   add_grain_warning(plan, run, warnings);
 }

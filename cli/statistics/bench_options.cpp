@@ -35,7 +35,7 @@ Settings read_settings(const BenchArguments& arguments, const std::vector<std::s
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       const std::string guess = base::closest_word(name, names);
       plan.errors.push_back(fmt::format(
-          "--set {}: {} is no reading of this test. {}Fix: {}.", text, name,
+          "--set {}: {} is not a reading of this test. {}Fix: {}.", text, name,
           guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), fmt::join(names, ", ")));
     } else if (!settings.emplace(name, numbers.value_or(std::vector{0.0})).second) {
       plan.errors.push_back(

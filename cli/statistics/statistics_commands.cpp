@@ -20,7 +20,7 @@ READINGS are CSV tables with a row for each repeat and these columns:
   size         length_mm, width_mm, thickness_mm
   heap         angle_deg
 A column "sample" names the grain: repeats on one grain are averaged first. A
-reading that is the same in all rows, or short lists, can be typed with --set.
+reading that is the same in all rows, or a short list, can be given with --set.
 
 Examples:
   repose bench sliding angles.csv
@@ -28,16 +28,16 @@ Examples:
 )";
 
 constexpr const char* kDesignNotes = R"(
-Prints a CSV table with a row for each run: the level of each factor in its own
+Prints a CSV table with one row per run: the level of each factor in its own
 unit. MIN and MAX are the coded levels -1 and 1.
   ccd          central composite: corners, axial points at alpha, centre runs;
                2 to 6 factors. Axial points lie outside MIN ... MAX, unless
                --inscribed or --alpha face
   box-behnken  three levels, no corners; 3 to 7 factors
-  lhs          Latin hypercube, points far from each other; --seed
+  lhs          Latin hypercube with well-separated points; --seed
   sweep        one factor at a time, the others in the middle
   ascent       a straight line of runs: from --start by --step for each factor,
-               or up the slope of a plane fitted to --fit TABLE.csv
+               or up the gradient of a plane fitted to --fit TABLE.csv
 
 Examples:
   repose design sweep --factor e=0.01:0.41 --levels 9
@@ -46,18 +46,18 @@ Examples:
 )";
 
 constexpr const char* kRegressNotes = R"(
-TABLE is a CSV table with a row for each run, a column for each factor and one
-for the response. Without --factors, all columns but the response and those
+TABLE is a CSV table with one row per run, a column for each factor and one for
+the response. Without --factors, all columns but the response and those
 that repose design adds (run, standard, point, NAME_coded) are factors.
 
 Models: linear (1, A), interaction (and A*B), quadratic (and A^2). Factors are
-coded: --coding says which levels are -1 and 1; otherwise a column that is
-coded already is taken as it is, and any other by its lowest and highest level
-(of the runs whose point is cube, if there are such).
+coded: --coding gives the levels coded as -1 and 1; otherwise a column that is
+already coded is used as it is, and any other is coded by its lowest and highest
+level (among the runs whose point is cube, if any).
 
-Fit the measured quantity with its sign, not an error's absolute value, and
-give the value it should have as --target, with the half-width of its 95 %
-interval behind ± (or +-) where it is uncertain, too.
+Fit the measured quantity with its sign, not the absolute value of an error.
+Give the value it should have as --target; if that is uncertain, add the
+half-width of its 95 % interval after ± (or +-).
 
 Example:
   repose regress runs.csv --response angle_deg --target 23.38
@@ -67,45 +67,43 @@ Example:
 
 Command bench_command() {
   const auto given = std::make_shared<BenchArguments>();
-  return {.name = "bench",
-          .summary = "Evaluate bench tests from their readings",
-          .options = {{"test", "TEST", "Which test", &given->test, true},
-                      {"readings", "READINGS.csv ...", "Tables of readings", &given->files},
-                      {"--set", "NAME=VALUE,...", "A reading, or several; repeatable",
-                       &given->settings},
-                      {"--json", "FILE|-", "All results, for programs", &given->json_file}},
-          .notes = kBenchNotes,
-          .missing =
-              "no test is named. Fix: repose bench sliding READINGS.csv; see repose bench --help.",
-          .run = [given] { return run_bench(*given); }};
+  return {
+      .name = "bench",
+      .summary = "Evaluate bench tests from their readings",
+      .options = {{"test", "TEST", "Bench test", &given->test, true},
+                  {"readings", "READINGS.csv ...", "Tables of readings", &given->files},
+                  {"--set", "NAME=VALUE,...", "One or more readings; repeatable", &given->settings},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
+      .notes = kBenchNotes,
+      .missing = "no test given. Fix: repose bench sliding READINGS.csv; see repose bench --help.",
+      .run = [given] { return run_bench(*given); }};
 }
 
 Command design_command() {
   const auto given = std::make_shared<DesignArguments>();
-  return {
-      .name = "design",
-      .summary = "Design simulation experiments",
-      .options = {{"kind", "ccd|box-behnken|lhs|sweep|ascent", "Kind of design", &given->kind,
-                   true},
-                  {"--factor", "NAME=MIN:MAX", "Factor and its range; repeatable", &given->factors},
-                  {"--alpha", "WHERE|NUMBER", "ccd: axial points (rotatable)", &given->alpha},
-                  {"--centre", "N", "ccd, box-behnken: centre runs", &given->centre_runs},
-                  {"--inscribed", "", "ccd: nothing outside MIN ... MAX", &given->is_inscribed},
-                  {"--runs", "N", "lhs (10 a factor), ascent (5): how many", &given->runs},
-                  {"--seed", "N", "lhs: other points (1)", &given->seed},
-                  {"--levels", "N", "sweep: of each factor (9)", &given->levels},
-                  {"--start", "NAME=NUMBER", "ascent: first level; repeatable", &given->starts},
-                  {"--step", "NAME=NUMBER", "ascent: by run; repeatable", &given->steps},
-                  {"--fit", "TABLE.csv", "ascent: runs already made", &given->fitted_table},
-                  {"--response", "COLUMN", "ascent: the table's response", &given->response},
-                  {"--stride", "NUMBER", "ascent: coded step of --fit (0.5)", &given->stride},
-                  {"--descend", "", "ascent: down the slope of --fit", &given->descends},
-                  {"--random-order", "SEED", "Runs in random order", &given->random_order},
-                  {"--coded", "", "Coded levels too", &given->with_coded},
-                  {"--out", "FILE|-", "Where the table goes (-)", &given->out_file}},
-      .notes = kDesignNotes,
-      .missing = "no kind of design is named. Fix: ccd, box-behnken, lhs, sweep or ascent.",
-      .run = [given] { return run_design(*given); }};
+  return {.name = "design",
+          .summary = "Design a set of simulation runs",
+          .options =
+              {{"kind", "ccd|box-behnken|lhs|sweep|ascent", "Kind of design", &given->kind, true},
+               {"--factor", "NAME=MIN:MAX", "Factor and its range; repeatable", &given->factors},
+               {"--alpha", "WHERE|NUMBER", "ccd: axial points (rotatable)", &given->alpha},
+               {"--centre", "N", "ccd, box-behnken: centre runs", &given->centre_runs},
+               {"--inscribed", "", "ccd: no run outside MIN ... MAX", &given->is_inscribed},
+               {"--runs", "N", "Runs: lhs (10 per factor), ascent (5)", &given->runs},
+               {"--seed", "N", "lhs: random seed (1)", &given->seed},
+               {"--levels", "N", "sweep: levels of each factor (9)", &given->levels},
+               {"--start", "NAME=NUMBER", "ascent: first level; repeatable", &given->starts},
+               {"--step", "NAME=NUMBER", "ascent: step per run; repeatable", &given->steps},
+               {"--fit", "TABLE.csv", "ascent: table of runs already made", &given->fitted_table},
+               {"--response", "COLUMN", "ascent: response column of the table", &given->response},
+               {"--stride", "NUMBER", "ascent: coded step of --fit (0.5)", &given->stride},
+               {"--descend", "", "ascent: descend instead", &given->descends},
+               {"--random-order", "SEED", "Randomise the order of the runs", &given->random_order},
+               {"--coded", "", "Also write coded levels", &given->with_coded},
+               {"--out", "FILE|-", "Output file (-)", &given->out_file}},
+          .notes = kDesignNotes,
+          .missing = "no kind of design given. Fix: ccd, box-behnken, lhs, sweep or ascent.",
+          .run = [given] { return run_design(*given); }};
 }
 
 Command regress_command() {
@@ -113,14 +111,15 @@ Command regress_command() {
   return {
       .name = "regress",
       .summary = "Fit a response surface to runs",
-      .options = {{"table", "TABLE.csv", "The runs and their results", &given->table, true},
-                  {"--response", "COLUMN", "Column that is the response", &given->response, true},
-                  {"--factors", "A,B,C", "Columns that are factors", &given->factors},
-                  {"--model", "linear|interaction|quadratic", "Terms (quadratic)", &given->model},
-                  {"--coding", "NAME=MIN:MAX", "Levels that are -1 and 1; repeatable",
+      .options = {{"table", "TABLE.csv", "Runs and their results", &given->table, true},
+                  {"--response", "COLUMN", "Response column", &given->response, true},
+                  {"--factors", "A,B,C", "Factor columns", &given->factors},
+                  {"--model", "linear|interaction|quadratic", "Model (quadratic)", &given->model},
+                  {"--coding", "NAME=MIN:MAX", "Levels coded as -1 and 1; repeatable",
                    &given->codings},
-                  {"--target", "VALUE[±U]", "Where the response has this value", &given->target},
-                  {"--json", "FILE|-", "All results, for programs", &given->json_file}},
+                  {"--target", "VALUE[±U]", "Find where the response has this value",
+                   &given->target},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kRegressNotes,
       .missing =
           "a table and its response are needed. Fix: repose regress TABLE.csv --response COLUMN.",

@@ -10,7 +10,7 @@ Command verify_command() {
   const auto given = std::make_shared<VerifyArguments>();
   return {.name = "verify",
           .summary = "Check the physics against known solutions",
-          .options = {{"--json", "FILE|-", "The table, for programs", &given->json_file}},
+          .options = {{"--json", "FILE|-", "Full results, for programs", &given->json_file}},
           .run = [given] { return run_verify(*given); }};
 }
 

@@ -107,7 +107,7 @@ NumberStream ArrayReader::numbers(const std::string& name, int components) const
   const auto& values = find<double>(name, components);
   if (std::any_of(values.begin(), values.end(),
                   [](double value) { return !std::isfinite(value); })) {
-    refuse(prefix_ + name, "holds what is no finite number");
+    refuse(prefix_ + name, "holds a value that is not a finite number");
   }
   return {prefix_ + name, values};
 }

@@ -114,8 +114,8 @@ int take_partner(IntegerStream& integers, std::size_t grains, std::size_t walls)
   const bool is_known =
       number >= 0 ? std::cmp_less(number, grains) : std::cmp_less(-(number + 1), walls);
   if (!is_known) {
-    throw std::invalid_argument(
-        fmt::format("array {} holds {}, which is no grain and no wall", integers.name(), number));
+    throw std::invalid_argument(fmt::format(
+        "array {} holds {}, which is neither a grain nor a wall", integers.name(), number));
   }
   return static_cast<int>(number);
 }

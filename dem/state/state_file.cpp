@@ -86,8 +86,9 @@ SavedState read_state(const fs::path& file) {
             .checkpoint = std::move(checkpoint),
             .provenance_json = provenance.empty() ? "" : provenance.front()};
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: no state that repose can go on from: {}. Fix: {}",
-                                            file.string(), error.what(), kFix));
+    throw std::invalid_argument(
+        fmt::format("{}: not a state that repose can resume from: {}. Fix: {}", file.string(),
+                    error.what(), kFix));
   }
 }
 

@@ -34,7 +34,7 @@ TrajectoryWriter::TrajectoryWriter(fs::path folder, double interval_s, std::stri
   fs::create_directories(folder_, error);
   if (error) {
     throw std::invalid_argument(
-        fmt::format("{}: the folder cannot be made ({}). Fix: choose a place you may write to.",
+        fmt::format("{}: the folder cannot be created ({}). Fix: choose a writable place.",
                     folder_.string(), error.message()));
   }
 }

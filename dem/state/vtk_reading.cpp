@@ -63,7 +63,7 @@ class Parser {
     const pugi::xml_node data = child(root, "PolyData");
     const pugi::xml_node piece = child(data, "Piece");
     const auto count = count_in(piece.attribute("NumberOfPoints"));
-    if (!count) refuse(file_, "NumberOfPoints is no whole number");
+    if (!count) refuse(file_, "NumberOfPoints is not a whole number");
     VtkPoints result;
     result.field_arrays = arrays(child(data, "FieldData"));
     result.point_arrays = arrays(child(piece, "PointData"));
@@ -103,8 +103,9 @@ class Parser {
     result.values = values(element, result.name);
     if (result.components < 1 ||
         size_of(result.values) % static_cast<std::size_t>(result.components) != 0) {
-      refuse(file_, fmt::format("array {} has {} values, which is no multiple of its {} components",
-                                result.name, size_of(result.values), result.components));
+      refuse(file_,
+             fmt::format("array {} has {} values, which is not a multiple of its {} components",
+                         result.name, size_of(result.values), result.components));
     }
     return result;
   }
@@ -113,7 +114,7 @@ class Parser {
     const auto bytes = base::bytes_of_base64(element.child_value());
     std::uint64_t promised = 0;
     if (!bytes || bytes->size() < sizeof promised) {
-      refuse(file_, fmt::format("array {} is no base64, or cut short", name));
+      refuse(file_, fmt::format("array {} is not base64, or is truncated", name));
     }
     std::memcpy(&promised, bytes->data(), sizeof promised);
     const auto content = std::span(*bytes).subspan(sizeof promised);

@@ -37,8 +37,8 @@ const ExperimentEntry* find_experiment(std::string_view name) {
 const ExperimentEntry& experiment_named(std::string_view name) {
   const ExperimentEntry* found = find_experiment(name);
   if (found != nullptr) return *found;
-  throw std::invalid_argument(fmt::format("experiment {}: there is no such experiment. Fix: {}.",
-                                          name, experiment_names()));
+  throw std::invalid_argument(
+      fmt::format("experiment {}: unknown experiment. Fix: {}.", name, experiment_names()));
 }
 
 std::string experiment_names() {

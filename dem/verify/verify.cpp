@@ -41,7 +41,7 @@ std::vector<CaseResult> run_case(const std::string& name) {
                                   [&name](const VerifyCase& each) { return each.name == name; });
   if (found == cases.end()) {
     throw std::invalid_argument("case " + name +
-                                ": there is none of this name. Fix: one of those "
+                                ": there is none with this name. Fix: one of those "
                                 "that case_names() lists.");
   }
   return run(*found);

@@ -128,7 +128,7 @@ TEST(WholeFile, AProtectedFileIsNotReplaced) {
   const auto file = folder.write("table.csv", std::string("old"));
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
   EXPECT_THAT([&] { write_whole_file(file, "new"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("must not be written to")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("is write-protected")));
   EXPECT_EQ(testing::text_of(file), "old");
 }
 

@@ -83,6 +83,9 @@ TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
   EXPECT_THAT(names_of(made), AllOf(Contains("drop.lig"), Not(Contains("heap.lig")),
                                     Not(Contains("roll.lig")), Not(Contains("tube.stl"))));
   EXPECT_THAT(made.conversions, SizeIs(3)) << "grains touch each other in heaps only";
+  EXPECT_THAT(text_of(made, "README.txt"), HasSubstr("The study has no heaps."));
+  EXPECT_THAT(text_of(exported(hazelnuts(), ExportTarget::edem), "README.txt"),
+              HasSubstr("Young's moduli times 0.01."));
 }
 
 TEST(ExportStudy, AnotherLawIsRefusedUnlessApproximateIsAskedFor) {

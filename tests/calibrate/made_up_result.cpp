@@ -137,7 +137,7 @@ StudyResult joint_result() {
                      {sliding(), {.1, .8}, {}}},
       .observables = {drop_result()},
       .verdict = AgreementVerdict::cannot_tell,
-      .agreement = {.text = "whether bench and simulation agree cannot be told",
+      .agreement = {.text = "it cannot be told whether bench and simulation agree",
                     .chance = .55,
                     .rounds = 2,
                     .values = {.4, .3}},

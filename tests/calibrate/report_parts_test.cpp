@@ -131,7 +131,7 @@ TEST(MeasureReport, SaysMeanAndWhatWasLeftOut) {
   pictures[3].error = "there is no such file";
   const std::string html = measure_report(pictures).html;
   EXPECT_THAT(html, HasSubstr("Mean angle of repose 23.49°"));
-  EXPECT_THAT(html, HasSubstr("Left out: 2 refused or not read."));
+  EXPECT_THAT(html, HasSubstr("Excluded: 2 refused or unreadable."));
   EXPECT_THAT(html, HasSubstr("no &lt;heap&gt; in it"));
   EXPECT_THAT(html, HasSubstr("there is no such file"));
   EXPECT_THAT(html, HasSubstr("data:image/jpeg;base64,/9j/"));
@@ -141,7 +141,7 @@ TEST(MeasureReport, WithoutANumberHasNoChart) {
   std::vector<MeasuredPhotograph> pictures(1);
   pictures[0].file = "refused.jpg";
   const Report report = measure_report(pictures);
-  EXPECT_THAT(report.html, HasSubstr("No picture gave a number"));
+  EXPECT_THAT(report.html, HasSubstr("No picture gave a usable number"));
   EXPECT_THAT(report.html, HasSubstr("{\"charts\":[]}"));
 }
 

@@ -79,7 +79,7 @@ TEST_F(StudyReport, ShowsTheHeapOfTheLastCheckAndNoOther) {
                      fmt::format(R"({{"particle_wall": {{"restitution": {}}}}})", restitution));
     return shown(made());
   };
-  const auto is_other = HasSubstr("(heap.vtp) is of other coefficients, and not shown");
+  const auto is_other = HasSubstr("(heap.vtp) has different coefficients and is not shown");
   EXPECT_THAT(heap_with(joint.agreement.values.front()),
               AllOf(Not(is_other), HasSubstr("has the coefficients of the last check")));
   EXPECT_THAT(heap_with(joint.parameters.front().value), is_other);
@@ -88,11 +88,12 @@ TEST_F(StudyReport, ShowsTheHeapOfTheLastCheckAndNoOther) {
 TEST_F(StudyReport, BeginsWithTheAnswer) {
   const std::string page = shown(study_report(result_));
   EXPECT_THAT(page, HasSubstr("1 of 2 coefficients are determined"));
-  EXPECT_THAT(page, HasSubstr("fresh seeds, whether bench and simulation agree cannot be told."));
+  EXPECT_THAT(page,
+              HasSubstr("fresh seeds, it cannot be told whether bench and simulation agree."));
   EXPECT_LT(page.find("id=\"answer\""), page.find("id=\"heaps\""));
   EXPECT_THAT(page, HasSubstr("Sliding friction, particle–wall: tilt a plate"));
   EXPECT_EQ(table_in(study_report(result_), "coefficients.csv"),
-            "coefficient,value,from,to,lower bound,upper bound,verdict\n"
+            "coefficient,value,95 % from,95 % to,lower bound,upper bound,verdict\n"
             "\"restitution, particle–wall\",0.4,0.35,0.45,0.1,0.9,determined\n"
             "\"sliding friction, particle–wall\",0.3,0.1,0.8,0.1,0.8,undetermined\n");
 }
@@ -189,8 +190,8 @@ TEST_F(StudyReport, CurvesHaveRunsFitAndMeasuredValue) {
       table_in(study_report(result_), "response_drop_particle_wall_restitution.csv");
   EXPECT_THAT(csv, HasSubstr("simulated runs,0.2,7,,\n"));
   EXPECT_THAT(csv, HasSubstr("fit,0.1,1,,\n"));
-  EXPECT_THAT(csv, HasSubstr("95 % of the fit,0.1,,0.804,1.196\n"));
-  EXPECT_THAT(csv, HasSubstr("95 % of the fit,0.9,,,\n"));  // its uncertainty is not known
+  EXPECT_THAT(csv, HasSubstr("95 % interval of the fit,0.1,,0.804,1.196\n"));
+  EXPECT_THAT(csv, HasSubstr("95 % interval of the fit,0.9,,,\n"));  // its uncertainty is not known
   EXPECT_THAT(csv, HasSubstr("\"measured, 95 %\",0.1,25,24.02,25.98\n"));
   EXPECT_THAT(csv, HasSubstr("best fit,0.4,25.1,0.35,0.45\n"));
 }
@@ -260,7 +261,7 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
   folder_.write("runs/damaged.json", std::string("{\"simulated\": "));
   const Report report = made();
   EXPECT_THAT(shown(report), HasSubstr("Unfinished: this study has no result yet"));
-  EXPECT_THAT(shown(report), HasSubstr("2 simulations are there"));
+  EXPECT_THAT(shown(report), HasSubstr("2 simulations are complete"));
   EXPECT_THAT(shown(report), HasSubstr("repose calibrate nuts.toml --budget standard --set a.b=1"));
   EXPECT_EQ(table_in(report, "simulations.csv"),
             "experiment,simulations,without a reading\ndrop,2,0\n");
@@ -271,7 +272,7 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
 TEST_F(StudyReport, ResultsOfAnotherStudyAreNotShown) {
   folder_.write("study.json", replaced(kRecord, "abc", "changed"));
   write_result(result_);
-  EXPECT_THAT(shown(made()), AllOf(HasSubstr("Unfinished"), HasSubstr("is of another study"),
+  EXPECT_THAT(shown(made()), AllOf(HasSubstr("Unfinished"), HasSubstr("is from another study"),
                                    Not(HasSubstr("coefficients are determined"))));
 }
 
@@ -283,7 +284,7 @@ TEST_F(StudyReport, PicturesThatAreGoneAreSaid) {
 
 TEST_F(StudyReport, ThePublishedMethodHasItsOwnChapters) {
   const Report report = study_report(test::published_result());
-  EXPECT_THAT(shown(report), AllOf(HasSubstr("single points without intervals"),
+  EXPECT_THAT(shown(report), AllOf(HasSubstr("point estimates without intervals"),
                                    HasSubstr("Steepest ascent"), HasSubstr("a ridge")));
   const std::string csv = table_in(report, "sweep_particle_wall_restitution.csv");
   EXPECT_THAT(csv, HasSubstr("simulated runs,2,4,,\n"));
@@ -299,7 +300,7 @@ TEST_F(StudyReport, FoldersWithoutAStudyAreRefused) {
     folder_.write("result.json", text);
     EXPECT_THAT([this] { made(); },
                 ThrowsMessage<std::invalid_argument>(
-                    AllOf(HasSubstr("result.json: is no result"), HasSubstr("Fix: "))));
+                    AllOf(HasSubstr("result.json: is not a result"), HasSubstr("Fix: "))));
   }
 }
 

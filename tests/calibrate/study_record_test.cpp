@@ -82,9 +82,9 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
 
 TEST_F(StudyRecordTest, OtherFoldersAreRefused) {
   EXPECT_THAT([this] { read_study_record(folder_.path()); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("is no folder of a study")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("is not the folder of a study")));
   EXPECT_THAT([this] { read_study_record(saved() / "none"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("is no folder of a study")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("is not the folder of a study")));
 }
 
 TEST_F(StudyRecordTest, DamagedRecordsAreNamed) {

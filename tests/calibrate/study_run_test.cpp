@@ -126,11 +126,11 @@ TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
   };
   EXPECT_THAT(refusal({"contact.particle_wall.restitution=0.5",
                        "contact.particle_wall.sliding_friction=0.5"}),
-              HasSubstr("nothing is to be found"));
+              HasSubstr("there is nothing to fit"));
   EXPECT_THAT(refusal({"contact.particle_wall.restitution=0.5",
                        "contact.particle_wall.sliding_friction=0.5",
                        "contact.particle_particle.restitution={min=0.1,max=0.5}"}),
-              HasSubstr("nothing was measured in an experiment"));
+              HasSubstr("no experiment that depends on a fitted coefficient has readings"));
   EXPECT_THROW(budget_named("cheap"), std::invalid_argument);
 }
 

@@ -86,7 +86,7 @@ TEST_F(BenchCommand, ASheetThatIsNotFilledInIsSaid) {
 TEST_F(BenchCommand, MistypedTestsAndReadingsAreSaid) {
   EXPECT_THAT(run({"slide", "a.csv"}).err,
               AllOf(HasSubstr("bench slide: unknown"), HasSubstr("sliding")));
-  EXPECT_THAT(run({}).err, HasSubstr("no test is named"));
+  EXPECT_THAT(run({}).err, HasSubstr("no test given"));
   const Finished done = run({"sliding", "--set", "angel_deg=3"});
   EXPECT_EQ(done.exit_code, 2);
   EXPECT_THAT(done.err, AllOf(HasSubstr("Did you mean angle_deg?"), HasSubstr("are missing")));

@@ -44,8 +44,9 @@ using CalibrateRanks = Calibrate;
 TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
   const Finished done = run({"study.toml", "--json", "result.json"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("determined"),
-                              HasSubstr("drop [mm]"), HasSubstr("These coefficients belong to: ")));
+  EXPECT_THAT(done.out,
+              AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("determined"),
+                    HasSubstr("drop [mm]"), HasSubstr("These coefficients are valid for: ")));
   const json result = json::parse(text("result.json"));
   ASSERT_EQ(result["parameters"].size(), 2U);
   const json& friction = result["parameters"][1];
@@ -101,7 +102,7 @@ TEST_F(Calibrate, TellsBeforehandWhatEachBudgetWouldDo) {
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out,
               AllOf(HasSubstr("quick "), HasSubstr("standard "), HasSubstr("one more hour"),
-                    HasSubstr("drops"), HasSubstr("at most, on 2 cores")));
+                    HasSubstr("drops"), HasSubstr("time at most, 2 cores")));
   EXPECT_FALSE(exists("study_calibration")) << "nothing is written";
 
   // No fit makes more simulations than was told.
@@ -139,7 +140,7 @@ TEST_F(CalibrateKilled, AgainAndAgainEndsWithTheSameBytes) {
   ASSERT_GT(kills, 0) << "it was too fast";
   const Finished last = run({"study.toml", "--out", "killed", "--jobs", "2"});
   ASSERT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_THAT(last.err, HasSubstr("simulations were there already, in killed/runs"));
+  EXPECT_THAT(last.err, HasSubstr("simulations were taken from killed/runs"));
   EXPECT_EQ(text("killed/result.json"), text("whole/result.json"));
 }
 
@@ -149,8 +150,8 @@ TEST_F(Calibrate, AnotherStudyFindsTheRunsThatItShares) {
   const Finished other = run({"study.toml", "--out", "runs", "--set",
                               "experiment.drop.measured = { mean = 26, sd = 1, n = 5 }"});
   ASSERT_EQ(other.exit_code, 0) << other.err;
-  EXPECT_THAT(other.err, AllOf(HasSubstr("simulations were there already"),
-                               HasSubstr("runs/result.json: was of another study")));
+  EXPECT_THAT(other.err, AllOf(HasSubstr("simulations were taken from"),
+                               HasSubstr("runs/result.json: belonged to another study")));
   EXPECT_NE(text("runs/result.json"), first);
   bool is_saved = false;
   for (const auto& entry : std::filesystem::directory_iterator(path("runs"))) {
@@ -178,7 +179,7 @@ TEST_F(Calibrate, AFolderThatCannotBeMadeIsRefused) {
   folder_.write("runs", std::string("a file where the folder should be"));
   const Finished refused = run({"study.toml", "--out", "runs"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("runs: the folder cannot be made"));
+  EXPECT_THAT(refused.err, HasSubstr("runs: the folder cannot be created"));
   EXPECT_EQ(text("runs"), "a file where the folder should be");
 }
 
@@ -199,7 +200,7 @@ TEST_F(Calibrate, AFullDiskLosesNothing) {
   EXPECT_FALSE(exists("runs/result.json")) << "not even half of it";
   const Finished again = run({"study.toml", "--out", "runs"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_THAT(again.err, HasSubstr("simulations were there already"));
+  EXPECT_THAT(again.err, HasSubstr("simulations were taken from"));
   EXPECT_EQ(text("runs/result.json"), result);
 }
 
@@ -267,7 +268,7 @@ TEST_F(CalibrateRanks, AStudyGoesOnAfterOneWasKilled) {
   ASSERT_FALSE(exists("ranks/result.json"));
   const Finished last = run({"study.toml", "--out", "ranks"});
   ASSERT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_THAT(last.err, HasSubstr("simulations were there already"));
+  EXPECT_THAT(last.err, HasSubstr("simulations were taken from"));
   EXPECT_EQ(text("ranks/result.json"), text("one/result.json"));
 }
 

@@ -140,7 +140,7 @@ TEST_F(Compare, PlacesThatCannotBeWrittenAreErrorsBeforeTheWork) {
   EXPECT_THAT(done.err, AllOf(HasSubstr("--overlay no/such"), HasSubstr("--json no/such")));
   EXPECT_THAT(done.out, IsEmpty());
   EXPECT_THAT(run({"steep.png", "flat.png", "--overlay", "flat.png"}).err,
-              HasSubstr("would overwrite a file"));
+              HasSubstr("would overwrite an input file"));
   EXPECT_THAT(run({"steep.png", "flat.png", "--overlay", "x.png", "--json", "x.png"}).err,
               HasSubstr("both write to x.png"));
   EXPECT_THAT(run({"steep.png", "flat.png", "--overlay", "-"}).err, HasSubstr("--overlay -: "));

@@ -71,7 +71,7 @@ TEST_F(Export, AnUnfinishedStudyIsRefused) {
   const Finished refused = run({"study", "--to", "yade"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.out, IsEmpty());
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("is not finished"), HasSubstr("Fix: ")));
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("is unfinished"), HasSubstr("Fix: ")));
   EXPECT_FALSE(exists("study/export"));
 }
 
@@ -85,7 +85,7 @@ TEST_F(Export, EveryErrorIsTold) {
   folder_.write("study/result.json", std::string("{"));
   const Finished damaged = run({"study", "--to", "edem"});
   EXPECT_EQ(damaged.exit_code, 2);
-  EXPECT_THAT(damaged.err, HasSubstr("result.json: is no result"));
+  EXPECT_THAT(damaged.err, HasSubstr("result.json: is not a result"));
 }
 
 TEST_F(Export, AnotherLawIsRefusedUntilApproximateIsGiven) {

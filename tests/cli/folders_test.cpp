@@ -80,7 +80,7 @@ TEST_F(Folders, CalibrateDoesNotTakeOverAFolderOfTheUsers) {
   }
   const Finished refused = run({"calibrate", "study.toml", "--out", "own"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("--out own: is no folder of repose calibrate"),
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("--out own: not a folder of repose calibrate"),
                                  HasSubstr("clump.json, study.json, result.json, heap.vtp"),
                                  HasSubstr("Fix: ")));
   for (const std::string& name : names_in("own")) EXPECT_EQ(text("own/" + name), "the user's");
@@ -102,7 +102,7 @@ TEST_F(Folders, SimulateDoesNotTakeOverAFolderOfTheUsers) {
   write_users("own/drop_seed_1.vtp");
   const Finished refused = run(with(kDrop, {"--out", "own"}));
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("--out own: no repose simulate wrote there"),
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("--out own: not a folder of repose simulate"),
                                  HasSubstr("result.json, drop_seed_1.vtp")));
   EXPECT_THAT(names_in("own"), UnorderedElementsAre("result.json", "drop_seed_1.vtp"));
   EXPECT_EQ(text("own/result.json"), "the user's");
@@ -151,7 +151,7 @@ TEST_F(Folders, AStudyThatWasChangedAndInterruptedHasNoResult) {
   ::waitpid(program, &status, 0);
   const Finished refused = run({"export", "d", "--to", "yade"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("the study is not finished"));
+  EXPECT_THAT(refused.err, HasSubstr("the study is unfinished"));
   std::vector<std::string> kept;
   for (const std::string& name : names_in("d")) {
     if (name.starts_with("result_quick_")) kept.push_back(text("d/" + name));
@@ -161,7 +161,7 @@ TEST_F(Folders, AStudyThatWasChangedAndInterruptedHasNoResult) {
   folder_.write("d/result.json", first);
   const Finished mixed = run({"export", "d", "--to", "yade"});
   EXPECT_EQ(mixed.exit_code, 2);
-  EXPECT_THAT(mixed.err, HasSubstr("result.json is not of the study in study.json"));
+  EXPECT_THAT(mixed.err, HasSubstr("result.json does not belong to the study in study.json"));
   EXPECT_FALSE(exists("d/export"));
 }
 
@@ -194,7 +194,7 @@ TEST_F(Folders, RunsThatWereChangedAreNamedAndSimulatedAnew) {
   const Finished again = run({"calibrate", "study.toml", "--out", "d"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   for (int k = 0; k < 4; ++k) EXPECT_THAT(again.err, HasSubstr(runs[k].filename().string()));
-  EXPECT_THAT(again.err, AllOf(HasSubstr("simulated anew"), HasSubstr("earlier version")));
+  EXPECT_THAT(again.err, AllOf(HasSubstr("simulated again"), HasSubstr("earlier version")));
   EXPECT_EQ(text("d/result.json"), result);
 }
 
@@ -210,7 +210,7 @@ TEST_F(Folders, StatesThatWereChangedAreNamedAndSimulatedAnew) {
   const Finished again = run(words);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_THAT(again.err,
-              AllOf(HasSubstr(kept[0].filename().string()), HasSubstr("simulated anew")));
+              AllOf(HasSubstr(kept[0].filename().string()), HasSubstr("simulated again")));
   EXPECT_EQ(text("runs/drop_seed_1.vtp"), state);
 }
 
@@ -225,7 +225,7 @@ TEST_F(Folders, TwoAtOnceInOneFolderAreToldApart) {
     const Finished second = run(words);
     EXPECT_EQ(second.exit_code, 2) << words.front();
     EXPECT_THAT(second.err, AllOf(HasSubstr("process " + std::to_string(first)),
-                                  HasSubstr("works in it at this moment"), HasSubstr("Fix: ")));
+                                  HasSubstr("is using it"), HasSubstr("Fix: ")));
   }
   EXPECT_EQ(run({"report", "d"}).exit_code, 0) << "looking at it is no work in it";
   interrupt_when_there(first, "d");
@@ -289,7 +289,7 @@ TEST_F(Folders, ADiskWithoutInodesAndThenWithLosesNothing) {
   EXPECT_EQ(text("first"), "2\n");
   EXPECT_EQ(text("second"), "0\n");
   EXPECT_THAT(done.err, AllOf(HasSubstr("No space left on device"), HasSubstr("Fix: "),
-                              HasSubstr("simulations were there already")));
+                              HasSubstr("simulations were taken from")));
   EXPECT_EQ(text("result.json"), text("whole/result.json"));
 }
 

@@ -73,9 +73,9 @@ TEST_F(Completion, ZshIsToldEveryOptionOfACommand) {
                    "words=(repose measure ''); CURRENT=3; _repose"});
   EXPECT_EQ(done.err, "");
   EXPECT_THAT(lines_of(done.out),
-              AllOf(Contains("--method[How to measure (auto)]:auto|paper:(auto paper)"),
-                    Contains("*--keep[Place on the heap; repeatable]:X,Y: "),
-                    Contains("--json[All results, for programs]:FILE|-:_files"),
+              AllOf(Contains("--method[Method of measuring (auto)]:auto|paper:(auto paper)"),
+                    Contains("*--keep[Point on the heap; repeatable]:X,Y: "),
+                    Contains("--json[Full results, for programs]:FILE|-:_files"),
                     Contains("--pitch-deg[Camera's downward pitch (unknown)]:DEGREES: "),
                     Contains("*:PICTURE|FOLDER ...:_files")));
 }

@@ -156,7 +156,7 @@ TEST_F(Measure, AnUnreadablePictureDoesNotStopTheOthers) {
   EXPECT_THAT(result.out, AllOf(HasSubstr("not read"), HasSubstr(" ± "), HasSubstr("3 not read")));
   EXPECT_THAT(result.err, AllOf(HasSubstr("missing.jpg: there is no such file"),
                                 HasSubstr("notes.jpg: no picture"),
-                                HasSubstr("half.png: the PNG is cut short")));
+                                HasSubstr("half.png: the PNG is truncated")));
 }
 
 TEST_F(Measure, JsonHasTheContractsKeys) {

@@ -30,7 +30,7 @@ std::vector<std::string> lines_in(const std::string& text) {
 TEST_F(NewCommand, WritesAStudyAndSheetsWhoseColumnsNameTheirUnits) {
   const Finished done = run(kSoybean);
   EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, AllOf(HasSubstr("soybean.toml is written: Soybeans on acrylic"),
+  EXPECT_THAT(done.out, AllOf(HasSubstr("Wrote soybean.toml: Soybeans on acrylic"),
                               HasSubstr("soybean/drops.csv"), HasSubstr("1. fill in the sheets"),
                               HasSubstr("repose calibrate soybean.toml"),
                               HasSubstr("repose report soybean_calibration")));
@@ -90,8 +90,8 @@ TEST_F(NewCommand, NothingIsWrittenOver) {
   const Finished again = run({"a.toml"});
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_THAT(again.out, IsEmpty());
-  EXPECT_THAT(again.err, AllOf(HasSubstr("repose: a.toml: is there already"),
-                               HasSubstr("repose: a: is there already"), HasSubstr("Fix: ")));
+  EXPECT_THAT(again.err, AllOf(HasSubstr("repose: a.toml: already exists"),
+                               HasSubstr("repose: a: already exists"), HasSubstr("Fix: ")));
   EXPECT_EQ(text("a.toml"), "mine");
   EXPECT_EQ(text("a/drops.csv"), "drop_mm,rebound_mm\n500,100\n");
   EXPECT_THAT(run({"none/b.toml"}).err, HasSubstr("there is no folder none"));

@@ -98,7 +98,7 @@ TEST_F(OutputsOf, PicturesThatReposeDidNotMakeStay) {
   EXPECT_FALSE(exists("photos/heap-3.png")) << "its own pictures it replaces";
   const Finished refused = shell("repose compare heap.png heap.png --overlay photos/heap.png");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("no picture of repose"), HasSubstr("Fix: ")));
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("not a picture written by repose"), HasSubstr("Fix: ")));
   EXPECT_EQ(text("photos/heap.png"), "somebody's photograph");
 }
 
@@ -110,7 +110,7 @@ TEST_F(OutputsOf, WhatDoesNotFitIntoTheMemoryIsSaid) {
   for (const std::string command : {"measure large.png", "compare large.png large.png"}) {
     const Finished done = shell("ulimit -v 800000; repose " + command);
     EXPECT_EQ(done.exit_code, 2) << command;
-    EXPECT_THAT(done.err, AllOf(HasSubstr("there is not enough memory"), HasSubstr("Fix: "),
+    EXPECT_THAT(done.err, AllOf(HasSubstr("not enough memory"), HasSubstr("Fix: "),
                                 HasSubstr("a smaller picture"), Not(HasSubstr("internal error"))))
         << command;
   }
@@ -122,7 +122,7 @@ TEST_F(OutputsOf, AnOptionThatIsGivenNothingIsRefused) {
                                   "measure ''", "export study --to yade --out ''"}) {
     const Finished refused = shell("repose " + words);
     EXPECT_EQ(refused.exit_code, 2) << words;
-    EXPECT_THAT(refused.err, AllOf(HasSubstr("nothing is given for it"), HasSubstr("Fix: ")));
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("no value given"), HasSubstr("Fix: ")));
   }
 }
 

@@ -102,7 +102,7 @@ TEST_F(RenderCommand, ErrorsAreOneLineEachAndLeaveNothing) {
       {{"state.vtp", "--out", "a.png", "--camera", "zoom=3"}, "zoom"},
       {{"state.vtp", "--out", "a.png", "--camera", "distance_mm=1,focal_mm=50"}, "inside the heap"},
       {{"state.vtp", "--out", "a.glb", "--mask", "m.png"}, "--mask"},
-      {{"state.vtp", "--out", "state.vtp"}, "would overwrite a file"},
+      {{"state.vtp", "--out", "state.vtp"}, "would overwrite an input file"},
       {{"film/trajectory.pvd", "--out", "a.png"}, "film"},
   };
   for (const auto& [words, named] : cases) {

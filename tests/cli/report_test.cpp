@@ -64,7 +64,7 @@ TEST_F(ReportCommand, DamagedResultsLeaveTheEarlierPage) {
   folder_.write("study/result.json", std::string("{\"method\""));
   const Finished done = run({"study"});
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_THAT(done.err, HasSubstr("result.json: is no result"));
+  EXPECT_THAT(done.err, HasSubstr("result.json: is not a result"));
   EXPECT_EQ(text("study/report.html"), "earlier");
 }
 

@@ -110,8 +110,8 @@ TEST_F(SimulateRestart, AnInterruptedHeapGoesOnToTheSameBytes) {
   }
   const Finished last = run(kHeap);
   EXPECT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_THAT(last.err, HasSubstr("runs: resumes an earlier run: of 2 repeats 0 finished "
-                                  "already, 1 under way."));
+  EXPECT_THAT(last.err, HasSubstr("runs: resuming an earlier run: of 2 repeats 0 "
+                                  "finished, 1 in progress."));
   Words whole = kHeap;
   whole.back() = "whole";
   ASSERT_EQ(run(whole).exit_code, 0);
@@ -129,7 +129,7 @@ TEST_F(SimulateRestart, FinishedRepeatsAreNotSimulatedAgain) {
   Words three = one;
   three.insert(three.end(), {"--repeats", "3"});
   const Finished more = run(three);
-  EXPECT_THAT(more.err, HasSubstr("of 3 repeats 1 finished already"));
+  EXPECT_THAT(more.err, HasSubstr("of 3 repeats 1 finished"));
   EXPECT_EQ(text_of(file), first) << "the time it took is the first's";
   three[3] = "whole";
   ASSERT_EQ(run(three).exit_code, 0);
@@ -142,15 +142,15 @@ TEST_F(SimulateRestart, AnotherRunInTheSameFolderIsRefused) {
   const auto before = texts_in("runs");
   const std::map<std::string, Words> others = {
       {"its experiment is \"drop\", not \"heap\"", {"heap", "study.toml", "--out", "runs"}},
-      {"the study, its scan or the --set settings were other ones",
+      {"the study, its scan or the --set settings were different",
        {"drop", "study.toml", "--out", "runs", "--set", "wall.poisson_ratio=0.31"}},
       {"its trajectory_s is null, not 0.5",
        {"drop", "study.toml", "--out", "runs", "--trajectory-s", "0.5"}}};
   for (const auto& [what, words] : others) {
     const Finished refused = run(words);
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.err, AllOf(HasSubstr("--out runs: it holds another run"), HasSubstr(what),
-                                   HasSubstr("Fix: another folder")));
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("--out runs: contains a different run"),
+                                   HasSubstr(what), HasSubstr("Fix: choose another folder")));
   }
   EXPECT_EQ(texts_in("runs"), before);
 }
@@ -218,7 +218,7 @@ TEST_F(SimulateRestart, RunsAreFoundAgainInAnotherStudy) {
   std::filesystem::remove(path("runs/run.json"));
   const Finished again = run(one);
   EXPECT_EQ(again.exit_code, 0);
-  EXPECT_THAT(again.err, HasSubstr("of 2 repeats 2 finished already"));
+  EXPECT_THAT(again.err, HasSubstr("of 2 repeats 2 finished"));
   EXPECT_EQ(stored(".json").size(), before);
 }
 

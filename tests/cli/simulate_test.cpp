@@ -79,7 +79,7 @@ TEST_F(Simulate, RepeatsThatAreTheSameHaveNoInterval) {
                        "--repeats", "2"};
   const Finished finished = run(words);
   EXPECT_THAT(finished.out,
-              AllOf(HasSubstr("n = 2, all the same: no scatter"), Not(HasSubstr("95 %"))));
+              AllOf(HasSubstr("n = 2, all identical: no scatter"), Not(HasSubstr("95 %"))));
   EXPECT_THAT(finished.err, HasSubstr("repose: all 2 repeats gave the same value"));
   const json tilt = timeless(words);
   EXPECT_TRUE(tilt["value"].is_number());
@@ -206,7 +206,7 @@ TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
   const Words words = {"drop",  "study.toml",
                        "--set", "experiment.drop.height_mm=0.01",
                        "--set", "contact.particle_wall.restitution=0.01"};
-  EXPECT_THAT(run(words).err, HasSubstr("2 of 2 grains did not rise again"));
+  EXPECT_THAT(run(words).err, HasSubstr("2 of 2 grains did not rebound"));
   EXPECT_EQ(timeless(words)["warnings"][0]["code"], "never_rose");
 }
 

@@ -81,7 +81,7 @@ TEST(Usage, NoPictureNamedIsSaid) {
   const TemporaryFolder folder;
   const Finished run = run_repose(folder, {"measure"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("no picture is named"), HasSubstr("Fix: ")));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("no picture given"), HasSubstr("Fix: ")));
 }
 
 TEST(Usage, AMissingValueIsSaid) {

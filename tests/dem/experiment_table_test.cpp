@@ -23,7 +23,7 @@ TEST(ExperimentTable, HasEachExperimentInItsPlace) {
   EXPECT_EQ(experiment_names(),
             "drop, tilt, roll, heap, drop_on_grains, tilt_on_grains or roll_on_grains");
   EXPECT_THAT(error_of([] { experiment_named("spin"); }),
-              HasSubstr("experiment spin: there is no such experiment. Fix: drop,"));
+              HasSubstr("experiment spin: unknown experiment. Fix: drop,"));
 }
 
 TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {

@@ -134,10 +134,10 @@ TEST(ClumpFile, RefusesOtherFilesAndOtherVersions) {
   const auto parse = [](const std::string& content) {
     return [content] { dem::parse_clump_json(content, "file"); };
   };
-  EXPECT_THAT(parse(""), refused(HasSubstr("is no JSON")));
-  EXPECT_THAT(parse(text.substr(0, text.size() / 2)), refused(HasSubstr("is no JSON")));
-  EXPECT_THAT(parse("[1, 2]"), refused(HasSubstr("is no clump file")));
-  EXPECT_THAT(parse("{}"), refused(HasSubstr("is no clump file")));
+  EXPECT_THAT(parse(""), refused(HasSubstr("is not JSON")));
+  EXPECT_THAT(parse(text.substr(0, text.size() / 2)), refused(HasSubstr("is not JSON")));
+  EXPECT_THAT(parse("[1, 2]"), refused(HasSubstr("is not a clump file")));
+  EXPECT_THAT(parse("{}"), refused(HasSubstr("is not a clump file")));
   EXPECT_THAT(parse(replaced(text, "\"version\":1", "\"version\":2")),
               refused(HasSubstr("another version")));
   EXPECT_THAT(parse(R"({"format":"repose clump","version":1})"),

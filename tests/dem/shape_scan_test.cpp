@@ -168,7 +168,7 @@ TEST(ReadScan, SaysWhatIsWrongWithAFile) {
               refuses(HasSubstr("there is no such file")));
   EXPECT_THAT([&] { dem::read_scan(folder.path(), ScanUnit::metre); },
               refuses(HasSubstr("is a folder")));
-  EXPECT_THAT(read("a.jpg", "x"), refuses(HasSubstr("is no STL, OBJ or PLY")));
+  EXPECT_THAT(read("a.jpg", "x"), refuses(HasSubstr("is not named as an STL, OBJ or PLY file")));
   EXPECT_THAT(read("empty.stl", ""), refuses(HasSubstr("is empty")));
   EXPECT_THAT(read("short.stl", "solid"), refuses(HasSubstr("Fix:")));
   EXPECT_THAT(read("cut.stl", whole.substr(0, whole.size() / 2)), refuses(HasSubstr("Fix:")));

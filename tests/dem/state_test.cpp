@@ -258,7 +258,7 @@ TEST_F(StateFile, SizesThatDoNotHoldTogetherAreRefused) {
   EXPECT_THAT(error(replaced(whole, "NumberOfPoints=\"29\"", "NumberOfPoints=\"999999999999\"")),
               HasSubstr("is for 29 points"));
   EXPECT_THAT(error(replaced(whole, "NumberOfPoints=\"29\"", "NumberOfPoints=\"-1\"")),
-              HasSubstr("NumberOfPoints is no whole number"));
+              HasSubstr("NumberOfPoints is not a whole number"));
   EXPECT_THAT(error(replaced(whole, "Name=\"velocity\" NumberOfComponents=\"3\"",
                              "Name=\"velocity\" NumberOfComponents=\"0\"")),
               HasSubstr("array velocity has"));
@@ -290,7 +290,7 @@ TEST_F(StateFile, EditedContentsAreRefused) {
   const std::string minus_one = "CAAAAAAAAAD//////////w==";
   EXPECT_THAT(error(with_numbers(whole, "audit_steps", minus_one)), HasSubstr("audit_steps"));
   EXPECT_THAT(error(with_numbers(whole, "step", minus_one)), HasSubstr("array step"));
-  EXPECT_THAT(error(with_numbers(whole, "timestep", minus_one)), HasSubstr("no finite number"))
+  EXPECT_THAT(error(with_numbers(whole, "timestep", minus_one)), HasSubstr("not a finite number"))
       << "NaN";
   EXPECT_THAT(error(with_numbers(whole, "repose_state_format", "CAAAAAAAAAACAAAAAAAAAA==")),
               HasSubstr("format is 2"));
@@ -314,9 +314,9 @@ TEST_F(StateFile, NumbersBeyondAllBoundsAreRefused) {
   std::vector<double> motion(11, 0.);
   motion[2] = kInfinite;
   EXPECT_THAT(error(with_numbers(whole, "wall_motion", base64_of(motion))),
-              HasSubstr("array wall_motion holds what is no finite number"));
+              HasSubstr("array wall_motion holds a value that is not a finite number"));
   EXPECT_THAT(error(with_numbers(whole, "timestep", base64_of({kInfinite}))),
-              HasSubstr("array timestep holds what is no finite number"));
+              HasSubstr("array timestep holds a value that is not a finite number"));
   EXPECT_THAT(error(with_numbers(whole, "gravity", base64_of({0, 0, -1e200}))),
               HasSubstr("array gravity holds a number beyond 1e+12"));
 }

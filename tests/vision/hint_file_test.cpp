@@ -91,7 +91,7 @@ TEST_F(HintFile, AllThatIsWrongIsSaidAtOnce) {
               AllOf(HasSubstr(":1: heap: must be [x, y, width, height]"),
                     HasSubstr(":2: ground: must be [x1, y1, x2, y2]"), HasSubstr(":3: keep"),
                     HasSubstr(":4: drop"), HasSubstr(":5: mask"), HasSubstr(":6: pitch_deg"),
-                    HasSubstr(":7: haep: is no hint")));
+                    HasSubstr(":7: haep: is not a hint")));
   EXPECT_THAT(complaint("heap = [1, 2\n"), HasSubstr("must be TOML"));
   EXPECT_THAT(complaint("mask = \"nowhere.png\"\n"), HasSubstr("nowhere.png"));
 }

@@ -137,7 +137,7 @@ TEST(Hints, ThatCannotBeMeantAreRefusedAllAtOnce) {
   hints.mask = blank_picture(10, 10);
   EXPECT_THAT(problems_of(hints, 640, 480),
               ElementsAre(HasSubstr("heap box = 500,0,200,100"), HasSubstr("ground points"),
-                          HasSubstr("place to keep"), HasSubstr("place to drop"),
+                          HasSubstr("point to keep"), HasSubstr("point to drop"),
                           HasSubstr("the mask is 10 x 10")));
   MeasureOptions options;
   options.hints = hints;
@@ -153,7 +153,7 @@ TEST(Hints, NameThemselves) {
   hints.heap = Box{.x = 0, .y = 0, .width = 10, .height = 10};
   hints.keep = {{1, 1}};
   hints.drop = {{2, 2}, {3, 3}};
-  EXPECT_EQ(hints.text(), "box around the heap, 1 place on the heap, 2 places beside the heap");
+  EXPECT_EQ(hints.text(), "box around the heap, 1 point on the heap, 2 points off the heap");
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {
     change(other);
     return reason_against_heap(other, grain);
   };
-  EXPECT_THAT(reason([](Likeness& l) { l.filled = 0.9; }), HasSubstr("10 % of what lies under"));
+  EXPECT_THAT(reason([](Likeness& l) { l.filled = 0.9; }), HasSubstr("10 % of the area under"));
   EXPECT_THAT(reason([](Likeness& l) { l.climb = 0.2; }), HasSubstr("rises again by 20 %"));
   EXPECT_THAT(reason([](Likeness& l) { l.level = 0.8; }), HasSubstr("80 % of its edge is level"));
   EXPECT_THAT(reason([](Likeness& l) { l.inside.straight = 1.5; }), HasSubstr("1.5 times as long"));
@@ -135,7 +135,7 @@ TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {
   EXPECT_THAT(reason([](Likeness& l) { l.inside.aligned = 0.6; }), HasSubstr("straight lines"));
   EXPECT_THAT(reason([](Likeness& l) { l.inside.crossed = 0.6; }), HasSubstr("straight lines"));
   EXPECT_THAT(reason([](Likeness& l) { l.inside.regular = 0.6; }),
-              HasSubstr("60 % of the pattern"));
+              HasSubstr("60 % of its pattern"));
   EXPECT_THAT(reason([](Likeness& l) { l.inside.noise = 0.2; }), HasSubstr("no grains"));
   EXPECT_THAT(reason([](Likeness&) {}, std::nullopt), HasSubstr("no grains"));
 }

@@ -211,7 +211,7 @@ TEST_F(PictureFile, CutShortIsRefusedInEveryFormatWithoutPrinting) {
       const std::string name = std::string("cut") + ending;
       EXPECT_THAT(
           error_of(name, testing::first_part(whole, part)),
-          AllOf(HasSubstr(name + ": "), HasSubstr("cut short or damaged"), HasSubstr("Fix: ")))
+          AllOf(HasSubstr(name + ": "), HasSubstr("truncated or damaged"), HasSubstr("Fix: ")))
           << part;
     }
   }

@@ -83,7 +83,7 @@ TEST_P(NotMeasurable, IsRefusedAndTheTroubleNamed) {
 INSTANTIATE_TEST_SUITE_P(Scenes, NotMeasurable,
                          ::testing::Values(Scene{"empty_plate", "no heap"},
                                            Scene{"column", "upright"}, Scene{"ball", "heap"},
-                                           Scene{"oblique", "base bows"},
+                                           Scene{"oblique", "curved base"},
                                            Scene{"wall_to_wall", "no heap"}),
                          [](const auto& p) { return std::string(p.param.condition); });
 

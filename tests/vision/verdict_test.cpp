@@ -94,19 +94,19 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"disagreement", [](Case& c) { c.choice.disagreement_rad = 3 * kDegree; },
               "too uncertain"},
         Error{"crest_cut", [](Case& c) { c.choice.best.profile.leaves_frame_top = true; },
-              "crest lies outside"},
+              "crest is outside"},
         Error{"from_above", [](Case& c) { c.choice.best.body.ground.bow = 0.15; },
-              "base bows downwards"},
+              "the curved base implies"},
         Error{"one_layer", [](Case& c) { c.choice.best.grain = 100; }, "hardly higher"},
         Error{"level", [](Case& c) { c.choice.best.right.angle_rad = 2 * kDegree; },
               "right side is level"},
         Error{"wall", [](Case& c) { c.choice.best.left.angle_rad = 70 * kDegree; },
-              "steeper than loose grains"},
+              "too steep for loose grains"},
         Error{"ball", [](Case& c) { c.choice.best.left.bend_rad = -20 * kDegree; },
               "left side is round"},
         Error{"stepped", [](Case& c) { c.choice.best.left.window_spread_rad = 15 * kDegree; },
               "left side's angle changes by 15 degrees"},
-        Error{"ragged", [](Case& c) { c.choice.best.right.least_squares.r2 = 0.7; }, "no line"}),
+        Error{"ragged", [](Case& c) { c.choice.best.right.least_squares.r2 = 0.7; }, "not a line"}),
     name_of);
 
 TEST(Judge, AnOutlineHoldsWhereOnlyAFlankIsRefused) {

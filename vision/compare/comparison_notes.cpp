@@ -44,23 +44,23 @@ void note_scale(HeapComparison& result, const CompareOptions& options) {
   if (result.unit == LengthUnit::metre) return;
   if (options.scale[0]) {
     note(result, "base_not_seen",
-         "The base is not wholly in both pictures, so its known width gives no scale.");
+         "The base is not fully visible in both pictures, so its known width gives no scale.");
   }
   note(result, "no_scale",
-       fmt::format("Without a scale only shapes are compared, enlarged to the same {}: which heap "
-                   "is larger cannot be told.",
+       fmt::format("Without a scale only shapes are compared, scaled to the same {}: it cannot be "
+                   "told which heap is larger.",
                    result.unit == LengthUnit::height ? "height" : "area"));
 }
 
 void note_angles(HeapComparison& result, const Measured& measured, const CompareOptions& options) {
   if (measured[0]->window != measured[1]->window || measured[0]->method != measured[1]->method) {
     note(result, "unlike_definitions",
-         "The two angles are measured by different methods or windows: part of their difference "
-         "is that.");
+         "The two angles are measured by different methods or windows, which accounts for part of "
+         "their difference.");
   }
   if (options.same_measurement) {
     note(result, "same_picture",
-         "Both are the same picture: the same errors, so their difference has none.");
+         "Both are the same picture, with the same errors, so their difference has none.");
   }
   if (!result.angle) return;
   const bool left = result.left.angle.has_value();
@@ -71,7 +71,7 @@ void note_angles(HeapComparison& result, const Measured& measured, const Compare
          "which a camera's roll counts twice.");
   } else if (left != right) {
     note(result, "one_side",
-         fmt::format("The angles are those of the {} sides alone.", left ? "left" : "right"));
+         fmt::format("The angles are those of the {} sides only.", left ? "left" : "right"));
   }
   const auto differs = [](const SideComparison& side) {
     return side.angle && side.angle->verdict == Agreement::different;
@@ -91,7 +91,7 @@ void add_notes(HeapComparison& result, const Measured& measured, const CompareOp
     if (heap.status == MeasureStatus::refused) {
       result.warnings.push_back(
           {picture,
-           {"angle_refused", "Its outline is compared, its angle is refused: " + heap.reason}});
+           {"angle_refused", "Its outline is compared, but its angle is refused: " + heap.reason}});
     }
     for (const Warning& warning : heap.warnings) result.warnings.push_back({picture, warning});
   }
@@ -100,8 +100,8 @@ void add_notes(HeapComparison& result, const Measured& measured, const CompareOp
   note_angles(result, measured, options);
   if (result.is_aligned_by_crest && result.iou) {
     note(result, "aligned_by_crest",
-         "The outlines are aligned by their crests, which single grains move: see what the best "
-         "shift changes.");
+         "The outlines are aligned by their crests, which depend on single grains: see what the "
+         "best shift changes.");
   }
   note_scale(result, options);
 }

@@ -195,7 +195,7 @@ std::vector<std::string> CompareOptions::problems() const {
   if (!(margin_rad > 0 && margin_rad <= kWidestMargin_rad)) {
     errors.push_back(
         fmt::format("margin = {:g} degrees must be more than 0 and at most 45. Fix: give the "
-                    "difference that does not matter to you, such as 2.",
+                    "difference that you consider negligible, such as 2.",
                     margin_rad / kDegree));
   }
   if (scale[0].has_value() != scale[1].has_value()) {

@@ -129,8 +129,8 @@ void add_notes(SetComparison& result, const MeanOutlines& outlines) {
     }
     if (set.counted == 1) {
       note(result, "one_heap",
-           fmt::format("The {} set has one heap only: how much such heaps differ is {}.", kSets[i],
-                       result.angle ? "taken from the other set" : "not known"));
+           fmt::format("The {} set has only one heap: the scatter between heaps is {}.", kSets[i],
+                       result.angle ? "taken from the other set" : "unknown"));
     }
   }
   if (result.unit != LengthUnit::metre && result.iou) {

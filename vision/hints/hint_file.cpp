@@ -75,7 +75,7 @@ class HintReader {
     for (const auto& [key, node] : table_) {
       if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
       add(node, std::string(key.str()),
-          fmt::format("is no hint. Known are {}", fmt::join(known, ", ")));
+          fmt::format("is not a hint. Known hints: {}", fmt::join(known, ", ")));
     }
   }
 
@@ -214,9 +214,8 @@ MeasureOptions with_saved_hints(MeasureOptions options, const fs::path& picture)
 
 void save_hints(const MeasureOptions& options, const fs::path& picture) {
   const Hints& hints = options.hints;
-  std::string text =
-      fmt::format("# What a person says of {}, in its pixels: read whenever it is measured.\n",
-                  picture.filename().string());
+  std::string text = fmt::format("# Hints for {}, in its pixels: read whenever it is measured.\n",
+                                 picture.filename().string());
   const auto add = [&](const char* key, const std::string& value) {
     text += fmt::format("{} = {}\n", key, value);
   };

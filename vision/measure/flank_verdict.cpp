@@ -41,33 +41,34 @@ std::string reason_against(const FlankFit& flank, Side side) {
   if (flank.status != FlankStatus::ok) return {};
   if (flank.angle_rad < kFlattest_rad) {
     return fmt::format(
-        "the {} side is level ({:.1f} degrees): this is a layer, not a heap. Fix: picture a heap "
+        "the {} side is level ({:.1f} degrees): this is a layer, not a heap. Fix: photograph a "
+        "heap "
         "whose flanks end on the ground.",
         name, degrees(flank.angle_rad));
   }
   if (flank.angle_rad > kSteepest_rad) {
     return fmt::format(
-        "the {} side stands at {:.0f} degrees, steeper than loose grains lie. Fix: lay an "
-        "excluded box over walls, gates and tubes.",
+        "the {} side has a slope of {:.0f} degrees, too steep for loose grains. Fix: cover walls, "
+        "gates and tubes with an excluded box.",
         name, degrees(flank.angle_rad));
   }
   if (flank.bend_rad < -kRoundest_rad) {
     return fmt::format(
-        "the {} side is round, {:.0f} degrees flatter at the top than at the foot: no straight "
+        "the {} side is round, {:.0f} degrees flatter at the top than at the foot: not a straight "
         "flank. Fix: check that the picture shows a heap.",
         name, -degrees(flank.bend_rad));
   }
   if (flank.window_spread_rad > kLargestSpread_rad) {
     return fmt::format(
-        "the {} side's angle changes by {:.0f} degrees with the stretch that is fitted: no "
-        "straight flank, or a heap and its plate taken for one thing. Fix: use a level camera and "
-        "a plate of another colour than the grains.",
+        "the {} side's angle changes by {:.0f} degrees with the window: not a straight flank, or a "
+        "heap and its plate taken for one object. Fix: use a level camera and a plate of a "
+        "different colour from the grains.",
         name, degrees(flank.window_spread_rad));
   }
   if (flank.least_squares.r2 < kLeastR2) {
     return fmt::format(
-        "the {} side's edge is no line (r2 {:.2f}). Fix: use a plainer backdrop, or lay an "
-        "excluded box over what stands before the flank.",
+        "the {} side's edge is not a line (r2 {:.2f}). Fix: use a plainer backdrop, or cover what "
+        "is in front of the flank with an excluded box.",
         name, flank.least_squares.r2);
   }
   return {};
@@ -84,21 +85,20 @@ void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
   }
   if (flank.frame_cut) {
     note(result, "flank_cut_by_frame",
-         fmt::format(
-             "The picture's edge cuts the {} flank: it is fitted from {:.0f} % of the height "
-             "on.",
-             name, 100 * flank.window_from));
+         fmt::format("The picture's edge cuts off the {} flank: it is fitted above {:.0f} % of the "
+                     "height.",
+                     name, 100 * flank.window_from));
   }
   if (flank.apron_cut) {
     note(result, "apron_left_out",
-         fmt::format("A thin apron at the {} foot is left out: the line begins at {:.0f} % of the "
+         fmt::format("A thin apron at the {} foot is left out: the line starts at {:.0f} % of the "
                      "height.",
                      name, 100 * flank.window_from));
   }
   if (flank.high_apron) {
     flag(result, "high_apron",
-         fmt::format("On the {} the foot runs out level from {:.0f} % of the height on, too high "
-                     "to be left out: the angle is that of flank and foot together.",
+         fmt::format("On the {} the foot levels out at {:.0f} % of the height, too high to be left "
+                     "out: the angle is that of flank and foot together.",
                      name, 100 * *flank.high_apron));
   }
   if (sure_bend_rad(flank) > kDoubtfulBend_rad) {
@@ -111,8 +111,8 @@ void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
   const Flank& shown = side == Side::left ? result.left : result.right;
   if (flank.window_spread_rad > shown.uncertainty_rad.value_or(0) + kUncoveredSpread_rad) {
     flag(result, "window_sensitive",
-         fmt::format("The {} angle changes by {:.1f} degrees with the stretch that is fitted, more "
-                     "than its interval allows for.",
+         fmt::format("The {} angle changes by {:.1f} degrees with the window, more than its "
+                     "interval covers.",
                      name, degrees(flank.window_spread_rad)));
   }
 }

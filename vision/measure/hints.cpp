@@ -67,7 +67,7 @@ std::vector<Point> moved(const std::vector<Point>& points, const Box& box) {
 }
 
 std::string count_of(std::size_t places, const char* where) {
-  return fmt::format("{} place{} {} the heap", places, places == 1 ? "" : "s", where);
+  return fmt::format("{} point{} {} the heap", places, places == 1 ? "" : "s", where);
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::string Hints::text() const {
   if (heap) parts.emplace_back("box around the heap");
   if (ground) parts.emplace_back("ground line");
   if (!keep.empty()) parts.push_back(count_of(keep.size(), "on"));
-  if (!drop.empty()) parts.push_back(count_of(drop.size(), "beside"));
+  if (!drop.empty()) parts.push_back(count_of(drop.size(), "off"));
   if (mask.width > 0) parts.emplace_back("mask");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -90,13 +90,13 @@ std::vector<std::string> problems_of(const Hints& hints, int width, int height) 
   std::vector<std::string> errors;
   if (hints.heap) check_heap(*hints.heap, width, height, errors);
   if (hints.ground) check_ground(*hints.ground, width, height, hints.heap, errors);
-  check_points(hints.keep, "place to keep", width, height, errors);
-  check_points(hints.drop, "place to drop", width, height, errors);
+  check_points(hints.keep, "point to keep", width, height, errors);
+  check_points(hints.drop, "point to drop", width, height, errors);
   const Picture& mask = hints.mask;
   if (!mask.empty() && (mask.width != width || mask.height != height)) {
     errors.push_back(fmt::format(
         "the mask is {} x {} and the picture {} x {}. Rule: as large as the picture. Fix: paint "
-        "it over a copy of the picture.",
+        "it on a copy of the picture.",
         mask.width, mask.height, width, height));
   }
   return errors;

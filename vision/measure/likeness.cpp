@@ -113,23 +113,23 @@ double least_roughness(const Likeness& likeness, std::optional<double> grain) {
 std::string reason_of_shape(const Likeness& likeness) {
   if (likeness.filled < kLeastFilled) {
     return fmt::format(
-        "{:.0f} % of what lies under its edge is not its own, as under legs, wheels "
-        "and branches",
+        "{:.0f} % of the area under its edge does not belong to it, as with legs, "
+        "wheels and branches",
         100 * (1 - likeness.filled));
   }
   if (likeness.climb > kMostClimb) {
-    return fmt::format("on its way down its edge rises again by {:.0f} % of the height",
+    return fmt::format("its edge rises again by {:.0f} % of the height on the way down",
                        100 * likeness.climb);
   }
   if (likeness.level > kMostLevel) {
-    return fmt::format("{:.0f} % of its edge is level, as of stairs", 100 * likeness.level);
+    return fmt::format("{:.0f} % of its edge is level, as on stairs", 100 * likeness.level);
   }
   return {};
 }
 
 std::string reason_of_texture(const BodyTexture& inside, bool has_grains) {
   if (inside.straight > kLongestStraight) {
-    return fmt::format("it has a straight edge inside that is {:.1f} times as long as it is high",
+    return fmt::format("it has a straight edge inside, {:.1f} times as long as it is high",
                        inside.straight);
   }
   if (inside.patchy > kMostPatchy) {
@@ -139,14 +139,14 @@ std::string reason_of_texture(const BodyTexture& inside, bool has_grains) {
   const bool is_silhouette = inside.even > kMostlyEven;
   if (is_silhouette) return {};
   if (inside.aligned > kMostAligned || inside.crossed > kMostCrossed) {
-    return "the pattern on it runs in straight lines, as of boards, bricks, tiles and cloth";
+    return "its pattern runs in straight lines, as on boards, bricks, tiles and cloth";
   }
   if (inside.regular > kMostRegular) {
-    return fmt::format("{:.0f} % of the pattern on it repeats, as of tiles and cloth",
+    return fmt::format("{:.0f} % of its pattern repeats, as on tiles and cloth",
                        100 * inside.regular);
   }
   if (!has_grains || inside.noise < kLeastNoise) {
-    return "no grains can be seen on it, and it is no silhouette";
+    return "it shows no grains, and is not a silhouette";
   }
   return {};
 }
@@ -166,7 +166,7 @@ std::string reason_against_heap(const Likeness& likeness, std::optional<double> 
   std::string reason = reason_of_shape(likeness);
   if (reason.empty()) reason = reason_of_texture(likeness.inside, grain.has_value());
   if (reason.empty() && likeness.rough_px < least_roughness(likeness, grain)) {
-    reason = "its edge is as smooth as no edge of grains is";
+    reason = "its edge is smoother than that of grains";
   }
   return reason;
 }

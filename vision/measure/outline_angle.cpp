@@ -38,7 +38,8 @@ void check(const Outline& outline, const OutlineOptions& options) {
                     outline.along.size(), outline.height.size()));
   }
   if (!are_finite(outline.along) || !are_finite(outline.height)) {
-    errors.emplace_back("the outline has a point that is no number. Fix: leave such points out.");
+    errors.emplace_back(
+        "the outline has a point that is not a number. Fix: leave such points out.");
   }
   const auto& along = outline.along;
   if (std::adjacent_find(along.begin(), along.end(), [](double a, double b) { return a >= b; }) !=

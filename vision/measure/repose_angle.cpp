@@ -194,9 +194,8 @@ ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
   result.window = {options.window_from, options.window_to};
   result.camera_pitch_rad = options.camera_pitch_rad;
   result.reason = fmt::format(
-      "of the {} x {} pixels too few remain to measure in. Fix: use a picture of at least {} "
-      "pixels "
-      "each way, not much longer than wide, whose heap is 100 pixels high.",
+      "too little of the {} x {} pixels remains to measure in. Fix: use a picture of at least {} "
+      "pixels each way, not much longer than wide, with a heap 100 pixels high.",
       picture.width, picture.height, kSmallestSide);
   return result;
 }
@@ -207,16 +206,16 @@ std::vector<std::string> MeasureOptions::problems() const {
   std::vector<std::string> errors;
   // Written so that NaN fails.
   if (!(window_from >= 0 && window_to <= 1 && window_to - window_from >= kNarrowestWindow)) {
-    errors.push_back(fmt::format(
-        "window = {},{} must be two rising fractions of the heap's height from 0 to 1, at least {} "
-        "apart. Fix: try 0.2,0.8.",
-        window_from, window_to, kNarrowestWindow));
+    errors.push_back(
+        fmt::format("window = {},{} must be two increasing fractions of the heap's height from 0 "
+                    "to 1, at least {} "
+                    "apart. Fix: try 0.2,0.8.",
+                    window_from, window_to, kNarrowestWindow));
   }
   if (camera_pitch_rad && !(std::abs(*camera_pitch_rad) <= kLargestPitch_rad)) {
     errors.push_back(
         fmt::format("camera pitch = {:.1f} degrees must lie within -30 and 30. Fix: give the angle "
-                    "by which the "
-                    "camera looks down, or take the picture with a level camera.",
+                    "by which the camera looks down, or take the picture with a level camera.",
                     *camera_pitch_rad * 180 / std::numbers::pi));
   }
   for (const Box& box : excluded) {

@@ -55,12 +55,13 @@ std::string reason_against_picture(const Choice& choice, const MeasureOptions& o
                                    double confidence) {
   const Reading& best = choice.best;
   if (best.body.mask.empty()) {
-    return "no heap stands out from the backdrop. Fix: use a plain backdrop of another colour than "
-           "the grains, even light, and show the ground left and right of the heap.";
+    return "no heap stands out from the backdrop. Fix: use even light and a plain backdrop of a "
+           "different colour from the grains, and show the ground on both sides of the heap.";
   }
   if (!best.has_flank()) {
     return fmt::format(
-        "no sloping flank found (left: {}; right: {}). Fix: picture a heap with at least one free "
+        "no sloping flank found (left: {}; right: {}). Fix: photograph a heap with at least one "
+        "free "
         "flank and its foot in the frame.",
         best.left.reason.empty() ? "none" : best.left.reason,
         best.right.reason.empty() ? "none" : best.right.reason);
@@ -68,25 +69,26 @@ std::string reason_against_picture(const Choice& choice, const MeasureOptions& o
   const bool is_pointed_at = !options.hints.keep.empty() || options.hints.mask.width > 0;
   if (confidence < (is_pointed_at ? kMinToldConfidence : kMinConfidence)) {
     return fmt::format(
-        "the heap's edge is too uncertain (confidence {:.2f} of 1). Fix: use a plain backdrop of "
-        "another colour than the grains, even light and a sharp picture; lay an excluded box over "
-        "foreign things.",
+        "the heap's edge is too uncertain (confidence {:.2f} of 1). Fix: use a plain backdrop of a "
+        "different colour from the grains, even light and a sharp picture; exclude other objects "
+        "with an excluded box.",
         confidence);
   }
   if (best.profile.leaves_frame_top && !options.hints.heap) {
-    return "the crest lies outside the picture, so the heap's height is unknown. Fix: step back or "
+    return "the crest is outside the picture, so the heap's height is unknown. Fix: step back or "
            "tilt the camera until the whole heap is in the frame.";
   }
   const double pitch = pitch_from_bow(best.body.ground.bow.value_or(0));
   if (!options.camera_pitch_rad && pitch > kLargestPitch_rad) {
     return fmt::format(
-        "the base bows downwards as if the camera looked down by about {:.0f} degrees, which "
-        "changes the angle; or this is no heap. Fix: retake with a level camera at the heap's "
-        "height, or give the camera pitch if it is known.",
+        "the curved base implies that the camera looked down by about {:.0f} degrees, which "
+        "changes the angle; or this is not a heap. Fix: retake the picture with a level camera at "
+        "the heap's height, or give the camera pitch if it is known.",
         degrees(pitch));
   }
   if (best.grain && best.profile.crest_height < kFewestGrains * *best.grain) {
-    return "the thing found is hardly higher than its grains: no heap. Fix: picture a heap at "
+    return "the object found is hardly higher than its grains: not a heap. Fix: photograph a heap "
+           "at "
            "least 10 grains high.";
   }
   return {};
@@ -104,9 +106,9 @@ std::string reason_against_flanks(const Reading& best) {
 void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
   const Hints& hints = options.hints;
   if (hints.empty() && hints.source.empty()) return;
-  const std::string what = hints.empty() ? "boxes to leave out, or a pitch" : hints.text();
+  const std::string what = hints.empty() ? "excluded boxes, or a pitch" : hints.text();
   const std::string where = hints.source.empty() ? "" : fmt::format(" in {}", hints.source);
-  note(result, "hints", fmt::format("A person has said{}: {}.", where, what));
+  note(result, "hints", fmt::format("Hints given{}: {}.", where, what));
 }
 
 /// Why it may be no heap; empty when a person has said that it is one.
@@ -120,8 +122,7 @@ void warn_of_likeness(ReposeAngle& result, const Choice& choice, const MeasureOp
   const std::string reason = reason_to_doubt(choice, options);
   if (reason.empty()) return;
   flag(result, "unlike_a_heap",
-       fmt::format("What was found may be no heap: {}. If it is one, say so with a heap box.",
-                   reason));
+       fmt::format("This may not be a heap: {}. If it is one, mark it with a heap box.", reason));
   result.confidence = std::min(result.confidence, kMostOfUnlike);
 }
 
@@ -136,18 +137,18 @@ void warn_of_definitions(ReposeAngle& result) {
   }
   if (std::max(most - angle, angle - least) <= *result.uncertainty_rad) return;
   note(result, "definitions_differ",
-       fmt::format("Other definitions of the angle give {:.1f} to {:.1f} degrees: name yours when "
+       fmt::format("Other definitions of the angle give {:.1f} to {:.1f} degrees: state yours when "
                    "you publish.",
                    degrees(least), degrees(most)));
 }
 
 void warn_of_angle(ReposeAngle& result) {
   if (*result.uncertainty_rad > kWideInterval_rad) {
-    flag(
-        result, "wide_interval",
-        fmt::format("The angle is uncertain by {:.1f} degrees either way: measure more pictures of "
-                    "this heap, or a heap of more grains.",
-                    degrees(*result.uncertainty_rad)));
+    flag(result, "wide_interval",
+         fmt::format(
+             "The angle is uncertain by ±{:.1f} degrees: measure more pictures of this heap, or "
+             "a heap of more grains.",
+             degrees(*result.uncertainty_rad)));
   }
   warn_of_definitions(result);
 }
@@ -155,17 +156,17 @@ void warn_of_angle(ReposeAngle& result) {
 void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions& options) {
   if (best.profile.crest_height < kLowHeap_px) {
     flag(result, "low_heap",
-         fmt::format("The heap is only {:.0f} pixels high: take the picture from closer by.",
+         fmt::format("The heap is only {:.0f} pixels high: take the picture from closer up.",
                      best.profile.crest_height));
   }
   if (!best.grain) return;
   const double grains = best.profile.crest_height / *best.grain;
   const double steps = grains * (options.window_to - options.window_from);
   if (grains < kFewGrains || steps < kFewSteps) {
-    note(
-        result, "few_grains",
-        fmt::format("About {:.0f} grains high, {:.0f} in the window: single grains move the angle.",
-                    grains, steps));
+    note(result, "few_grains",
+         fmt::format(
+             "About {:.0f} grains high, {:.0f} in the window: single grains affect the angle.",
+             grains, steps));
   }
 }
 
@@ -175,14 +176,15 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
   const double pitch = pitch_from_bow(ground.bow.value_or(0));
   if (!options.camera_pitch_rad && pitch > kDoubtfulPitch_rad) {
     flag(result, "base_bows",
-         fmt::format("The base bows as if the camera looked down by about {:.0f} degrees; give "
-                     "the camera pitch if it did.",
-                     degrees(pitch)));
+         fmt::format(
+             "The curved base implies that the camera looked down by about {:.0f} degrees; give "
+             "the camera pitch if it did.",
+             degrees(pitch)));
   }
   if (options.camera_pitch_rad && ground.bow &&
       std::abs(pitch - std::max(0.0, *options.camera_pitch_rad)) > kPitchTolerance_rad) {
     flag(result, "pitch_disagrees",
-         fmt::format("The base bows as for a pitch of {:.0f} degrees, not of the {:.0f} given.",
+         fmt::format("The curved base implies a pitch of {:.0f} degrees, not the {:.0f} given.",
                      degrees(pitch), degrees(*options.camera_pitch_rad)));
   }
   if (std::abs(ground.tilt_rad()) > kTilted_rad) {
@@ -193,15 +195,15 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
   }
   if (ground.behind) {
     flag(result, "edge_behind",
-         "The line taken for the ground is an edge behind the heap, which goes on below it: its "
-         "foot is not seen. Use a plate of another colour than the grains.");
+         "The line taken for the ground is an edge behind the heap, which extends below it: its "
+         "foot is hidden. Use a plate of a different colour from the grains.");
   }
   if (ground.mirrored) {
     note(result, "mirror", "The ground line is the axis of the heap's reflection.");
   }
   if (result.strays > 0) {
     note(result, "strays",
-         fmt::format("{} small thing{} beside the heap {} left out.", result.strays,
+         fmt::format("{} small object{} beside the heap {} ignored.", result.strays,
                      result.strays == 1 ? "" : "s", result.strays == 1 ? "is" : "are"));
   }
   if (best.left.status == FlankStatus::ok && best.right.status == FlankStatus::ok &&
@@ -237,7 +239,7 @@ void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& opti
   warn_of_flank(result, choice.best, Side::right);
   if (choice.best.profile.leaves_frame_top) {
     flag(result, "crest_cut",
-         "The box cuts the crest off: the heap's height is taken to end there.");
+         "The box cuts off the crest: the heap's height is taken to end there.");
   }
   warn_of_hints(result, options);
   warn_of_likeness(result, choice, options);

@@ -23,7 +23,7 @@ std::uint32_t number_at(Bytes bytes, std::size_t at) {
 
 [[noreturn]] void refuse_damaged() {
   throw std::invalid_argument(
-      "the BMP is cut short or damaged. Fix: copy it from where it came from again, or save it as "
+      "the BMP is truncated or damaged. Fix: copy it from its source again, or save it as "
       "PNG.");
 }
 
@@ -52,7 +52,7 @@ void check_length(Bytes bytes) {
   constexpr std::uint32_t kPlain = 0, kBitFields = 3;
   const std::uint32_t coding = number_at(bytes, 30);
   if (coding != kPlain && coding != kBitFields) {
-    throw std::invalid_argument("a compressed BMP is not read. Fix: save it as PNG.");
+    throw std::invalid_argument("a compressed BMP cannot be read. Fix: save it as PNG.");
   }
   const std::int64_t row_bytes = (width * bits_per_pixel + 31) / 32 * 4;  // whole 32-bit words
   if (bits_per_pixel == 0 || pixels_from < static_cast<std::int64_t>(kHeaderBytes) ||

@@ -15,7 +15,7 @@ namespace repose::vision {
 inline void check_claimed_size(std::int64_t width, std::int64_t height) {
   if (width <= 0 || height <= 0) {
     throw std::invalid_argument(
-        fmt::format("its header claims {} x {} pixels, which is no picture. Fix: save it again "
+        fmt::format("its header claims {} x {} pixels, which is not a picture. Fix: save it again "
                     "from the program it came from.",
                     width, height));
   }
@@ -34,8 +34,8 @@ inline void check_claimed_bytes(std::int64_t width, std::int64_t height, std::in
                                 std::int64_t held_bytes) {
   if (claimed_bytes == held_bytes) return;
   throw std::invalid_argument(
-      fmt::format("the picture is cut short or damaged: its header claims {} x {} pixels, which "
-                  "take {} bytes, and it holds {}. Fix: copy it from where it came from again, or "
+      fmt::format("the picture is truncated or damaged: its header claims {} x {} pixels, which "
+                  "take {} bytes, and it holds {}. Fix: copy it from its source again, or "
                   "save it as PNG.",
                   width, height, claimed_bytes, held_bytes));
 }

@@ -29,7 +29,7 @@ double mean_brightness(const cv::Mat& bgr, const cv::Mat& alpha) {
   const double opacity = cv::sum(alpha)[0];
   if (opacity == 0) {
     throw std::invalid_argument(
-        "every pixel is transparent, there is nothing to see. Fix: save it without transparency.");
+        "every pixel is transparent, so nothing is visible. Fix: save it without transparency.");
   }
   cv::Mat grey;
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);

@@ -93,7 +93,7 @@ bool read_rows(Decoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels,
 
 [[noreturn]] void refuse(const Decoder& decoder) {
   throw std::invalid_argument(
-      fmt::format("the JPEG is cut short or damaged ({}). Fix: copy it from the camera again, or "
+      fmt::format("the JPEG is truncated or damaged ({}). Fix: copy it from the camera again, or "
                   "take another picture.",
                   decoder.message.data()));
 }

@@ -67,7 +67,7 @@ Picture decode(Bytes bytes) {
       return decode_webp(bytes);
     case Format::heic:
       throw std::invalid_argument(
-          "is a HEIC or AVIF picture, which is not read. Fix: convert it to JPEG, for example "
+          "is a HEIC or AVIF picture, which cannot be read. Fix: convert it to JPEG, for example "
           "with heif-convert, or set the telephone's camera to \"most compatible\".");
     case Format::unknown:
       break;

@@ -92,7 +92,7 @@ int orientation_of(const Decoder& decoder) {
 void require(bool worked, const Decoder& decoder) {
   if (worked) return;
   throw std::invalid_argument(
-      fmt::format("the PNG is cut short or damaged ({}). Fix: copy it from where it came from "
+      fmt::format("the PNG is truncated or damaged ({}). Fix: copy it from where it came from "
                   "again.",
                   decoder.message.data()));
 }

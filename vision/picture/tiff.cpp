@@ -80,7 +80,7 @@ File open(Source& source) {
 
 [[noreturn]] void refuse_damaged(const Source& source) {
   throw std::invalid_argument(
-      fmt::format("the TIFF is cut short or damaged ({}). Fix: copy it from where it came from "
+      fmt::format("the TIFF is truncated or damaged ({}). Fix: copy it from where it came from "
                   "again, or save it as PNG.",
                   source.error.empty() ? "no picture in it" : source.error));
 }
@@ -175,7 +175,7 @@ cv::Mat read_converted(const File& file, const Source& source, cv::Size size, in
   char why_not[1024];
   if (!TIFFRGBAImageOK(file.get(), why_not)) {
     throw std::invalid_argument(
-        fmt::format("this kind of TIFF is not read ({}). Fix: save it as PNG.", why_not));
+        fmt::format("this kind of TIFF cannot be read ({}). Fix: save it as PNG.", why_not));
   }
   cv::Mat rgba(size, CV_8UC4);
   constexpr int kStopAtErrors = 1;
@@ -202,7 +202,7 @@ Picture decode_tiff(std::span<const std::uint8_t> bytes) {
   const Layout layout = layout_of(file);
   if (!layout.is_integer || layout.bits > 16) {
     throw std::invalid_argument(
-        fmt::format("a TIFF of {}-bit {} samples is not read. Fix: save it with 8 or 16 bits.",
+        fmt::format("a TIFF of {}-bit {} samples cannot be read. Fix: save it with 8 or 16 bits.",
                     layout.bits, layout.is_integer ? "whole" : "signed or floating-point"));
   }
   check_bytes(file, width, height);

@@ -29,7 +29,7 @@ int orientation_of(std::span<const std::uint8_t> bytes) {
 
 [[noreturn]] void refuse_damaged() {
   throw std::invalid_argument(
-      "the WebP is cut short or damaged. Fix: copy it from where it came from again.");
+      "the WebP is truncated or damaged. Fix: copy it from its source again.");
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ Picture decode_webp(std::span<const std::uint8_t> bytes) {
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) refuse_damaged();
   if (features.has_animation) {
-    throw std::invalid_argument("is a moving picture. Fix: save one frame as PNG.");
+    throw std::invalid_argument("is an animated picture. Fix: save one frame as PNG.");
   }
   check_claimed_size(features.width, features.height);
 

@@ -64,7 +64,7 @@ void check_reading(const Method& method, const BenchReading& reading, base::Erro
     if (value > column.above && value < column.below) continue;  // false for NaN
     is_possible = false;
     errors.add(
-        fmt::format("{}: {} = {:g}: the {} must be {}. Fix: mend the reading or leave it "
+        fmt::format("{}: {} = {:g}: the {} must be {}. Fix: correct the reading or leave it "
                     "out.",
                     reading.place, column.name, value, column.what, range_of(column)));
   }
@@ -152,7 +152,7 @@ void check_readings(BenchTest test, std::span<const BenchReading> readings) {
 
 BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings) {
   if (readings.empty()) {
-    throw std::invalid_argument("bench: there are no readings. Fix: give at least one.");
+    throw std::invalid_argument("bench: no readings. Fix: give at least one.");
   }
   check_readings(test, readings);
   const Method method = method_of(test);

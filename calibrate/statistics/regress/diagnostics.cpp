@@ -73,42 +73,39 @@ void diagnostic_response(const Regression& regression, const SurfacePoint& lowes
   }
   const std::vector<double> responses = responses_of(regression);
   if (*std::min_element(responses.begin(), responses.end()) >= 0 && lowest.value < 0) {
-    diagnostics.push_back(
-        {"impossible_values",
-         fmt::format("The surface goes down to {:.4g} (at {}), but no run gave less "
-                     "than 0: do not use it there.",
-                     lowest.value, place_of(regression, lowest))});
+    diagnostics.push_back({"impossible_values",
+                           fmt::format("The surface falls to {:.4g} (at {}), but no run gave less "
+                                       "than 0: do not use it there.",
+                                       lowest.value, place_of(regression, lowest))});
   }
 }
 
 void diagnostic_fit(const Regression& regression, std::vector<SurfaceDiagnostic>& diagnostics) {
   if (regression.is_exact) {
-    diagnostics.push_back(
-        {"exact_fit",
-         "The surface goes through every run exactly: there is no scatter to judge "
-         "it by, and there are no tests and no intervals."});
+    diagnostics.push_back({"exact_fit",
+                           "The surface fits every run exactly: without residual scatter there are "
+                           "no tests and no intervals."});
     return;
   }
   if (!regression.pure_error) {
-    diagnostics.push_back(
-        {"no_repeats",
-         "No two runs have the same levels: whether the model fits cannot be tested. "
-         "Repeat the centre run."});
+    diagnostics.push_back({"no_repeats",
+                           "No two runs have the same levels, so lack of fit cannot be tested. "
+                           "Repeat the centre run."});
   }
   if (regression.lack_of_fit && regression.lack_of_fit->p.value_or(1) < kSignificant) {
     diagnostics.push_back(
         {"lack_of_fit",
-         fmt::format("The model does not fit: its residual is larger than the repeats' "
-                     "scatter explains (p = {:.2g}). Take a higher model or a smaller "
-                     "box.",
+         fmt::format("The model does not fit: its residual is larger than the scatter of "
+                     "the repeats explains (p = {:.2g}). Use a higher-order model or a "
+                     "smaller box.",
                      *regression.lack_of_fit->p)});
   }
   constexpr double kMuchLess = .2;
   if (!regression.r2_predicted || regression.r2_adjusted - *regression.r2_predicted > kMuchLess) {
     diagnostics.push_back(
         {"weak_prediction",
-         fmt::format("Runs that are left out are foretold badly (predicted R² {}, "
-                     "adjusted R² {:.2f}): single runs decide the surface.",
+         fmt::format("Runs left out are predicted poorly (predicted R² {}, adjusted R² "
+                     "{:.2f}): single runs determine the surface.",
                      regression.r2_predicted ? fmt::format("{:.2f}", *regression.r2_predicted)
                                              : "does not exist",
                      regression.r2_adjusted)});
@@ -117,9 +114,10 @@ void diagnostic_fit(const Regression& regression, std::vector<SurfaceDiagnostic>
     const auto p = regression.of_factor[i].p;
     if (!p || *p < kSignificant) continue;
     diagnostics.push_back(
-        {"no_effect", fmt::format("{0} hardly sees {1} (p = {2:.2g} for all of its terms): these "
-                                  "runs cannot determine {1}.",
-                                  regression.response_name, regression.factors[i].name, *p)});
+        {"no_effect",
+         fmt::format("{0} hardly depends on {1} (p = {2:.2g} for all of its terms): these "
+                     "runs cannot determine {1}.",
+                     regression.response_name, regression.factors[i].name, *p)});
   }
 }
 
@@ -138,24 +136,25 @@ void diagnostic_optimum(const Regression& regression, const CanonicalForm& form,
   if (std::none_of(form.axes.begin(), form.axes.end(), is_certain)) {
     diagnostics.push_back(
         {"no_curvature",
-         "No curvature is certain: these runs show no optimum, and a model without "
-         "squares may do."});
+         "No curvature is significant: these runs show no optimum, and a model without "
+         "squares may suffice."});
     return;
   }
   for (const CanonicalAxis& axis : form.axes) {
     if (is_certain(axis)) continue;
     diagnostics.push_back(
         {"ridge",
-         fmt::format("A ridge: along ({}) the curvature is {:.3g} ± {:.3g} and may be 0. Where the "
-                     "optimum lies along it cannot be told: there is no single one.",
-                     direction_text(regression, axis), axis.curvature, axis.uncertainty)});
+         fmt::format(
+             "A ridge: along ({}) the curvature is {:.3g} ± {:.3g} and may be 0. There is no "
+             "single optimum along it.",
+             direction_text(regression, axis), axis.curvature, axis.uncertainty)});
   }
   if (form.shape == SurfaceShape::saddle) {
     diagnostics.push_back(
         {"saddle",
-         "The stationary point is a saddle, neither minimum nor maximum: what is "
-         "lowest or highest lies on the rim of the box, and beyond it there may be "
-         "better."});
+         "The stationary point is a saddle, neither minimum nor maximum: the lowest and "
+         "highest points lie on the edge of the box, and there may be better ones "
+         "beyond it."});
   }
 }
 
@@ -164,7 +163,7 @@ void diagnostic_target(const Regression& regression, const BoxExtremes& extremes
   if (!target.is_reached) {
     diagnostics.push_back(
         {"target_not_reached",
-         fmt::format("{:g} is not reached: within the box the surface goes from "
+         fmt::format("{:g} is not reached: within the box the surface ranges from "
                      "{:.4g} to {:.4g}. Move or widen the factors' ranges.",
                      target.target.value, extremes.least.value, extremes.greatest.value)});
     return;
@@ -181,7 +180,7 @@ void diagnostic_target(const Regression& regression, const BoxExtremes& extremes
   diagnostics.push_back(
       {"not_determined",
        fmt::format("One target cannot determine {} factors: a whole set of points meets it{}. "
-                   "Measure something else as well, or hold factors at measured values.",
+                   "Measure something else as well, or fix factors at measured values.",
                    factors,
                    open.empty()
                        ? ""

@@ -132,8 +132,8 @@ const TableRow* row_with_comma(const Table& table, std::span<const std::size_t> 
 /// What is wrong with a cell that must be a number, after its place; empty: nothing.
 std::string problem_of(const std::string& cell, bool is_number, const TableRow* comma) {
   if (!is_number) {
-    return fmt::format("\"{}\", which is no finite number. Fix: write a number, or delete the row.",
-                       cell);
+    return fmt::format(
+        "\"{}\", which is not a finite number. Fix: write a number, or delete the row.", cell);
   }
   if (comma != nullptr && may_have_thousands(cell)) {
     return fmt::format(

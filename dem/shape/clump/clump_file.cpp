@@ -238,11 +238,11 @@ ClumpFile parse_clump_json(const std::string& text, const std::string& name) {
   try {
     root = Json::parse(text);
   } catch (const Json::exception& error) {
-    throw std::invalid_argument(name + ": is no JSON (" + error.what() +
+    throw std::invalid_argument(name + ": is not JSON (" + error.what() +
                                 "). Fix: write it again with repose shape.");
   }
   if (!root.is_object() || !root.contains("format") || root["format"] != kFormat) {
-    throw std::invalid_argument(name + ": is no clump file. Fix: make one with repose shape.");
+    throw std::invalid_argument(name + ": is not a clump file. Fix: make one with repose shape.");
   }
   if (!root.contains("version") || root["version"] != kVersion) {
     throw std::invalid_argument(name + ": is of another version than " + std::to_string(kVersion) +

@@ -61,7 +61,7 @@ std::string content_of(const std::filesystem::path& file, const std::string& end
   std::error_code ignored;
   if (!std::filesystem::is_directory(file, ignored) && std::filesystem::exists(file, ignored) &&
       std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
-    refuse(file, "is no STL, OBJ or PLY by its name. Fix: save the scan as one of these.");
+    refuse(file, "is not named as an STL, OBJ or PLY file. Fix: save the scan as one of these.");
   }
   std::string content = base::read_whole_file(file);
   if (content.empty()) refuse(file, "is empty. Fix: save the scan again.");

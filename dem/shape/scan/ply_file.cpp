@@ -101,7 +101,7 @@ class HeaderReader {
     ++line_;
     const std::size_t end = rest_.find('\n');
     if (end > kLongest) {  // also where there is none
-      wrong("the header is cut short, or this is no PLY file");
+      wrong("the header is truncated, or this is not a PLY file");
     }
     std::string line(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
@@ -204,7 +204,7 @@ class Body {
     double number = 0;
     const auto [stopped_at, error] =
         std::from_chars(word.data() + (word.starts_with('+') ? 1 : 0), end, number);
-    if (error != std::errc{} || stopped_at != end) refuse(where, "this is no number");
+    if (error != std::errc{} || stopped_at != end) refuse(where, "this is not a number");
     rest_.remove_prefix(word.size());
     return number;
   }
