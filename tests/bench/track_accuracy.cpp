@@ -1,7 +1,7 @@
 // How near repose track drop comes to what is known of drawn films, and how often its intervals
 // hold: films with many settings, written as H.264 and read again.
 //
-//   track_accuracy [--films 40] [--threads N]
+//   track_accuracy [--films 40] [--rates 30,60,240] [--threads N]
 
 #include <algorithm>
 #include <cmath>
@@ -103,10 +103,12 @@ int main(int argc, char** argv) {
   int films = 40;
   std::size_t threads = 2;
   app.add_option("--films", films, "films at each frame rate");
+  std::vector<double> rates = {30, 60, 240};
+  app.add_option("--rates", rates, "frames per second")->delimiter(',');
   app.add_option("--threads", threads, "films at a time");
   CLI11_PARSE(app, argc, argv);
   const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
-  for (const double frames_per_s : {30., 60., 240.}) {
+  for (const double frames_per_s : rates) {
     std::vector<Row> rows(static_cast<std::size_t>(films));
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
       rows[k] = row_of(random_drop(frames_per_s, static_cast<unsigned>(k + 1)));

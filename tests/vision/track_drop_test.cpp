@@ -84,8 +84,10 @@ TEST(TrackDrop, TellsAFilmThatPlaysSlowerThanItWasTaken) {
   ASSERT_THAT(track.warnings, warns_of("frame_rate"));
   EXPECT_THAT(track.warnings[0].message, HasSubstr("times slower"));
   ASSERT_FALSE(track.bounces.empty());
-  EXPECT_NEAR(track.bounces[0].restitution.value, .6, .01);
-  EXPECT_NEAR(track.bounces[0].rebound_mm.value, 90, 2);
+  // Slower, more of air is thought possible.
+  EXPECT_NEAR(track.bounces[0].restitution.value, .6,
+              std::min(.03, track.bounces[0].restitution.uncertainty));
+  EXPECT_NEAR(track.bounces[0].rebound_mm.value, 90, 3);
 }
 
 TEST(TrackDrop, FollowsTheGrainWhereAHandAndALeaningCameraAreInTheWay) {

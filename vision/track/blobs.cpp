@@ -77,7 +77,7 @@ double cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Ve
   const double length = step.dot(step);
   if (length <= 0) return 0;
   const double part = (cv::Vec3d(seen) - cv::Vec3d(background)).dot(step) / length;
-  constexpr double kNone = .3, kFull = .7;
+  constexpr double kNone = .5, kFull = .8;
   return std::clamp((part - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 

@@ -8,19 +8,11 @@
 namespace repose::vision {
 namespace {
 
-/// The scene's own movement is taken out of the grain's where it stands out.
-constexpr double kShift_px = .4;
-
 std::vector<SeenAt> along_gravity(const GrainPath& path, const FilmGrains& film, double lean_rad) {
-  double farthest = 0;
-  for (const cv::Point2d& shift : film.shifts) {
-    farthest = std::max({farthest, std::abs(shift.x), std::abs(shift.y)});
-  }
   std::vector<SeenAt> seen;
   for (const Sighting& one : path) {
     if (one.blob.touches_edge) continue;
-    cv::Point2d at = one.blob.centre;
-    if (farthest > kShift_px) at -= film.shifts[static_cast<std::size_t>(one.frame)];
+    const cv::Point2d& at = one.blob.centre;
     seen.push_back({.time_s = one.time_s,
                     .x_px = at.x * std::cos(lean_rad) - at.y * std::sin(lean_rad),
                     .y_px = at.x * std::sin(lean_rad) + at.y * std::cos(lean_rad),

@@ -6,6 +6,7 @@
 #include "vision/track/drop_candidate.h"
 #include "vision/track/drop_verdict.h"
 #include "vision/track/film_grains.h"
+#include "vision/track/film_verdict.h"
 #include "vision/track/strobe.h"
 
 namespace repose::vision {
@@ -13,15 +14,6 @@ namespace {
 
 constexpr double kGravity_mm_s2 = 9806.65;
 constexpr double kMmPerM = 1e3;
-
-FilmFacts facts_of(const FilmSurvey& survey) {
-  return {.width = survey.size.width,
-          .height = survey.size.height,
-          .frames = static_cast<int>(survey.times_s.size()),
-          .frames_per_s = survey.interval_s > 0 ? 1 / survey.interval_s : 0,
-          .length_s = survey.times_s.empty() ? 0 : survey.times_s.back(),
-          .dropped_frames = survey.dropped_frames};
-}
 
 /// Those that flew most, the best first.
 std::vector<DropCandidate> candidates_in(const FilmGrains& film) {

@@ -8,42 +8,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "vision/track/film_verdict.h"
+
 namespace repose::vision {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.80665;
-
-std::string of_the_film(const FilmGrains& film) {
-  const FilmSurvey& survey = film.survey;
-  if (survey.times_s.size() < kFewestFrames) {
-    return fmt::format(
-        "the film has {} frames. Rule: {} or more. Fix: film from before the grain is let go until "
-        "it lies still.",
-        survey.times_s.size(), kFewestFrames);
-  }
-  if (survey.cut) {
-    return fmt::format(
-        "another scene begins with frame {}. Rule: one shot. Fix: cut the film so that it has one "
-        "drop, from a camera that stands still.",
-        *survey.cut + 1);
-  }
-  double moved_px = 0;
-  for (const cv::Point2d& shift : film.shifts) {
-    moved_px = std::max(moved_px, std::hypot(shift.x, shift.y));
-  }
-  const double most_px = std::max(4.0, .004 * survey.size.width);
-  if (moved_px > most_px) {
-    return fmt::format(
-        "the camera moves: the scene shifts by {:.1f} pixels. Rule: at most {:.1f}. Fix: put the "
-        "camera on a stand, start it with a remote, and keep its zoom.",
-        moved_px, most_px);
-  }
-  if (film.paths.empty()) {
-    return "nothing moves before a scene at rest. Fix: film from the side, with a backdrop of "
-           "another colour than the grain, and fix exposure and focus.";
-  }
-  return {};
-}
 
 /// Two things that fly at the same time, well apart and about as clearly seen.
 bool is_another_grain(const DropCandidate& grain, const DropCandidate& other) {
@@ -101,42 +71,13 @@ void check_rate(DropTrack& track) {
                    track.film.frames_per_s / std::sqrt(ratio)));
 }
 
-void check_film(const FilmGrains& film, DropTrack& track) {
-  const FilmSurvey& survey = film.survey;
-  const int frames = track.film.frames;
-  if (survey.claimed_frames > frames + 2 + frames / 50) {
-    warn(track, "cut_short",
-         fmt::format("the film ends after {} of the {} frames that it says it has: it is damaged, "
-                     "and what follows is not seen",
-                     frames, survey.claimed_frames));
-  }
-  if (survey.has_variable_rate) {
-    warn(track, "variable_rate", "its frames do not follow evenly: their time stamps were used");
-  }
-  if (survey.dropped_frames > 0) {
-    warn(track, "dropped_frames",
-         fmt::format("{} frames are missing by the time stamps, which were used",
-                     survey.dropped_frames));
-  }
-}
-
-void check_view(const FilmGrains& film, DropTrack& track) {
+void check_lean(DropTrack& track) {
   constexpr double kLean_rad = 2 * std::numbers::pi / 180;
-  if (std::abs(track.lean_rad) > kLean_rad) {
-    warn(track, "leaning",
-         fmt::format("gravity leans by {:.1f}° against the picture's upright, and was followed: "
-                     "level the camera; the floor counts as level",
-                     track.lean_rad * 180 / std::numbers::pi));
-  }
-  double moved_px = 0;
-  for (const cv::Point2d& shift : film.shifts) {
-    moved_px = std::max(moved_px, std::hypot(shift.x, shift.y));
-  }
-  constexpr double kMoved_px = .8;
-  if (moved_px > kMoved_px) {
-    warn(track, "camera_moves",
-         fmt::format("the camera moves by up to {:.1f} pixels, which was taken out", moved_px));
-  }
+  if (std::abs(track.lean_rad) <= kLean_rad) return;
+  warn(track, "leaning",
+       fmt::format("gravity leans by {:.1f}° against the picture's upright, and was followed: "
+                   "level the camera; the floor counts as level",
+                   track.lean_rad * 180 / std::numbers::pi));
 }
 
 void check_bounces(DropTrack& track) {
@@ -165,21 +106,21 @@ void check_bounces(DropTrack& track) {
 
 void judge_drop(const FilmGrains& film, const std::vector<DropCandidate>& candidates,
                 DropTrack& track) {
-  track.reason = of_the_film(film);
+  track.reason = fault_of(film);
   if (track.reason.empty()) track.reason = of_the_grain(candidates);
   if (!track.reason.empty()) {
     track.bounces.clear();
     return;
   }
   check_rate(track);
-  check_film(film, track);
-  check_view(film, track);
+  const bool is_doubtful_film = warn_of_film(film, track.warnings);
+  check_lean(track);
   check_bounces(track);
   const auto is_doubtful = [](const Warning& warning) {
-    return warning.code == "frame_rate" || warning.code == "cut_short" ||
-           warning.code == "gains_energy";
+    return warning.code == "frame_rate" || warning.code == "gains_energy";
   };
-  const bool is_flagged = std::any_of(track.warnings.begin(), track.warnings.end(), is_doubtful);
+  const bool is_flagged =
+      is_doubtful_film || std::any_of(track.warnings.begin(), track.warnings.end(), is_doubtful);
   track.status = is_flagged ? MeasureStatus::flagged : MeasureStatus::ok;
 }
 

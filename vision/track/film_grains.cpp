@@ -1,11 +1,34 @@
 #include "vision/track/film_grains.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "vision/track/film_reader.h"
 
 namespace repose::vision {
+namespace {
+
+/// The scene's own movement is taken out of the grain's where it stands out.
+void take_out_shifts(FilmGrains& grains) {
+  constexpr double kStandsOut_px = .4;
+  if (farthest_shift_px(grains) < kStandsOut_px) return;
+  for (GrainPath& path : grains.paths) {
+    for (Sighting& one : path) {
+      one.blob.centre -= grains.shifts[static_cast<std::size_t>(one.frame)];
+    }
+  }
+}
+
+}  // namespace
+
+double farthest_shift_px(const FilmGrains& film) {
+  double moved_px = 0;
+  for (const cv::Point2d& shift : film.shifts) {
+    moved_px = std::max(moved_px, std::hypot(shift.x, shift.y));
+  }
+  return moved_px;
+}
 
 FilmGrains grains_in_film(const std::filesystem::path& file, const TrackProgress& progress) {
   constexpr double kSurveyPart = .4;
@@ -30,6 +53,7 @@ FilmGrains grains_in_film(const std::filesystem::path& file, const TrackProgress
   }
   grains.paths = std::move(paths).paths();
   grains.scene = finder.scene();
+  take_out_shifts(grains);
   return grains;
 }
 

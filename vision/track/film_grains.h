@@ -12,9 +12,11 @@ namespace repose::vision {
 struct FilmGrains {
   FilmSurvey survey;
   cv::Mat scene = {};
-  std::vector<GrainPath> paths = {};     ///< the longest way first
+  std::vector<GrainPath> paths = {};     ///< the longest way first, less the scene's shifts
   std::vector<cv::Point2d> shifts = {};  ///< of the scene in each frame [px]
 };
+
+double farthest_shift_px(const FilmGrains& film);
 
 /// Looks through the film twice: for the scene, and for what moves before it. Scenes that change as
 /// a whole, and films of a few frames, are looked through once: they have no paths.

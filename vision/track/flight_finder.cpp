@@ -42,7 +42,8 @@ std::optional<double> gravity_of(const std::vector<SeenAt>& path, double noise_p
   std::sort(found.begin(), found.end());
   double sum = 0;
   for (const auto& [acceleration, weight] : found) {
-    if ((sum += weight) >= .5 * total) return acceleration;
+    sum += weight;
+    if (sum >= .5 * total) return acceleration;
   }
   return std::nullopt;
 }

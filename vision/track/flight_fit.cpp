@@ -14,8 +14,10 @@ constexpr int kRounds = 4;
 constexpr double kStraySigmas = 4;
 /// Between two flights with nothing but an impact between them, in frames.
 constexpr double kLongestGap = 4.5;
-/// Centres are not better than this, whatever the residuals of a few say.
 constexpr double kLeastNoise_px = .03;
+/// Centres are not better than this, however little they scatter: shadows and the scene behind the
+/// grain move them alike in many frames.
+constexpr double kLeastError_px = .1;
 /// The slowest that grains fall at in the end, by which drag is judged beforehand.
 constexpr double kTerminal_m_s = 8;
 constexpr double kGravity_m_s2 = 9.80665;
@@ -219,7 +221,7 @@ double FlightFit::factor() const {
   const double freedom =
       std::max(2.0, (sightings_ - 2 * flights - 1) * (1 - correlation_) / (1 + correlation_));
   const boost::math::students_t student(freedom);
-  return boost::math::quantile(student, .975) * noise_px_ * inflation;
+  return boost::math::quantile(student, .975) * std::max(noise_px_, kLeastError_px) * inflation;
 }
 
 Estimate FlightFit::estimate(std::size_t before, std::size_t after, const Reading& reading) const {

@@ -27,7 +27,7 @@ std::map<int, Blob> shown_blobs(const GrainPath& path) {
 void show(const cv::Mat& frame, const cv::Mat& scene, const Blob& blob, cv::Mat& strobe) {
   for (int row = blob.box.y; row < blob.box.y + blob.box.height; ++row) {
     for (int k = blob.box.x; k < blob.box.x + blob.box.width; ++k) {
-      const cv::Vec3b seen = frame.at<cv::Vec3b>(row, k);
+      const auto& seen = frame.at<cv::Vec3b>(row, k);
       const double cover = cover_of(seen, scene.at<cv::Vec3b>(row, k), blob.colour);
       auto& drawn = strobe.at<cv::Vec3b>(row, k);
       drawn = cv::Vec3b(cover * cv::Vec3d(seen) + (1 - cover) * cv::Vec3d(drawn));
