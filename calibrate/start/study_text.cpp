@@ -172,7 +172,7 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
       text += fmt::format("{} = {}\n", key.name, number(*value));
     }
   }
-  if (dem::has_grain_contacts(entry.experiment)) {
+  if (dem::has_grain_contacts(entry.experiment) && entry.softening_effect.empty()) {
     text += comment("Fraction of the real stiffness: softer grains are simulated faster.");
     text +=
         fmt::format("stiffness_factor = {}\n", number(softening_for(study.grain.young_modulus_pa)));

@@ -9,8 +9,10 @@ namespace {
 
 constexpr const char* kNotes = R"(
 EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, degrees),
-roll (distance along the flat, mm) or heap (angle of repose, degrees). STUDY
-is a study file: samples/hazelnut/study.toml explains all of its keys.
+roll (distance along the flat, mm), heap (angle of repose, degrees) or, to
+tell grains apart, drop_on_grains (mm), tilt_on_grains, roll_on_grains
+(degrees), fill (bulk density, kg/m3), pendulum (swing, degrees). STUDY is a
+study file: samples/hazelnut/study.toml explains many of its keys.
 
 A heap's final state is rendered as silhouettes from --views directions,
 equally spaced over half a turn, each measured as repose measure does: 1 is the
@@ -34,7 +36,9 @@ Command simulate_command() {
   return {
       .name = "simulate",
       .summary = "Simulate an experiment of a study",
-      .options = {{"experiment", "drop|tilt|roll|heap", "Experiment", &given->experiment, true},
+      .options = {{"experiment",
+                   "drop|tilt|roll|heap|drop_on_grains|tilt_on_grains|roll_on_grains|fill|pendulum",
+                   "Experiment", &given->experiment, true},
                   {"study", "STUDY.toml", "Study file", &given->study, true},
                   {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
                    &given->settings},

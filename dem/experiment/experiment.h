@@ -136,16 +136,52 @@ struct GrainDropProtocol {
   double coverage = .75;
 };
 
+/// A tube filled by pouring and struck level at its rim.
+///
+/// The grains fall from a spout at `pour_m` above the rim, at random places over the tube and in
+/// random poses, until they heap over the rim and rest. Those whose centres of mass lie above the
+/// rim are struck off; all others stay whole. Value: bulk density, kg/m^3: the mass of those that
+/// stay by the tube's volume. Readings: "grains", "mass_g", "solid_fraction".
+struct FillProtocol {
+  double tube_diameter_m = .1;  ///< inner
+  double tube_height_m = .1;
+  double pour_m = .05;  ///< from the spout to the rim
+};
+
+/// Two equal grains on strings, side by side: one is drawn aside, let go, and strikes the other.
+///
+/// The strings are as long as from the hinge to the grain's middle. Value: the angle to which the
+/// struck grain swings, degrees, mean of the pairs, all of them grains in random poses that meet
+/// with their middles at the same height. Between equal balls of restitution e its height is
+/// ((1 + e) / 2)^2 of the other's. Readings: "rise_mm" (that height), "height_ratio" and "sd_deg"
+/// (scatter of the value between pairs).
+struct PendulumProtocol {
+  double string_m = .3;
+  double release_deg = 30;
+  int pairs = 10;
+};
+
 /// Every experiment there is, in the order in which they are listed.
-enum class Experiment { drop, tilt, roll, heap, drop_on_grains, tilt_on_grains, roll_on_grains };
+enum class Experiment {
+  drop,
+  tilt,
+  roll,
+  heap,
+  drop_on_grains,
+  tilt_on_grains,
+  roll_on_grains,
+  fill,
+  pendulum
+};
 
 /// How an experiment is done; its alternatives are in the order of Experiment.
-using Protocol = std::variant<DropProtocol, TiltProtocol, RollProtocol, HeapProtocol,
-                              GrainDropProtocol, GrainTiltProtocol, GrainRollProtocol>;
+using Protocol =
+    std::variant<DropProtocol, TiltProtocol, RollProtocol, HeapProtocol, GrainDropProtocol,
+                 GrainTiltProtocol, GrainRollProtocol, FillProtocol, PendulumProtocol>;
 
 /// One repeat of an experiment.
 struct Repeat {
-  double value = 0;  ///< drop mm, tilt deg, roll mm; NaN for a heap
+  double value = 0;  ///< in the unit of the experiment; NaN for a heap
   std::uint64_t seed = 0;
   std::int64_t steps = 0;
   double timestep_s = 0;
@@ -202,6 +238,11 @@ Repeat run_tilt_on_grains(const Model& model, const GrainTiltProtocol& protocol,
                           const ProgressReport& report = {}, const RunRecord& record = {});
 Repeat run_roll_on_grains(const Model& model, const GrainRollProtocol& protocol, std::uint64_t seed,
                           const ProgressReport& report = {}, const RunRecord& record = {});
+
+Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report = {}, const RunRecord& record = {});
+Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::uint64_t seed,
+                    const ProgressReport& report = {}, const RunRecord& record = {});
 
 /// Goes on with a heap that was interrupted, to the same bytes as one that was not. `from` must be
 /// of the same bench, protocol and seed, which is not checked.

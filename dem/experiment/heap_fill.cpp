@@ -32,7 +32,10 @@ double rain_speed_m_s(double reach_m) {
 }
 
 /// Of the impacts that the time step is chosen for.
-double fastest_m_s(double reach_m) { return std::sqrt(2) * rain_speed_m_s(reach_m); }
+double fastest_m_s(double reach_m, std::optional<double> spout_m = {}) {
+  if (spout_m) return std::sqrt(2 * kStandardGravity_m_s2 * *spout_m);
+  return std::sqrt(2) * rain_speed_m_s(reach_m);
+}
 
 Wall plate_of(const HeapProtocol& protocol) {
   const double half = .5 * protocol.plate_m;
@@ -60,8 +63,9 @@ std::vector<int> above_rim(const Simulation& simulation, double rim_m) {
 class Rain {
  public:
   /// `draws`: of the rain that this one goes on from.
-  Rain(const HeapProtocol& protocol, double reach_m, std::uint64_t seed, std::uint64_t draws)
-      : protocol_(protocol), reach_m_(reach_m), random_(seed, draws) {}
+  Rain(const HeapProtocol& protocol, double reach_m, std::optional<double> spout_m,
+       std::uint64_t seed, std::uint64_t draws)
+      : protocol_(protocol), reach_m_(reach_m), spout_m_(spout_m), random_(seed, draws) {}
 
   void fill(ExperimentRun& run);
 
@@ -73,8 +77,16 @@ class Rain {
   void rain_up_to(ExperimentRun& run, double height_m);
   void add_layer(ExperimentRun& run, double height_m);
 
+  /// Of grains that are added at a height: as if they came from the spout, or in a steady rain.
+  double speed_m_s(double height_m) const {
+    if (!spout_m_) return rain_speed_m_s(reach_m_);
+    const double fall_m = std::max(reach_m_, *spout_m_ - height_m);
+    return std::sqrt(2 * kStandardGravity_m_s2 * fall_m);
+  }
+
   const HeapProtocol& protocol_;
   double reach_m_;
+  std::optional<double> spout_m_;
   Random random_;
 };
 
@@ -101,7 +113,7 @@ void Rain::add_layer(ExperimentRun& run, double height_m) {
     taken.push_back(place);
     run.simulation().add({.position = place,
                           .orientation = random_.orientation(),
-                          .velocity = {0, 0, -rain_speed_m_s(reach_m_)}});
+                          .velocity = {0, 0, -speed_m_s(height_m)}});
   }
   run.progress().random_draws = random_.draws();
 }
@@ -109,11 +121,11 @@ void Rain::add_layer(ExperimentRun& run, double height_m) {
 /// A layer at a time goes in just above the last one, which by then has fallen by its own height
 /// or lies on the grains below.
 void Rain::rain_up_to(ExperimentRun& run, double height_m) {
-  const std::int64_t steps = run.steps_of(2 * reach_m_ / rain_speed_m_s(reach_m_));
   for (double highest = highest_point_m(run); highest < height_m && left(run.simulation()) > 0;
        highest = highest_point_m(run)) {
-    add_layer(run, highest + 1.01 * reach_m_);
-    run.advance(steps);
+    const double layer_m = highest + 1.01 * reach_m_;
+    add_layer(run, layer_m);
+    run.advance(run.steps_of(2 * reach_m_ / speed_m_s(layer_m)));
     run.report_progress(kFillFraction * highest / height_m);
   }
 }
@@ -152,18 +164,18 @@ Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
 }  // namespace
 
 ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
-                         const Observers& observers) {
+                         const Observers& observers, std::optional<double> spout_m) {
   const double reach = model.grain.reach_m();
   const double tall = protocol.tube_height_m + 10 * kHeaped * reach;
   return {Simulation(model_setup(model, model.grain, {plate_of(protocol), tube_of(protocol, tall)},
-                                 fastest_m_s(reach), kCourseFraction)),
+                                 fastest_m_s(reach, spout_m), kCourseFraction)),
           observers};
 }
 
 ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
-                        std::uint64_t seed) {
+                        std::uint64_t seed, std::optional<double> spout_m) {
   const double reach = model.grain.reach_m();
-  Rain(protocol, reach, seed, filling.progress().random_draws).fill(filling);
+  Rain(protocol, reach, spout_m, seed, filling.progress().random_draws).fill(filling);
   const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
   if (protocol.grains && !protocol.may_be_fewer && over > 0) {
     throw std::invalid_argument(fmt::format(
@@ -173,7 +185,7 @@ ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapPro
   }
   SimulationSetup setup = model_setup(
       model, model.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
-      fastest_m_s(reach), kCourseFraction);
+      fastest_m_s(reach, spout_m), kCourseFraction);
   // Grains that fall off the plate are gone once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 
@@ -10,8 +12,10 @@ inline constexpr int kHeapPlate = 0;
 inline constexpr int kHeapTube = 1;
 
 /// The tube on its plate, made taller to be heaped over, and empty.
+///
+/// Grains rain into it, or fall from a spout: its height over the plate, m.
 ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
-                         const Observers& observers);
+                         const Observers& observers, std::optional<double> spout_m = {});
 
 /// The tube, full of grains at rest, its time set back to 0.
 ///
@@ -19,6 +23,6 @@ ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
 /// lies above the rim in the end is taken off. `filling` is empty, or was interrupted while it was
 /// filled. Throws std::invalid_argument when `protocol.grains` are more than fit.
 ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
-                        std::uint64_t seed);
+                        std::uint64_t seed, std::optional<double> spout_m = {});
 
 }  // namespace repose::dem

@@ -15,6 +15,8 @@ ExperimentEntry heap_entry();
 ExperimentEntry drop_on_grains_entry();
 ExperimentEntry tilt_on_grains_entry();
 ExperimentEntry roll_on_grains_entry();
+ExperimentEntry fill_entry();
+ExperimentEntry pendulum_entry();
 
 inline constexpr std::string_view kWallRestitution = "contact.particle_wall.restitution";
 inline constexpr std::string_view kWallSliding = "contact.particle_wall.sliding_friction";

@@ -19,7 +19,7 @@ namespace repose::dem {
 /// A number that a run gives beside its value.
 struct Reading {
   std::string_view name;  ///< with its unit, as in Repeat::readings
-  std::string_view unit;  ///< "mm", "deg", "s"; empty: a count
+  std::string_view unit;  ///< "mm", "deg", "g", "s"; empty: a pure number
   /// A bench can measure it too: a key of [experiment.NAME.also_measured].
   bool is_measurable = false;
 };
@@ -35,7 +35,7 @@ struct BenchSheet {
 struct ExperimentEntry {
   Experiment experiment = Experiment::drop;
   std::string_view name;              ///< in study files, jobs and results: "drop"
-  std::string_view unit;              ///< of its value: "mm" or "deg"
+  std::string_view unit;              ///< of its value: "mm", "deg" or "kg/m3"
   std::string_view value_name;        ///< what its value is, for people: "rebound height"
   std::string_view description = "";  ///< how it is done, a sentence or two
   std::vector<Reading> readings;

@@ -37,8 +37,7 @@ BedFacets::BedFacets(const SphereBed& bed) : bed_(bed) {
   spheres_in_.resize(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_));
   for (int k = 0; k < static_cast<int>(bed_.spheres.size()); ++k) {
     const Vector& centre = sphere(k).centre;
-    const int cell = cell_of(centre.y()) * cells_ + cell_of(centre.x());
-    spheres_in_[static_cast<std::size_t>(cell)].push_back(k);
+    spheres_in_[cell_at(cell_of(centre.x()), cell_of(centre.y()))].push_back(k);
   }
 }
 
@@ -67,7 +66,7 @@ void BedFacets::near(const Vector& point, double distance, std::vector<int>& fac
     for (int i = 0; i < last; ++i) {
       const int row = (y - reach + j + cells_) % cells_;
       const int column = (x - reach + i + cells_) % cells_;
-      for (const int k : spheres_in_[static_cast<std::size_t>(row * cells_ + column)]) {
+      for (const int k : spheres_in_[cell_at(column, row)]) {
         if (closest(k, point).distance < distance) facets.push_back(k);
       }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "dem/wall/closest.h"
@@ -33,6 +34,10 @@ class BedFacets {
   /// From the nearest image of a sphere's centre.
   Vector from_centre(int facet, const Vector& point) const;
   int cell_of(double coordinate) const;
+  std::size_t cell_at(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cells_) +
+           static_cast<std::size_t>(column);
+  }
 
   SphereBed bed_;
   double top_ = 0;

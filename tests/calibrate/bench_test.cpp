@@ -73,6 +73,10 @@ TEST(Bench, ReadingsAreInTheUnitsOfTheirNames) {
   EXPECT_NEAR(value(BenchTest::drop_on_grains, {200, 31}), 31, 1e-12);
   EXPECT_NEAR(value(BenchTest::tilt_on_grains, {44.8}), 44.8, 1e-12);
   EXPECT_NEAR(value(BenchTest::roll_on_grains, {39.1}), 39.1, 1e-12);
+  EXPECT_NEAR(value(BenchTest::fill, {1530}), 1530, 1e-12);
+  EXPECT_NEAR(value(BenchTest::pendulum, {30, 30}), 1, 1e-12);
+  // e = .5: three quarters of the speed, and of the sine of half the angle.
+  EXPECT_NEAR(value(BenchTest::pendulum, {60, 44.0486256}), .5, 1e-7);
   // 1000 N on a spot of 4 mm, a tenth of the height.
   EXPECT_NEAR(value(BenchTest::young, {1000, 4, 18, 1.8}), 1000 / (4e-6 * std::numbers::pi) / .1,
               1);
@@ -146,6 +150,10 @@ TEST(Bench, ImpossibleReadingsAreRefusedAllAtOnce) {
               AllOf(HasSubstr("no liquid was displaced"), HasSubstr("no grain is")));
   EXPECT_THAT(error_of(BenchTest::young, {{10, 2, 5, 5}}), HasSubstr("compression_mm = 5"));
   EXPECT_THAT(error_of(BenchTest::size, {{10, 12, 9}}), HasSubstr("not the longest"));
+  EXPECT_THAT(error_of(BenchTest::pendulum, {{30, 31}, {30, -1}}),
+              AllOf(HasSubstr("swing_deg = 31 is more than release_deg = 30"),
+                    HasSubstr("swing_deg = -1")));
+  EXPECT_THAT(error_of(BenchTest::fill, {{-5}}), HasSubstr("bulk_density_kg_m3 = -5"));
   EXPECT_THAT(error_of(BenchTest::size, {}), HasSubstr("no readings"));
   EXPECT_THAT(error_of(BenchTest::size, {{1, 2}}), HasSubstr("2 values are given for 3 columns"));
 }

@@ -104,6 +104,15 @@ TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "new/tilt_on_grains.csv"));
 }
 
+TEST_F(NewStudyTest, SoftensNoExperimentWhoseReadingThatWouldChange) {
+  const dem::Study study =
+      written(study_of(grain("pea"), {Experiment::drop_on_grains, Experiment::tilt_on_grains,
+                                      Experiment::pendulum}));
+  EXPECT_LT(dem::model_for(study, Experiment::tilt_on_grains).stiffness_factor, 1);
+  EXPECT_EQ(dem::model_for(study, Experiment::drop_on_grains).stiffness_factor, 1);
+  EXPECT_EQ(dem::model_for(study, Experiment::pendulum).stiffness_factor, 1);
+}
+
 TEST_F(NewStudyTest, HasTheTubeThatWasAskedFor) {
   NewStudy asked = study_of(grain("pea"), kAll);
   asked.tube_diameter_mm = 55;

@@ -53,6 +53,11 @@ places = 2
 [experiment.roll_on_grains]
 rate_deg_s = 10
 places = 2
+[experiment.fill]
+tube_diameter_mm = 95
+tube_height_mm = 95
+[experiment.pendulum]
+pairs = 2
 )";
 
 /// Ten digits, none beyond the ninth decimal: there the libraries of two machines may differ.

@@ -62,7 +62,7 @@ def rules_of(keys, folder, repose):
 def defaults_of(folder, repose):
     """Of the experiments' keys, as a new study has them."""
     subprocess.run([repose, "new", "ranges.toml", "--experiments",
-                    "drop,tilt,roll,drop_on_grains,tilt_on_grains,roll_on_grains"], cwd=folder, check=True,
+                    "drop,tilt,roll,drop_on_grains,tilt_on_grains,roll_on_grains,fill,pendulum"], cwd=folder, check=True,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     section, defaults = "", {}
     for line in (folder / "ranges.toml").read_text(encoding="utf-8").splitlines():

@@ -36,6 +36,10 @@ Method method_of(BenchTest test) {
       return tilt_on_grains_method();
     case BenchTest::roll_on_grains:
       return roll_on_grains_method();
+    case BenchTest::fill:
+      return fill_method();
+    case BenchTest::pendulum:
+      return pendulum_method();
     case BenchTest::heap:
       break;
   }

@@ -24,13 +24,15 @@ enum class BenchTest {
   heap,
   drop_on_grains,
   tilt_on_grains,
-  roll_on_grains
+  roll_on_grains,
+  fill,
+  pendulum
 };
 
 /// All of them, in the order of the enum.
-inline constexpr std::array<std::string_view, 11> kBenchTestNames = {
-    "restitution", "sliding", "rolling",        "density",        "young",         "poisson",
-    "size",        "heap",    "drop_on_grains", "tilt_on_grains", "roll_on_grains"};
+inline constexpr std::array<std::string_view, 13> kBenchTestNames = {
+    "restitution", "sliding",        "rolling",        "density",        "young", "poisson", "size",
+    "heap",        "drop_on_grains", "tilt_on_grains", "roll_on_grains", "fill",  "pendulum"};
 
 /// Something that is read off in a test. A reading must lie between `above` and `below`.
 struct ReadingColumn {

@@ -12,6 +12,10 @@ double rolling_friction_of(double incline_rad, double released_m, double stopped
   return released_m * std::sin(incline_rad) / (released_m * std::cos(incline_rad) + stopped_m);
 }
 
+double pendulum_restitution_of(double release_rad, double swing_rad) {
+  return 2 * std::sin(swing_rad / 2) / std::sin(release_rad / 2) - 1;
+}
+
 double density_of(double mass_kg, double displaced_m3) { return mass_kg / displaced_m3; }
 
 double young_modulus_of(double force_n, double area_m2, double compression_m, double height_m) {

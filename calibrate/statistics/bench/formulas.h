@@ -19,6 +19,11 @@ double sliding_friction_of(double angle_rad);
 /// eq. 11, whose text swaps S and L. Holds where nothing is lost at the foot and nothing slides.
 double rolling_friction_of(double incline_rad, double released_m, double stopped_m);
 
+/// e = 2 sin(alpha / 2) / sin(beta / 2) - 1: of two equal balls on strings one is let go at an
+/// angle beta (rad), and the other, struck head-on, swings to alpha. It leaves with (1 + e) / 2 of
+/// the speed (momentum, Newton's law of impact), and speeds go as the sines of half the angles.
+double pendulum_restitution_of(double release_rad, double swing_rad);
+
 /// rho = m / V, V the volume of liquid that the body displaces.
 double density_of(double mass_kg, double displaced_m3);
 

@@ -45,5 +45,7 @@ Method heap_method();
 Method drop_on_grains_method();
 Method tilt_on_grains_method();
 Method roll_on_grains_method();
+Method fill_method();
+Method pendulum_method();
 
 }  // namespace repose::calibrate

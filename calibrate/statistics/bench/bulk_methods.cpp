@@ -1,0 +1,44 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/statistics/bench/formulas.h"
+#include "calibrate/statistics/bench/method.h"
+#include "calibrate/statistics/bench/units.h"
+
+namespace repose::calibrate {
+
+Method fill_method() {
+  return {
+      .source = "mean of the fillings",
+      .columns = {{"bulk_density_kg_m3", "mass in the tube by the tube's volume"}},
+      .outputs = {{"bulk_density", "kg/m3", "bulk density", [](ReadingValues v) { return v[0]; }}},
+      .error = {},
+      .validity = "No material constant: it belongs to this tube, filled in this way."};
+}
+
+Method pendulum_method() {
+  return {
+      .source = "e = 2 sin(a / 2) / sin(b / 2) - 1",
+      .columns = {{"release_deg", "angle b that the one is let go from", 0, 90.000001},
+                  {"swing_deg", "angle a that the struck one swings to", kFromZero,
+                   kRightAngle_deg}},
+      .outputs = {{"restitution", "", "coefficient of restitution e",
+                   [](ReadingValues v) {
+                     return pendulum_restitution_of(v[0] * kRadPerDeg, v[1] * kRadPerDeg);
+                   },
+                   0, 1}},
+      .error = [](ReadingValues v) -> std::optional<std::string> {
+        if (v[1] <= v[0]) return std::nullopt;
+        return fmt::format(
+            "swing_deg = {:g} is more than release_deg = {:g}, and the struck grain swings no "
+            "higher than the other fell. Fix: use two grains of the same mass on strings of "
+            "the same length.",
+            v[1], v[0]);
+      },
+      .validity =
+          "Holds for equal balls that meet head-on: what grains that are no spheres lose to spin "
+          "counts as loss."};
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_run.h"
+#include "dem/experiment/grain_limit.h"
+#include "dem/experiment/model_setup.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/random.h"
+#include "dem/experiment/tilting_plate.h"
+
+namespace repose::dem {
+namespace {
+
+constexpr double kLongestString_m = 100;
+/// Ways of the swinging grain, as fractions of its reach: from where it starts until both touch,
+/// and between two looks whether all have parted.
+constexpr double kGap = .001;
+constexpr double kBetweenLooks = .05;
+/// Pairs that still touch after so many reaches go on together.
+constexpr double kLongest = 20;
+/// From pair to pair, in reaches of a grain.
+constexpr double kSpacing = 20;
+
+void check(const Model& model, const PendulumProtocol& protocol) {
+  base::ErrorList errors;
+  find_errors(model, errors);
+  errors.require(
+      protocol.string_m > model.grain.reach_m() && protocol.string_m <= kLongestString_m,
+      fmt::format("pendulum.string_m is {:g}. Rule: longer than half a grain, {:.4g}, at "
+                  "most {:g}. Fix: the distance from the hinge to the grain's middle, "
+                  "such as 0.3.",
+                  protocol.string_m, model.grain.reach_m(), kLongestString_m));
+  errors.require(protocol.release_deg > 0 && protocol.release_deg <= 90,
+                 fmt::format("pendulum.release_deg is {:g}. Rule: above 0, at most 90: higher, "
+                             "strings are slack. Fix: 30.",
+                             protocol.release_deg));
+  errors.require(
+      protocol.pairs >= 1 && protocol.pairs <= kMaxGrains / 2,
+      fmt::format("pendulum.pairs is {}. Rule: 1 to {}. Fix: 10.", protocol.pairs, kMaxGrains / 2));
+  errors.throw_if_any();
+}
+
+/// How far apart along x the centres of two turned grains are that just touch.
+double touching_distance_m(const ClumpShape& shape, const Quaternion& a, const Quaternion& b) {
+  double distance = 0;
+  for (const ClumpSphere& one : shape.spheres) {
+    for (const ClumpSphere& other : shape.spheres) {
+      const Vector apart = a * one.centre - b * other.centre;
+      const double reach = one.radius + other.radius;
+      const double chord2 = reach * reach - apart.y() * apart.y() - apart.z() * apart.z();
+      if (chord2 > 0) distance = std::max(distance, apart.x() + std::sqrt(chord2));
+    }
+  }
+  return distance;
+}
+
+/// Pairs whose strings hang upright at this moment: one grain at rest, one about to touch it.
+///
+/// An impact takes a fraction of a millisecond, in which the strings only carry the weight: both
+/// are left out, gravity and strings.
+void hang_pairs(Simulation& simulation, const PendulumProtocol& protocol, double speed_m_s,
+                std::uint64_t seed) {
+  Random random(seed);
+  const ClumpShape& shape = simulation.setup().kinds.front().shape;
+  const double reach = shape.reach_m();
+  for (int k = 0; k < protocol.pairs; ++k) {
+    const double aside = kSpacing * reach * k;
+    const Quaternion swinging = random.orientation();
+    const Quaternion hanging = random.orientation();
+    const double apart = touching_distance_m(shape, swinging, hanging) + kGap * reach;
+    simulation.add(
+        {.position = {-apart, aside, 0}, .orientation = swinging, .velocity = {speed_m_s, 0, 0}});
+    simulation.add({.position = {0, aside, 0}, .orientation = hanging});
+  }
+}
+
+/// Until all pairs have met and parted.
+void collide(ExperimentRun& run, double speed_m_s) {
+  const double reach_s = run.shape().reach_m() / speed_m_s;
+  const std::int64_t steps = run.steps_of(kBetweenLooks * reach_s);
+  run.advance(run.steps_of(2 * kGap * reach_s));
+  while (!run.simulation().contacts().empty() && run.simulation().time_s() < kLongest * reach_s) {
+    run.advance(steps);
+    run.report_progress(run.simulation().time_s() / (kLongest * reach_s));
+  }
+}
+
+}  // namespace
+
+Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::uint64_t seed,
+                    const ProgressReport& report, const RunRecord& record) {
+  check(model, protocol);
+  const double release = protocol.release_deg * kDegree;
+  const double height_m = protocol.string_m * (1 - std::cos(release));
+  const double speed = std::sqrt(2 * kStandardGravity_m_s2 * height_m);
+  SimulationSetup setup = model_setup(model, model.grain, {}, speed);
+  setup.gravity = Vector::Zero();
+  ExperimentRun run(Simulation(std::move(setup)), {report, record});
+  hang_pairs(run.simulation(), protocol, speed, seed);
+  collide(run, speed);
+  std::vector<double> swings_deg;
+  double rise_m = 0, mean = 0, squares = 0;
+  for (int k = 0; k < protocol.pairs; ++k) {
+    // The struck grain swings in the plane of the strings; what it has aside is lost to it.
+    const double after = std::max(0.0, run.simulation().grain(2 * k + 1).velocity.x());
+    const double rise = after * after / (2 * kStandardGravity_m_s2);
+    rise_m += rise / protocol.pairs;
+    swings_deg.push_back(std::acos(1 - std::min(1.0, rise / protocol.string_m)) / kDegree);
+    mean += swings_deg.back() / protocol.pairs;
+  }
+  for (const double swing : swings_deg) squares += (swing - mean) * (swing - mean);
+  return run.finish(mean, seed,
+                    {{"rise_mm", 1e3 * rise_m},
+                     {"height_ratio", rise_m / height_m},
+                     {"sd_deg", std::sqrt(squares / std::max(1, protocol.pairs - 1))}});
+}
+
+}  // namespace repose::dem

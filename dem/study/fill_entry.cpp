@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <numbers>
+
+#include "dem/study/entries.h"
+
+namespace repose::dem {
+namespace {
+
+std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+  auto& fill = std::get<FillProtocol>(protocol);
+  return {length_key("tube_diameter_mm", "100", fill.tube_diameter_m),
+          length_key("tube_height_mm", "100", fill.tube_height_m),
+          length_key("pour_mm", "50", fill.pour_m)};
+}
+
+double cost_s(const Model& model, const Protocol& protocol) {
+  constexpr double kPacked = .6, kStep_s = 2.4e-8, kSettling_s = 1, kFallSpeed_m_s = 2;
+  const auto& fill = std::get<FillProtocol>(protocol);
+  const double radius = fill.tube_diameter_m / 2;
+  const double tube_m3 = std::numbers::pi * radius * radius * fill.tube_height_m;
+  const double grains = kPacked * tube_m3 / model.grain.volume_m3;
+  return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains * kSettling_s /
+         course_timestep_s(model, kFallSpeed_m_s);
+}
+
+}  // namespace
+
+ExperimentEntry fill_entry() {
+  return {.experiment = Experiment::fill,
+          .name = "fill",
+          .unit = "kg/m3",
+          .value_name = "bulk density",
+          .description =
+              "Grains are poured into a tube that stands on a plate until they heap over its rim. "
+              "They are struck level, and what is in the tube is weighed.",
+          .readings = {{"grains", ""}, {"mass_g", "g"}, {"solid_fraction", ""}},
+          .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
+                           kGrainSliding, kGrainRolling},
+          .sheet = {.test = "fill", .value = "bulk_density_kg_m3", .protocol = {}},
+          .is_usual = false,
+          .usual = FillProtocol{},
+          .keys = keys_of,
+          .run =
+              [](const Model& model, const Protocol& protocol, std::uint64_t seed,
+                 const ProgressReport& report, const RunRecord& record) {
+                return run_fill(model, std::get<FillProtocol>(protocol), seed, report, record);
+              },
+          .possible =
+              [](const Model& model, const Protocol& /*protocol*/) {
+                return from_to(0, model.grain_material.density_kg_m3);
+              },
+          .cost_s = cost_s};
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,52 @@
+#include "dem/experiment/grain_limit.h"
+#include "dem/study/entries.h"
+
+namespace repose::dem {
+namespace {
+
+std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+  auto& pendulum = std::get<PendulumProtocol>(protocol);
+  return {length_key("string_mm", "300", pendulum.string_m),
+          number_key("release_deg", "30", above(0, 90), pendulum.release_deg),
+          count_key("pairs", "10", kMaxGrains / 2, pendulum.pairs)};
+}
+
+double cost_s(const Model& model, const Protocol& protocol) {
+  constexpr double kSpeed_m_s = 1, kImpact_s = .001;
+  return 2 * kAloneStep_s * std::get<PendulumProtocol>(protocol).pairs * kImpact_s /
+         impact_timestep_s(model, kSpeed_m_s);
+}
+
+}  // namespace
+
+ExperimentEntry pendulum_entry() {
+  return {.experiment = Experiment::pendulum,
+          .name = "pendulum",
+          .unit = "deg",
+          .value_name = "swing of the struck grain",
+          .description =
+              "Two grains hang on strings, side by side; one is drawn aside, let go, and strikes "
+              "the other, which swings up.",
+          .readings = {{"rise_mm", "mm"}, {"height_ratio", ""}, {"sd_deg", "deg"}},
+          .coefficients = {kGrainRestitution, kGrainSliding, kGrainRolling},
+          .sheet = {.test = "pendulum",
+                    .value = "swing_deg",
+                    .protocol = {{"release_deg", "release_deg"}}},
+          .is_usual = false,
+          .readings_per_run =
+              [](const Protocol& protocol) { return std::get<PendulumProtocol>(protocol).pairs; },
+          .softening_effect = "swings less far than one with the real stiffness",
+          .usual = PendulumProtocol{},
+          .keys = keys_of,
+          .run =
+              [](const Model& model, const Protocol& protocol, std::uint64_t seed,
+                 const ProgressReport& report, const RunRecord& record) {
+                return run_pendulum(model, std::get<PendulumProtocol>(protocol), seed, report,
+                                    record);
+              },
+          .possible = [](const Model& /*model*/,
+                         const Protocol& /*protocol*/) { return from_to(0, 90); },
+          .cost_s = cost_s};
+}
+
+}  // namespace repose::dem

@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+
+#include "dem/engine/unstable_run.h"
+#include "tests/dem/experiment_model.h"
+
+namespace repose::dem {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// Balls of 20 mm, soft so that runs are short.
+Model balls() {
+  Model model = test::sphere_bench();
+  model.grain = sphere_shape(.01);
+  model.grain_material = {"ball", 1000, 1e6, .3};
+  return model;
+}
+
+constexpr FillProtocol kTube{.tube_diameter_m = .15, .tube_height_m = .15};
+
+TEST(Fill, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
+  const Repeat repeat = run_fill(balls(), kTube, 1);
+  const double grain_kg = 1000 * 4.0 / 3 * std::numbers::pi * 1e-6;
+  const double tube_m3 = std::numbers::pi / 4 * .15 * .15 * .15;
+  const double grains = repeat.readings.at("grains");
+  EXPECT_NEAR(repeat.value, grains * grain_kg / tube_m3, 1e-9);
+  EXPECT_NEAR(repeat.readings.at("mass_g"), 1e3 * grains * grain_kg, 1e-9);
+  EXPECT_NEAR(repeat.readings.at("solid_fraction"), repeat.value / 1000, 1e-12);
+  for (int k = 0; k < repeat.state->grain_count(); ++k) {
+    if (repeat.state->is_present(k)) EXPECT_LT(repeat.state->grain(k).position.z(), .15);
+  }
+}
+
+TEST(Fill, BallsPackAsPouredBallsDo) {
+  Model model = balls();
+  model.grain_material.young_modulus_pa = 1e7;
+  // Poured loosely into a tube of 7.5 diameters balls fill .568 of it (Zou and Yu 1995, Chemical
+  // Engineering Science 50, 1504); a tube as low as this one lacks half a layer at its bottom.
+  EXPECT_NEAR(run_fill(model, kTube, 1).readings.at("solid_fraction"), .568 * (1 - .01 / .15), .03);
+}
+
+TEST(Fill, FrictionMakesLooserPackings) {
+  Model smooth = balls(), rough = balls();
+  smooth.grain_grain = {.3, .05, .01};
+  rough.grain_grain = {.3, .8, .3};
+  EXPECT_LT(run_fill(rough, kTube, 1).value, run_fill(smooth, kTube, 1).value - 20);
+}
+
+TEST(Fill, IsTheSameAtAnyNumberOfThreads) {
+  Model two = balls();
+  two.threads = 2;
+  const Repeat one = run_fill(balls(), kTube, 3);
+  EXPECT_TRUE(test::same_state(*one.state, *run_fill(two, kTube, 3).state));
+}
+
+TEST(Fill, TellsEveryErrorAtOnce) {
+  EXPECT_THAT(error_of([] {
+                run_fill(balls(), {.tube_diameter_m = .03, .tube_height_m = .02, .pour_m = 0}, 1);
+              }),
+              AllOf(HasSubstr("fill.tube_diameter_m is 0.03"), HasSubstr("4 grains or more"),
+                    HasSubstr("fill.tube_height_m is 0.02"), HasSubstr("fill.pour_m is 0")));
+  EXPECT_THAT(error_of([] { run_fill(balls(), {.tube_diameter_m = 9, .tube_height_m = 9}, 1); }),
+              HasSubstr("Rule: at most 100000. Fix: a smaller tube"));
+}
+
+TEST(Fill, GrainsThatAreTooSoftStopTheRun) {
+  Model soft = balls();
+  soft.grain_material.young_modulus_pa = 1e3;
+  EXPECT_THROW(run_fill(soft, kTube, 1), UnstableRun);
+}
+
+}  // namespace
+}  // namespace repose::dem
