@@ -32,7 +32,7 @@ Command new_command() {
   const auto given = std::make_shared<NewArguments>();
   return {
       .name = "new",
-      .summary = "Start a study: a study file and sheets to fill in",
+      .summary = "Start a study: its file and sheets to fill in",
       .options = {{"study", "STUDY.toml", "Study file to write", &given->study, true},
                   {.name = "--grains",
                    .value_name = "KIND",

@@ -1,8 +1,11 @@
 #include "cli/simulate/simulate_command.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cli/simulate/simulate.h"
+#include "dem/study/experiment_table.h"
 
 namespace repose::cli {
 namespace {
@@ -29,6 +32,12 @@ Examples:
   repose simulate heap study.toml --set contact.particle_wall.restitution=0.3
 )";
 
+std::vector<std::string> experiment_names() {
+  std::vector<std::string> names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) names.emplace_back(entry.name);
+  return names;
+}
+
 }  // namespace
 
 Command simulate_command() {
@@ -36,9 +45,12 @@ Command simulate_command() {
   return {
       .name = "simulate",
       .summary = "Simulate an experiment of a study",
-      .options = {{"experiment",
-                   "drop|tilt|roll|heap|drop_on_grains|tilt_on_grains|roll_on_grains|fill|pendulum",
-                   "Experiment", &given->experiment, true},
+      .options = {{.name = "experiment",
+                   .value_name = "EXPERIMENT",
+                   .help = "Experiment",
+                   .target = &given->experiment,
+                   .is_required = true,
+                   .words = experiment_names()},
                   {"study", "STUDY.toml", "Study file", &given->study, true},
                   {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
                    &given->settings},

@@ -51,7 +51,7 @@ TEST_F(Completion, BashKnowsCommandsOptionsAndTheirValues) {
   EXPECT_THAT(in_bash("repose measure --over"), ElementsAre("--overlay"));
   EXPECT_THAT(in_bash("repose calibrate --over"), IsEmpty());
   EXPECT_THAT(in_bash("repose measure --method ''"), ElementsAre("auto", "paper"));
-  EXPECT_THAT(in_bash("repose simulate t"), ElementsAre("tilt"));
+  EXPECT_THAT(in_bash("repose simulate t"), ElementsAre("tilt", "tilt_on_grains"));
   EXPECT_THAT(in_bash("repose measure --window ''"), IsEmpty());
   EXPECT_THAT(in_bash("repose new x.toml --grains so"), ElementsAre("soybean"));
   EXPECT_THAT(in_bash("repose new x.toml --plate a"), ElementsAre("acrylic", "aluminium"));
