@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
@@ -15,6 +16,7 @@ constexpr double kReadings = 10;         // taken of what is advised
 constexpr double kWorthwhile = .3;       // share of the variance that it takes away
 constexpr std::size_t kFewest = 8;       // runs to learn a reading from
 constexpr double kMostlySurrogate = .5;  // surrogate variance over measured
+constexpr int kMoreReadings = 4;         // times as many: half the uncertainty
 constexpr double kSeen = 2;              // sigma from bound to bound: less, and runs show nothing
 
 bool is_measured(const Problem& problem, const std::string& experiment) {
@@ -40,45 +42,74 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
     : problem_(problem), solution_(solution) {
   for (const Experiment& experiment : measured_experiments(problem)) {
     for (const std::string& reading : experiment.measurable) {
-      if (is_measured(problem, experiment.name, reading)) continue;
-      const TrainingSet training_set = training_set_of(problem, experiment, reading, runs);
-      if (training_set.readings.size() < kFewest) continue;
-      const Surrogate surrogate(training_set, {}, false);
-      if (surrogate.constant()) continue;
-      Unmeasured unmeasured{experiment.name, reading, {}, 0};
-      for (const Point& point : solution.sets.points) {
-        const Expectation w = surrogate.at(point, false);
-        const double slope = surrogate.warp().slope(w.mean);
-        const double scatter = surrogate.warp().scatter(w.mean);
-        unmeasured.readings.push_back(surrogate.warp().expected(w.mean));
-        unmeasured.noise2 += slope * slope * w.variance +
-                             scatter * scatter * experiment.readings_per_run / kReadings;
+      if (!is_measured(problem, experiment.name, reading)) {
+        learn_unmeasured(experiment, reading, runs);
       }
-      unmeasured.noise2 /= static_cast<double>(solution.sets.points.size());
-      unmeasured_.push_back(std::move(unmeasured));
     }
+  }
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    more_readings_.push_back(more_readings(i));
   }
 }
 
-double Advisor::fraction_explained(const Unmeasured& unmeasured, std::size_t parameter) const {
+void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& reading,
+                               const std::vector<Run>& runs) {
+  const TrainingSet training_set = training_set_of(problem_, experiment, reading, runs);
+  if (training_set.readings.size() < kFewest) return;
+  const Surrogate surrogate(training_set, {}, false);
+  if (surrogate.constant()) return;
+  Unmeasured unmeasured{.experiment = experiment.name, .reading = reading};
+  Measurement& of_ten = unmeasured.of_ten;
+  for (const Point& point : solution_.sets.points) {
+    const Expectation w = surrogate.at(point, false);
+    const double slope = surrogate.warp().slope(w.mean);
+    const double scatter = surrogate.warp().scatter(w.mean);
+    of_ten.readings.push_back(surrogate.warp().expected(w.mean));
+    of_ten.noise2 +=
+        slope * slope * w.variance + scatter * scatter * experiment.readings_per_run / kReadings;
+  }
+  of_ten.noise2 /= static_cast<double>(solution_.sets.points.size());
+  unmeasured_.push_back(std::move(unmeasured));
+}
+
+Advisor::Measurement Advisor::more_readings(std::size_t observable) const {
+  // In the surrogate's units. All readings share the surrogate's error s: with u^2 of the measured
+  // mean, the variance falls from u^2 + s^2 to u^2 / m + s^2 (m times the readings), as if another
+  // measurement were added, of variance v: 1 / (u^2 / m + s^2) = 1 / (u^2 + s^2) + 1 / v.
+  const double u2 = 1 / solution_.misfit.weight(observable);
+  const Surrogate& surrogate = solution_.misfit.surrogates()[observable];
+  Measurement again;
+  double s2 = 0;
+  for (const Point& point : solution_.sets.points) {
+    const Expectation w = surrogate.at(point, false);
+    again.readings.push_back(w.mean);
+    s2 += w.variance / static_cast<double>(solution_.sets.points.size());
+  }
+  const double now = u2 + s2;
+  const double then = u2 / kMoreReadings + s2;
+  again.noise2 = now * then / (now - then);
+  return again;
+}
+
+double Advisor::fraction_explained(const Measurement& measurement, std::size_t parameter) const {
   // Linear Bayes: measuring r with error variance v takes cov(r, x)^2 / (var r + v) from var x.
   // Goldstein and Wooff (2007), Bayes Linear Statistics.
   const std::vector<Point>& points = solution_.sets.points;
   const auto count = static_cast<double>(points.size());
   const double mean_x = mean_of(points)[parameter];
   double mean_r = 0;
-  for (const double r : unmeasured.readings) mean_r += r / count;
+  for (const double r : measurement.readings) mean_r += r / count;
   double xx = 0;
   double rr = 0;
   double xr = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = points[i][parameter] - mean_x;
-    const double r = unmeasured.readings[i] - mean_r;
+    const double r = measurement.readings[i] - mean_r;
     xx += x * x / count;
     rr += r * r / count;
     xr += x * r / count;
   }
-  const double all = xx * (rr + unmeasured.noise2);
+  const double all = xx * (rr + measurement.noise2);
   return all > 0 ? xr * xr / all : 0;
 }
 
@@ -98,37 +129,70 @@ bool Advisor::more_runs_would_help(std::size_t parameter) const {
   return false;
 }
 
-std::string Advisor::advice(std::size_t parameter) const {
-  std::string text;
+std::string Advisor::unmeasured_advice(std::size_t parameter) const {
   const Unmeasured* best = nullptr;
   double most = kWorthwhile;
   for (const Unmeasured& unmeasured : unmeasured_) {
-    const double fraction = fraction_explained(unmeasured, parameter);
-    if (fraction > most) {
-      most = fraction;
-      best = &unmeasured;
-    }
+    const double fraction = fraction_explained(unmeasured.of_ten, parameter);
+    if (fraction <= most) continue;
+    most = fraction;
+    best = &unmeasured;
   }
-  if (best != nullptr) {
-    text = fmt::format(
-        "also measure {} in the {} experiment: ten readings would reduce the uncertainty of this "
-        "coefficient to about {:.0f} % of its present value",
-        best->reading, best->experiment, 100 * std::sqrt(1 - most));
+  if (best == nullptr) return "";
+  return fmt::format(
+      "also measure {} in the {} experiment: ten readings would reduce the uncertainty of this "
+      "coefficient to about {:.0f} % of its present value",
+      best->reading, best->experiment, 100 * std::sqrt(1 - most));
+}
+
+std::string Advisor::more_readings_advice(std::size_t parameter) const {
+  const Observable* best = nullptr;
+  double most = kWorthwhile;
+  for (std::size_t i = 0; i < more_readings_.size(); ++i) {
+    const double fraction = fraction_explained(more_readings_[i], parameter);
+    if (fraction <= most) continue;
+    most = fraction;
+    best = &problem_.observables[i];
   }
+  if (best == nullptr) return "";
+  return fmt::format(
+      "take more bench readings of {}: {} in place of {} would reduce the uncertainty of this "
+      "coefficient to about {:.0f} % of its present value",
+      best->name, kMoreReadings * best->n, best->n, 100 * std::sqrt(1 - most));
+}
+
+std::string Advisor::unmade_advice(std::size_t parameter) const {
+  std::vector<std::string> parts;
   for (const Experiment& experiment : problem_.experiments) {
     if (is_measured(problem_, experiment.name) || !depends(experiment, parameter)) continue;
-    text += fmt::format("{}do the {} experiment, which depends on it", text.empty() ? "" : "; or ",
-                        experiment.name);
+    parts.push_back(fmt::format("do the {} experiment, which depends on it", experiment.name));
   }
+  const std::vector<std::string>& tellers = problem_.parameters[parameter].told_by;
+  const bool is_told = std::ranges::any_of(tellers, [&](const std::string& experiment) {
+    return std::ranges::any_of(problem_.experiments,
+                               [&](const Experiment& e) { return e.name == experiment; });
+  });
+  if (!is_told && !tellers.empty()) {
+    parts.push_back(
+        fmt::format("do an experiment that tells it from the others: add [experiment.{}] and its "
+                    "readings to the study",
+                    fmt::join(tellers, "] or [experiment.")));
+  }
+  return fmt::format("{}", fmt::join(parts, "; or "));
+}
+
+std::string Advisor::advice(std::size_t parameter) const {
+  std::vector<std::string> parts = {unmeasured_advice(parameter), more_readings_advice(parameter),
+                                    unmade_advice(parameter)};
   if (more_runs_would_help(parameter)) {
-    text += fmt::format("{}simulate more: the surrogates are less certain than the measurements",
-                        text.empty() ? "" : "; or ");
+    parts.emplace_back("simulate more: the surrogates are less certain than the measurements");
   }
-  if (text.empty()) {
+  std::erase(parts, "");
+  if (parts.empty()) {
     return "not identifiable from these experiments: fix it to a literature value, which will "
            "hardly affect them";
   }
-  return text;
+  return fmt::format("{}", fmt::join(parts, "; or "));
 }
 
 }  // namespace repose::calibrate

@@ -18,14 +18,27 @@ class Advisor {
   std::string advice(std::size_t parameter) const;
 
  private:
-  /// A reading not measured, at every plausible set.
+  /// What a bench could measure: what it would read at every plausible set, and how well.
+  struct Measurement {
+    std::vector<double> readings;
+    double noise2 = 0;  ///< variance of the measured mean and of the surrogate, mean over the sets
+  };
   struct Unmeasured {
     std::string experiment;
     std::string reading;
-    std::vector<double> readings;
-    double noise2 = 0;  ///< of a measured mean of ten and of the surrogate, mean over the sets
+    Measurement of_ten = {};
   };
-  double fraction_explained(const Unmeasured& unmeasured, std::size_t parameter) const;
+
+  void learn_unmeasured(const Experiment& experiment, const std::string& reading,
+                        const std::vector<Run>& runs);
+  /// An observable measured again, until it has kMoreReadings times as many readings.
+  Measurement more_readings(std::size_t observable) const;
+  double fraction_explained(const Measurement& measurement, std::size_t parameter) const;
+
+  /// Each: a sentence's part, or nothing.
+  std::string unmeasured_advice(std::size_t parameter) const;
+  std::string more_readings_advice(std::size_t parameter) const;
+  std::string unmade_advice(std::size_t parameter) const;
 
   /// Some observable depends on it visibly, and its surrogate is the weakest link.
   bool more_runs_would_help(std::size_t parameter) const;
@@ -33,6 +46,7 @@ class Advisor {
   const Problem& problem_;
   const Solution& solution_;
   std::vector<Unmeasured> unmeasured_;
+  std::vector<Measurement> more_readings_;  ///< of each observable
 };
 
 }  // namespace repose::calibrate

@@ -22,6 +22,8 @@ struct Parameter {
   double min = 0;
   double max = 0;
   std::optional<Prior> prior;
+  /// Experiments that tell it from the others, made or not: what is advised where it stays open.
+  std::vector<std::string> told_by = {};
 };
 
 /// What can be simulated. One without an observable is never run, but may be advised.

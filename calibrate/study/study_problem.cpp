@@ -54,6 +54,9 @@ std::vector<Parameter> open_parameters(const dem::Study& study) {
     if (named.coefficient.known_mean) {
       parameter.prior = Prior{*named.coefficient.known_mean, *named.coefficient.known_sd};
     }
+    for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+      if (entry.tells == parameter.name) parameter.told_by.emplace_back(entry.name);
+    }
     parameters.push_back(std::move(parameter));
   }
   return parameters;
@@ -186,18 +189,19 @@ class Maker {
 Budget budget_named(const std::string& name) {
   constexpr double kMinute_s = 60;
   if (name == "quick") {
-    return {.name = name,
-            .description =
-                "13 minutes of one core for the fit; heaps ten times softer than the study "
-                "says, few of them, so intervals are wide",
-            .settings = {.budget_s = 13 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
-            .heap_softening = .1,
-            .verification_repeats = 6,
-            .family_sets = 2};
+    return {
+        .name = name,
+        .cost = "13 minutes of one core for the fit",
+        .heaps = "heaps ten times softer than the study says, few of them, so intervals are wide",
+        .settings = {.budget_s = 13 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
+        .heap_softening = .1,
+        .verification_repeats = 6,
+        .family_sets = 2};
   }
   if (name == "standard") {
     return {.name = name,
-            .description = "150 minutes of one core for the fit; heaps as stiff as the study says",
+            .cost = "150 minutes of one core for the fit",
+            .heaps = "heaps as stiff as the study says",
             .settings = {.budget_s = 150 * kMinute_s, .max_jobs = 2000, .max_rounds = 6},
             .heap_softening = 1,
             .verification_repeats = 5,
@@ -205,9 +209,8 @@ Budget budget_named(const std::string& name) {
   }
   if (name == "paper") {
     return {.name = name,
-            .description =
-                "62 simulations at most for the fit, as many as the publication made; heaps "
-                "as stiff as the study says",
+            .cost = "62 simulations at most for the fit, as many as the publication made",
+            .heaps = "heaps as stiff as the study says",
             .settings = {.budget_s = 60 * kMinute_s, .max_jobs = 62, .max_rounds = 3},
             .heap_softening = 1,
             .verification_repeats = 10,
@@ -215,6 +218,11 @@ Budget budget_named(const std::string& name) {
   }
   throw std::invalid_argument(
       fmt::format("budget = {}: must be quick, standard or paper. Fix: choose quick.", name));
+}
+
+std::string description_of(const Budget& budget, const dem::Study& study) {
+  return study.experiments.contains(dem::Experiment::heap) ? budget.cost + "; " + budget.heaps
+                                                           : budget.cost;
 }
 
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,

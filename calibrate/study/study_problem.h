@@ -12,7 +12,8 @@ namespace repose::calibrate {
 /// How much a study may cost, and what it gives up for that.
 struct Budget {
   std::string name;
-  std::string description;  ///< what it costs and gives up, a sentence
+  std::string cost;   ///< of the fit: "13 minutes of one core for the fit"
+  std::string heaps;  ///< what it gives up in heaps: "heaps ten times softer than the study says"
   FitSettings settings;
   double heap_softening = 1;     ///< heaps have the study's stiffness times this
   int verification_repeats = 3;  ///< fresh seeds at the best fit
@@ -21,6 +22,9 @@ struct Budget {
 
 /// "quick", "standard" or "paper". Throws std::invalid_argument for another name.
 Budget budget_named(const std::string& name);
+
+/// What a budget costs and gives up in a study, a sentence.
+std::string description_of(const Budget& budget, const dem::Study& study);
 
 /// A scatter nobody measured: single readings are taken to scatter by this fraction of their mean,
 /// or by what chance does in the simulation where that is more (Misfit::measured_uncertainty). It

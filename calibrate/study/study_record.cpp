@@ -110,7 +110,7 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .settings = record.settings,
           .method = record.method,
           .budget = record.budget.name,
-          .budget_description = record.budget.description};
+          .budget_description = description_of(record.budget, record.study)};
 }
 
 dem::Study as_simulated(dem::Study study, const Budget& budget,

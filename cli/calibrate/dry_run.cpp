@@ -69,53 +69,74 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / kHour_s);
 }
 
-std::vector<std::string> budget_row(const BudgetPlan& budget, const Pace& pace, int jobs) {
-  std::vector<std::string> row = {budget.budget.name};
+/// What a budget makes of each experiment, and how long that takes at most.
+struct BudgetColumn {
+  std::vector<std::string> runs;
+  std::string time;
+};
+
+BudgetColumn budget_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
+  BudgetColumn column;
   double fit_s = 0, checks_s = 0;
   for (const calibrate::ExperimentEstimate& estimate : budget.estimates) {
     const double run_s = estimate.run_s * pace.at(estimate.experiment);
     fit_s += estimate.fit_runs * run_s;
     checks_s += estimate.check_runs * run_s;
-    row.push_back(fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs));
+    column.runs.push_back(fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs));
   }
-  row.push_back(duration((fit_s + checks_s) / jobs));
-  return row;
+  column.time = duration((fit_s + checks_s) / jobs);
+  return column;
 }
 
 /// What an hour more on all these cores is worth, of heaps as stiff as in this budget.
-std::vector<std::string> hour_row(const BudgetPlan& budget, const Pace& pace, int jobs) {
+BudgetColumn hour_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
   calibrate::Problem problem = budget.problem;
   for (calibrate::Experiment& experiment : problem.experiments) {
     const auto found = pace.find(experiment.name);
     if (found != pace.end()) experiment.run_s *= found->second;
   }
-  std::vector<std::string> row = {"one more hour"};
+  BudgetColumn column{.runs = {}, .time = duration(kHour_s)};
   for (const int runs : calibrate::runs_for(problem, kHour_s * jobs)) {
-    row.push_back(fmt::format("{}", runs));
+    column.runs.push_back(fmt::format("{}", runs));
   }
-  row.push_back(duration(kHour_s));
-  return row;
+  return column;
+}
+
+Table table_of(const std::vector<BudgetPlan>& budgets, const Pace& pace, int jobs) {
+  std::vector<Column> headings = {{.heading = ""}};
+  std::vector<BudgetColumn> columns;
+  for (const BudgetPlan& budget : budgets) {
+    headings.push_back(number_column(budget.budget.name));
+    columns.push_back(budget_column(budget, pace, jobs));
+  }
+  headings.push_back(number_column("one more hour"));
+  columns.push_back(hour_column(budgets.back(), pace, jobs));
+  Table table(headings);
+  const std::vector<calibrate::ExperimentEstimate>& experiments = budgets.front().estimates;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    std::vector<std::string> row = {experiments[i].experiment};
+    for (const BudgetColumn& column : columns) row.push_back(column.runs.at(i));
+    table.add_row(row);
+  }
+  std::vector<std::string> times = {
+      fmt::format("time at most, {} core{}", jobs, jobs == 1 ? "" : "s")};
+  for (const BudgetColumn& column : columns) times.push_back(column.time);
+  table.add_row(times);
+  return table;
 }
 
 std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
   const std::vector<BudgetPlan> budgets = {plan_of(plan, "quick"), plan_of(plan, "standard")};
-  std::vector<Column> headings = {{.heading = "budget"}};
-  for (const calibrate::ExperimentEstimate& estimate : budgets.front().estimates) {
-    headings.push_back(number_column(estimate.experiment + "s"));
-  }
-  headings.push_back(
-      number_column(fmt::format("time at most, {} core{}", plan.jobs, plan.jobs == 1 ? "" : "s")));
-  Table table(headings);
-  for (const BudgetPlan& budget : budgets) {
-    table.add_row(budget_row(budget, pace, plan.jobs));
-    table.add_note("  ", budget.budget.description);
-  }
-  table.add_row(hour_row(budgets.back(), pace, plan.jobs));
-  table.add_note("  ", "additional runs within one hour, for comparison");
   Page page(columns);
   page.add("Simulations of each experiment, for the fit + for the checks:");
   page.add_gap();
-  page.add(table);
+  page.add(table_of(budgets, pace, plan.jobs));
+  page.add_gap();
+  for (const BudgetPlan& budget : budgets) {
+    page.add(fmt::format("{}: {}.", budget.budget.name,
+                         calibrate::description_of(budget.budget, plan.study)));
+  }
+  page.add("one more hour: additional runs within one hour, for comparison.");
   page.add_gap();
   page.add(
       "Timed with one run of each experiment on this machine under its present load. A fit that "

@@ -35,6 +35,7 @@ ExperimentEntry drop_entry() {
                        {"sd_mm", "mm"},
                        {"never_rose", ""}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+          .tells = kWallRestitution,
           .sheet = {.test = "restitution",
                     .value = "rebound_mm",
                     .protocol = {{"drop_mm", "height_mm"}}},

@@ -41,6 +41,8 @@ struct ExperimentEntry {
   std::vector<Reading> readings;
   /// Names in the study of the coefficients that move its readings.
   std::vector<std::string_view> coefficients;
+  /// The one of these that it tells from the others; empty: none.
+  std::string_view tells = "";
   BenchSheet sheet;
   bool is_stochastic = true;  ///< false: the seed changes nothing
   bool is_usual = true;       ///< part of a new study that names no experiments

@@ -71,6 +71,7 @@ ExperimentEntry drop_on_grains_entry() {
                        {"sd_mm", "mm"},
                        {"never_rose", ""}},
           .coefficients = {kGrainRestitution, kGrainSliding, kGrainRolling},
+          .tells = kGrainRestitution,
           .sheet = {.test = "drop_on_grains",
                     .value = "rebound_mm",
                     .protocol = {{"drop_mm", "height_mm"}}},
@@ -103,6 +104,7 @@ ExperimentEntry tilt_on_grains_entry() {
               "slide by a grain's diameter.",
           .readings = {{"first_shift_deg", "deg"}, {"sd_deg", "deg"}},
           .coefficients = {kGrainSliding, kGrainRolling},
+          .tells = kGrainSliding,
           .sheet = {.test = "tilt_on_grains", .value = "angle_deg"},
           .is_usual = false,
           .readings_per_run =
@@ -136,6 +138,7 @@ ExperimentEntry roll_on_grains_entry() {
               "it is tilted slowly, until the grain rolls by its diameter.",
           .readings = {{"first_shift_deg", "deg"}, {"sd_deg", "deg"}},
           .coefficients = {kGrainSliding, kGrainRolling},
+          .tells = kGrainRolling,
           .sheet = {.test = "roll_on_grains", .value = "angle_deg"},
           .is_usual = false,
           .readings_per_run =

@@ -29,6 +29,7 @@ ExperimentEntry pendulum_entry() {
               "the other, which swings up.",
           .readings = {{"rise_mm", "mm"}, {"height_ratio", ""}, {"sd_deg", "deg"}},
           .coefficients = {kGrainRestitution, kGrainSliding, kGrainRolling},
+          .tells = kGrainRestitution,
           .sheet = {.test = "pendulum",
                     .value = "swing_deg",
                     .protocol = {{"release_deg", "release_deg"}}},

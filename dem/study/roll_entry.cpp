@@ -38,6 +38,7 @@ ExperimentEntry roll_entry() {
                    {"releases", ""},
                    {"time_s", "s"}},
       .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+      .tells = kWallRolling,
       .sheet = {.test = "rolling",
                 .value = "stopped_mm",
                 .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},

@@ -30,6 +30,7 @@ ExperimentEntry tilt_entry() {
               "while it is tilted slowly, until they slide.",
           .readings = {{"half_mm_slip_deg", "deg"}, {"begin_deg", "deg"}},
           .coefficients = {kWallSliding},
+          .tells = kWallSliding,
           .sheet = {.test = "sliding", .value = "angle_deg"},
           .is_stochastic = false,
           .usual = TiltProtocol{},

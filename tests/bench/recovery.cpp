@@ -45,6 +45,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", plan.seed);
   app.add_option("--simulated", study,
                  "a study file: measure and calibrate with real simulations of it");
+  app.add_option("--experiments", plan.experiments, "with --simulated: make only these")
+      ->delimiter(',');
   app.add_option("--out", plan.folder, "keeps the runs of --simulated");
   app.add_flag("--verbose", plan.verbose, "every parameter of every material");
   CLI11_PARSE(app, argc, argv);

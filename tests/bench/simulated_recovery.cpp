@@ -1,5 +1,6 @@
 #include "tests/bench/simulated_recovery.h"
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <string>
@@ -19,9 +20,33 @@ namespace {
 
 using calibrate::Random;
 
-constexpr int kReadings = 8;
+constexpr int kReadings = 8, kSingleReadings = 30;
 constexpr double kReading_deg = .5, kReadingFraction = .03;
 constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
+
+/// The study, less the experiments that are not made.
+dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::string>& settings) {
+  dem::Study study = dem::read_study(plan.study, settings);
+  if (plan.experiments.empty()) return study;
+  std::erase_if(study.experiments, [&](const auto& described) {
+    return std::ranges::count(plan.experiments, dem::name_of(described.first)) == 0;
+  });
+  return study;
+}
+
+/// Settings that make a run of each experiment that has single grains one of one grain.
+std::vector<std::string> one_grain_each(const dem::Study& study) {
+  std::vector<std::string> settings;
+  for (const auto& [experiment, described] : study.experiments) {
+    if (dem::entry_of(experiment).readings_per_run == nullptr) continue;
+    const std::string name = dem::name_of(experiment);
+    const char* grains = name == "pendulum"         ? "pairs"
+                         : name.starts_with("drop") ? "grains"
+                                                    : "places";
+    settings.push_back(fmt::format("experiment.{}.{}=1", name, grains));
+  }
+  return settings;
+}
 
 /// With something measured everywhere, a study says what is sought.
 std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFile& grain,
@@ -32,17 +57,20 @@ std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFi
 
 class Material {
  public:
-  Material(const dem::Study& study, const dem::ClumpFile& grain, const calibrate::RunFolder& folder,
-           const std::vector<calibrate::Parameter>& sought, std::vector<double> truth,
-           std::uint64_t number)
+  /// `bench`: the study with single grains.
+  Material(const dem::Study& study, const dem::Study& bench, const dem::ClumpFile& grain,
+           const calibrate::RunFolder& folder, const std::vector<calibrate::Parameter>& sought,
+           std::vector<double> truth, std::uint64_t number)
       : study_(study),
         grain_(grain),
         folder_(folder),
         simulator_(study, grain, sought),
+        bench_(bench, grain, sought),
         truth_(std::move(truth)),
         number_(number),
         random_(number) {
     simulator_.store_in(folder_);
+    bench_.store_in(folder_);
   }
 
   calibrate::StudyOutcome calibrated(const calibrate::Budget& budget) {
@@ -59,7 +87,8 @@ class Material {
   /// What a bench would read, less the readings that failed.
   std::vector<double> readings(const dem::ExperimentEntry& experiment) {
     std::vector<double> values;
-    for (int i = 0; i < kReadings; ++i) {
+    const int wanted = experiment.readings_per_run == nullptr ? kReadings : kSingleReadings;
+    for (int i = 0; i < wanted; ++i) {
       const calibrate::Run run =
           simulated({std::string(experiment.name), truth_,
                      kBenchSeeds * (number_ + 1) + static_cast<std::uint64_t>(i)});
@@ -74,13 +103,13 @@ class Material {
   }
 
   calibrate::Run simulated(const calibrate::Job& job) {
-    return run_of(simulator_.simulate(job, never_));
+    return run_of(bench_.simulate(job, never_));
   }
 
   dem::Study study_;
   const dem::ClumpFile& grain_;
   const calibrate::RunFolder& folder_;
-  calibrate::StudySimulator simulator_;
+  calibrate::StudySimulator simulator_, bench_;
   std::vector<double> truth_;
   std::uint64_t number_;
   Random random_;
@@ -90,7 +119,8 @@ class Material {
 }  // namespace
 
 void recover_simulated(const SimulatedRecovery& plan) {
-  const dem::Study study = dem::read_study(plan.study);
+  const dem::Study study = read_plan(plan, {});
+  const dem::Study bench = read_plan(plan, one_grain_each(study));
   const dem::ClumpFile grain = dem::build_grain(study.grain);
   calibrate::Budget budget = calibrate::budget_named("quick");
   budget.settings.budget_s = plan.budget_s;
@@ -101,7 +131,7 @@ void recover_simulated(const SimulatedRecovery& plan) {
   Random random(plan.seed);
   for (int m = 0; m < plan.materials; ++m) {
     const std::vector<double> truth = made_up_material(parameters, random);
-    Material material(study, grain, folder, parameters, truth,
+    Material material(study, bench, grain, folder, parameters, truth,
                       plan.seed + static_cast<std::uint64_t>(m));
     try {
       tally.add(material.calibrated(budget).fit, truth, plan.verbose);

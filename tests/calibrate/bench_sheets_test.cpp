@@ -8,8 +8,10 @@
 #include "calibrate/statistics/bench/sheet.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/experiment_table.h"
+#include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -23,6 +25,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::SizeIs;
 
 const std::string kContacts = R"([contact]
 particle_wall = { restitution = 0.5, sliding_friction = 0.4, rolling_friction = 0.05 }
@@ -143,6 +146,17 @@ TEST_F(BenchSheets, CountAsIfTheyWereListedInTheStudy) {
   EXPECT_EQ(one.mean, other.mean);
   EXPECT_EQ(one.sd, other.sd);
   EXPECT_EQ(one.n, 3);
+}
+
+TEST(GlassBeadStudy, SeeksAllCoefficientsFromItsSheets) {
+  const dem::Study study =
+      dem::read_study(repose::testing::source_folder() / "samples/glass_beads/study.toml");
+  const dem::Study measured = with_readings(study, read_sheets(study, NoRows::refused));
+  const StudyProblem made =
+      problem_of(measured, dem::build_grain(study.grain), budget_named("quick"));
+  EXPECT_THAT(made.problem.parameters, SizeIs(6));
+  EXPECT_THAT(made.problem.observables, SizeIs(8));
+  EXPECT_THAT(made.notes, IsEmpty());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 namespace repose::calibrate {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -278,6 +279,21 @@ TEST(JointFit, AnExperimentNotMadeIsAdvised) {
   const JointFit fit = plate_fit(problem);
   EXPECT_EQ(fit.parameters[1].verdict, Verdict::undetermined);
   EXPECT_THAT(fit.parameters[1].advice, HasSubstr("do the drop experiment"));
+}
+
+TEST(JointFit, AnExperimentThatTellsAnOpenParameterIsAdvisedUnlessTheStudyHasIt) {
+  Problem problem = plate(20, .9, 10);
+  problem.parameters.push_back({"bounce", 0, 1, {}, {"drop", "pendulum"}});
+  EXPECT_THAT(plate_fit(problem).parameters[1].advice,
+              HasSubstr("add [experiment.drop] or [experiment.pendulum]"));
+  problem.experiments.push_back({"drop", {1}, 1, true, {"value"}});
+  EXPECT_THAT(plate_fit(problem).parameters[1].advice,
+              AllOf(HasSubstr("do the drop experiment"), Not(HasSubstr("add ["))));
+}
+
+TEST(JointFit, WhereTheBenchScattersMoreReadingsAreAdvised) {
+  EXPECT_THAT(plate_fit(plate(20, 30, 4)).parameters[0].advice,
+              HasSubstr("take more bench readings of tilt: 16 in place of 4"));
 }
 
 TEST(JointFit, AParameterThatNothingMeasuredDependsOnStaysOpenAndTheOthersAreFound) {

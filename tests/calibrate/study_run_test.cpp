@@ -87,6 +87,7 @@ TEST_F(StudyRun, TakesItsProblemFromTheStudy) {
   ASSERT_THAT(made.problem.parameters, SizeIs(2));
   EXPECT_EQ(made.problem.parameters[0].name, "contact.particle_wall.restitution");
   EXPECT_EQ(made.problem.parameters[0].min, .2);
+  EXPECT_THAT(made.problem.parameters[0].told_by, ElementsAre("drop"));
   ASSERT_THAT(made.problem.observables, SizeIs(2));
   EXPECT_EQ(made.problem.observables[0].mean, 25);
   EXPECT_EQ(made.problem.observables[0].n, 5);

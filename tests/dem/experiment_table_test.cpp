@@ -1,6 +1,8 @@
 #include "dem/study/experiment_table.h"
 
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include <gmock/gmock.h>
 
@@ -48,6 +50,16 @@ TEST(ExperimentTable, ATiltDependsOnSlidingFrictionAlone) {
   EXPECT_TRUE(has_grain_contacts(Experiment::roll_on_grains));
   EXPECT_FALSE(
       depends_on(entry_of(Experiment::roll_on_grains), "contact.particle_wall.rolling_friction"));
+}
+
+TEST(ExperimentTable, EveryCoefficientIsToldByAnExperiment) {
+  std::set<std::string_view> told;
+  for (const ExperimentEntry& entry : all_experiments()) {
+    if (entry.tells.empty()) continue;
+    EXPECT_TRUE(depends_on(entry, entry.tells)) << entry.name;
+    told.insert(entry.tells);
+  }
+  EXPECT_EQ(told.size(), 6U);
 }
 
 TEST(ExperimentTable, CostsGrowWithStiffnessAndGrains) {
