@@ -19,11 +19,9 @@ std::string other_setting(const dem::ExperimentEntry& entry, const dem::Protocol
     if (std::abs(seen.value - meant) <= kSameSetting * meant + seen.uncertainty) continue;
     return fmt::format(
         "{0} = {1:.4g} ± {2:.2g} in it, and the study has {3} = {4:g} in [experiment.{5}]. Rule: "
-        "the "
-        "same within {6:g} % and the film's interval. Fix: write {3} = {1:.4g} there if the bench "
-        "was set so. If the film plays slower or faster than it was taken, give a sheet of "
-        "readings "
-        "instead: repose track {5} --scale ... --csv {5}.csv.",
+        "the same within {6:g} % and the film's interval. Fix: write {3} = {1:.4g} there if the "
+        "bench was set so. Of films that show it wrongly, as those in slow motion, give a sheet of "
+        "readings instead: repose track {5} --scale ... --csv {5}.csv.",
         column, seen.value, seen.uncertainty, key, meant, entry.name, 100 * kSameSetting);
   }
   return {};

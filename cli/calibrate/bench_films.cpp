@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "calibrate/study/bench_films.h"
+#include "calibrate/study/bench_setting.h"
 #include "cli/common/picture_list.h"
 #include "cli/track/track_batch.h"
 #include "vision/measure/status_name.h"
@@ -19,17 +21,27 @@ calibrate::FilmNumber number_of(const vision::Estimate& estimate) {
 }
 
 /// What a person should look at, warning by warning.
-std::string warnings_of(const vision::DropTrack& drop) {
+std::string warnings_text(const TrackedFilm& film) {
   std::string text;
-  for (const vision::Warning& warning : drop.warnings) {
+  for (const vision::Warning& warning : warnings_of(film)) {
     text += (text.empty() ? "" : "; ") + warning.message;
   }
   return text;
 }
 
+/// As a bench would write it down.
+std::map<std::string, calibrate::FilmNumber> row_of(const TrackedFilm& film) {
+  if (film.filmed == Filmed::roll) {
+    return {{"incline_deg", number_of(film.roll.incline_deg)},
+            {"released_mm", number_of(film.roll.released_mm)},
+            {"stopped_mm", number_of(film.roll.stopped_mm)}};
+  }
+  const vision::Bounce& first = film.drop.bounces.front();
+  return {{"drop_mm", number_of(first.drop_mm)}, {"rebound_mm", number_of(first.rebound_mm)}};
+}
+
 calibrate::FilmReading reading_of(const TrackedFilm& film, const dem::ExperimentEntry& entry,
                                   const dem::Protocol& protocol) {
-  const vision::DropTrack& drop = film.drop;
   const std::string named = film.file + ": ";
   const bool is_named = film.error.starts_with(named);
   calibrate::FilmReading reading{.experiment = std::string(entry.name),
@@ -38,15 +50,11 @@ calibrate::FilmReading reading_of(const TrackedFilm& film, const dem::Experiment
                                  .value = {},
                                  .reason = film.error.substr(is_named ? named.size() : 0)};
   if (!film.error.empty()) return reading;
-  reading.status = name_of(drop.status);
-  if (drop.status != vision::MeasureStatus::ok) {
-    reading.reason = drop.bounces.empty() ? drop.reason : warnings_of(drop);
+  reading.status = name_of(status_of(film));
+  if (status_of(film) != vision::MeasureStatus::ok) {
+    reading.reason = has_reading(film) ? warnings_text(film) : reason_of(film);
   }
-  if (drop.bounces.empty()) return reading;
-  const vision::Bounce& first = drop.bounces.front();
-  read_row(entry, protocol,
-           {{"drop_mm", number_of(first.drop_mm)}, {"rebound_mm", number_of(first.rebound_mm)}},
-           reading);
+  if (has_reading(film)) read_row(entry, protocol, row_of(film), reading);
   return reading;
 }
 
@@ -68,6 +76,10 @@ void read_films_of(const dem::ExperimentEntry& entry, const dem::StudyExperiment
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
   TrackPlan tracking;
+  if (entry.experiment == dem::Experiment::roll) {
+    tracking.filmed = Filmed::roll;
+    tracking.released_mm = calibrate::protocol_value(entry, described.protocol, "release_mm");
+  }
   tracking.videos = std::move(list.files);
   tracking.threads = plan.jobs;
   // Nothing is written yet that an interrupt could leave half done: it ends the program at once.

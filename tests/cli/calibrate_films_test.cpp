@@ -8,6 +8,7 @@
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_roll.h"
 
 namespace repose::testing {
 namespace {
@@ -117,6 +118,36 @@ TEST_F(CalibrateFilms, APatternThatNoFileHasIsAnError) {
       run({"study.toml", "--set", "experiment.drop.measured = { videos = [\"drops\"] }"});
   EXPECT_EQ(empty.exit_code, 2);
   EXPECT_THAT(empty.err, HasSubstr("no films in this folder"));
+}
+
+TEST_F(CalibrateFilms, OfRollsHaveTheirMillimetresFromTheRelease) {
+  const DrawnRoll roll{.width = 300,
+                       .height = 150,
+                       .seconds = 1.9,
+                       .mm_per_px = 1.2,
+                       .stopped_mm = 150,
+                       .radius_px = 6,
+                       .release_s = .2,
+                       .roll_s = 1.2};
+  render::Film film(path("roll.mp4"), roll.frames_per_s);
+  for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
+  film.close();
+  const auto with_incline = [](const std::string& degrees) {
+    return "experiment.roll = { incline_deg = " + degrees +
+           ", release_mm = 100, measured = { videos = [\"roll.mp4\"] } }";
+  };
+  const Words words = {"study.toml", "--dry-run", "--set",
+                       "experiment.drop.measured = { values = [90] }", "--set"};
+  const auto told = [&](const std::string& setting) {
+    Words all = words;
+    all.push_back(setting);
+    return run(all);
+  };
+  EXPECT_EQ(told(with_incline("20")).exit_code, 0) << told(with_incline("20")).err;
+  const Finished other = told(with_incline("25"));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("roll.mp4: incline_deg = "),
+                               HasSubstr("the study has incline_deg = 25 in [experiment.roll]")));
 }
 
 TEST_F(CalibrateFilms, AreTakenFromFoldersToo) {
