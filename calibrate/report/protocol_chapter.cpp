@@ -1,6 +1,7 @@
 // What was done on the bench and simulated: grain, wall, each experiment's settings, what was
 // measured, and which of it the study does not state.
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -94,11 +95,27 @@ void add_materials(const StudyRecord& record, const dem::ConfigValue& stated, Ta
   wall.add_to(table, "wall: " + shortened(study.model.wall_material.name), "–");
 }
 
+std::string films_text(const StudyRecord& record, std::string_view experiment) {
+  int films = 0, counted = 0;
+  for (const FilmReading& film : record.films) {
+    if (film.experiment != experiment) continue;
+    ++films;
+    counted += film.value ? 1 : 0;
+  }
+  return films == 0
+             ? ""
+             : fmt::format("{} film{}, {} of which could be read", films, films == 1 ? "" : "s",
+                           counted == films ? "all" : fmt::format("{}", counted));
+}
+
 /// "10 readings", "mean of 10, scatter assumed".
-std::string measured_text(const dem::Measured& measured, std::size_t pictures) {
+std::string measured_text(const StudyRecord& record, const dem::ExperimentEntry& entry,
+                          const dem::Measured& measured) {
+  const std::size_t pictures = entry.is_pictured ? record.pictures.size() : 0;
   if (pictures > 0) {
     return fmt::format("{} photograph{} of heaps", pictures, pictures == 1 ? "" : "s");
   }
+  if (!measured.videos.empty()) return films_text(record, entry.name);
   if (!measured.values.empty()) {
     return fmt::format("{} reading{}{}", measured.values.size(),
                        measured.values.size() == 1 ? ", scatter assumed" : "s",
@@ -123,9 +140,35 @@ void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry
   }
   settings.add("fraction of the real stiffness", shown(described->second.stiffness_factor),
                states(stated, "stiffness_factor"));
-  const std::size_t pictures = entry.is_pictured ? record.pictures.size() : 0;
   settings.add_to(table, std::string(entry.name),
-                  measured_text(described->second.measured, pictures));
+                  measured_text(record, entry, described->second.measured));
+}
+
+/// What each film gave, or why it gave nothing.
+void add_films(const StudyRecord& record, Chapter& chapter) {
+  if (record.films.empty()) return;
+  Table table{.name = "films",
+              .title =
+                  "Films and the readings taken from them; ± is the half-width of the 95 % "
+                  "interval",
+              .data = {.columns = {{.name = "film", .unit = {}},
+                                   {.name = "experiment", .unit = {}},
+                                   {.name = "reading", .unit = {}},
+                                   {.name = "±", .unit = {}},
+                                   {.name = "unit", .unit = {}},
+                                   {.name = "status", .unit = {}},
+                                   {.name = "remark", .unit = {}}},
+                       .rows = {}}};
+  for (const FilmReading& film : record.films) {
+    const auto if_read = [&](double value) {
+      return cell(film.value ? std::optional(value) : std::nullopt);
+    };
+    table.data.add({shortened(film.file.filename().string()), film.experiment,
+                    if_read(film.value.value_or(0)), if_read(film.uncertainty),
+                    std::string(dem::experiment_named(film.experiment).unit), film.status,
+                    film.reason.empty() ? "–" : shortened(film.reason, 400)});
+  }
+  chapter.blocks.push_back(std::move(table));
 }
 
 }  // namespace
@@ -147,6 +190,7 @@ Chapter protocol_chapter(const ReportedStudy& study) {
     add_experiment(*study.record, entry, within(experiments, std::string(entry.name)), table);
   }
   chapter.blocks.push_back(std::move(table));
+  add_films(*study.record, chapter);
   chapter.blocks.push_back(
       Paragraph{"Each experiment was simulated as it was done on the bench. The fraction of the "
                 "real stiffness is that of the simulations, including softening by the budget."});

@@ -9,22 +9,11 @@
 
 #include "base/error_list.h"
 #include "calibrate/statistics/bench/sheet.h"
+#include "calibrate/study/bench_setting.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
-
-/// A height or slope measured anew for each reading differs a little from the one that was set.
-constexpr double kSameSetting = .01;
-
-/// What the protocol has for a key of a study file.
-double protocol_value(const dem::ExperimentEntry& entry, dem::Protocol protocol,
-                      std::string_view key) {
-  const std::vector<dem::ProtocolKey> keys = entry.keys(protocol);
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const auto& one) { return one.name == key; });
-  return dem::value_of(*found).value();
-}
 
 /// Readings taken in another way are no readings of this experiment.
 void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,

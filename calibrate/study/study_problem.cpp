@@ -62,6 +62,15 @@ std::vector<Parameter> open_parameters(const dem::Study& study) {
   return parameters;
 }
 
+/// Few readings may lie nearer to each other than any of them is known: they scatter by as much at
+/// least. What is assumed of the scatter is that of the grains, and leaves it out.
+void count_uncertainty(double of_each, Observable& observable) {
+  if (observable.sd) observable.sd = std::max(*observable.sd, of_each);
+  if (observable.sd || !(of_each > 0) || observable.mean == 0) return;
+  observable.assumed_sd_fraction =
+      std::hypot(kAssumedSdFraction, of_each / std::abs(observable.mean));
+}
+
 /// Mean, scatter and number of what was measured; the mean is none when nothing was.
 Observable observable_of(const dem::Measured& measured) {
   Observable observable;
@@ -74,6 +83,7 @@ Observable observable_of(const dem::Measured& measured) {
   observable.mean = repeats.mean;
   observable.sd = repeats.sd;
   observable.n = repeats.n;
+  count_uncertainty(measured.value_uncertainty.value_or(0), observable);
   return observable;
 }
 
@@ -174,7 +184,7 @@ class Maker {
     observable.most = readable.to;
     if (!observable.sd || observable.n < 2) {
       observable.sd.reset();
-      observable.assumed_sd_fraction = kAssumedSdFraction;
+      observable.assumed_sd_fraction = observable.assumed_sd_fraction.value_or(kAssumedSdFraction);
     }
     made_.problem.observables.push_back(std::move(observable));
   }

@@ -70,6 +70,33 @@ std::vector<SheetReadings> sheets_in(const Json& json) {
   return sheets;
 }
 
+Json films_json(const std::vector<FilmReading>& films) {
+  Json json = Json::array();
+  for (const FilmReading& film : films) {
+    json.push_back({{"experiment", film.experiment},
+                    {"file", film.file.string()},
+                    {"status", film.status},
+                    {"value", film.value ? Json(*film.value) : Json(nullptr)},
+                    {"uncertainty", film.uncertainty},
+                    {"reason", film.reason}});
+  }
+  return json;
+}
+
+std::vector<FilmReading> films_in(const Json& json) {
+  std::vector<FilmReading> films;
+  for (const Json& film : json) {
+    const Json& value = film.at("value");
+    films.push_back({.experiment = film.at("experiment"),
+                     .file = film.at("file").get<std::string>(),
+                     .status = film.at("status"),
+                     .value = value.is_null() ? std::nullopt : std::optional<double>(value),
+                     .uncertainty = film.at("uncertainty"),
+                     .reason = film.at("reason")});
+  }
+  return films;
+}
+
 Json notes_json(const StudyNotes& notes) {
   const StudyIdentity& study = notes.study;
   return {{"program", study.program},
@@ -78,6 +105,7 @@ Json notes_json(const StudyNotes& notes) {
           {"budget", {{"name", study.budget}, {"description", study.budget_description}}},
           {"pictures", pictures_json(notes.pictures)},
           {"sheets", sheets_json(notes.sheets)},
+          {"films", films_json(notes.films)},
           {"files", notes.fingerprints}};
 }
 
@@ -93,6 +121,7 @@ StudyNotes notes_in(const Json& json) {
                     .budget_description = budget.at("description")},
           .pictures = pictures_in(json.at("pictures")),
           .sheets = sheets_in(json.value("sheets", Json::array())),  // earlier versions had none
+          .films = films_in(json.value("films", Json::array())),     // nor these
           .fingerprints = json.value("files", std::map<std::string, std::string>())};
 }
 
@@ -115,8 +144,9 @@ StudyIdentity identity_of(const StudyRecord& record) {
 
 dem::Study as_simulated(dem::Study study, const Budget& budget,
                         const std::vector<PictureReading>& pictures,
-                        const std::vector<SheetReadings>& sheets) {
-  study = with_readings(std::move(study), sheets);
+                        const std::vector<SheetReadings>& sheets,
+                        const std::vector<FilmReading>& films) {
+  study = with_films(with_readings(std::move(study), sheets), films);
   const auto heap = study.experiments.find(dem::Experiment::heap);
   if (heap == study.experiments.end()) return study;
   heap->second.stiffness_factor *= budget.heap_softening;
@@ -156,6 +186,7 @@ void write_study_record(const fs::path& folder, const StudyRecord& record) {
   const StudyNotes notes{.study = identity_of(record),
                          .pictures = record.pictures,
                          .sheets = record.sheets,
+                         .films = record.films,
                          .fingerprints = {{kStudyCopy, base::fingerprint({study})},
                                           {kClumpCopy, base::fingerprint({clump})}}};
   keep(folder / kStudyCopy, study);
@@ -191,9 +222,10 @@ StudyRecord read_study_record(const fs::path& folder) {
   record.budget = budget_named(notes->study.budget);
   record.pictures = notes->pictures;
   record.sheets = notes->sheets;
+  record.films = notes->films;
   record.study =
       as_simulated(dem::read_study_copy(kept(folder, kStudyCopy, *notes), record.settings),
-                   record.budget, record.pictures, record.sheets);
+                   record.budget, record.pictures, record.sheets, record.films);
   record.study.file = notes->study.file;
   record.study.hash = notes->study.hash;
   record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));

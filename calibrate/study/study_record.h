@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/study/bench_films.h"
 #include "calibrate/study/bench_sheets.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/shape/clump/clump_file.h"
@@ -40,6 +41,7 @@ struct StudyNotes {
   StudyIdentity study;
   std::vector<PictureReading> pictures;
   std::vector<SheetReadings> sheets;
+  std::vector<FilmReading> films;  ///< earlier versions had none
   /// Of study.toml and clump.json, by name; those of earlier versions have none.
   std::map<std::string, std::string> fingerprints;
 };
@@ -47,7 +49,7 @@ struct StudyNotes {
 /// What a study folder is about: enough to know, from the folder alone, what was sought, of what,
 /// and how.
 struct StudyRecord {
-  /// As simulated: heaps softened as the budget says, sheets read, pictures measured.
+  /// As simulated: heaps softened as the budget says, sheets read, pictures and films measured.
   dem::Study study;
   dem::ClumpFile grain;
   std::vector<std::string> settings;  ///< laid over the study file
@@ -55,15 +57,17 @@ struct StudyRecord {
   Budget budget;
   std::vector<PictureReading> pictures;
   std::vector<SheetReadings> sheets;
+  std::vector<FilmReading> films;
 };
 
 StudyIdentity identity_of(const StudyRecord& record);
 
-/// The study as simulated, from the study as read: readings of its sheets and angles of its
-/// pictures are its measured values, and its heaps as soft as the budget says.
+/// The study as simulated, from the study as read: readings of its sheets and films and angles of
+/// its pictures are its measured values, and its heaps as soft as the budget says.
 dem::Study as_simulated(dem::Study study, const Budget& budget,
                         const std::vector<PictureReading>& pictures,
-                        const std::vector<SheetReadings>& sheets);
+                        const std::vector<SheetReadings>& sheets,
+                        const std::vector<FilmReading>& films);
 
 /// Writes FOLDER/study.toml (a copy), clump.json and study.json. The study's file must be there.
 /// @throws std::invalid_argument  they cannot be written.

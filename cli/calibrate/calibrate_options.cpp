@@ -10,6 +10,7 @@
 
 #include "calibrate/experiment/picture_angles.h"
 #include "calibrate/study/study_folder.h"
+#include "cli/calibrate/bench_films.h"
 #include "cli/common/degrees.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
@@ -64,7 +65,7 @@ void measure_pictures(const std::vector<std::filesystem::path>& pictures, Calibr
   if (pictures.empty()) return;
   std::vector<std::string> names;
   for (const std::filesystem::path& picture : pictures) names.push_back(picture.string());
-  const PictureList list = list_pictures(names);
+  const FileList list = list_pictures(names);
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
   bool any = false;
@@ -155,10 +156,11 @@ CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
     plan.record.sheets = calibrate::read_sheets(plan.record.study, calibrate::NoRows::refused);
   });
   measure_pictures(dem::measured_in(plan.record.study, dem::Experiment::heap).pictures, plan);
+  read_films(plan);
   if (!plan.errors.empty()) return plan;
   plan.study = plan.record.study;
   plan.record.study = calibrate::as_simulated(plan.study, plan.record.budget, plan.record.pictures,
-                                              plan.record.sheets);
+                                              plan.record.sheets, plan.record.films);
   attempt(plan.errors, [&] {
     plan.record.grain = dem::build_grain(plan.record.study.grain);
     plan.problem = calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);

@@ -31,8 +31,8 @@ struct BudgetPlan {
 
 BudgetPlan plan_of(const CalibratePlan& plan, const std::string& name) {
   BudgetPlan made{.budget = calibrate::budget_named(name), .problem = {}, .estimates = {}};
-  const dem::Study study =
-      calibrate::as_simulated(plan.study, made.budget, plan.record.pictures, plan.record.sheets);
+  const dem::Study study = calibrate::as_simulated(plan.study, made.budget, plan.record.pictures,
+                                                   plan.record.sheets, plan.record.films);
   made.problem = problem_of(study, plan.record.grain, made.budget).problem;
   made.estimates = estimate_of(made.problem, made.budget);
   return made;

@@ -4,11 +4,13 @@
 #include <array>
 #include <cctype>
 #include <set>
+#include <span>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/file_pattern.h"
 #include "vision/picture/made_here.h"
 
 namespace repose::cli {
@@ -16,49 +18,115 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add_folder(const fs::path& folder, PictureList& list) {
+/// Pictures or films.
+struct FileKind {
+  std::string_view name;                      ///< "pictures"
+  std::string_view done;                      ///< to one: "measured"
+  std::string_view usual;                     ///< ".jpg, .png, .tif, .bmp or .webp"
+  std::span<const std::string_view> endings;  ///< all, small
+};
+
+constexpr std::array<std::string_view, 8> kPictureEndings{".jpg",  ".jpeg", ".png",  ".tif",
+                                                          ".tiff", ".bmp",  ".webp", ".heic"};
+constexpr FileKind kPictures{.name = "pictures",
+                             .done = "measured",
+                             .usual = ".jpg, .png, .tif, .bmp or .webp",
+                             .endings = kPictureEndings};
+constexpr std::array<std::string_view, 7> kFilmEndings{".mp4", ".m4v",  ".mov", ".avi",
+                                                       ".mkv", ".webm", ".gif"};
+constexpr FileKind kFilms{.name = "films",
+                          .done = "tracked",
+                          .usual = ".mp4, .mov, .avi, .mkv, .webm or .gif",
+                          .endings = kFilmEndings};
+
+bool has_ending(const fs::path& file, const FileKind& kind) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return std::find(kind.endings.begin(), kind.endings.end(), ending) != kind.endings.end();
+}
+
+/// Adds the files of a folder whose names are as wanted, sorted.
+/// @param named  by the user: the folder, or a pattern in it
+/// @param none   what is wrong where there is none
+template <typename Wanted>
+void add_files(const fs::path& named, const fs::path& folder, const Wanted& is_wanted,
+               const std::string& none, FileList& list) {
   std::error_code error;
   std::vector<fs::path> found;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    const bool is_hidden = entry->path().filename().string().starts_with('.');
-    if (!is_hidden && has_picture_ending(entry->path())) found.push_back(entry->path());
+    if (is_wanted(entry->path())) found.push_back(entry->path());
   }
   if (error) {
     list.errors.push_back(
-        fmt::format("{}: the folder cannot be read ({}). Fix: get permission to read it.",
-                    folder.string(), error.message()));
-    return;
-  }
-  if (found.empty()) {
-    list.errors.push_back(
-        fmt::format("{}: no pictures in this folder (subfolders are not searched). Fix: name a "
-                    "folder with .jpg, .png, .tif, .bmp or .webp files in it.",
-                    folder.string()));
+        fmt::format("{}: the folder {} cannot be read ({}). Fix: correct its name, or get "
+                    "permission to read it.",
+                    named.string(), folder.string(), error.message()));
+  } else if (found.empty()) {
+    list.errors.push_back(fmt::format("{}: {}", named.string(), none));
   }
   std::sort(found.begin(), found.end());
   list.files.insert(list.files.end(), found.begin(), found.end());
 }
 
-void drop_repeated(PictureList& list) {
+void add_folder(const fs::path& folder, const FileKind& kind, FileList& list) {
+  const auto is_wanted = [&](const fs::path& file) {
+    return !file.filename().string().starts_with('.') && has_ending(file, kind);
+  };
+  add_files(folder, folder, is_wanted,
+            fmt::format("no {} in this folder (subfolders are not searched). Fix: name a folder "
+                        "with {} files in it.",
+                        kind.name, kind.usual),
+            list);
+}
+
+void add_matching(const fs::path& pattern, FileList& list) {
+  const auto is_wanted = [&](const fs::path& file) {
+    std::error_code ignored;
+    return base::matches(file.filename().string(), pattern) && !fs::is_directory(file, ignored);
+  };
+  const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+  add_files(pattern, folder, is_wanted,
+            "no file has such a name. Fix: correct the pattern; * stands for any letters and ? for "
+            "one, in names of files and not of folders.",
+            list);
+}
+
+void drop_repeated(const FileKind& kind, FileList& list) {
   std::set<fs::path> seen;
   std::erase_if(list.files, [&](const fs::path& file) {
     if (seen.insert(identity(file)).second) return false;
-    list.notes.push_back(fmt::format("{}: named twice, measured once", file.string()));
+    list.notes.push_back(fmt::format("{}: named twice, {} once", file.string(), kind.done));
     return true;
   });
 }
 
+FileList list_files(const std::vector<std::string>& names, const FileKind& kind) {
+  FileList list;
+  for (const std::string& name : names) {
+    std::error_code ignored;
+    if (fs::is_directory(name, ignored)) {
+      add_folder(name, kind, list);
+    } else if (base::is_pattern(name)) {
+      add_matching(name, list);
+    } else {
+      list.files.emplace_back(name);
+    }
+  }
+  drop_repeated(kind, list);
+  return list;
+}
+
 }  // namespace
 
-bool has_picture_ending(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  constexpr std::array<std::string_view, 8> kEndings{".jpg",  ".jpeg", ".png",  ".tif",
-                                                     ".tiff", ".bmp",  ".webp", ".heic"};
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+bool has_picture_ending(const fs::path& file) { return has_ending(file, kPictures); }
+
+FileList list_pictures(const std::vector<std::string>& names) {
+  return list_files(names, kPictures);
 }
+
+FileList list_films(const std::vector<std::string>& names) { return list_files(names, kFilms); }
 
 std::string naming_file(const std::string& file, const std::string& error) {
   return error.starts_with(file + ": ") ? error : file + ": " + error;
@@ -69,20 +137,6 @@ fs::path identity(const fs::path& file) {
   // Made absolute first: of a relative name that does not exist nothing would be resolved.
   const fs::path canonical = fs::weakly_canonical(fs::absolute(file), error);
   return error ? file : canonical;
-}
-
-PictureList list_pictures(const std::vector<std::string>& names) {
-  PictureList list;
-  for (const std::string& name : names) {
-    std::error_code ignored;
-    if (fs::is_directory(name, ignored)) {
-      add_folder(name, list);
-    } else {
-      list.files.emplace_back(name);
-    }
-  }
-  drop_repeated(list);
-  return list;
 }
 
 OverlayFiles name_overlays(const std::vector<fs::path>& pictures, const fs::path& folder) {

@@ -15,16 +15,19 @@ std::string naming_file(const std::string& file, const std::string& error);
 /// By its name.
 bool has_picture_ending(const std::filesystem::path& file);
 
-/// What the names on the command line come down to.
-struct PictureList {
+/// What names on the command line or in a study come down to.
+struct FileList {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> errors;  ///< "NAME: what. Fix: ..."
   std::vector<std::string> notes;   ///< for the user to know, no errors
 };
 
-/// Folders become the pictures in them, by the names' endings, sorted by name, without subfolders.
-/// A picture named twice is taken once. Files need not exist: reading them says so.
-PictureList list_pictures(const std::vector<std::string>& names);
+/// Folders become the pictures in them, by the names' endings, without subfolders, and patterns
+/// ("heaps/*.jpg") the files that they match; sorted by name. A picture named twice is taken once.
+/// Files need not exist: reading them says so.
+FileList list_pictures(const std::vector<std::string>& names);
+/// The same with films.
+FileList list_films(const std::vector<std::string>& names);
 
 /// Where the overlay of each picture goes.
 struct OverlayFiles {

@@ -83,7 +83,7 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
     plan.errors.emplace_back("--report -: a page cannot be shown on a terminal. Fix: name a file.");
   }
 
-  PictureList list = list_pictures(arguments.pictures);
+  FileList list = list_pictures(arguments.pictures);
   plan.pictures = std::move(list.files);
   plan.notes = std::move(list.notes);
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());

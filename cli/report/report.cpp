@@ -33,6 +33,7 @@ std::vector<fs::path> files_read(const fs::path& folder) {
   }
   if (const auto notes = calibrate::read_study_notes(folder)) {
     for (const calibrate::PictureReading& picture : notes->pictures) files.push_back(picture.file);
+    for (const calibrate::FilmReading& film : notes->films) files.push_back(film.file);
   }
   return files;
 }

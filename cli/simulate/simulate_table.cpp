@@ -97,6 +97,10 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs
   if (!measured.pictures.empty()) {
     return "measured in pictures: repose measure gives their angle\n";
   }
+  if (!measured.videos.empty()) {
+    return fmt::format("measured in films: repose track {} gives their readings\n",
+                       dem::name_of(plan.experiment));
+  }
   std::optional<double> mean = measured.mean, sd = measured.sd;
   std::optional<int> n = measured.count;
   if (!measured.values.empty()) {

@@ -28,9 +28,8 @@ ExitCode exit_code(const std::vector<TrackedFilm>& films) {
   if (any([](const auto& film) { return film.is_internal_error; })) return ExitCode::internal_error;
   if (any([](const auto& film) { return !film.error.empty() || !film.overlay_error.empty(); }))
     return ExitCode::bad_input;
-  return any([](const auto& film) { return !film.drop.bounces.empty(); })
-             ? ExitCode::done
-             : ExitCode::nothing_measurable;
+  return any([](const auto& film) { return has_reading(film); }) ? ExitCode::done
+                                                                 : ExitCode::nothing_measurable;
 }
 
 }  // namespace
@@ -50,9 +49,10 @@ ExitCode run_track(const TrackArguments& arguments) {
   Outputs outputs;
   const bool any_was_read =
       std::any_of(films.begin(), films.end(), [](const auto& film) { return film.error.empty(); });
-  if (any_was_read) outputs.show(track_table(films, columns_of(stdout), wants_colour(stdout)));
+  if (any_was_read)
+    outputs.show(track_table(films, plan.filmed, columns_of(stdout), wants_colour(stdout)));
   outputs.add(arguments.json_file, track_json(films));
-  outputs.add(arguments.csv_file, track_csv(films, plan.tells_all_bounces));
+  outputs.add(arguments.csv_file, track_csv(films, plan));
   outputs.write_files();
   print_errors(films);
   outputs.write();

@@ -12,6 +12,7 @@ struct TrackArguments {
   std::string experiment;
   std::vector<std::string> videos;
   std::string scale;
+  std::string released;
   std::string bounces;
   std::string overlay;
   std::string json_file;

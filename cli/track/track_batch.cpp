@@ -14,6 +14,7 @@
 #include "cli/common/picture_list.h"
 #include "cli/common/progress.h"
 #include "vision/drawing/drop_overlay.h"
+#include "vision/drawing/roll_overlay.h"
 
 namespace repose::cli {
 namespace {
@@ -41,10 +42,15 @@ class FilmsProgress {
   ProgressLine line_;
 };
 
+vision::Picture overlay_of(const TrackedFilm& film, const std::string& title) {
+  return film.filmed == Filmed::drop ? vision::draw_drop_overlay(film.drop, title)
+                                     : vision::draw_roll_overlay(film.roll, title);
+}
+
 void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
   try {
     const std::string title = plan.videos[index].filename().string();
-    vision::write_picture(plan.overlays[index], vision::draw_drop_overlay(tracked.drop, title));
+    vision::write_picture(plan.overlays[index], overlay_of(tracked, title));
   } catch (const std::invalid_argument& error) {
     tracked.overlay_error = error.what();
   }
@@ -52,13 +58,20 @@ void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
 
 TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
                       const std::function<void(double)>& progress) {
-  TrackedFilm tracked{.file = plan.videos[index].string()};
+  TrackedFilm tracked{.file = plan.videos[index].string(), .filmed = plan.filmed};
   try {
-    tracked.drop = vision::track_drop(
-        plan.videos[index],
-        {.scale = plan.scale, .draws_strobe = !plan.overlays.empty(), .progress = progress});
+    const vision::TrackOptions options{.scale = plan.scale,
+                                       .released_mm = plan.released_mm,
+                                       .draws_strobe = !plan.overlays.empty(),
+                                       .progress = progress};
+    if (plan.filmed == Filmed::drop) {
+      tracked.drop = vision::track_drop(plan.videos[index], options);
+    } else {
+      tracked.roll = vision::track_roll(plan.videos[index], options);
+    }
     if (!plan.overlays.empty()) draw(plan, index, tracked);
     tracked.drop.strobe = {};
+    tracked.roll.strobe = {};
   } catch (const std::invalid_argument& error) {
     tracked.error = naming_file(tracked.file, error.what());
   } catch (const std::exception& error) {
@@ -71,6 +84,26 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
 }
 
 }  // namespace
+
+vision::MeasureStatus status_of(const TrackedFilm& film) {
+  return film.filmed == Filmed::drop ? film.drop.status : film.roll.status;
+}
+
+const std::string& reason_of(const TrackedFilm& film) {
+  return film.filmed == Filmed::drop ? film.drop.reason : film.roll.reason;
+}
+
+const std::vector<vision::Warning>& warnings_of(const TrackedFilm& film) {
+  return film.filmed == Filmed::drop ? film.drop.warnings : film.roll.warnings;
+}
+
+const vision::FilmFacts& facts_of(const TrackedFilm& film) {
+  return film.filmed == Filmed::drop ? film.drop.film : film.roll.film;
+}
+
+bool has_reading(const TrackedFilm& film) {
+  return film.filmed == Filmed::drop ? !film.drop.bounces.empty() : film.roll.has_reading;
+}
 
 std::vector<TrackedFilm> track_batch(const TrackPlan& plan,
                                      const std::atomic<bool>& is_interrupted) {

@@ -6,16 +6,26 @@
 
 #include "cli/track/track_options.h"
 #include "vision/track/drop_track.h"
+#include "vision/track/roll_track.h"
 
 namespace repose::cli {
 
 struct TrackedFilm {
   std::string file;
-  std::string error = {};  ///< why it could not be read; empty: `drop` says
+  std::string error = {};  ///< why it could not be read; empty: its track says
   bool is_internal_error = false;
-  vision::DropTrack drop = {};     ///< without the strobe picture, which is large
+  Filmed filmed = Filmed::drop;
+  vision::DropTrack drop = {};     ///< of what was filmed, without the
+  vision::RollTrack roll = {};     ///< strobe picture, which is large
   std::string overlay_error = {};  ///< why there is no overlay
 };
+
+/// What every track has.
+vision::MeasureStatus status_of(const TrackedFilm& film);
+const std::string& reason_of(const TrackedFilm& film);
+const std::vector<vision::Warning>& warnings_of(const TrackedFilm& film);
+const vision::FilmFacts& facts_of(const TrackedFilm& film);
+bool has_reading(const TrackedFilm& film);
 
 /// Tracks the plan's films, several at a time; in the plan's order, and the same at any number of
 /// threads. Stops in the middle of a film when `is_interrupted`; the result is then worth nothing.

@@ -14,14 +14,19 @@ MOV, AVI, MKV, WebM or GIF. FILE may be - for standard output.
   drop   The grain falls on a level plate and bounces. Parabolas are fitted
          to its flights, all with one gravity, which is the ruler: the ratio
          of the speeds at an impact needs no scale.
+  roll   The grain rolls down an incline and on along the flat until it lies
+         still. Two straight lines are fitted to its path; the foot is where
+         the planes below them meet. Distances are along the planes from
+         there, in millimetres of --scale, or of --released: how far up the
+         incline the grains were let go.
 
-Heights are those of a fall without air to the speed at the impact. With
+Heights of a drop are those of a fall without air to the speed at the impact. With
 --scale they are in its millimetres, and the film's frame rate is checked
 against gravity. Without, they follow from gravity and the frame rate, and are
 wrong where a film does not play as fast as it was taken (slow motion).
 
-The table for --csv has the columns drop_mm and rebound_mm that repose bench
-restitution reads, and a film's name as sample.
+The table for --csv has the columns that repose bench restitution reads, or
+repose bench rolling, and a film's name as sample.
 
 Uncertainties are half-widths of 95 % intervals.
 
@@ -29,6 +34,7 @@ Examples:
   repose track drop drop_01.mp4 --overlay drop_01.png
   repose track drop drop_01.mp4 drop_02.mp4 --csv drops.csv
   repose bench restitution drops.csv
+  repose track roll roll_01.mp4 --released 150 --csv rolls.csv
 )";
 
 }  // namespace
@@ -38,13 +44,15 @@ Command track_command() {
   return {
       .name = "track",
       .summary = "Read bench experiments off films",
-      .options = {{"experiment", "drop", "Which experiment is filmed", &given->experiment, true},
+      .options = {{"experiment", "drop|roll", "Which experiment is filmed", &given->experiment,
+                   true},
                   {"videos", "VIDEO ...", "Films, a repeat each", &given->videos, true},
                   {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale},
+                  {"--released", "MM", "Of rolls: way up the incline", &given->released},
                   {"--bounces", "first|all", "Bounces in the CSV table (first)", &given->bounces},
                   {"--overlay", "FILE.png|FOLDER", "Draw what was tracked", &given->overlay},
                   {"--json", "FILE|-", "All results, for programs", &given->json_file},
-                  {"--csv", "FILE|-", "A row for each bounce", &given->csv_file},
+                  {"--csv", "FILE|-", "A row for each bounce or roll", &given->csv_file},
                   {"--threads", "N", "Films at a time (all cores)", &given->threads}},
       .notes = kNotes,
       .missing = "an experiment and a film are needed. Fix: repose track drop VIDEO.",

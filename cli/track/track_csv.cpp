@@ -9,14 +9,23 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kHeader =
+constexpr const char* kDropHeader =
     "sample,bounce,drop_mm,rebound_mm,drop_uncertainty_mm,rebound_uncertainty_mm,"
     "restitution,restitution_uncertainty,time_s,status\n";
 
-std::string row_of(const TrackedFilm& film, std::size_t k) {
+constexpr const char* kRollHeader =
+    "sample,incline_deg,released_mm,stopped_mm,incline_uncertainty_deg,released_uncertainty_mm,"
+    "stopped_uncertainty_mm,stopped_s,status\n";
+
+std::string number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string sample_of(const TrackedFilm& film) {
+  return std::filesystem::path(film.file).stem().string();
+}
+
+std::string drop_row(const TrackedFilm& film, std::size_t k) {
   const vision::Bounce& bounce = film.drop.bounces[k];
-  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
-  const std::vector<std::string> cells = {std::filesystem::path(film.file).stem().string(),
+  const std::vector<std::string> cells = {sample_of(film),
                                           fmt::format("{}", k + 1),
                                           number(bounce.drop_mm.value),
                                           number(bounce.rebound_mm.value),
@@ -29,15 +38,33 @@ std::string row_of(const TrackedFilm& film, std::size_t k) {
   return base::csv_row(cells);
 }
 
+std::string roll_row(const TrackedFilm& film) {
+  const vision::RollTrack& roll = film.roll;
+  const std::vector<std::string> cells = {sample_of(film),
+                                          number(roll.incline_deg.value),
+                                          number(roll.released_mm.value),
+                                          number(roll.stopped_mm.value),
+                                          number(roll.incline_deg.uncertainty),
+                                          number(roll.released_mm.uncertainty),
+                                          number(roll.stopped_mm.uncertainty),
+                                          number(roll.stopped_s),
+                                          name_of(roll.status)};
+  return base::csv_row(cells);
+}
+
 }  // namespace
 
-std::string track_csv(const std::vector<TrackedFilm>& films, bool tells_all_bounces) {
-  std::string csv = kHeader;
+std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& plan) {
+  if (plan.filmed == Filmed::roll) {
+    std::string csv = kRollHeader;
+    for (const TrackedFilm& film : films) csv += has_reading(film) ? roll_row(film) : "";
+    return csv;
+  }
+  std::string csv = kDropHeader;
   for (const TrackedFilm& film : films) {
-    const std::size_t count = tells_all_bounces
-                                  ? film.drop.bounces.size()
-                                  : std::min<std::size_t>(1, film.drop.bounces.size());
-    for (std::size_t k = 0; k < count; ++k) csv += row_of(film, k);
+    const std::size_t bounces = film.drop.bounces.size();
+    const std::size_t count = plan.tells_all_bounces ? bounces : std::min<std::size_t>(1, bounces);
+    for (std::size_t k = 0; k < count; ++k) csv += drop_row(film, k);
   }
   return csv;
 }

@@ -52,7 +52,7 @@ Json film_json(const vision::FilmFacts& film) {
 }
 
 /// What is known of the path that has bounces.
-Json track_json(const vision::DropTrack& drop) {
+Json drop_track_json(const vision::DropTrack& drop) {
   Json gravity = nullptr, gravity_uncertainty = nullptr;
   if (drop.gravity_m_s2) {
     gravity = drop.gravity_m_s2->value;
@@ -69,19 +69,50 @@ Json track_json(const vision::DropTrack& drop) {
           {"path", path_json(drop.places)}};
 }
 
+Json roll_json(const vision::RollTrack& roll) {
+  return {{"stopped_mm", roll.stopped_mm.value},
+          {"stopped_uncertainty_mm", roll.stopped_mm.uncertainty},
+          {"released_mm", roll.released_mm.value},
+          {"released_uncertainty_mm", roll.released_mm.uncertainty},
+          {"incline_deg", roll.incline_deg.value},
+          {"incline_uncertainty_deg", roll.incline_deg.uncertainty},
+          {"stopped_s", roll.stopped_s},
+          {"foot_px", {roll.foot.x, roll.foot.y}},
+          {"released_px", {roll.released.x, roll.released.y}},
+          {"stopped_px", {roll.stopped.x, roll.stopped.y}}};
+}
+
+Json roll_track_json(const vision::RollTrack& roll) {
+  return {{"scale", roll.has_scale ? "given" : "released"},
+          {"mm_per_px", roll.mm_per_px},
+          {"noise_px", roll.noise_px},
+          {"grain_px", roll.grain_px},
+          {"path", path_json(roll.places)}};
+}
+
+/// What only the films of one experiment have.
+void add_readings(const TrackedFilm& film, Json& json) {
+  const bool has_track = has_reading(film);
+  if (film.filmed == Filmed::drop) {
+    json["bounces"] = bounces_json(film.drop.bounces);
+    json["track"] = has_track ? drop_track_json(film.drop) : Json();
+  } else {
+    json["roll"] = has_track ? roll_json(film.roll) : Json();
+    json["track"] = has_track ? roll_track_json(film.roll) : Json();
+  }
+}
+
 Json json_of(const TrackedFilm& film) {
-  const vision::DropTrack& drop = film.drop;
   Json json{{"file", film.file},
-            {"experiment", "drop"},
-            {"status", name_of(drop.status)},
-            {"bounces", bounces_json(drop.bounces)},
-            {"track", drop.bounces.empty() ? Json() : track_json(drop)},
-            {"film", film.error.empty() ? film_json(drop.film) : Json()},
-            {"warnings", warnings_json(drop.warnings)}};
+            {"experiment", film.filmed == Filmed::drop ? "drop" : "roll"},
+            {"status", name_of(status_of(film))}};
+  add_readings(film, json);
+  json["film"] = film.error.empty() ? film_json(facts_of(film)) : Json();
+  json["warnings"] = warnings_json(warnings_of(film));
   if (!film.error.empty()) {
     json["reason"] = film.error;
-  } else if (drop.status == vision::MeasureStatus::refused) {
-    json["reason"] = drop.reason;
+  } else if (status_of(film) == vision::MeasureStatus::refused) {
+    json["reason"] = reason_of(film);
   }
   return json;
 }

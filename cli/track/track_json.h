@@ -10,7 +10,8 @@ namespace repose::cli {
 /// All that is known of each film, as an array of one object a film.
 std::string track_json(const std::vector<TrackedFilm>& films);
 
-/// The table that `repose bench restitution` reads: a row for each first bounce, or for all.
-std::string track_csv(const std::vector<TrackedFilm>& films, bool tells_all_bounces);
+/// The table that `repose bench restitution` reads, of drops: a row for each first bounce, or for
+/// all; or `repose bench rolling`, of rolls.
+std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& plan);
 
 }  // namespace repose::cli

@@ -29,6 +29,28 @@ void read_scale(const std::string& text, TrackPlan& plan) {
   plan.scale = vision::ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
 }
 
+/// What a roll needs, and what only a roll has.
+void read_roll(const TrackArguments& arguments, TrackPlan& plan) {
+  plan.released_mm = read_positive({"--released", arguments.released, plan.errors},
+                                   "a distance in mm above 0", "--released 150");
+  if (plan.filmed == Filmed::drop) {
+    if (!arguments.released.empty()) {
+      plan.errors.emplace_back("--released: is for track roll. Fix: leave it out.");
+    }
+    return;
+  }
+  if (!arguments.bounces.empty()) {
+    plan.errors.emplace_back("--bounces: is for track drop. Fix: leave it out.");
+  }
+  if (arguments.scale.empty() == arguments.released.empty()) {
+    plan.errors.push_back(fmt::format(
+        "track roll: {}. Rule: millimetres come from --scale or from --released. Fix: --scale "
+        "X1,Y1,X2,Y2,MM of a ruler beside the way, or --released MM, how far up the incline from "
+        "its foot the grains were let go.",
+        arguments.scale.empty() ? "there is no scale" : "there are two scales"));
+  }
+}
+
 void read_overlay(const TrackArguments& arguments, TrackPlan& plan,
                   std::vector<OutputPlace>& places) {
   if (arguments.overlay.empty()) return;
@@ -52,9 +74,12 @@ void read_overlay(const TrackArguments& arguments, TrackPlan& plan,
 
 TrackPlan plan_track(const TrackArguments& arguments) {
   TrackPlan plan;
-  read_word({"track", arguments.experiment, plan.errors}, {"drop"});
+  plan.filmed = read_choice<Filmed>({"track", arguments.experiment, plan.errors},
+                                    {{"drop", Filmed::drop}, {"roll", Filmed::roll}})
+                    .value_or(plan.filmed);
   plan.videos = {arguments.videos.begin(), arguments.videos.end()};
   read_scale(arguments.scale, plan);
+  read_roll(arguments, plan);
   plan.tells_all_bounces = read_choice<bool>({"--bounces", arguments.bounces, plan.errors},
                                              {{"first", false}, {"all", true}})
                                .value_or(false);

@@ -10,11 +10,16 @@
 
 namespace repose::cli {
 
+/// The experiments that films are read of.
+enum class Filmed { drop, roll };
+
 /// A `repose track` that can be carried out.
 struct TrackPlan {
+  Filmed filmed = Filmed::drop;
   std::vector<std::filesystem::path> videos;
   std::vector<std::filesystem::path> overlays;  ///< one a film, or none
   std::optional<vision::ScaleBar> scale;
+  std::optional<double> released_mm;  ///< of rolls; in place of a scale
   bool tells_all_bounces = false;
   int threads = 1;
 

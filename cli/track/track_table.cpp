@@ -19,7 +19,7 @@ std::string cell(const vision::Estimate& estimate, int decimals) {
 
 Colour colour_of(const TrackedFilm& film, bool has_colour) {
   if (!has_colour) return Colour::none;
-  switch (film.drop.status) {
+  switch (status_of(film)) {
     case vision::MeasureStatus::ok:
       return Colour::green;
     case vision::MeasureStatus::flagged:
@@ -40,10 +40,24 @@ std::string scale_text(const vision::DropTrack& drop) {
                      drop.gravity_m_s2->value, drop.gravity_m_s2->uncertainty);
 }
 
-void add_film(Table& table, const TrackedFilm& film, bool has_colour) {
+/// Why there is no number, and what to know.
+void add_notes(Table& table, const TrackedFilm& film) {
+  if (film.error.empty() && status_of(film) == vision::MeasureStatus::refused) {
+    table.add_note(fmt::format("{}refused: ", kBelow), reason_of(film));
+  }
+  for (const vision::Warning& warning : warnings_of(film)) {
+    table.add_note(fmt::format("{}! ", kBelow), warning.message);
+  }
+}
+
+std::string status_text(const TrackedFilm& film) {
+  return film.error.empty() ? name_of(status_of(film)) : "not read";
+}
+
+void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
   const vision::DropTrack& drop = film.drop;
   const Colour colour = colour_of(film, has_colour);
-  const std::string status = film.error.empty() ? name_of(drop.status) : "not read";
+  const std::string status = status_text(film);
   if (drop.bounces.empty()) {
     table.add_row({film.file, kNothing, kNothing, kNothing, kNothing, kNothing, status}, colour);
   }
@@ -55,40 +69,69 @@ void add_film(Table& table, const TrackedFilm& film, bool has_colour) {
                   k == 0 ? colour : Colour::none);
   }
   if (!drop.bounces.empty()) table.add_note(kBelow, scale_text(drop));
-  if (film.error.empty() && drop.status == vision::MeasureStatus::refused) {
-    table.add_note(fmt::format("{}refused: ", kBelow), drop.reason);
-  }
-  for (const vision::Warning& warning : drop.warnings) {
-    table.add_note(fmt::format("{}! ", kBelow), warning.message);
-  }
+  add_notes(table, film);
 }
 
-std::string mean_text(const std::vector<TrackedFilm>& films) {
+void add_roll(Table& table, const TrackedFilm& film, bool has_colour) {
+  const vision::RollTrack& roll = film.roll;
+  const Colour colour = colour_of(film, has_colour);
+  const std::string status = status_text(film);
+  if (roll.has_reading) {
+    table.add_row({film.file, cell(roll.incline_deg, 1), cell(roll.released_mm, 1),
+                   cell(roll.stopped_mm, 1), fmt::format("{:.2f}", roll.stopped_s), status},
+                  colour);
+  } else {
+    table.add_row({film.file, kNothing, kNothing, kNothing, kNothing, status}, colour);
+  }
+  add_notes(table, film);
+}
+
+std::string mean_text(const std::vector<TrackedFilm>& films, Filmed filmed) {
   std::vector<double> values;
   for (const TrackedFilm& film : films) {
-    if (!film.drop.bounces.empty()) values.push_back(film.drop.bounces.front().restitution.value);
+    if (!has_reading(film)) continue;
+    values.push_back(filmed == Filmed::drop ? film.drop.bounces.front().restitution.value
+                                            : film.roll.stopped_mm.value);
   }
   if (values.size() < 2) return {};
   const calibrate::Summary summary = calibrate::summarise(values);
-  return fmt::format("mean of {} first bounces: {:.3f} ± {:.3f}, standard deviation {:.3f}",
-                     summary.n, summary.mean, summary.mean_uncertainty.value_or(0),
-                     summary.sd.value_or(0));
+  const auto text = [&](const char* of, int decimals, const char* unit) {
+    return fmt::format("mean of {0} {1}: {2:.{5}f} ± {3:.{5}f}{6}, standard deviation {4:.{5}f}{6}",
+                       summary.n, of, summary.mean, summary.mean_uncertainty.value_or(0),
+                       summary.sd.value_or(0), decimals, unit);
+  };
+  return filmed == Filmed::drop ? text("first bounces", 3, "") : text("rolls", 1, " mm");
+}
+
+Table empty_table(Filmed filmed) {
+  if (filmed == Filmed::drop) {
+    return Table({{.heading = "film"},
+                  number_column("bounce"),
+                  number_column("time [s]"),
+                  {.heading = "restitution"},
+                  {.heading = "drop [mm]"},
+                  {.heading = "rebound [mm]"},
+                  {.heading = "status"}});
+  }
+  return Table({{.heading = "film"},
+                {.heading = "incline [°]"},
+                {.heading = "released [mm]"},
+                {.heading = "stopped [mm]"},
+                number_column("after [s]"),
+                {.heading = "status"}});
 }
 
 }  // namespace
 
-std::string track_table(const std::vector<TrackedFilm>& films, int columns, bool has_colour) {
-  Table table({{.heading = "film"},
-               number_column("bounce"),
-               number_column("time [s]"),
-               {.heading = "restitution"},
-               {.heading = "drop [mm]"},
-               {.heading = "rebound [mm]"},
-               {.heading = "status"}});
-  for (const TrackedFilm& film : films) add_film(table, film, has_colour);
+std::string track_table(const std::vector<TrackedFilm>& films, Filmed filmed, int columns,
+                        bool has_colour) {
+  Table table = empty_table(filmed);
+  for (const TrackedFilm& film : films) {
+    filmed == Filmed::drop ? add_drop(table, film, has_colour) : add_roll(table, film, has_colour);
+  }
   Page page(columns);
   page.add(table);
-  const std::string mean = mean_text(films);
+  const std::string mean = mean_text(films, filmed);
   if (!mean.empty()) page.add(mean);
   return page.text();
 }

@@ -8,7 +8,9 @@
 
 namespace repose::cli {
 
-/// The films' bounces as a table, what is to be known of each film, and the mean of first bounces.
-std::string track_table(const std::vector<TrackedFilm>& films, int columns, bool has_colour);
+/// The films' bounces or rolls as a table, what is to be known of each film, and the mean of first
+/// bounces or of rolls.
+std::string track_table(const std::vector<TrackedFilm>& films, Filmed filmed, int columns,
+                        bool has_colour);
 
 }  // namespace repose::cli

@@ -39,6 +39,7 @@ ExperimentEntry drop_entry() {
           .sheet = {.test = "restitution",
                     .value = "rebound_mm",
                     .protocol = {{"drop_mm", "height_mm"}}},
+          .is_filmed = true,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<DropProtocol>(protocol).grains; },
           .softening_effect = "rebounds less than one with the real stiffness",

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file_pattern.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::dem {
@@ -15,18 +16,20 @@ namespace {
 
 constexpr const char* kMeasured =
     "measured = { values = [9.1, 9.6] }, { mean = 9.42, sd = 0.5, n = 10 }, { readings = "
-    "\"drops.csv\" } or, for a heap, { pictures = [\"photos\"] }";
+    "\"drops.csv\" } or, for a heap, { pictures = [\"photos\"] }, or, for a drop or roll, { videos "
+    "= "
+    "[\"drops/*.mp4\"] }";
 
 /// One way of saying it, and only one.
 void check_ways(Section& measured) {
   int ways = 0;
-  for (const char* way : {"values", "mean", "readings", "pictures"})
+  for (const char* way : {"values", "mean", "readings", "pictures", "videos"})
     ways += measured.has(way) ? 1 : 0;
   if (ways == 1) return;
   measured.errors().add(measured.place(),
                         fmt::format("{} has {}", measured.path(),
                                     ways == 0 ? "no values" : "more than one kind of values"),
-                        "values, or their mean, or a sheet of readings, or pictures",
+                        "values, or their mean, or a sheet of readings, or pictures, or videos",
                         std::string("for example ") + kMeasured);
 }
 
@@ -35,7 +38,39 @@ std::optional<double> read_tolerance(Section& measured) {
   return measured.number("tolerance", above(0, 1e6), "tolerance = 2");
 }
 
-Measured read_measured(Section& experiment, bool has_pictures, const NamedFiles& files) {
+/// Files, folders and patterns beside the study file.
+std::vector<std::filesystem::path> files_named(Section& measured, const std::string& key,
+                                               const std::string& example,
+                                               const NamedFiles& files) {
+  std::vector<std::filesystem::path> found;
+  const auto names = measured.texts(key, example);
+  for (const std::string& name : names.value_or(std::vector<std::string>{})) {
+    const std::filesystem::path path = files.folder / name;
+    found.push_back(
+        base::is_pattern(path) ? path : file_named(measured, *measured.value(key), name, files));
+  }
+  return found;
+}
+
+/// "drop, roll": experiments for which `is` holds.
+std::string names_of_those(bool ExperimentEntry::*is) {
+  std::string names;
+  for (const ExperimentEntry& entry : all_experiments()) {
+    if (entry.*is) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return names;
+}
+
+/// What cannot be photographed or filmed.
+void check_medium(Section& measured, const std::string& key, bool ExperimentEntry::*is,
+                  const ExperimentEntry& entry, const std::string& how) {
+  if (entry.*is || !measured.has(key)) return;
+  measured.wrong(*measured.value(key),
+                 fmt::format("{}: {}, and not {}", how, names_of_those(is), entry.name),
+                 "give values, their mean or a sheet of readings");
+}
+
+Measured read_measured(Section& experiment, const ExperimentEntry& entry, const NamedFiles& files) {
   Measured result;
   Section measured = experiment.section("measured");
   if (!measured.exists()) return result;
@@ -55,14 +90,12 @@ Measured read_measured(Section& experiment, bool has_pictures, const NamedFiles&
   if (const auto name = measured.text("readings", "readings = \"drops.csv\"")) {
     result.sheet = file_named(measured, *measured.value("readings"), *name, files);
   }
-  const auto names = measured.texts("pictures", "pictures = [\"photos\"]");
-  for (const std::string& name : names.value_or(std::vector<std::string>{})) {
-    result.pictures.push_back(file_named(measured, *measured.value("pictures"), name, files));
-  }
-  if (!has_pictures && measured.has("pictures")) {
-    measured.wrong(*measured.value("pictures"), "only heaps are measured in pictures",
-                   "give values or their mean");
-  }
+  result.pictures = files_named(measured, "pictures", "pictures = [\"photos\"]", files);
+  check_medium(measured, "pictures", &ExperimentEntry::is_pictured, entry,
+               "only this is measured in pictures");
+  result.videos = files_named(measured, "videos", "videos = [\"drops/*.mp4\"]", files);
+  check_medium(measured, "videos", &ExperimentEntry::is_filmed, entry,
+               "only this is read off films");
   measured.refuse_others();
   return result;
 }
@@ -112,7 +145,7 @@ void read_experiment(Section section, const ExperimentEntry& entry, const NamedF
   for (const ProtocolKey& key : entry.keys(described.protocol)) read_key(section, key);
   read_key(section,
            number_key("stiffness_factor", "0.01", above(0, 1), described.stiffness_factor));
-  described.measured = read_measured(section, entry.is_pictured, files);
+  described.measured = read_measured(section, entry, files);
   std::vector<std::string> measurable;
   for (const Reading& reading : entry.readings) {
     if (reading.is_measurable) measurable.emplace_back(reading.name);

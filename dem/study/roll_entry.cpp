@@ -42,6 +42,7 @@ ExperimentEntry roll_entry() {
       .sheet = {.test = "rolling",
                 .value = "stopped_mm",
                 .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},
+      .is_filmed = true,
       .usual = RollProtocol{},
       .keys = keys_of,
       .run =

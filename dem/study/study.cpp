@@ -141,8 +141,9 @@ std::vector<std::filesystem::path> files_of(const Study& study) {
   for (const auto& [experiment, described] : study.experiments) {
     const Measured& measured = described.measured;
     if (measured.sheet) files.push_back(*measured.sheet);
-    const auto& pictures = measured.pictures;
-    files.insert(files.end(), pictures.begin(), pictures.end());
+    for (const auto* named : {&measured.pictures, &measured.videos}) {
+      files.insert(files.end(), named->begin(), named->end());
+    }
   }
   return files;
 }

@@ -44,7 +44,8 @@ struct MeasuredReading {
 };
 
 /// What was measured on the bench: readings, or their mean and scatter, or a sheet of readings, or
-/// pictures to measure. All empty: nothing was. In the unit of the experiment (mm or degrees).
+/// pictures or films to measure. All empty: nothing was. In the unit of the experiment (mm or
+/// degrees).
 struct Measured {
   std::vector<double> values;
   std::optional<double> mean;
@@ -52,8 +53,12 @@ struct Measured {
   std::optional<int> count;
   /// A difference between bench and simulation up to this does not matter.
   std::optional<double> tolerance;
-  std::optional<std::filesystem::path> sheet;  ///< a table with the columns of its BenchSheet
-  std::vector<std::filesystem::path> pictures;
+  std::optional<std::filesystem::path> sheet;   ///< a table with the columns of its BenchSheet
+  std::vector<std::filesystem::path> pictures;  ///< files, folders and patterns ("heaps/*.jpg")
+  std::vector<std::filesystem::path> videos;    ///< the same
+  /// Standard uncertainty of a single one of the `values`, where it is known: they scatter by as
+  /// much at least.
+  std::optional<double> value_uncertainty;
   std::vector<MeasuredReading> also;
 };
 

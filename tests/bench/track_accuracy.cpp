@@ -1,7 +1,8 @@
 // How near repose track drop comes to what is known of drawn films, and how often its intervals
 // hold: films with many settings, written as H.264 and read again.
 //
-//   track_accuracy [--films 40] [--rates 30,60,240] [--threads N]
+//   track_accuracy [--experiment drop|roll] [--films 40] [--first-seed 1] [--rates 30,60,240]
+//   [--threads N]
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,18 @@
 #include "render/film/film.h"
 #include "tests/bench/median.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_roll.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/track/drop_track.h"
+#include "vision/track/roll_track.h"
 
 namespace {
 
 using repose::testing::DrawnDrop;
+using repose::testing::DrawnRoll;
 using repose::vision::Bounce;
 using repose::vision::DropTrack;
+using repose::vision::RollTrack;
 
 /// What a film gave.
 struct Row {
@@ -96,23 +101,114 @@ void print(double frames_per_s, const std::vector<Row>& rows) {
   std::fflush(stdout);
 }
 
+DrawnRoll random_roll(double frames_per_s, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto between = [&](double least, double most) {
+    return least + (most - least) * static_cast<double>(random()) / 4294967296.0;
+  };
+  DrawnRoll roll{.frames_per_s = frames_per_s, .seconds = 2.4, .seed = seed};
+  roll.incline_deg = between(12, 35);
+  roll.released_mm = between(70, 110);
+  roll.stopped_mm = between(90, 220);
+  roll.radius_px = between(5, 14);
+  roll.release_s = between(.2, .4);
+  roll.roll_s = between(.9, 1.5);
+  roll.exposure = between(.05, .8);
+  roll.noise = between(1, 4);
+  roll.lean_rad = between(-.02, .02);
+  roll.has_hand = random() % 2 == 0;
+  roll.goes_left = random() % 2 == 0;
+  return roll;
+}
+
+/// What a film of a roll gave.
+struct RollRow {
+  DrawnRoll drawn;
+  RollTrack track;
+};
+
+RollRow roll_row_of(DrawnRoll drawn, bool has_scale) {
+  // Without a ruler the place of release must be seen: the grain is held by a card or a thread.
+  if (!has_scale) drawn.has_hand = false;
+  const repose::testing::TemporaryFolder folder;
+  const auto file = folder.path() / "roll.mp4";
+  repose::render::Film film(file, drawn.frames_per_s);
+  for (int frame = 0; frame < drawn.frames(); ++frame) film.add(drawn.picture(frame));
+  film.close();
+  // A person points at its marks, within a pixel or so.
+  std::mt19937 random(drawn.seed);
+  std::normal_distribution<double> pointing(0, .5);
+  const repose::vision::ScaleBar ruler{
+      .line = {{40 + pointing(random), 20}, {440 + pointing(random), 20}},
+      .length_mm = 400 * drawn.mm_per_px};
+  repose::vision::TrackOptions options;
+  if (has_scale) options.scale = ruler;
+  if (!has_scale) options.released_mm = drawn.released_mm;
+  return {drawn, track_roll(file, options)};
+}
+
+void print(double frames_per_s, bool has_scale, const std::vector<RollRow>& rows) {
+  std::vector<double> errors, inclines;
+  int held = 0;
+  for (const RollRow& row : rows) {
+    if (!row.track.has_reading) {
+      fmt::print("  refused, seed {}: {}\n", row.drawn.seed, row.track.reason);
+      continue;
+    }
+    const double off = std::abs(row.track.stopped_mm.value - row.drawn.stopped_mm);
+    errors.push_back(100 * off / row.drawn.stopped_mm);
+    inclines.push_back(std::abs(row.track.incline_deg.value - row.drawn.incline_deg));
+    held += off <= row.track.stopped_mm.uncertainty ? 1 : 0;
+  }
+  if (errors.empty()) return;
+  std::sort(errors.begin(), errors.end());
+  fmt::print(
+      "{:3.0f} frames/s, {}: {} rolls, {} refused; error of the distance: median {:.2f} %, 95 % "
+      "{:.2f} %, worst {:.2f} %; of the incline: median {:.2f} degrees; intervals hold {} of {}\n",
+      frames_per_s, has_scale ? "by a ruler" : "by the release", rows.size(),
+      rows.size() - errors.size(), errors[errors.size() / 2],
+      errors[std::min(errors.size() - 1, errors.size() * 95 / 100)], errors.back(),
+      repose::bench::median(inclines), held, errors.size());
+  std::fflush(stdout);
+}
+
+/// So many films, several at a time.
+template <typename Made>
+auto made(int films, unsigned first_seed, const Made& make) {
+  std::vector<decltype(make(first_seed))> rows(static_cast<std::size_t>(films));
+  tbb::parallel_for(std::size_t{0}, rows.size(),
+                    [&](std::size_t k) { rows[k] = make(first_seed + static_cast<unsigned>(k)); });
+  return rows;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Accuracy of repose track on drawn films");
+  std::string experiment = "drop";
+  app.add_option("--experiment", experiment, "drop or roll")
+      ->check(CLI::IsMember({"drop", "roll"}));
   int films = 40;
+  unsigned first_seed = 1;
   std::size_t threads = 2;
   app.add_option("--films", films, "films at each frame rate");
+  app.add_option("--first-seed", first_seed, "of the first film; the others follow");
   std::vector<double> rates = {30, 60, 240};
   app.add_option("--rates", rates, "frames per second")->delimiter(',');
   app.add_option("--threads", threads, "films at a time");
   CLI11_PARSE(app, argc, argv);
   const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
   for (const double frames_per_s : rates) {
-    std::vector<Row> rows(static_cast<std::size_t>(films));
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
-      rows[k] = row_of(random_drop(frames_per_s, static_cast<unsigned>(k + 1)));
-    });
-    print(frames_per_s, rows);
+    if (experiment == "drop") {
+      print(frames_per_s, made(films, first_seed, [&](unsigned seed) {
+              return row_of(random_drop(frames_per_s, seed));
+            }));
+      continue;
+    }
+    for (const bool has_scale : {true, false}) {
+      print(frames_per_s, has_scale, made(films, first_seed, [&](unsigned seed) {
+              return roll_row_of(random_roll(frames_per_s, seed), has_scale);
+            }));
+    }
   }
 }

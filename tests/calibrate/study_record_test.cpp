@@ -45,9 +45,16 @@ stiffness_factor = 0.5
     record.pictures = {
         {.file = "/photos/a.jpg", .status = "ok", .angle_deg = 24.125, .reason = {}},
         {.file = "/photos/b.jpg", .status = "refused", .angle_deg = {}, .reason = "no \"heap\""}};
+    record.films = {{.experiment = "drop",
+                     .file = "/films/a.mp4",
+                     .status = "flagged",
+                     .value = 88.5,
+                     .uncertainty = 3.5,
+                     .reason = "ends early"}};
     record.study = dem::read_study(folder_.path() / "study.toml", settings);
     record.sheets = read_sheets(record.study, NoRows::refused);
-    record.study = as_simulated(record.study, record.budget, record.pictures, record.sheets);
+    record.study =
+        as_simulated(record.study, record.budget, record.pictures, record.sheets, record.films);
     record.grain = dem::build_grain(record.study.grain);
     record.settings = settings;
     record.method = "joint";
@@ -77,6 +84,9 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
   ASSERT_THAT(read.pictures, SizeIs(2));
   EXPECT_EQ(read.pictures[0].angle_deg, 24.125);
   EXPECT_EQ(read.pictures[1].reason, "no \"heap\"");
+  ASSERT_THAT(read.films, SizeIs(1));
+  EXPECT_EQ(read.films[0].value, 88.5);
+  EXPECT_EQ(read.films[0].uncertainty, 3.5);
   EXPECT_EQ(problem_of(read.study, read.grain, read.budget).problem.observables.size(), 3U);
 }
 

@@ -7,6 +7,7 @@
 #include "render/film/film.h"
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_roll.h"
 
 namespace repose::testing {
 namespace {
@@ -30,6 +31,21 @@ struct TrackCommand : CommandTest {
     render::Film film(path(name), drop.frames_per_s);
     for (int frame = 0; frame < drop.frames(); ++frame) film.add(drop.picture(frame));
     film.close();
+  }
+
+  DrawnRoll draw_roll(const char* name, double stopped_mm) {
+    const DrawnRoll roll{.width = 300,
+                         .height = 150,
+                         .seconds = 1.9,
+                         .mm_per_px = 1.2,
+                         .stopped_mm = stopped_mm,
+                         .radius_px = 6,
+                         .release_s = .2,
+                         .roll_s = 1.2};
+    render::Film film(path(name), roll.frames_per_s);
+    for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
+    film.close();
+    return roll;
   }
 };
 
@@ -83,6 +99,35 @@ TEST_F(TrackCommand, ARefusedFilmHasAReasonAndNoNumber) {
   EXPECT_THAT(film["bounces"], IsEmpty());
   EXPECT_EQ(film["track"], nullptr);
   EXPECT_THAT(film["reason"].get<std::string>(), HasSubstr("Fix: "));
+}
+
+TEST_F(TrackCommand, FilmsOfRollsBecomeATableThatTheBenchReads) {
+  const DrawnRoll roll = draw_roll("a.mp4", 150);
+  draw_roll("b.mp4", 170);
+  const Finished done = run({"roll", "a.mp4", "b.mp4", "--released", "100", "--csv", "rolls.csv",
+                             "--json", "r.json", "--overlay", "drawn"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("mean of 2 rolls: 1"), HasSubstr("incline [°]")));
+  EXPECT_TRUE(exists("drawn/b.png"));
+  EXPECT_THAT(text("rolls.csv"), StartsWith("sample,incline_deg,released_mm,stopped_mm,"));
+  const json film = json::parse(text("r.json"))[0];
+  EXPECT_EQ(film["experiment"], "roll");
+  EXPECT_NEAR(film["roll"]["stopped_mm"].get<double>(), 150, 3);
+  EXPECT_NEAR(film["roll"]["incline_deg"].get<double>(), roll.incline_deg, .5);
+  EXPECT_EQ(film["track"]["scale"], "released");
+  const Finished bench = run_repose(folder_, {"bench", "rolling", "rolls.csv", "--json", "-"});
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  EXPECT_EQ(json::parse(bench.out)["quantities"][0]["n"], 2);
+}
+
+TEST_F(TrackCommand, ARollNeedsOneScaleAndNoBounces) {
+  const Finished none = run({"roll", "a.mp4", "--bounces", "all"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, AllOf(HasSubstr("there is no scale"), HasSubstr("--bounces: is for track "
+                                                                        "drop")));
+  EXPECT_THAT(run({"roll", "a.mp4", "--scale", "0,0,99,0,90", "--released", "9"}).err,
+              HasSubstr("there are two scales"));
+  EXPECT_THAT(run({"drop", "a.mp4", "--released", "9"}).err, HasSubstr("is for track roll"));
 }
 
 TEST_F(TrackCommand, AllThatIsWrongIsSaidAtOnce) {

@@ -366,7 +366,14 @@ TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
   EXPECT_THAT(errors(kStudy, {key + "{ values = [9], sd = 1 }"}), HasSubstr("belong to a mean"));
   EXPECT_THAT(errors(kStudy, {key + "{ mean = 9, sd = -1, n = 0 }"}),
               AllOf(HasSubstr("measured.sd = -1"), HasSubstr("measured.n = 0")));
-  EXPECT_THAT(errors(kStudy, {key + "{ pictures = [\"study.toml\"] }"}), HasSubstr("only heaps"));
+  EXPECT_THAT(errors(kStudy, {key + "{ pictures = [\"study.toml\"] }"}),
+              HasSubstr("only this is measured in pictures: heap, and not drop"));
+  EXPECT_THAT(errors(kStudy, {"experiment.heap.measured = { videos = [\"study.toml\"] }"}),
+              HasSubstr("only this is read off films: drop, roll, and not heap"));
+  EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"study.toml\"], values = [9] }"}),
+              HasSubstr("more than one kind"));
+  EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"none.mp4\"] }"}),
+              HasSubstr("a file that exists, and there is no none.mp4"));
   EXPECT_THAT(errors(kStudy, {key + "9.42"}), HasSubstr("a section with keys"));
   EXPECT_THAT(errors(kStudy, {key + "{ values = [9], readings = \"study.toml\" }"}),
               HasSubstr("more than one kind"));

@@ -76,29 +76,49 @@ def silhouette_png(width=960, height=640, slope=0.45):
             + chunk(b"IDAT", zlib.compress(bytes(rows))) + chunk(b"IEND", b""))
 
 
-def dropped_grain_avi(restitution, width=160, height=120, frames_per_s=60, frames=60, mm_per_px=2.6):
-    """A film without compression: a dark disc before a light wall falls 200 mm and bounces."""
-    gravity, radius, held_s = 9806.65, 5.0, 0.1
-    floor = height - 14
-
-    def height_mm(t):
-        speed = math.sqrt(2 * gravity * 200)
-        t -= held_s
-        if t <= 0:
-            return 200.0
-        if t < speed / gravity:
-            return 200 - gravity * t * t / 2
-        t -= speed / gravity
+def dropped_height_mm(t, restitution):
+    """Of a grain that is held for a tenth of a second, falls 200 mm and bounces."""
+    gravity, held_s = 9806.65, 0.1
+    speed = math.sqrt(2 * gravity * 200)
+    t -= held_s
+    if t <= 0:
+        return 200.0
+    if t < speed / gravity:
+        return 200 - gravity * t * t / 2
+    t -= speed / gravity
+    speed *= restitution
+    while t > 2 * speed / gravity and speed > 1:
+        t -= 2 * speed / gravity
         speed *= restitution
-        while t > 2 * speed / gravity and speed > 1:
-            t -= 2 * speed / gravity
-            speed *= restitution
-        return max(0.0, speed * t - gravity * t * t / 2)
+    return max(0.0, speed * t - gravity * t * t / 2)
+
+
+def dropped_grain_avi(restitution, mm_per_px=2.6, frames_per_s=60):
+    return grain_avi(lambda k: (60 + 0.2 * k, dropped_height_mm(k / frames_per_s, restitution) / mm_per_px),
+                     frames_per_s)
+
+
+def rolled_grain_avi(frames_per_s=60, slope=math.radians(20)):
+    """A grain that is let go after 6 frames, reaches the flat after 20 more and rests after 20 more."""
+    def place(k):
+        k = max(0, k - 6)
+        left = 50 * max(0.0, 1 - (k / 20) ** 2)
+        out = 50 * (1 - max(0.0, 1 - max(0, k - 20) / 20) ** 2)
+        return 70 - left * math.cos(slope) + out, left * math.sin(slope)
+
+    return grain_avi(place, frames_per_s, frames=80)
+
+
+def grain_avi(place, frames_per_s, width=160, height=120, frames=60):
+    """A film without compression: a dark disc before a light wall, `place` of it right and up from the floor."""
+    radius = 5.0
+    floor = height - 14
 
     def frame(k):
         rows = [bytearray(bytes([190, 200, 205]) * width if y < floor else bytes([70, 90, 110]) * width)
                 for y in range(height)]
-        x0, y0 = 60 + 0.2 * k, floor - radius - height_mm(k / frames_per_s) / mm_per_px
+        x0, up = place(k)
+        y0 = floor - radius - up
         for y in range(max(0, int(y0 - radius) - 1), min(height, int(y0 + radius) + 2)):
             for x in range(int(x0 - radius) - 1, int(x0 + radius) + 2):
                 cover = min(1.0, max(0.0, radius + 0.5 - math.hypot(x + 0.5 - x0, y + 0.5 - y0)))
@@ -165,6 +185,7 @@ def prepare(folder, root, repose):
     (folder / "render.png").write_bytes(silhouette_png())
     (folder / "drop_01.avi").write_bytes(dropped_grain_avi(0.6))
     (folder / "drop_02.avi").write_bytes(dropped_grain_avi(0.5))
+    (folder / "roll_01.avi").write_bytes(rolled_grain_avi())
     (folder / "drops.csv").write_text(DROPS, encoding="utf-8")
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
     for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):

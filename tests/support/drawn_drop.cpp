@@ -7,57 +7,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/drawn_film.h"
+
 namespace repose::testing {
 namespace {
 
 constexpr double kGravity_mm_s2 = 9806.65;
-constexpr double kFloorPart = .88;  ///< of the picture's height, where the floor meets the wall
-
-/// A wall with a soft pattern and a floor of another colour.
-cv::Mat scene_of(const DrawnDrop& drop, bool is_other) {
-  cv::RNG random(drop.seed + (is_other ? 77 : 0));
-  cv::Mat coarse(7, 9, CV_32FC3), scene;
-  random.fill(coarse, cv::RNG::UNIFORM, is_other ? 20 : 165, is_other ? 90 : 205);
-  cv::resize(coarse, scene, {drop.width, drop.height}, 0, 0, cv::INTER_CUBIC);
-  const int floor = cvRound(kFloorPart * drop.height);
-  scene(cv::Rect(0, floor, drop.width, drop.height - floor)) *= .55;
-  for (int k = 0; k < 12; ++k) {
-    const cv::Point at(random.uniform(0, drop.width), random.uniform(0, floor));
-    cv::circle(scene, at, random.uniform(2, 6), cv::Scalar::all(random.uniform(90., 150.)),
-               cv::FILLED, cv::LINE_AA);
-  }
-  cv::GaussianBlur(scene, scene, {3, 3}, .7);
-  return scene;
-}
-
-/// Mixes a disc of one colour, lit from the upper left, into the picture.
-void draw_ball(cv::Mat& scene, const cv::Point2d& centre, double radius, const cv::Vec3f& colour) {
-  const int reach = static_cast<int>(radius) + 2;
-  const cv::Point middle(cvFloor(centre.x), cvFloor(centre.y));
-  for (int y = std::max(0, middle.y - reach); y <= std::min(scene.rows - 1, middle.y + reach);
-       ++y) {
-    for (int x = std::max(0, middle.x - reach); x <= std::min(scene.cols - 1, middle.x + reach);
-         ++x) {
-      const double dx = x + .5 - centre.x, dy = y + .5 - centre.y;
-      const double cover = std::clamp(radius + .5 - std::hypot(dx, dy), 0.0, 1.0);
-      if (cover <= 0) continue;
-      const auto light = static_cast<float>(.8 - .25 * (dx + dy) / radius);
-      auto& pixel = scene.at<cv::Vec3f>(y, x);
-      pixel += static_cast<float>(cover) * (light * colour - pixel);
-    }
-  }
-}
-
-void draw_shadow(cv::Mat& scene, const cv::Point2d& at, double width, double depth) {
-  cv::Mat shade(scene.size(), CV_32F, cv::Scalar(0));
-  cv::ellipse(shade, at, {cvRound(width), std::max(1, cvRound(.3 * width))}, 0, 0, 360, depth,
-              cv::FILLED);
-  const int size = 2 * cvRound(.4 * width) + 1;
-  cv::GaussianBlur(shade, shade, {size, size}, 0);
-  for (int y = 0; y < scene.rows; ++y) {
-    for (int x = 0; x < scene.cols; ++x) scene.at<cv::Vec3f>(y, x) *= 1 - shade.at<float>(y, x);
-  }
-}
 
 }  // namespace
 
@@ -77,7 +32,7 @@ double DrawnDrop::height_mm(double time_s) const {
 }
 
 vision::Picture DrawnDrop::picture(int frame) const {
-  const cv::Mat scene = scene_of(*this, cut >= 0 && frame >= cut);
+  const cv::Mat scene = drawn_scene({width, height}, seed, cut >= 0 && frame >= cut);
   cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
   const int parts = exposure > 0 ? 8 : 1;
   const double floor = kFloorPart * height + radius_px * .3;
@@ -110,20 +65,12 @@ vision::Picture DrawnDrop::picture(int frame) const {
     }
     sum += now / parts;
   }
-  cv::RNG random(seed * 1000003U + static_cast<unsigned>(frame));
   if (shake_px > 0) {
     const cv::Matx23d move(1, 0, shake_px * std::sin(.9 * frame), 0, 1,
                            shake_px * std::cos(1.3 * frame));
     cv::warpAffine(sum, sum, move, sum.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   }
-  cv::Mat grain(sum.size(), CV_32FC3);
-  random.fill(grain, cv::RNG::NORMAL, 0, noise);
-  sum += grain;
-  vision::Picture result{.width = width, .height = height, .bgr = {}};
-  result.bgr.resize(std::size_t{3} * static_cast<std::size_t>(width * height));
-  cv::Mat bytes(height, width, CV_8UC3, result.bgr.data());
-  sum.convertTo(bytes, CV_8UC3);
-  return result;
+  return noisy_picture(sum, noise, seed * 1000003U + static_cast<unsigned>(frame));
 }
 
 }  // namespace repose::testing

@@ -142,7 +142,28 @@ Blob BlobFinder::refine(const cv::Mat& frame, const cv::Rect& place, const cv::M
     }
   }
   if (blob.area_px > 0) blob.centre = {x / blob.area_px, y / blob.area_px};
+  blob.crest_px = crest(seen, mask, blob);
   return blob;
+}
+
+/// From how much of each column about the centre is covered above the centre's row.
+double BlobFinder::crest(const cv::Mat& seen, const cv::Mat& mask, const Blob& blob) const {
+  constexpr double kMiddle = .35;  // of half the width
+  const double half = std::max(1.0, kMiddle * std::sqrt(blob.area_px / CV_PI));
+  const cv::Point2d centre = blob.centre - cv::Point2d(blob.box.tl());
+  const int from = std::max(0, cvFloor(centre.x - half));
+  const int to = std::min(mask.cols - 1, cvFloor(centre.x + half));
+  const int last = std::min(mask.rows - 1, cvFloor(centre.y));
+  double height = 0, columns = 0;
+  for (int k = from; k <= to; ++k, ++columns) {
+    for (int row = 0; row <= last; ++row) {
+      if (mask.at<uchar>(row, k) == 0) continue;
+      const double part = std::min(1.0, centre.y - row);
+      height += part * cover_of(seen.at<cv::Vec3b>(row, k),
+                                background_.bgr(blob.box).at<cv::Vec3b>(row, k), blob.colour);
+    }
+  }
+  return columns > 0 ? blob.centre.y - height / columns : blob.centre.y;
 }
 
 Look BlobFinder::look(const cv::Mat& frame) const {

@@ -11,6 +11,7 @@ namespace repose::vision {
 /// Something in a frame that is not the background.
 struct Blob {
   cv::Point2d centre = {};  ///< [px], pixel centres at (.5, .5)
+  double crest_px = 0;      ///< row of its upper edge above the centre, which no shadow moves
   double area_px = 0;       ///< in full pixels' worth of it
   double contrast = 0;      ///< how much it differs from the background, in grey levels
   cv::Vec3d colour = {};
@@ -43,6 +44,7 @@ class BlobFinder {
                                      std::vector<int>& numbers) const;
   cv::Point2d shift(const cv::Mat& small) const;
   Blob refine(const cv::Mat& frame, const cv::Rect& place, const cv::Mat& mask) const;
+  double crest(const cv::Mat& seen, const cv::Mat& mask, const Blob& blob) const;
 
   Background background_;
   int reduction_ = 1;

@@ -15,7 +15,9 @@ void take_out_shifts(FilmGrains& grains) {
   if (farthest_shift_px(grains) < kStandsOut_px) return;
   for (GrainPath& path : grains.paths) {
     for (Sighting& one : path) {
-      one.blob.centre -= grains.shifts[static_cast<std::size_t>(one.frame)];
+      const cv::Point2d& shift = grains.shifts[static_cast<std::size_t>(one.frame)];
+      one.blob.centre -= shift;
+      one.blob.crest_px -= shift.y;
     }
   }
 }

@@ -26,6 +26,8 @@ struct ScaleBar {
 
 struct TrackOptions {
   std::optional<ScaleBar> scale = {};
+  /// Of a roll without a scale: how far up the incline the grain was let go.
+  std::optional<double> released_mm = {};
   bool draws_strobe = false;
   /// Told which fraction of the work is done, from 0 to 1; may throw to stop it.
   std::function<void(double)> progress = {};

@@ -1,0 +1,63 @@
+#include "calibrate/study/bench_films.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "calibrate/study/bench_setting.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// Why a film shows another experiment than the study's; empty: it does not.
+std::string other_setting(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
+                          const std::map<std::string, FilmNumber>& row) {
+  for (const auto& [column, key] : entry.sheet.protocol) {
+    const FilmNumber& seen = row.at(std::string(column));
+    const double meant = protocol_value(entry, protocol, key);
+    if (std::abs(seen.value - meant) <= kSameSetting * meant + seen.uncertainty) continue;
+    return fmt::format(
+        "{0} = {1:.4g} ± {2:.2g} in it, and the study has {3} = {4:g} in [experiment.{5}]. Rule: "
+        "the same within {6:g} % and the film's interval. Fix: write {3} = {1:.4g} there if the "
+        "bench was set so. Of films that show it wrongly, as those in slow motion, give a sheet of "
+        "readings instead: repose track {5} --scale ... --csv {5}.csv.",
+        column, seen.value, seen.uncertainty, key, meant, entry.name, 100 * kSameSetting);
+  }
+  return {};
+}
+
+}  // namespace
+
+void read_row(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
+              const std::map<std::string, FilmNumber>& row, FilmReading& film) {
+  const std::string other = other_setting(entry, protocol, row);
+  if (!other.empty()) {
+    film.status = "refused";
+    film.reason = other;
+    return;
+  }
+  const FilmNumber& reading = row.at(std::string(entry.sheet.value));
+  film.value = reading.value;
+  film.uncertainty = reading.uncertainty;
+}
+
+dem::Study with_films(dem::Study study, const std::vector<FilmReading>& films) {
+  constexpr double kNormal95 = 1.96;
+  for (auto& [experiment, described] : study.experiments) {
+    const std::string name = dem::name_of(experiment);
+    dem::Measured& measured = described.measured;
+    double squares = 0;
+    for (const FilmReading& film : films) {
+      if (film.experiment != name || !film.value) continue;
+      measured.values.push_back(*film.value);
+      squares += film.uncertainty * film.uncertainty;
+    }
+    if (measured.videos.empty() || measured.values.empty()) continue;
+    const auto count = static_cast<double>(measured.values.size());
+    measured.value_uncertainty = std::sqrt(squares / count) / kNormal95;
+  }
+  return study;
+}
+
+}  // namespace repose::calibrate

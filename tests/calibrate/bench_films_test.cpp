@@ -1,0 +1,85 @@
+#include "calibrate/study/bench_films.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/study/study_problem.h"
+#include "dem/study/experiment_table.h"
+#include "dem/study/grain_source.h"
+#include "tests/calibrate/sphere_study.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using repose::testing::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// The row that a film of a drop gives.
+FilmReading reading_of(double drop_mm, double rebound_mm, double uncertainty_mm) {
+  FilmReading film{
+      .experiment = "drop", .file = "a.mp4", .status = "ok", .value = {}, .reason = {}};
+  read_row(dem::entry_of(dem::Experiment::drop), dem::DropProtocol{.height_m = .1},
+           {{"drop_mm", {drop_mm, uncertainty_mm}}, {"rebound_mm", {rebound_mm, uncertainty_mm}}},
+           film);
+  return film;
+}
+
+/// A drop as the fit sees it after these films.
+Observable drop_after(const std::vector<FilmReading>& films) {
+  const TemporaryFolder folder;
+  std::string text = test::kSphereStudy;
+  const std::string mean = "mean = 25, sd = 1, n = 5";
+  text.replace(text.find(mean), mean.size(), "videos = [\"*.mp4\"]");
+  const dem::Study study = with_films(dem::read_study(folder.write("study.toml", text)), films);
+  return problem_of(study, dem::build_grain(study.grain), budget_named("quick"))
+      .problem.observables.at(0);
+}
+
+TEST(BenchFilms, GiveTheValueOfTheExperimentsSheet) {
+  const FilmReading film = reading_of(100.4, 36, 2);
+  EXPECT_EQ(film.value, 36);
+  EXPECT_EQ(film.uncertainty, 2);
+  EXPECT_EQ(film.status, "ok");
+  EXPECT_THAT(film.reason, IsEmpty());
+}
+
+TEST(BenchFilms, OfAnotherFallThanTheStudysAreRefused) {
+  EXPECT_TRUE(reading_of(102.9, 36, 2).value) << "within 1 % and its interval";
+  const FilmReading film = reading_of(103.1, 36, 2);
+  EXPECT_FALSE(film.value);
+  EXPECT_EQ(film.status, "refused");
+  EXPECT_THAT(film.reason, AllOf(HasSubstr("drop_mm = 103.1"), HasSubstr("height_mm = 100"),
+                                 HasSubstr("Fix: write height_mm = 103.1")));
+}
+
+TEST(BenchFilms, AreRepeatsThatScatterAsTheyDo) {
+  const Observable drop = drop_after(
+      {reading_of(100, 30, 1),
+       reading_of(100, 36, 1),
+       reading_of(100, 42, 1),
+       {.experiment = "drop", .file = "b.mp4", .status = "refused", .value = {}, .reason = {}}});
+  EXPECT_DOUBLE_EQ(drop.mean, 36);
+  EXPECT_EQ(drop.n, 3);
+  EXPECT_DOUBLE_EQ(*drop.sd, 6);
+}
+
+TEST(BenchFilms, ThatAgreeByChanceAreNoSurerThanEachIs) {
+  const Observable drop = drop_after({reading_of(100, 36, 1.96), reading_of(100, 36.1, 1.96)});
+  EXPECT_NEAR(*drop.sd, 1, 1e-9);
+}
+
+TEST(BenchFilms, OneAloneAddsItsIntervalToTheScatterThatIsAssumed) {
+  const Observable drop = drop_after({reading_of(100, 40, 1.96 * 2)});
+  EXPECT_FALSE(drop.sd);
+  EXPECT_NEAR(*drop.assumed_sd_fraction, std::hypot(.05, .05), 1e-9);
+  EXPECT_NEAR(*drop_after({reading_of(100, 40, 0)}).assumed_sd_fraction, .05, 1e-9);
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,164 @@
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "render/film/film.h"
+#include "tests/calibrate/sphere_study.h"
+#include "tests/cli/command_test.h"
+#include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_roll.h"
+
+namespace repose::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kDrop_mm = 250;
+
+/// A drop whose rebound is read off films, with only restitution to be found.
+class CalibrateFilms : public CommandTest {
+ protected:
+  CalibrateFilms() : CommandTest({"calibrate"}) {
+    folder_.write("study.toml", calibrate::test::kSoftBall + R"([contact.particle_wall]
+restitution = { min = 0.2, max = 0.9 }
+sliding_friction = 0.3
+rolling_friction = 0.01
+[contact.particle_particle]
+restitution = 0.2
+sliding_friction = 0.2
+rolling_friction = 0.04
+[experiment.drop]
+height_mm = 250
+grains = 1
+measured = { videos = ["drops/*.mp4"] }
+)");
+    std::filesystem::create_directory(path("drops"));
+  }
+
+  void draw(const char* name, double restitution, double plays_at = 60) const {
+    const DrawnDrop drop{.width = 240,
+                         .height = 200,
+                         .frames_per_s = 60,
+                         .seconds = .9,
+                         .mm_per_px = 1.8,
+                         .drop_mm = kDrop_mm,
+                         .restitution = restitution,
+                         .radius_px = 5,
+                         .release_s = .1};
+    render::Film film(path(name), plays_at);
+    for (int frame = 0; frame < drop.frames(); ++frame) film.add(drop.picture(frame));
+    film.close();
+  }
+
+  Finished calibrated() const {
+    return run({"study.toml", "--budget", "quick", "--out", "out", "--json", "result.json"});
+  }
+};
+
+TEST_F(CalibrateFilms, OfDropsGiveTheRestitutionThatTheyWereDrawnWith) {
+  draw("drops/a.mp4", .62);
+  draw("drops/b.mp4", .60);
+  draw("drops/c.mp4", .58);
+  const Finished done = calibrated();
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json result = json::parse(text("result.json"));
+  EXPECT_NEAR(result["observables"][0]["measured"], kDrop_mm * .6 * .6, 3);
+  const json& restitution = result["parameters"][0];
+  EXPECT_EQ(restitution["verdict"], "determined");
+  EXPECT_LT(restitution["interval"][0], .6);
+  EXPECT_GT(restitution["interval"][1], .6);
+  EXPECT_NEAR(restitution["value"], .6, .02);
+
+  const json notes = json::parse(text("out/study.json"));
+  ASSERT_EQ(notes["films"].size(), 3U);
+  EXPECT_EQ(notes["films"][0]["status"], "ok");
+  EXPECT_GT(notes["films"][0]["uncertainty"], 0);
+
+  ASSERT_EQ(run_repose(folder_, {"report", "out"}).exit_code, 0);
+  EXPECT_THAT(text("out/report.html"), HasSubstr("3 films, all of which could be read"));
+  EXPECT_THAT(text("out/tables/films.csv"), HasSubstr("\nc.mp4,drop,"));
+}
+
+TEST_F(CalibrateFilms, ThatGiveNoReadingAreNamedAndLeftOut) {
+  draw("drops/a.mp4", .6);
+  draw("drops/b.mp4", .6);
+  draw("drops/slow.mp4", .6, 30);
+  folder_.write("drops/note.mp4", std::string("hello"));
+  const Finished done = calibrated();
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, AllOf(HasSubstr("drops/note.mp4: is no film that repose reads"),
+                              HasSubstr("drops/slow.mp4: drop_mm = "),
+                              HasSubstr("the study has height_mm = 250 in [experiment.drop]"),
+                              HasSubstr("(this film is left out)"), Not(HasSubstr("a.mp4"))));
+  const json result = json::parse(text("result.json"));
+  EXPECT_NEAR(result["observables"][0]["measured"], kDrop_mm * .6 * .6, 3);
+  ASSERT_EQ(run_repose(folder_, {"report", "out"}).exit_code, 0);
+  EXPECT_THAT(text("out/report.html"), HasSubstr("4 films, 2 of which could be read"));
+}
+
+TEST_F(CalibrateFilms, NoneOfWhichGivesAReadingAreAllNamed) {
+  draw("drops/slow.mp4", .6, 30);
+  folder_.write("drops/note.mp4", std::string("hello"));
+  const Finished refused = calibrated();
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("slow.mp4: "), HasSubstr("note.mp4: "),
+                                 HasSubstr("none of the 2 films of [experiment.drop] gives")));
+  EXPECT_FALSE(exists("out/study.json"));
+}
+
+TEST_F(CalibrateFilms, APatternThatNoFileHasIsAnError) {
+  const Finished refused = calibrated();
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("drops/*.mp4: no file has such a name. Fix: "));
+  const Finished empty =
+      run({"study.toml", "--set", "experiment.drop.measured = { videos = [\"drops\"] }"});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_THAT(empty.err, HasSubstr("no films in this folder"));
+}
+
+TEST_F(CalibrateFilms, OfRollsHaveTheirMillimetresFromTheRelease) {
+  const DrawnRoll roll{.width = 300,
+                       .height = 150,
+                       .seconds = 1.9,
+                       .mm_per_px = 1.2,
+                       .stopped_mm = 150,
+                       .radius_px = 6,
+                       .release_s = .2,
+                       .roll_s = 1.2};
+  render::Film film(path("roll.mp4"), roll.frames_per_s);
+  for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
+  film.close();
+  const auto with_incline = [](const std::string& degrees) {
+    return "experiment.roll = { incline_deg = " + degrees +
+           ", release_mm = 100, measured = { videos = [\"roll.mp4\"] } }";
+  };
+  const Words words = {"study.toml", "--dry-run", "--set",
+                       "experiment.drop.measured = { values = [90] }", "--set"};
+  const auto told = [&](const std::string& setting) {
+    Words all = words;
+    all.push_back(setting);
+    return run(all);
+  };
+  EXPECT_EQ(told(with_incline("20")).exit_code, 0) << told(with_incline("20")).err;
+  const Finished other = told(with_incline("25"));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("roll.mp4: incline_deg = "),
+                               HasSubstr("the study has incline_deg = 25 in [experiment.roll]")));
+}
+
+TEST_F(CalibrateFilms, AreTakenFromFoldersToo) {
+  draw("drops/a.mp4", .6);
+  folder_.write("drops/readme.txt", std::string("no film"));
+  const Finished told =
+      run({"study.toml", "--dry-run", "--set",
+           "experiment.drop.measured = { videos = [\"drops\", \"drops/a.mp4\"] }"});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.err, HasSubstr("a.mp4: named twice, tracked once"));
+}
+
+}  // namespace
+}  // namespace repose::testing

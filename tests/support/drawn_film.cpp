@@ -1,0 +1,66 @@
+#include "tests/support/drawn_film.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace repose::testing {
+
+cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other) {
+  cv::RNG random(seed + (is_other ? 77 : 0));
+  cv::Mat coarse(7, 9, CV_32FC3), scene;
+  random.fill(coarse, cv::RNG::UNIFORM, is_other ? 20 : 165, is_other ? 90 : 205);
+  cv::resize(coarse, scene, size, 0, 0, cv::INTER_CUBIC);
+  const int floor = cvRound(kFloorPart * size.height);
+  scene(cv::Rect(0, floor, size.width, size.height - floor)) *= .55;
+  for (int k = 0; k < 12; ++k) {
+    const cv::Point at(random.uniform(0, size.width), random.uniform(0, floor));
+    cv::circle(scene, at, random.uniform(2, 6), cv::Scalar::all(random.uniform(90., 150.)),
+               cv::FILLED, cv::LINE_AA);
+  }
+  cv::GaussianBlur(scene, scene, {3, 3}, .7);
+  return scene;
+}
+
+void draw_ball(cv::Mat& scene, const cv::Point2d& centre, double radius, const cv::Vec3f& colour) {
+  const int reach = static_cast<int>(radius) + 2;
+  const cv::Point middle(cvFloor(centre.x), cvFloor(centre.y));
+  for (int y = std::max(0, middle.y - reach); y <= std::min(scene.rows - 1, middle.y + reach);
+       ++y) {
+    for (int x = std::max(0, middle.x - reach); x <= std::min(scene.cols - 1, middle.x + reach);
+         ++x) {
+      const double dx = x + .5 - centre.x, dy = y + .5 - centre.y;
+      const double cover = std::clamp(radius + .5 - std::hypot(dx, dy), 0.0, 1.0);
+      if (cover <= 0) continue;
+      const auto light = static_cast<float>(.8 - .25 * (dx + dy) / radius);
+      auto& pixel = scene.at<cv::Vec3f>(y, x);
+      pixel += static_cast<float>(cover) * (light * colour - pixel);
+    }
+  }
+}
+
+void draw_shadow(cv::Mat& scene, const cv::Point2d& at, double width, double depth) {
+  cv::Mat shade(scene.size(), CV_32F, cv::Scalar(0));
+  cv::ellipse(shade, at, {cvRound(width), std::max(1, cvRound(.3 * width))}, 0, 0, 360, depth,
+              cv::FILLED);
+  const int size = 2 * cvRound(.4 * width) + 1;
+  cv::GaussianBlur(shade, shade, {size, size}, 0);
+  for (int y = 0; y < scene.rows; ++y) {
+    for (int x = 0; x < scene.cols; ++x) scene.at<cv::Vec3f>(y, x) *= 1 - shade.at<float>(y, x);
+  }
+}
+
+vision::Picture noisy_picture(cv::Mat drawn, double noise, unsigned seed) {
+  cv::RNG random(seed);
+  cv::Mat grain(drawn.size(), CV_32FC3);
+  random.fill(grain, cv::RNG::NORMAL, 0, noise);
+  drawn += grain;
+  vision::Picture result{.width = drawn.cols, .height = drawn.rows, .bgr = {}};
+  result.bgr.resize(drawn.total() * 3);
+  cv::Mat bytes(drawn.rows, drawn.cols, CV_8UC3, result.bgr.data());
+  drawn.convertTo(bytes, CV_8UC3);
+  return result;
+}
+
+}  // namespace repose::testing

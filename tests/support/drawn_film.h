@@ -1,0 +1,24 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "vision/picture/picture.h"
+
+/// What drawn films of grains have in common. Frames are drawn in floating point.
+namespace repose::testing {
+
+inline constexpr double kFloorPart = .88;  ///< of the picture's height, where the floor begins
+
+/// A wall with a soft pattern and a floor of another colour.
+cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other = false);
+
+/// Mixes a disc of one colour, lit from the upper left, into the picture.
+void draw_ball(cv::Mat& scene, const cv::Point2d& centre, double radius, const cv::Vec3f& colour);
+
+void draw_shadow(cv::Mat& scene, const cv::Point2d& at, double width, double depth);
+
+/// What a camera makes of it.
+/// @param noise  standard deviation of a grey level
+vision::Picture noisy_picture(cv::Mat drawn, double noise, unsigned seed);
+
+}  // namespace repose::testing

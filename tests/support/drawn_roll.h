@@ -1,0 +1,37 @@
+#pragma once
+
+#include "vision/picture/picture.h"
+
+/// Frames of a film of a ball that rolls down an incline and out on a flat, drawn with everything
+/// about its path known.
+namespace repose::testing {
+
+struct DrawnRoll {
+  int width = 480;
+  int height = 270;
+  double frames_per_s = 60;
+  double seconds = 2.6;
+  double mm_per_px = .8;
+  double incline_deg = 20;
+  double released_mm = 100;  ///< up the incline, from its foot
+  double stopped_mm = 160;   ///< along the flat, from the foot
+  double radius_px = 9;
+  double release_s = .3;  ///< held until then
+  double roll_s = 1.5;    ///< from the release to rest
+  double exposure = .3;   ///< of the time between frames
+  double noise = 2;       ///< standard deviation of a grey level
+  double lean_rad = 0;    ///< of the camera, clockwise
+  double hop_px = 0;      ///< how high it hops when it comes to the flat
+  double shake_px = 0;    ///< of the camera
+  bool has_hand = false;  ///< holds the grain, then leaves
+  bool has_shadow = true;
+  bool goes_left = false;
+  int grains = 1;           ///< further ones begin lower and stop earlier
+  bool has_incline = true;  ///< false: it rolls on the flat alone
+  unsigned seed = 1;
+
+  int frames() const { return static_cast<int>(frames_per_s * seconds); }
+  vision::Picture picture(int frame) const;
+};
+
+}  // namespace repose::testing

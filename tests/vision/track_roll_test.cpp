@@ -1,0 +1,150 @@
+#include <cmath>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include "render/film/film.h"
+#include "tests/support/drawn_roll.h"
+#include "tests/support/temporary_folder.h"
+#include "vision/drawing/roll_overlay.h"
+#include "vision/track/roll_track.h"
+
+namespace repose::vision {
+namespace {
+
+using repose::testing::DrawnRoll;
+using repose::testing::TemporaryFolder;
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::HasSubstr;
+
+/// Small, so that many can be drawn.
+DrawnRoll small_roll() {
+  return {.width = 360,
+          .height = 180,
+          .seconds = 1.9,
+          .mm_per_px = 1.2,
+          .stopped_mm = 170,
+          .radius_px = 6,
+          .release_s = .2,
+          .roll_s = 1.2};
+}
+
+std::filesystem::path film_of(const TemporaryFolder& folder, const DrawnRoll& roll) {
+  const auto file = folder.path() / "roll.mp4";
+  render::Film film(file, roll.frames_per_s);
+  for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
+  film.close();
+  return file;
+}
+
+TrackOptions scaled_options(const DrawnRoll& roll) {
+  return {.scale = ScaleBar{.line = {{20, 30}, {320, 30}}, .length_mm = 300 * roll.mm_per_px}};
+}
+
+RollTrack tracked(const DrawnRoll& roll, const TrackOptions& options) {
+  const TemporaryFolder folder;
+  return track_roll(film_of(folder, roll), options);
+}
+RollTrack tracked(const DrawnRoll& roll) { return tracked(roll, scaled_options(roll)); }
+
+void expect_truth(const RollTrack& track, const DrawnRoll& roll) {
+  ASSERT_TRUE(track.has_reading) << track.reason;
+  EXPECT_EQ(track.status, MeasureStatus::ok);
+  EXPECT_NEAR(track.stopped_mm.value, roll.stopped_mm, .01 * roll.stopped_mm);
+  EXPECT_NEAR(track.released_mm.value, roll.released_mm, .02 * roll.released_mm);
+  EXPECT_NEAR(track.incline_deg.value, roll.incline_deg, .5);
+  EXPECT_NEAR(track.stopped_s, roll.release_s + roll.roll_s, .15);
+  EXPECT_GT(track.stopped_mm.uncertainty, 0);
+  EXPECT_LT(track.stopped_mm.uncertainty, .03 * roll.stopped_mm);
+}
+
+TEST(TrackRoll, FindsWhereTheGrainRestsByAScale) {
+  expect_truth(tracked(small_roll()), small_roll());
+}
+
+TEST(TrackRoll, MillimetresComeFromTheReleaseWhereThereIsNoScale) {
+  const DrawnRoll roll = small_roll();
+  const RollTrack track = tracked(roll, {.released_mm = roll.released_mm});
+  expect_truth(track, roll);
+  EXPECT_FALSE(track.has_scale);
+  EXPECT_NEAR(track.mm_per_px, roll.mm_per_px, .02 * roll.mm_per_px);
+}
+
+TEST(TrackRoll, FindsItWhereTheGrainRollsToTheLeftAndAHandLetsGoOfIt) {
+  DrawnRoll roll = small_roll();
+  roll.goes_left = true;
+  roll.has_hand = true;
+  expect_truth(tracked(roll), roll);
+}
+
+TEST(TrackRoll, FollowsAFlatThatLeansInThePicture) {
+  DrawnRoll roll = small_roll();
+  roll.lean_rad = .05;
+  const RollTrack track = tracked(roll);
+  expect_truth(track, roll);
+  EXPECT_THAT(track.warnings, Contains(Field(&Warning::code, "leaning")));
+}
+
+TEST(TrackRoll, RefusesAGrainThatStillMovesAtTheEnd) {
+  DrawnRoll roll = small_roll();
+  roll.seconds = 1.3;
+  EXPECT_THAT(tracked(roll).reason, HasSubstr("still moves when the film ends"));
+}
+
+TEST(TrackRoll, RefusesAGrainThatLeavesThePictureOrRestsAtItsEdge) {
+  DrawnRoll roll = small_roll();
+  roll.stopped_mm = 400;
+  const RollTrack left = tracked(roll);
+  EXPECT_EQ(left.status, MeasureStatus::refused);
+  EXPECT_THAT(left.reason, HasSubstr("edge of the picture"));
+  roll.stopped_mm = .64 * roll.width * roll.mm_per_px;  // half of it is outside
+  EXPECT_THAT(tracked(roll).reason, HasSubstr("edge of the picture"));
+}
+
+TEST(TrackRoll, RefusesAPathWithoutAFoot) {
+  DrawnRoll roll = small_roll();
+  roll.has_incline = false;
+  const RollTrack track = tracked(roll);
+  EXPECT_THAT(track.reason, HasSubstr("there is no foot"));
+  EXPECT_FALSE(track.has_reading);
+}
+
+TEST(TrackRoll, LeavesOutAHopAtTheFoot) {
+  DrawnRoll roll = small_roll();
+  roll.hop_px = 4;
+  const RollTrack track = tracked(roll);
+  expect_truth(track, roll);
+  EXPECT_THAT(track.warnings, Contains(Field(&Warning::code, "hops")));
+}
+
+TEST(TrackRoll, TakesOutACameraThatShakes) {
+  DrawnRoll roll = small_roll();
+  roll.shake_px = .7;
+  expect_truth(tracked(roll), roll);
+}
+
+TEST(TrackRoll, RefusesSeveralGrains) {
+  DrawnRoll roll = small_roll();
+  roll.grains = 2;
+  EXPECT_THAT(tracked(roll).reason, HasSubstr("several things move"));
+}
+
+TEST(TrackRoll, WithoutAScaleTheReleaseMustBeSeen) {
+  DrawnRoll roll = small_roll();
+  roll.release_s = -.3;
+  EXPECT_THAT(tracked(roll, {.released_mm = roll.released_mm}).reason,
+              HasSubstr("not seen where the grain was let go"));
+  EXPECT_TRUE(tracked(roll).has_reading) << "with one it need not";
+}
+
+TEST(TrackRoll, IsDrawn) {
+  const DrawnRoll roll = small_roll();
+  TrackOptions options = scaled_options(roll);
+  options.draws_strobe = true;
+  const RollTrack track = tracked(roll, options);
+  EXPECT_GT(draw_roll_overlay(track, "roll.mp4").height, roll.height);
+}
+
+}  // namespace
+}  // namespace repose::vision

@@ -1,0 +1,48 @@
+#include "vision/drawing/track_drawing.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/drawing/drawn_size.h"
+#include "vision/drawing/overlay_style.h"
+#include "vision/picture/mat_of_picture.h"
+
+namespace repose::vision {
+
+void require_strobe(const Picture& strobe, const std::string& title, const std::string& reason) {
+  if (!strobe.empty()) return;
+  throw std::invalid_argument(
+      fmt::format("{}: there is no picture to draw into: the film was not looked through. Fix: {}",
+                  title, reason));
+}
+
+void draw_label(const Canvas& canvas, const Point& point, const std::string& text,
+                std::size_t column, const Lettering& lettering) {
+  const int height = std::max(12, cvRound(canvas.length(.018)));
+  const int pad = height / 3;
+  const cv::Size size(lettering.width(text, height) + 2 * pad, height + 2 * pad);
+  cv::Point at(canvas.at(point) +
+               cv::Point2d((2 + 2.2 * static_cast<double>(column)) * height, -.5 * size.height));
+  at.x = std::clamp(at.x, 0, std::max(0, canvas.image().cols - size.width));
+  at.y = std::clamp(at.y, 0, std::max(0, canvas.image().rows - size.height));
+  cv::rectangle(canvas.image(), cv::Rect(at, size), kDark, cv::FILLED);
+  lettering.draw(canvas.image(), text, at + cv::Point(pad, pad), height, kWhite);
+}
+
+Picture with_caption(const cv::Mat& image, const std::vector<TextRow>& rows,
+                     const Lettering& lettering) {
+  const int width = std::max(image.cols, kSmallestCaption);
+  const cv::Mat caption = draw_text_rows(width, rows, lettering);
+
+  Picture overlay = blank_picture(width, image.rows + caption.rows);
+  cv::Mat whole = mat_of(overlay);
+  whole.setTo(kWhite);
+  image.copyTo(whole(cv::Rect({(width - image.cols) / 2, 0}, image.size())));
+  caption.copyTo(whole(cv::Rect({0, image.rows}, caption.size())));
+  return overlay;
+}
+
+}  // namespace repose::vision

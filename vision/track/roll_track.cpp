@@ -1,0 +1,298 @@
+#include "vision/track/roll_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "vision/track/bent_path.h"
+#include "vision/track/film_grains.h"
+#include "vision/track/film_verdict.h"
+#include "vision/track/strobe.h"
+
+namespace repose::vision {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kNormal95 = 1.96;
+constexpr double kStep_px = 1;   ///< places nearer to each other count once
+constexpr double kStill_px = 1;  ///< a grain at rest moves less
+constexpr double kStill_s = .3;
+/// A bend is no foot beyond these.
+constexpr double kGentlest_rad = 3 * kDegree, kSteepest_rad = 70 * kDegree;
+constexpr double kLevel_rad = 12 * kDegree;
+constexpr double kLean_rad = 2 * kDegree;
+
+/// A grain's path with the two lines along which its upper edge moves.
+struct Roll {
+  const GrainPath* path = nullptr;
+  BentPath bent;
+};
+
+/// The grain at rest, at the beginning or the end.
+struct Rest {
+  cv::Point2d crest;
+  double lasts_s = 0;
+  double begins_s = 0;
+  bool touches_edge = false;
+};
+
+/// Above the centre, where no shadow beneath the grain shifts it.
+cv::Point2d crest_of(const Blob& blob) { return {blob.centre.x, blob.crest_px}; }
+
+std::vector<cv::Point2d> moving_places(const GrainPath& path) {
+  std::vector<cv::Point2d> places;
+  for (const Sighting& one : path) {
+    if (one.blob.touches_edge) continue;
+    if (!places.empty() && cv::norm(crest_of(one.blob) - places.back()) < kStep_px) continue;
+    places.push_back(crest_of(one.blob));
+  }
+  return places;
+}
+
+double width_px(const GrainPath& path) {
+  std::vector<double> areas;
+  for (const Sighting& one : path) areas.push_back(one.blob.area_px);
+  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+  std::nth_element(areas.begin(), middle, areas.end());
+  return 2 * std::sqrt(*middle / CV_PI);
+}
+
+/// Of a direction against the level.
+double slope_rad(const cv::Point2d& along) { return std::atan2(along.y, std::abs(along.x)); }
+
+/// Whether it runs down one line and on along a nearly level other one, and not just anyhow.
+bool is_roll(const BentPath& bent, double width_px) {
+  constexpr double kStraight = .15;  // of the grain's width
+  constexpr double kMostLeftOut = .3;
+  return bent.bend_rad > kGentlest_rad && bent.bend_rad < kSteepest_rad &&
+         slope_rad(bent.incline.along) > slope_rad(bent.flat.along) &&
+         std::abs(slope_rad(bent.flat.along)) < kLevel_rad &&
+         bent.incline.along.x * bent.flat.along.x > 0 && bent.left_out < kMostLeftOut &&
+         bent.rms_px < std::max(1.0, kStraight * width_px);
+}
+
+double contrast_of(const GrainPath& path) { return path[path.size() / 2].blob.contrast; }
+
+std::optional<Roll> roll_in(const FilmGrains& film) {
+  std::optional<Roll> best;
+  double clearest = 0;
+  for (const GrainPath& path : film.paths) {
+    const auto bent = bent_path_through(moving_places(path));
+    if (!bent || !is_roll(*bent, width_px(path))) continue;
+    // A shadow rolls along, less clearly seen.
+    const double clear = way_px(path) * contrast_of(path);
+    if (clear <= clearest) continue;
+    clearest = clear;
+    best = Roll{&path, *bent};
+  }
+  return best;
+}
+
+/// Where a path begins, or backwards where it ends: for as long as it stays there.
+template <typename Sightings>
+Rest rest_at(const Sightings& begin, const Sightings& end) {
+  Rest rest{.crest = {}, .begins_s = begin->time_s};
+  double count = 0;
+  for (auto one = begin; one != end; ++one) {
+    if (cv::norm(crest_of(one->blob) - crest_of(begin->blob)) > kStill_px) break;
+    rest.crest += (crest_of(one->blob) - rest.crest) / ++count;
+    rest.lasts_s = std::abs(one->time_s - begin->time_s);
+    rest.begins_s = one->time_s;
+    rest.touches_edge = rest.touches_edge || one->blob.touches_edge;
+  }
+  return rest;
+}
+
+Rest first_rest(const GrainPath& path) { return rest_at(path.begin(), path.end()); }
+Rest last_rest(const GrainPath& path) { return rest_at(path.rbegin(), path.rend()); }
+
+/// Why it is not known where the grain comes to rest; empty: it is.
+std::string fault_of_end(const GrainPath& path, const Rest& rest, const FilmGrains& film) {
+  const Blob& last = path.back().blob;
+  if (last.touches_edge || rest.touches_edge) {
+    return "the grain rolls to the edge of the picture. Rule: it comes to rest within it. Fix: "
+           "show all of the flat, or let go of the grain lower on the incline.";
+  }
+  if (rest.lasts_s >= kStill_s) return {};
+  constexpr int kFrames = 3;
+  if (path.back().frame + kFrames < static_cast<int>(film.survey.times_s.size())) {
+    return fmt::format(
+        "the grain is lost at {:.0f}, {:.0f} before it lies still. Rule: in sight until it has "
+        "been at rest for {:g} s. Fix: show all of the flat before a backdrop of another colour, "
+        "with nothing in front of the grain.",
+        last.centre.x, last.centre.y, kStill_s);
+  }
+  return fmt::format(
+      "the grain still moves when the film ends. Rule: at rest for {:g} s. Fix: film on until it "
+      "lies still.",
+      kStill_s);
+}
+
+/// Ways from the foot, in pixels, with standard errors.
+struct Ways {
+  double stopped_px = 0;
+  double released_px = 0;
+  double foot_error_px = 0;  ///< of both, which it makes one shorter and the other longer
+  double end_error_px = 0;   ///< of each by itself
+};
+
+/// By a scale in the picture.
+void measure_by(const ScaleBar& bar, const Ways& ways, RollTrack& track) {
+  const Estimate scale = mm_per_px(bar);
+  const double error_px = kNormal95 * std::hypot(ways.foot_error_px, ways.end_error_px);
+  const auto length_mm = [&](double px) {
+    return Estimate{px * scale.value, std::hypot(error_px * scale.value, px * scale.uncertainty)};
+  };
+  track.has_scale = true;
+  track.mm_per_px = scale.value;
+  track.stopped_mm = length_mm(ways.stopped_px);
+  track.released_mm = length_mm(ways.released_px);
+}
+
+/// By the way up the incline, which is known.
+void measure_by(double released_mm, const Ways& ways, RollTrack& track) {
+  track.mm_per_px = released_mm / ways.released_px;
+  const double value = ways.stopped_px * track.mm_per_px;
+  const double per_stopped = 1 / std::abs(ways.stopped_px), per_released = 1 / ways.released_px;
+  const double error = std::hypot(ways.foot_error_px * (per_stopped + per_released),
+                                  ways.end_error_px * std::hypot(per_stopped, per_released));
+  track.stopped_mm = {value, kNormal95 * std::abs(value) * error};
+  track.released_mm = {released_mm, 0};
+}
+
+Point point_of(const cv::Point2d& p) { return {p.x, p.y}; }
+
+void read_roll(const Roll& roll, const TrackOptions& options, RollTrack& track) {
+  const BentPath& bent = roll.bent;
+  const Rest first = first_rest(*roll.path), last = last_rest(*roll.path);
+  // Planes lie half a width below the lines, so that the foot is before the path's corner. How high
+  // a grain rolls that is no sphere is not known.
+  constexpr double kShape = .15, kEnd_px = .3;
+  const double radius = .5 * track.grain_px;
+  const double before = radius * std::tan(.5 * bent.bend_rad);
+  const Ways ways{.stopped_px = (last.crest - bent.corner).dot(bent.flat.along) + before,
+                  .released_px = (bent.corner - first.crest).dot(bent.incline.along) + before,
+                  .foot_error_px = std::hypot(bent.corner_error_px, kShape * before),
+                  .end_error_px = kEnd_px};
+  if (options.scale) {
+    measure_by(*options.scale, ways, track);
+  } else {
+    measure_by(options.released_mm.value(), ways, track);
+  }
+  track.incline_deg = {bent.bend_rad / kDegree, kNormal95 * bent.bend_error_rad / kDegree};
+  track.stopped_s = last.begins_s;
+  track.noise_px = bent.rms_px;
+  cv::Point2d down(-bent.flat.along.y, bent.flat.along.x);
+  if (down.y < 0) down = -down;
+  const cv::Point2d to_centre = radius * down;
+  track.foot = point_of(bent.corner - before * bent.flat.along + 2 * to_centre);
+  track.corner = point_of(bent.corner + to_centre);
+  track.released = point_of(first.crest + to_centre);
+  track.stopped = point_of(last.crest + to_centre);
+  track.has_reading = true;
+}
+
+/// In how many frames both are seen, well apart.
+int frames_apart(const GrainPath& path, const GrainPath& other, double least_px) {
+  int frames = 0;
+  auto one = path.begin();
+  for (const Sighting& seen : other) {
+    while (one != path.end() && one->frame < seen.frame) ++one;
+    if (one == path.end()) break;
+    const bool is_apart = cv::norm(one->blob.centre - seen.blob.centre) > least_px;
+    frames += one->frame == seen.frame && is_apart ? 1 : 0;
+  }
+  return frames;
+}
+
+/// Whether something else moves at the same time, of like size and as clearly seen: a shadow is
+/// less clear, a hand larger.
+bool has_another(const FilmGrains& film, const GrainPath& path) {
+  constexpr double kAbout = .6, kWidths = 2;
+  constexpr int kFrames = 5;
+  const double width = width_px(path);
+  return std::any_of(film.paths.begin(), film.paths.end(), [&](const GrainPath& other) {
+    const double like = width_px(other) / width;
+    return &other != &path && like > kAbout && like < 1 / kAbout &&
+           contrast_of(other) > kAbout * contrast_of(path) && way_px(other) > kWidths * width &&
+           frames_apart(path, other, kWidths * width) >= kFrames;
+  });
+}
+
+/// Reads the film's roll, or says why it cannot.
+std::string read(const FilmGrains& film, const std::optional<Roll>& roll,
+                 const TrackOptions& options, RollTrack& track) {
+  const std::string fault = fault_of(film);
+  if (!fault.empty()) return fault;
+  if (!roll) {
+    return fmt::format(
+        "nothing is seen to roll down a straight incline and on along a level flat: there is no "
+        "foot. Rule: a bend of {:.0f} to {:.0f} degrees with places on both sides of it. Fix: film "
+        "level and from the side, with incline and flat in the picture, from before the grain is "
+        "let go until it lies still.",
+        kGentlest_rad / kDegree, kSteepest_rad / kDegree);
+  }
+  if (has_another(film, *roll->path)) {
+    return "several things move that may be grains. Rule: one grain in a film. Fix: film each roll "
+           "by "
+           "itself.";
+  }
+  track.grain_px = width_px(*roll->path);
+  const Rest last = last_rest(*roll->path);
+  const std::string end = fault_of_end(*roll->path, last, film);
+  if (!end.empty()) return end;
+  constexpr double kHeld_s = .1;
+  if (!options.scale && first_rest(*roll->path).lasts_s < kHeld_s) {
+    return "it is not seen where the grain was let go, from which the millimetres come. Rule: at "
+           "rest and in sight before. Fix: film from before, hold the grain by a card or a thread "
+           "and not within a hand, or give --scale.";
+  }
+  read_roll(*roll, options, track);
+  return {};
+}
+
+void warn_of_roll(const Roll& roll, RollTrack& track) {
+  const double lean_rad = slope_rad(roll.bent.flat.along);
+  if (std::abs(lean_rad) > kLean_rad) {
+    track.warnings.push_back(
+        {"leaning", fmt::format("the flat leans by {:.1f} degrees in the picture, and was "
+                                "followed: level the camera; the flat counts as level",
+                                std::abs(lean_rad) / kDegree)});
+  }
+  constexpr double kFewHops = .05;
+  if (roll.bent.left_out > kFewHops) {
+    track.warnings.push_back(
+        {"hops", fmt::format("the grain leaves the straight lines in {:.0f} % of its way: it hops, "
+                             "or incline and flat are not straight",
+                             100 * roll.bent.left_out)});
+  }
+}
+
+}  // namespace
+
+RollTrack track_roll(const std::filesystem::path& file, const TrackOptions& options) {
+  const FilmGrains film = grains_in_film(file, options.progress);
+  RollTrack track{.film = facts_of(film.survey)};
+  const std::optional<Roll> roll = roll_in(film);
+  track.reason = read(film, roll, options, track);
+  if (roll) {
+    for (const Sighting& one : *roll->path) {
+      track.places.push_back({one.time_s, point_of(one.blob.centre)});
+    }
+  }
+  if (track.reason.empty()) {
+    const bool is_doubtful = warn_of_film(film, track.warnings);
+    warn_of_roll(*roll, track);
+    track.status = is_doubtful ? MeasureStatus::flagged : MeasureStatus::ok;
+  }
+  if (options.draws_strobe && !film.scene.empty()) {
+    track.strobe = strobe_picture(file, film.scene, roll ? *roll->path : GrainPath{});
+  }
+  return track;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vision/track/track.h"
+
+namespace repose::vision {
+
+/// What a film of a grain that rolls down an incline and out on a flat tells. Distances are those
+/// of the grain's centre, along the planes, from the foot: the line in which they meet.
+struct RollTrack {
+  MeasureStatus status = MeasureStatus::refused;
+  std::string reason = {};  ///< why there is no number
+  std::vector<Warning> warnings = {};
+  FilmFacts film = {};
+
+  bool has_reading = false;
+  Estimate incline_deg = {};  ///< between incline and flat, as seen
+  Estimate released_mm = {};  ///< up the incline, where it was let go
+  Estimate stopped_mm = {};   ///< along the flat, where it rests
+  double stopped_s = 0;       ///< when it came to rest
+  bool has_scale = false;     ///< else millimetres are those of the release
+  double mm_per_px = 0;
+  double noise_px = 0;  ///< standard deviation of a centre from the path's two lines
+  double grain_px = 0;  ///< diameter of a disc of the grain's area
+
+  Point foot = {};
+  Point corner = {};    ///< of the path of the grain's centre
+  Point released = {};  ///< the grain's centre
+  Point stopped = {};
+  std::vector<GrainPlace> places = {};  ///< all of the grain's path
+  Picture strobe = {};  ///< the grain at successive times in one picture, when it was asked for
+};
+
+/// Follows the grain and takes the two straight lines of its path: incline and flat. The planes lie
+/// half the grain's width below them.
+/// @param options  with a scale or with released_mm, which the millimetres come from
+/// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
+RollTrack track_roll(const std::filesystem::path& file, const TrackOptions& options);
+
+}  // namespace repose::vision
