@@ -101,11 +101,6 @@ vision::Picture DrawnRoll::picture(int frame) const {
     }
     sum += now / parts;
   }
-  if (shake_px > 0) {
-    const cv::Matx23d move(1, 0, shake_px * std::sin(.9 * frame), 0, 1,
-                           shake_px * std::cos(1.3 * frame));
-    cv::warpAffine(sum, sum, move, sum.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  }
   return noisy_picture(sum, noise, seed * 1000003U + static_cast<unsigned>(frame));
 }
 

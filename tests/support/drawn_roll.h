@@ -22,7 +22,6 @@ struct DrawnRoll {
   double noise = 2;       ///< standard deviation of a grey level
   double lean_rad = 0;    ///< of the camera, clockwise
   double hop_px = 0;      ///< how high it hops when it comes to the flat
-  double shake_px = 0;    ///< of the camera
   bool has_hand = false;  ///< holds the grain, then leaves
   bool has_shadow = true;
   bool goes_left = false;

@@ -118,12 +118,6 @@ TEST(TrackRoll, LeavesOutAHopAtTheFoot) {
   EXPECT_THAT(track.warnings, Contains(Field(&Warning::code, "hops")));
 }
 
-TEST(TrackRoll, TakesOutACameraThatShakes) {
-  DrawnRoll roll = small_roll();
-  roll.shake_px = .7;
-  expect_truth(tracked(roll), roll);
-}
-
 TEST(TrackRoll, RefusesSeveralGrains) {
   DrawnRoll roll = small_roll();
   roll.grains = 2;
