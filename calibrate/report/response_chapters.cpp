@@ -15,8 +15,6 @@ constexpr const char* kRuns = "simulated runs";
 constexpr const char* kMeasured = "measured, 95 %";
 constexpr const char* kBest = "best fit";
 
-std::string unit_shown(const std::string& unit) { return unit == "deg" ? "°" : unit; }
-
 void add_measured(Chart& chart, const MeasuredNumber& measured, std::array<double, 2> x_range) {
   if (!measured.measured) return;
   const double half = half_width_95(measured.uncertainty.value_or(0));

@@ -79,12 +79,17 @@ std::string unit_of_experiment(const std::string& name) {
   return known == nullptr ? "" : std::string(known->unit);
 }
 
+std::string unit_shown(const std::string& unit) {
+  if (unit == "deg") return "°";
+  return unit == "kg/m3" ? "kg/m³" : unit;
+}
+
 std::string axis_of_observable(const std::string& name, const std::string& unit) {
   const auto* known = dem::find_experiment(name);
   const std::string what =
       known == nullptr ? shortened(spaced(name)) : std::string(known->value_name);
   if (unit.empty()) return what;
-  return fmt::format("{} [{}]", what, unit == "deg" ? "°" : unit);
+  return fmt::format("{} [{}]", what, unit_shown(unit));
 }
 
 bool has_heap(const StudyResult& result) {

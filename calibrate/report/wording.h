@@ -26,6 +26,9 @@ std::string spaced(std::string name);
 /// "mm" for "drop"; empty for what is not known.
 std::string unit_of_experiment(const std::string& name);
 
+/// "°" for "deg".
+std::string unit_shown(const std::string& unit);
+
 /// "rebound height [mm]" for an observable called "drop" in mm.
 std::string axis_of_observable(const std::string& name, const std::string& unit);
 

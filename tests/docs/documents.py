@@ -64,7 +64,8 @@ def anchor_of(heading):
 def user_documents(root):
     """Those that explain the program, with commands to type."""
     files = [root / "README.md", *sorted((root / "docs").glob("*.md"))]
-    return [Document(file, root) for file in [*files, root / "samples/hazelnut/README.md"]]
+    samples = sorted((root / "samples").glob("*/README.md"))
+    return [Document(file, root) for file in [*files, *samples]]
 
 
 def all_documents(root):
