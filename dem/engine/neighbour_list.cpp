@@ -108,7 +108,7 @@ void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double 
   position_ = bodies.position;
   orientation_ = bodies.orientation;
   margin_.resize(bodies.presence.size());  // longer, as the bodies' own arrays
-  double farthest = 0;
+  Eigen::AlignedBox3d occupied;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const double turning =
         bodies.is_round ? 0 : bodies.bounding_radius[k] * bodies.motion[k].spin.xyz.norm();
@@ -117,10 +117,12 @@ void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double 
                  std::min(kGreatestMargin, kRestMargin + kHorizonSteps * timestep_s * speed /
                                                              bodies.bounding_radius[k]);
     if (bodies.is_present(k)) {
-      farthest = std::max(farthest, bodies.position[k].xyz.norm() + bodies.bounding_radius[k]);
+      const Vector reach = Vector::Constant(bodies.bounding_radius[k]);
+      occupied.extend(bodies.position[k].xyz - reach);
+      occupied.extend(bodies.position[k].xyz + reach);
     }
   }
-  const double wall_speed = walls.greatest_speed(time_s, farthest);
+  const double wall_speed = walls.greatest_speed(time_s, occupied);
   wall_margin_ = wall_speed * timestep_s * static_cast<double>(kWallSteps);
   due_step_ = wall_speed > 0 ? step + kWallSteps : INT64_MAX;
 }

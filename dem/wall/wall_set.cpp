@@ -63,14 +63,20 @@ void WallSet::set_motions(int wall, std::vector<Motion> motions, double time_s) 
   is_placed_[k] = 0;
 }
 
-double WallSet::greatest_speed(double time_s, double reach) const {
+double WallSet::greatest_speed(double time_s, const Eigen::AlignedBox3d& within) const {
   double greatest = 0;
+  if (within.isEmpty()) return greatest;
   for (std::size_t k = 0; k < walls_.size(); ++k) {
     if (!walls_[k].is_present) continue;
     for (const Motion& motion : walls_[k].motions) {
       if (time_s >= motion.stop_s) continue;
-      greatest = std::max(
-          greatest, motion.velocity.norm() + motion.spin.norm() * (reach + motion.pivot.norm()));
+      const Vector pivot = motion.pivot + std::max(0.0, time_s - motion.start_s) * motion.velocity;
+      // A convex function of the place: its greatest value is at a corner.
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vector arm =
+            within.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - pivot;
+        greatest = std::max(greatest, motion.velocity.norm() + motion.spin.cross(arm).norm());
+      }
     }
   }
   return greatest;

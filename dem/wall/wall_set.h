@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "dem/wall/bed_facets.h"
 #include "dem/wall/mesh_facets.h"
 #include "dem/wall/wall.h"
@@ -34,8 +36,9 @@ class WallSet {
   void set_motions(int wall, std::vector<Motion> motions, double time_s);
   void remove(int wall) { walls_[static_cast<std::size_t>(wall)].is_present = false; }
 
-  /// Greatest speed of any wall's points within `reach` of the origin at a time from then on, m/s.
-  double greatest_speed(double time_s, double reach) const;
+  /// Greatest speed of any wall's points within a box, now or later as long as its pivots stay,
+  /// m/s.
+  double greatest_speed(double time_s, const Eigen::AlignedBox3d& within) const;
 
   /// Facets of a wall within `distance` of a point, in rising order. Plain walls are one facet, 0.
   void facets_near(int wall, const Vector& point, double distance, std::vector<int>& facets) const;

@@ -141,10 +141,13 @@ TEST(WallSet, GreatestSpeedCountsSpinAndForgetsWhatIsOver) {
   Wall wall = moving_plane();
   wall.motions = {{.velocity = {3, 0, 0}, .spin = {0, 0, 2}, .stop_s = 1}};
   WallSet walls({wall});
-  EXPECT_GE(walls.greatest_speed(0, .5), 4);
-  EXPECT_EQ(walls.greatest_speed(1, .5), 0);
+  const Eigen::AlignedBox3d grains(Vector(-.5, -.5, -7), Vector(.5, .5, 7));
+  EXPECT_NEAR(walls.greatest_speed(0, grains), 3 + 2 * std::hypot(.5, .5), 1e-12)
+      << "far along the axis is not far from it";
+  EXPECT_EQ(walls.greatest_speed(0, {}), 0) << "of no grains";
+  EXPECT_EQ(walls.greatest_speed(1, grains), 0);
   walls.remove(0);
-  EXPECT_EQ(walls.greatest_speed(0, .5), 0);
+  EXPECT_EQ(walls.greatest_speed(0, grains), 0);
 }
 
 TEST(WallSet, OnlySpheresThatTouchNothingAreClear) {
