@@ -11,6 +11,7 @@
 #include <gif_lib.h>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/videoio.hpp>
+#include <sched.h>
 
 #include "base/whole_file.h"
 
@@ -22,6 +23,31 @@ namespace fs = std::filesystem;
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const char* fix) {
   throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
 }
+
+/// Keeps the calling thread to one processor. The encoder of H.264 takes as many threads as there
+/// are processors for whoever opens it, and what it writes depends on their number and on chance;
+/// the library that opens it has no other way to choose.
+class OnOneProcessor {
+ public:
+  OnOneProcessor() {
+    if (sched_getaffinity(0, sizeof before_, &before_) != 0) return;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(sched_getcpu(), &one);
+    is_bound_ = sched_setaffinity(0, sizeof one, &one) == 0;
+  }
+  ~OnOneProcessor() {
+    if (is_bound_) sched_setaffinity(0, sizeof before_, &before_);
+  }
+  OnOneProcessor(const OnOneProcessor&) = delete;
+  OnOneProcessor& operator=(const OnOneProcessor&) = delete;
+  OnOneProcessor(OnOneProcessor&&) = delete;
+  OnOneProcessor& operator=(OnOneProcessor&&) = delete;
+
+ private:
+  cpu_set_t before_ = {};
+  bool is_bound_ = false;
+};
 
 constexpr const char* kFixPlace = "choose a folder you may write to, or free some space there.";
 
@@ -45,10 +71,11 @@ class Film::Writer {
 class Film::Mp4Writer : public Film::Writer {
  public:
   Mp4Writer(const fs::path& file, double frames_per_s, int width, int height)
-      : file_(file),
-        size_(width & ~1, height & ~1),  // H.264 halves the colours' resolution
-        writer_(file.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
-                frames_per_s, size_) {}
+      : file_(file), size_(width & ~1, height & ~1) {  // H.264 halves the colours' resolution
+    const OnOneProcessor while_opened;
+    writer_.open(file_.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
+                 frames_per_s, size_);
+  }
 
   bool add(const vision::Picture& picture) override {
     if (!writer_.isOpened()) return false;

@@ -1,10 +1,13 @@
 #include "render/film/film.h"
 
 #include <csignal>
+#include <filesystem>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/videoio.hpp>
+#include <sched.h>
 #include <sys/resource.h>
 
 #include "tests/render/drawn.h"
@@ -43,6 +46,36 @@ TEST(Film, KeepsEveryFrameInItsOrder) {
     }
     EXPECT_FALSE(film_again.read(frame)) << name;
   }
+}
+
+/// Of a rough picture that moves.
+std::string film_text(const std::filesystem::path& file) {
+  vision::Picture picture = grey_picture(160, 120, 0);
+  Film film(file, 30);
+  for (std::size_t frame = 0; frame < 60; ++frame) {
+    for (std::size_t k = 0; k < picture.bgr.size(); ++k) {
+      picture.bgr[k] = static_cast<std::uint8_t>((k + 7 * frame) * (k + 13) % 251);
+    }
+    film.add(picture);
+  }
+  film.close();
+  return text_of(file);
+}
+
+TEST(Film, HasTheSameBytesHoweverManyProcessorsThereAre) {
+  const TemporaryFolder folder;
+  const std::string on_all = film_text(folder.path() / "all.mp4");
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  CPU_SET(sched_getcpu(), &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  const std::string on_one = film_text(folder.path() / "one.mp4");
+  EXPECT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
+  EXPECT_TRUE(on_all == on_one);
+  cpu_set_t after;
+  ASSERT_EQ(sched_getaffinity(0, sizeof after, &after), 0);
+  EXPECT_TRUE(CPU_EQUAL(&after, &all)) << "a film leaves the processors as they were";
 }
 
 TEST(Film, AGifRepeatsForEver) {
