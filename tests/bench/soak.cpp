@@ -75,7 +75,17 @@ dem::Model model(base::Random& random) {
   return model;
 }
 
+dem::HeapProtocol heap(double reach_m, base::Random& random) {
+  return {.tube_diameter_m = reach_m * random.between(8, 12),
+          .tube_height_m = reach_m * random.between(20, 40),
+          .lift_speed_m_s = spread(random, .05, .5),
+          .plate_m = reach_m * random.between(40, 60),
+          .grains = whole(random, 5, 30),
+          .may_be_fewer = true};
+}
+
 dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base::Random& random) {
+  constexpr double kSparse = .65, kDense = .85;
   const double reach_m = model.grain.reach_m();
   switch (experiment) {
     case dem::Experiment::drop:
@@ -86,15 +96,31 @@ dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base
       return dem::RollProtocol{.incline_deg = random.between(5, 45),
                                .release_m = reach_m * random.between(3, 10),
                                .release_turn_deg = random.between(0, 90)};
+    case dem::Experiment::drop_on_grains:
+      return dem::GrainDropProtocol{.height_m = spread(random, .01, .5),
+                                    .grains = whole(random, 1, 3),
+                                    .coverage = random.between(kSparse, kDense)};
+    case dem::Experiment::tilt_on_grains:
+      return dem::GrainTiltProtocol{.bonded = whole(random, 1, 4),
+                                    .rate_deg_s = spread(random, 4, 10),
+                                    .places = whole(random, 1, 2),
+                                    .coverage = random.between(kSparse, kDense)};
+    case dem::Experiment::roll_on_grains:
+      return dem::GrainRollProtocol{.rate_deg_s = spread(random, 4, 10),
+                                    .places = whole(random, 1, 2),
+                                    .coverage = random.between(kSparse, kDense)};
+    case dem::Experiment::fill:
+      return dem::FillProtocol{.tube_diameter_m = reach_m * random.between(8, 12),
+                               .tube_height_m = reach_m * random.between(8, 12),
+                               .pour_m = spread(random, .005, .1)};
+    case dem::Experiment::pendulum:
+      return dem::PendulumProtocol{.string_m = spread(random, .05, 2),
+                                   .release_deg = random.between(5, 90),
+                                   .pairs = whole(random, 1, 3)};
     case dem::Experiment::heap:
       break;
   }
-  return dem::HeapProtocol{.tube_diameter_m = reach_m * random.between(8, 12),
-                           .tube_height_m = reach_m * random.between(20, 40),
-                           .lift_speed_m_s = spread(random, .05, .5),
-                           .plate_m = reach_m * random.between(40, 60),
-                           .grains = whole(random, 5, 30),
-                           .may_be_fewer = true};
+  return heap(reach_m, random);
 }
 
 bool is_finite(const dem::Repeat& repeat) {
@@ -158,7 +184,7 @@ int main(int count, char** words) {
   Soak soak;
   std::string only;
   CLI::App app("Many experiments with random settings");
-  app.add_option("--only", only, "drop, tilt, roll or heap");
+  app.add_option("--only", only, dem::experiment_names());
   app.add_option("--count", soak.count, "of each experiment (100)");
   app.add_option("--first", soak.first, "number of the first (0)");
   app.add_option("--seed", soak.seed, "another seed, other settings (1)");
