@@ -175,7 +175,7 @@ std::string Advisor::unmade_advice(std::size_t parameter) const {
   if (!is_told && !tellers.empty()) {
     parts.push_back(
         fmt::format("do an experiment that tells it from the others: add [experiment.{}] and its "
-                    "readings to the study",
+                    "readings to the study (repose plan tells what each would give)",
                     fmt::join(tellers, "] or [experiment.")));
   }
   return fmt::format("{}", fmt::join(parts, "; or "));

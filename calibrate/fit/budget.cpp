@@ -9,7 +9,6 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kFirstFraction = .35;
 constexpr int kMaxPerDimension = 12;  // in the first round
 
 int least_jobs(const Experiment& experiment) {

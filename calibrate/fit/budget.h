@@ -14,11 +14,14 @@ struct Cost {
 /// Of the smallest first round.
 Cost minimum_cost(const Problem& problem);
 
+/// Of the seconds, for the first round.
+inline constexpr double kFirstFraction = .35;
+
 /// Jobs of the first round, for each of measured_experiments().
 ///
-/// About a third of the budget; the seconds are shared in proportion to dimensions times the root
-/// of a run's cost (Neyman's allocation, Cochran 1977, Sampling Techniques, sec. 5.5: counts go as
-/// scatter over root of cost). From 2d + 2 to 12d jobs for d parameters.
+/// About kFirstFraction of the budget; the seconds are shared in proportion to dimensions times the
+/// root of a run's cost (Neyman's allocation, Cochran 1977, Sampling Techniques, sec. 5.5: counts
+/// go as scatter over root of cost). From 2d + 2 to 12d jobs for d parameters.
 std::vector<int> first_round_jobs(const Problem& problem);
 
 /// Jobs of a later round, for each of measured_experiments(), `need` saying how much each is wanted

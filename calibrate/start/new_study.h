@@ -24,9 +24,6 @@ struct NewStudy {
   std::vector<dem::Experiment> experiments;  ///< at least one
 };
 
-/// A round number of mm, about six grains across; three times as high.
-double usual_tube_diameter_mm(const std::array<double, 3>& sizes_mm);
-
 /// About how many of the grains fill the tube.
 double grains_in_tube(const NewStudy& study);
 

@@ -10,40 +10,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/text.h"
 #include "calibrate/start/new_study.h"
+#include "calibrate/start/toml_text.h"
+#include "calibrate/start/usual_experiment.h"
 #include "calibrate/statistics/bench/sheet.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
-
-constexpr std::size_t kLine = 98;
-
-/// Lines that begin with "# ".
-std::string comment(const std::string& text) {
-  std::string lines;
-  for (const std::string& line : base::wrapped(text, kLine)) lines += "# " + line + '\n';
-  return lines;
-}
-
-/// As people write it in TOML: 1e8, not 1e+08.
-std::string number(double value) {
-  std::string text = fmt::format("{:.6g}", value);
-  const std::size_t plus = text.find("e+");
-  if (plus == std::string::npos) return text;
-  return text.substr(0, plus) + 'e' + text.substr(text.find_first_not_of("+0", plus + 1));
-}
-
-/// Text as TOML has it.
-std::string toml_text(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') quoted += '\\';
-    quoted += letter;
-  }
-  return quoted + '"';
-}
 
 /// How many spheres follow the shape to a few percent of its volume.
 int spheres_for(const std::array<double, 3>& sizes_mm) {
@@ -54,52 +28,43 @@ int spheres_for(const std::array<double, 3>& sizes_mm) {
   return *most <= kNearlyRound * *least ? kFew : kUsual;
 }
 
-/// To about 10 MPa: softer heaps move, stiffer ones take long.
-double softening_for(double young_modulus_pa) {
-  constexpr double kSoft_pa = 1.25e7;
-  return std::min(1., std::pow(10, std::round(std::log10(kSoft_pa / young_modulus_pa))));
-}
-
-/// The protocol with what was said of the bench.
-dem::Protocol protocol_of(const dem::ExperimentEntry& entry, const NewStudy& study) {
-  dem::Protocol protocol = entry.usual;
-  if (auto* heap = std::get_if<dem::HeapProtocol>(&protocol)) {
-    constexpr double kMPerMm = 1e-3, kPlateWidths = 6;  // how far a low heap reaches, and more
-    heap->tube_diameter_m = study.tube_diameter_mm * kMPerMm;
-    heap->tube_height_m = study.tube_height_mm * kMPerMm;
-    heap->plate_m = kPlateWidths * heap->tube_diameter_m;
-  }
-  return protocol;
+UsualBench bench_of(const NewStudy& study) {
+  return {.grain_mm = study.sizes_mm,
+          .young_modulus_pa = study.grain.young_modulus_pa,
+          .tube_diameter_mm = study.tube_diameter_mm,
+          .tube_height_mm = study.tube_height_mm};
 }
 
 std::string particle_section(const NewStudy& study) {
   const auto& [length, width, thickness] = study.sizes_mm;
   std::string text = "[particle]\n";
   text += fmt::format("name = \"{}\"\n", study.grain.name);
-  text += comment(
+  text += toml_comment(
       study.has_own_sizes
           ? "Length, width and thickness by calliper, ideally the means of at least 20 grains."
           : "Length, width and thickness: assumed; measure at least 20 grains with a calliper.");
-  text += fmt::format("size_mm = [{}, {}, {}]\n", number(length), number(width), number(thickness));
-  text += comment("Number of spheres per grain: more follow its shape better, but take longer.");
-  text += fmt::format("spheres = {}\n", spheres_for(study.sizes_mm));
+  text += fmt::format("size_mm = [{}, {}, {}]\n", toml_number(length), toml_number(width),
+                      toml_number(thickness));
   text +=
-      comment(study.has_own_density ? "Density of a grain, not of the bulk."
-                                    : "Density of a grain, not of the bulk: assumed. repose "
-                                      "bench density computes it from a mass and displaced water.");
-  text += fmt::format("density_kg_m3 = {}\n", number(study.density_kg_m3));
-  text += comment("Assumed. They hardly affect where grains come to rest.");
-  text += fmt::format("young_modulus_pa = {}\n", number(study.grain.young_modulus_pa));
-  text += fmt::format("poisson_ratio = {}\n", number(study.grain.poisson_ratio));
+      toml_comment("Number of spheres per grain: more follow its shape better, but take longer.");
+  text += fmt::format("spheres = {}\n", spheres_for(study.sizes_mm));
+  text += toml_comment(study.has_own_density
+                           ? "Density of a grain, not of the bulk."
+                           : "Density of a grain, not of the bulk: assumed. repose "
+                             "bench density computes it from a mass and displaced water.");
+  text += fmt::format("density_kg_m3 = {}\n", toml_number(study.density_kg_m3));
+  text += toml_comment("Assumed. They hardly affect where grains come to rest.");
+  text += fmt::format("young_modulus_pa = {}\n", toml_number(study.grain.young_modulus_pa));
+  text += fmt::format("poisson_ratio = {}\n", toml_number(study.grain.poisson_ratio));
   const auto& [red, green, blue] = study.grain.colour;
-  text += comment("Approximate colour, for pictures: red, green and blue from 0 to 255.");
+  text += toml_comment("Approximate colour, for pictures: red, green and blue from 0 to 255.");
   return text + fmt::format("colour = [{}, {}, {}]\n", red, green, blue);
 }
 
 std::string wall_section(const PlateKind& plate) {
-  return "[wall]\n" + comment("Material of plate, incline and tube; textbook values.") +
+  return "[wall]\n" + toml_comment("Material of plate, incline and tube; textbook values.") +
          fmt::format("name = \"{}\"\nyoung_modulus_pa = {}\npoisson_ratio = {}\n", plate.name,
-                     number(plate.young_modulus_pa), number(plate.poisson_ratio));
+                     toml_number(plate.young_modulus_pa), toml_number(plate.poisson_ratio));
 }
 
 bool is_told(const NewStudy& study, const std::string& coefficient) {
@@ -111,12 +76,12 @@ bool is_told(const NewStudy& study, const std::string& coefficient) {
 /// Bounds, and between them a value for repose simulate.
 std::string coefficient_line(const NewStudy& study, const std::string& pair,
                              const std::string& name, const CoefficientBounds& bounds) {
-  const std::string middle = number(std::round(500 * (bounds.min + bounds.max)) / 1000);
+  const std::string middle = toml_number(std::round(500 * (bounds.min + bounds.max)) / 1000);
   if (!is_told(study, fmt::format("contact.{}.{}", pair, name))) {
     return fmt::format("{} = {}  # no experiment of this study depends on it\n", name, middle);
   }
   return fmt::format("{} = {{ value = {}, min = {}, max = {} }}\n", name, middle,
-                     number(bounds.min), number(bounds.max));
+                     toml_number(bounds.min), toml_number(bounds.max));
 }
 
 std::string contact_section(const NewStudy& study, const std::string& pair,
@@ -128,14 +93,15 @@ std::string contact_section(const NewStudy& study, const std::string& pair,
 }
 
 std::string contacts(const NewStudy& study) {
-  std::string text = comment(
+  std::string text = toml_comment(
       "Coefficients to fit, each between bounds; the value is for repose simulate. For one that "
       "you "
       "know, or that no remaining experiment depends on, write a number: restitution = 0.31");
-  text += comment(study.grain.source.empty()
-                      ? std::string("Bounds: wide enough for any dry grain; narrow them if you "
-                                    "know better.")
-                      : fmt::format("Bounds: {}.", study.grain.source));
+  text +=
+      toml_comment(study.grain.source.empty()
+                       ? std::string("Bounds: wide enough for any dry grain; narrow them if you "
+                                     "know better.")
+                       : fmt::format("Bounds: {}.", study.grain.source));
   text += "[contact]\nrolling_model = \"constant_torque\"  # EDEM's standard\n\n";
   text += contact_section(study, "particle_wall", study.grain.with_wall) + '\n';
   return text + contact_section(study, "particle_particle", study.grain.with_grain);
@@ -156,29 +122,24 @@ std::string sheet_comment(const dem::ExperimentEntry& entry, const std::string& 
     text += column == key ? fmt::format(" {} must be as below.", column)
                           : fmt::format(" {} must equal {} below.", column, key);
   }
-  return comment(text);
+  return toml_comment(text);
 }
 
 std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy& study,
                                const std::string& folder, const std::string& sheet) {
   const std::string place = folder + '/' + sheet;
-  std::string text = comment(fmt::format("{} Result: {}, {}.", entry.description, entry.value_name,
-                                         entry.unit == "deg" ? "degrees" : entry.unit));
+  std::string text =
+      toml_comment(fmt::format("{} Result: {}, {}.", entry.description, entry.value_name,
+                               entry.unit == "deg" ? "degrees" : entry.unit));
   text += sheet_comment(entry, place);
-  text += fmt::format("[experiment.{}]\n", entry.name);
-  dem::Protocol protocol = protocol_of(entry, study);
-  for (const dem::ProtocolKey& key : entry.keys(protocol)) {
-    if (const auto value = value_of(key)) {
-      text += fmt::format("{} = {}\n", key.name, number(*value));
-    }
-  }
+  const dem::StudyExperiment usual = usual_experiment(entry, bench_of(study));
+  text += protocol_lines(entry, usual.protocol);
   if (dem::has_grain_contacts(entry.experiment) && entry.softening_effect.empty()) {
-    text += comment("Fraction of the real stiffness: softer grains are simulated faster.");
-    text +=
-        fmt::format("stiffness_factor = {}\n", number(softening_for(study.grain.young_modulus_pa)));
+    text += toml_comment("Fraction of the real stiffness: softer grains are simulated faster.");
+    text += fmt::format("stiffness_factor = {}\n", toml_number(usual.stiffness_factor));
   }
   if (entry.is_pictured) {
-    text += comment(fmt::format(
+    text += toml_comment(fmt::format(
         "To use photographs instead of a sheet, put them into a folder and name it here:\n"
         "measured = {{ pictures = [{}] }}",
         toml_text(folder + "/photos")));
@@ -187,12 +148,6 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
 }
 
 }  // namespace
-
-double usual_tube_diameter_mm(const std::array<double, 3>& sizes_mm) {
-  constexpr double kGrainsAcross = 6, kStep_mm = 10;
-  const double grain_mm = std::cbrt(sizes_mm[0] * sizes_mm[1] * sizes_mm[2]);
-  return kStep_mm * std::ceil(kGrainsAcross * grain_mm / kStep_mm);
-}
 
 double grains_in_tube(const NewStudy& study) {
   constexpr double kPacked = .6;
@@ -221,7 +176,7 @@ std::string title_of(const NewStudy& study) {
 }
 
 std::string study_text(const NewStudy& study, const std::string& folder) {
-  std::string text = comment(fmt::format(
+  std::string text = toml_comment(fmt::format(
       "{}: a study to calibrate. Lines that begin with # are comments; units are part of the "
       "names: _mm, _deg, _pa. Fill in the sheets in {}/, replace assumed values by your own, and "
       "delete the experiments that you cannot do.",

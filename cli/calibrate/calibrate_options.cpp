@@ -118,8 +118,12 @@ void check_places(CalibratePlan& plan) {
   check_output_places({{"--json", plan.json_file}}, read, plan.errors);
 }
 
-/// It tells what the joint method would do, and gives no results.
-void check_dry_run(const CalibrateArguments& arguments, CalibratePlan& plan) {
+/// A dry run tells what the joint method would do, and gives no results.
+void check_method(const CalibrateArguments& arguments, CalibratePlan& plan) {
+  if (arguments.method != "joint" && arguments.method != "paper") {
+    plan.errors.push_back(fmt::format(
+        "--method {}: must be joint or paper. Fix: leave it out for joint.", arguments.method));
+  }
   if (!arguments.is_dry_run) return;
   if (!arguments.json_file.empty()) {
     plan.errors.emplace_back("--dry-run: gives no results for --json. Fix: leave one of them out.");
@@ -134,17 +138,12 @@ void check_dry_run(const CalibrateArguments& arguments, CalibratePlan& plan) {
 
 }  // namespace
 
-CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
+CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows no_rows) {
   CalibratePlan plan;
-  check_dry_run(arguments, plan);
   plan.record.settings = arguments.settings;
   plan.out_folder = arguments.out_folder;
   plan.json_file = arguments.json_file;
   plan.record.method = arguments.method;
-  if (plan.record.method != "joint" && plan.record.method != "paper") {
-    plan.errors.push_back(fmt::format(
-        "--method {}: must be joint or paper. Fix: leave it out for joint.", arguments.method));
-  }
   attempt(plan.errors, [&] { plan.record.budget = calibrate::budget_named(arguments.budget); });
   const bool is_read = attempt(plan.errors, [&] {
     plan.record.study = dem::read_study(arguments.study, arguments.settings);
@@ -152,22 +151,28 @@ CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
   read_jobs(arguments, plan);
   if (!is_read) return plan;
   check_places(plan);
-  attempt(plan.errors, [&] {
-    plan.record.sheets = calibrate::read_sheets(plan.record.study, calibrate::NoRows::refused);
-  });
+  attempt(plan.errors,
+          [&] { plan.record.sheets = calibrate::read_sheets(plan.record.study, no_rows); });
   measure_pictures(dem::measured_in(plan.record.study, dem::Experiment::heap).pictures, plan);
   read_films(plan);
   if (!plan.errors.empty()) return plan;
   plan.study = plan.record.study;
   plan.record.study = calibrate::as_simulated(plan.study, plan.record.budget, plan.record.pictures,
                                               plan.record.sheets, plan.record.films);
-  attempt(plan.errors, [&] {
-    plan.record.grain = dem::build_grain(plan.record.study.grain);
-    plan.problem = calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);
-  });
+  attempt(plan.errors, [&] { plan.record.grain = dem::build_grain(plan.record.study.grain); });
   for (const std::string& repair : plan.record.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.record.grain.source, repair));
   }
+  return plan;
+}
+
+CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
+  CalibratePlan plan = read_bench(arguments, calibrate::NoRows::refused);
+  check_method(arguments, plan);
+  if (!plan.errors.empty()) return plan;
+  attempt(plan.errors, [&] {
+    plan.problem = calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);
+  });
   plan.notes.insert(plan.notes.end(), plan.problem.notes.begin(), plan.problem.notes.end());
   return plan;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/statistics/table/table.h"
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate.h"
@@ -22,6 +23,10 @@ struct CalibratePlan {
   std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know
 };
+
+/// The study and what its bench gave, for a command that simulates in the study's folder: all of a
+/// plan but its problem.
+CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows no_rows);
 
 CalibratePlan plan_calibrate(const CalibrateArguments& arguments);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "calibrate/start/usual_experiment.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/option_value.h"

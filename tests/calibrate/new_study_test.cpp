@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/start/usual_experiment.h"
 #include "calibrate/study/bench_sheets.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/study.h"

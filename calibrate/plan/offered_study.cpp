@@ -1,0 +1,70 @@
+#include "calibrate/plan/offered_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "calibrate/start/usual_experiment.h"
+#include "dem/study/experiment_table.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kMmPerM = 1e3;
+
+/// Length, and the width of a spheroid as large.
+std::array<double, 3> sizes_mm(const dem::ClumpShape& grain) {
+  const double length_mm = 2 * kMmPerM * grain.reach_m();
+  const double volume_mm3 = std::pow(kMmPerM, 3) * grain.volume_m3;
+  const double width_mm = std::sqrt(6 / std::numbers::pi * volume_mm3 / length_mm);
+  return {length_mm, width_mm, width_mm};
+}
+
+UsualBench bench_of(const dem::Study& study, const dem::ClumpShape& grain) {
+  UsualBench bench{.grain_mm = sizes_mm(grain),
+                   .young_modulus_pa = study.model.grain_material.young_modulus_pa};
+  constexpr double kHeightOfWidth = 3;
+  bench.tube_diameter_mm = usual_tube_diameter_mm(bench.grain_mm);
+  bench.tube_height_mm = kHeightOfWidth * bench.tube_diameter_mm;
+  return bench;
+}
+
+bool is_measured(const dem::Measured& measured) {
+  return measured.mean || !measured.values.empty();
+}
+
+/// With a number measured everywhere a study's problem has all of its experiments.
+Problem with_all(dem::Study study, const dem::ClumpFile& grain, const Budget& budget) {
+  std::set<std::string> made_up;
+  for (auto& [experiment, described] : study.experiments) {
+    if (is_measured(described.measured)) continue;
+    described.measured.mean = 1;
+    made_up.insert(dem::name_of(experiment));
+  }
+  Problem problem = problem_of(study, grain, budget).problem;
+  std::erase_if(problem.observables, [&](const Observable& observable) {
+    return observable.reading == "value" && made_up.contains(observable.experiment);
+  });
+  return problem;
+}
+
+}  // namespace
+
+OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
+                           const Budget& budget) {
+  OfferedStudy offered{.study = study, .added = {}, .problem = {}};
+  const UsualBench bench = bench_of(study, grain.shape);
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (study.experiments.contains(entry.experiment)) continue;
+    dem::StudyExperiment usual = usual_experiment(entry, bench);
+    offered.added.emplace(entry.experiment, usual);
+    if (entry.is_pictured) usual.stiffness_factor *= budget.heap_softening;
+    offered.study.experiments.emplace(entry.experiment, usual);
+  }
+  offered.problem = with_all(offered.study, grain, budget);
+  return offered;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+
+#include "calibrate/fit/problem.h"
+#include "calibrate/study/study_problem.h"
+#include "dem/shape/clump/clump_file.h"
+#include "dem/study/study.h"
+
+namespace repose::calibrate {
+
+/// A study in which every experiment that there is can be done.
+struct OfferedStudy {
+  dem::Study study;  ///< as simulated
+  /// Those that the study does not have, as they would stand in it.
+  std::map<dem::Experiment, dem::StudyExperiment> added;
+  /// All experiments that depend on a coefficient that is sought; what was measured of them.
+  Problem problem;
+};
+
+/// Adds the experiments that a study lacks, done in the usual way with its grains and its tube.
+/// @param study  as simulated (as_simulated), what was measured included
+/// @param budget  of the runs; heaps are as soft as it says
+/// @throws std::invalid_argument  nothing is sought, or the problem is not sound: every error.
+OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
+                           const Budget& budget);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,72 @@
+#include "calibrate/start/usual_experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "calibrate/start/toml_text.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kMPerMm = 1e-3;
+constexpr double kRound_mm = 10;
+
+/// Softer heaps move, stiffer ones take long.
+double softening_for(double young_modulus_pa) {
+  constexpr double kSoft_pa = 1.25e7;
+  return std::min(1., std::pow(10, std::round(std::log10(kSoft_pa / young_modulus_pa))));
+}
+
+void adapt(dem::HeapProtocol& heap, const UsualBench& bench) {
+  constexpr double kPlateWidths = 6;  // how far a low heap reaches, and more
+  heap.tube_diameter_m = bench.tube_diameter_mm * kMPerMm;
+  heap.tube_height_m = bench.tube_height_mm * kMPerMm;
+  heap.plate_m = kPlateWidths * heap.tube_diameter_m;
+}
+
+/// A tube that holds a bulk of large grains, too.
+void adapt(dem::FillProtocol& fill, const UsualBench& bench) {
+  constexpr double kLengths = 5;
+  const double longest_mm = *std::max_element(bench.grain_mm.begin(), bench.grain_mm.end());
+  const double wide_m = kMPerMm * kRound_mm * std::ceil(kLengths * longest_mm / kRound_mm);
+  fill.tube_diameter_m = std::max(fill.tube_diameter_m, wide_m);
+  fill.tube_height_m = std::max(fill.tube_height_m, wide_m);
+}
+
+}  // namespace
+
+double usual_tube_diameter_mm(const std::array<double, 3>& grain_mm) {
+  constexpr double kGrainsAcross = 6;
+  const double diameter_mm = std::cbrt(grain_mm[0] * grain_mm[1] * grain_mm[2]);
+  return kRound_mm * std::ceil(kGrainsAcross * diameter_mm / kRound_mm);
+}
+
+dem::StudyExperiment usual_experiment(const dem::ExperimentEntry& entry, const UsualBench& bench) {
+  dem::StudyExperiment usual{.protocol = entry.usual, .measured = {}};
+  if (auto* heap = std::get_if<dem::HeapProtocol>(&usual.protocol)) adapt(*heap, bench);
+  if (auto* fill = std::get_if<dem::FillProtocol>(&usual.protocol)) adapt(*fill, bench);
+  if (dem::has_grain_contacts(entry.experiment) && entry.softening_effect.empty()) {
+    usual.stiffness_factor = softening_for(bench.young_modulus_pa);
+  }
+  return usual;
+}
+
+std::string protocol_lines(const dem::ExperimentEntry& entry, dem::Protocol protocol) {
+  std::string text = fmt::format("[experiment.{}]\n", entry.name);
+  for (const dem::ProtocolKey& key : entry.keys(protocol)) {
+    if (const auto value = value_of(key)) {
+      text += fmt::format("{} = {}\n", key.name, toml_number(*value));
+    }
+  }
+  return text;
+}
+
+std::string stiffness_line(const dem::StudyExperiment& described) {
+  if (described.stiffness_factor == 1) return "";
+  return fmt::format("stiffness_factor = {}\n", toml_number(described.stiffness_factor));
+}
+
+}  // namespace repose::calibrate

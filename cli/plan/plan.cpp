@@ -1,0 +1,102 @@
+#include "cli/plan/plan.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/folder_lock.h"
+#include "calibrate/experiment/run_folder.h"
+#include "calibrate/plan/plan.h"
+#include "calibrate/study/thread_executor.h"
+#include "cli/calibrate/calibrate_options.h"
+#include "cli/calibrate/calibrate_progress.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/option_value.h"
+#include "cli/common/output.h"
+#include "cli/common/terminal.h"
+#include "cli/plan/plan_table.h"
+
+namespace repose::cli {
+namespace {
+
+constexpr double kMinute_s = 60;
+
+struct PlanOptions {
+  CalibratePlan study;  ///< but its problem
+  calibrate::OfferedStudy offered;
+  int readings = calibrate::kUsualReadings;
+};
+
+void offer(double core_s, PlanOptions& options) {
+  const calibrate::StudyRecord& record = options.study.record;
+  try {
+    options.offered =
+        calibrate::offered_study(record.study, record.grain, calibrate::plan_budget(core_s));
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), options.study.errors);
+  }
+}
+
+PlanOptions options_of(const PlanArguments& arguments) {
+  constexpr int kMostReadings = 10000;
+  constexpr double kLeast_minutes = .1, kUsual_minutes = 15, kMost_minutes = 1e5;
+  PlanOptions options{.study = read_bench({.study = arguments.study,
+                                           .settings = arguments.settings,
+                                           .jobs = arguments.jobs,
+                                           .out_folder = arguments.out_folder,
+                                           .json_file = arguments.json_file},
+                                          calibrate::NoRows::allowed),
+                      .offered = {}};
+  std::vector<std::string>& errors = options.study.errors;
+  if (const auto readings = read_whole_number({"--readings", arguments.readings, errors}, 1,
+                                              kMostReadings, "leave it out for 10")) {
+    options.readings = *readings;
+  }
+  const auto minutes = read_number_within({"--minutes", arguments.minutes, errors}, kLeast_minutes,
+                                          kMost_minutes, "leave it out for 15");
+  if (errors.empty()) offer(kMinute_s * minutes.value_or(kUsual_minutes), options);
+  return options;
+}
+
+std::optional<calibrate::Plan> plan_of(const PlanOptions& options,
+                                       const calibrate::RunFolder& folder) {
+  calibrate::StudySimulator simulator(options.offered.study, options.study.record.grain,
+                                      options.offered.problem.parameters);
+  simulator.store_in(folder);
+  calibrate::ThreadExecutor executor(simulator, options.study.jobs);
+  StudyProgressLine line;
+  return make_plan(options.offered,
+                   {simulator, folder, executor, watch_for_interrupt(),
+                    [&](const calibrate::StudyProgress& progress) { line.report(progress); }},
+                   options.readings);
+}
+
+}  // namespace
+
+ExitCode run_plan(const PlanArguments& arguments) {
+  const PlanOptions options = options_of(arguments);
+  print_lines(options.study.errors);
+  if (!options.study.errors.empty()) return ExitCode::bad_input;
+  print_lines(options.study.notes);
+  const calibrate::RunFolder folder(options.study.out_folder);
+  const base::FolderLock lock(options.study.out_folder,
+                              calibrate::lock_file_in(options.study.out_folder));
+  const std::optional<calibrate::Plan> plan = plan_of(options, folder);
+  print_lines(folder.remarks());
+  if (!plan) {
+    print_line(
+        fmt::format("interrupted; there is no plan yet. The same command resumes from here: "
+                    "the simulations are in {}.",
+                    folder.runs().string()));
+    return ExitCode::interrupted;
+  }
+  print_lines(plan->notes);
+  Outputs outputs;
+  outputs.add(options.study.json_file, plan_json(*plan, options.offered));
+  outputs.show(plan_table(*plan, options.offered, columns_of(stdout)));
+  outputs.write();
+  return ExitCode::done;
+}
+
+}  // namespace repose::cli

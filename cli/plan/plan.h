@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/common/exit_code.h"
+
+namespace repose::cli {
+
+/// `repose plan`, as typed.
+struct PlanArguments {
+  std::string study;
+  std::vector<std::string> settings;
+  std::string readings;
+  std::string minutes;
+  std::string jobs;
+  std::string out_folder;
+  std::string json_file;
+};
+
+/// Carries out `repose plan`.
+ExitCode run_plan(const PlanArguments& arguments);
+
+}  // namespace repose::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "calibrate/plan/plan.h"
+
+namespace repose::cli {
+
+/// A plan for people to read.
+std::string plan_table(const calibrate::Plan& plan, const calibrate::OfferedStudy& offered,
+                       int terminal_columns);
+
+}  // namespace repose::cli

@@ -1,0 +1,200 @@
+#include "calibrate/plan/plan.h"
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/fit/random.h"
+#include "calibrate/fit/sequence.h"
+#include "calibrate/fit/unit_box.h"
+#include "calibrate/start/usual_experiment.h"
+#include "dem/study/experiment_table.h"
+#include "tests/calibrate/sphere_study.h"
+#include "tests/support/error_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using repose::testing::TemporaryFolder;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::Gt;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Lt;
+
+// Two parameters from 0 to 1. Experiments read 100 and what they add for these.
+constexpr double kBase = 100, kSlope = 40, kScatter = .05;
+
+double reading_of(const std::string& experiment, const std::vector<double>& values) {
+  const double a = values[0], b = values[1];
+  if (experiment == "first" || experiment == "jams") return kBase + kSlope * a;
+  if (experiment == "second") return kBase + kSlope * b;
+  if (experiment == "sum") return kBase + kSlope / 2 * (a + b);
+  return kBase;  // dull
+}
+
+Problem problem_with(const std::vector<std::string>& experiments) {
+  Problem problem;
+  problem.parameters = {{.name = "a", .min = 0, .max = 1, .prior = {}},
+                        {.name = "b", .min = 0, .max = 1, .prior = {}}};
+  for (const std::string& name : experiments) {
+    problem.experiments.push_back({.name = name, .parameters = {0, 1}});
+  }
+  return problem;
+}
+
+std::vector<Run> runs_of(const Problem& problem) {
+  constexpr int kRuns = 30;
+  Random random(1);
+  std::vector<Run> runs;
+  for (const Experiment& experiment : problem.experiments) {
+    for (int k = 0; k < kRuns; ++k) {
+      Run run{.job = job_at(problem, experiment, sequence_point(static_cast<std::size_t>(k), 2),
+                            static_cast<std::uint64_t>(k)),
+              .readings = {},
+              .failure = {}};
+      if (experiment.name == "jams" && run.job.values[0] > .3) {
+        run.failure = "it jams";
+      } else {
+        run.readings["value"] =
+            reading_of(experiment.name, run.job.values) + kScatter * random.normal();
+      }
+      runs.push_back(run);
+    }
+  }
+  return runs;
+}
+
+Foresight foresight_of(const Problem& problem, int readings = 10) {
+  return {problem, runs_of(problem), readings};
+}
+
+/// Ten readings of it, of the material in the middle.
+Observable measured(const std::string& experiment) {
+  Observable observable;
+  observable.name = observable.experiment = experiment;
+  observable.mean = kBase + kSlope / 2;
+  observable.sd = 5;
+  observable.n = 10;
+  return observable;
+}
+
+std::vector<std::string> planned(const Foresight& foresight) {
+  std::vector<std::string> names;
+  for (const PlannedStep& step : smallest_set(foresight)) {
+    names.push_back(foresight.prospects()[step.experiment].experiment);
+  }
+  return names;
+}
+
+TEST(Foresight, AnIntervalIsThatOfAStraightLineThroughReadingsThatScatterByFivePercent) {
+  const Outlook outlook = foresight_of(problem_with({"first"})).with({0});
+  // Evenly spread from 0 to 1: a variance of 1/12. Single readings of 120 scatter by 6.
+  const double u = .05 * (kBase + kSlope / 2) / std::sqrt(10.) / kSlope;
+  const double sd = 1 / std::sqrt(12 + 1 / (u * u));
+  EXPECT_NEAR(outlook.widths[0], 2 * 1.96 * sd, .01);
+  EXPECT_GT(outlook.widths[1], .75) << "nothing was read of it";
+  EXPECT_GT(outlook.determined[0], .75);
+  EXPECT_LT(outlook.determined[1], .1);
+}
+
+TEST(Foresight, FourTimesAsManyReadingsHalveAnInterval) {
+  const Problem problem = problem_with({"first"});
+  const double ten = foresight_of(problem, 10).with({0}).widths[0];
+  EXPECT_NEAR(foresight_of(problem, 40).with({0}).widths[0] / ten, .5, .05);
+}
+
+TEST(Foresight, AnEffectIsTheChangeFromBoundToBoundOverItsUncertainty) {
+  const Foresight foresight = foresight_of(problem_with({"first", "dull"}));
+  const double u = .05 * (kBase + kSlope / 2) / std::sqrt(10.);
+  EXPECT_NEAR(foresight.prospects()[0].effects[0], kSlope / u, 1.5);
+  EXPECT_LT(foresight.prospects()[0].effects[1], .3);
+  EXPECT_THAT(foresight.prospects()[1].effects, Each(Lt(.3)));
+}
+
+TEST(Foresight, WhatGivesNoReadingOfMostMaterialsTellsLittle) {
+  const Foresight foresight = foresight_of(problem_with({"first", "jams"}));
+  EXPECT_GT(foresight.prospects()[1].failed_runs, 15);
+  EXPECT_LT(foresight.with({1}).determined[0], .5);
+  EXPECT_GT(foresight.with({0}).determined[0], .75);
+}
+
+TEST(SmallestSet, HasOneExperimentForEachParameterAndNoneThatTellsNothing) {
+  EXPECT_THAT(planned(foresight_of(problem_with({"dull", "sum", "first", "second"}))),
+              ::testing::UnorderedElementsAre("first", "second"));
+}
+
+TEST(SmallestSet, LeavesOutWhatIsMeasured) {
+  Problem problem = problem_with({"first", "second"});
+  problem.observables.push_back(measured("first"));
+  const Foresight foresight = foresight_of(problem);
+  EXPECT_LT(foresight.with({}).widths[0], .25);
+  EXPECT_THAT(planned(foresight), ElementsAre("second"));
+  problem.observables.push_back(measured("second"));
+  EXPECT_THAT(planned(foresight_of(problem)), IsEmpty());
+}
+
+class OfferedStudyTest : public ::testing::Test {
+ protected:
+  dem::Study study_of(const std::string& text) const {
+    folder_.write("study.toml", text);
+    return dem::read_study(folder_.path() / "study.toml");
+  }
+  static OfferedStudy offered(const dem::Study& study) {
+    return offered_study(study, dem::build_grain(study.grain), plan_budget(60));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(OfferedStudyTest, HasEveryExperimentThatDependsOnWhatIsSoughtAndWhatWasMeasured) {
+  const OfferedStudy made = offered(study_of(test::kSphereStudy));
+  EXPECT_EQ(made.study.experiments.size(), dem::all_experiments().size());
+  std::vector<std::string> names, measured;
+  for (const Experiment& one : made.problem.experiments) names.push_back(one.name);
+  for (const Observable& one : made.problem.observables) measured.push_back(one.name);
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"drop", "tilt", "roll", "heap", "fill"}));
+  EXPECT_THAT(names, Each(::testing::Not("pendulum"))) << "grains alone touch in it";
+  EXPECT_THAT(measured, ElementsAre("drop", "tilt"));
+  EXPECT_EQ(made.problem.observables[0].n, 5);
+}
+
+TEST_F(OfferedStudyTest, LinesForTheStudyFileAreReadAsTheExperimentThatWasPlanned) {
+  const OfferedStudy made = offered(study_of(test::kSphereStudy));
+  std::string text = test::kSphereStudy;
+  for (const auto& [experiment, described] : made.added) {
+    text +=
+        protocol_lines(dem::entry_of(experiment), described.protocol) + stiffness_line(described);
+  }
+  const dem::Study read = study_of(text);
+  for (const auto& [experiment, described] : made.added) {
+    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    dem::Protocol again = read.experiments.at(experiment).protocol;
+    EXPECT_EQ(protocol_lines(entry, again), protocol_lines(entry, described.protocol));
+    EXPECT_EQ(read.experiments.at(experiment).stiffness_factor, described.stiffness_factor);
+  }
+}
+
+TEST_F(OfferedStudyTest, OfLargeGrainsHasTubesThatHoldABulkOfThem) {
+  std::string text = test::kSphereStudy;
+  text.replace(text.find("20, 20, 20"), 10, "60, 40, 40");
+  text.replace(text.find("spheres = 1"), 11, "spheres = 3");
+  const OfferedStudy made = offered(study_of(text));
+  EXPECT_GE(made.study.protocol<dem::FillProtocol>().tube_diameter_m, 4 * .06);
+  EXPECT_GE(made.study.protocol<dem::HeapProtocol>().tube_diameter_m, 5 * .04);
+}
+
+TEST_F(OfferedStudyTest, WithNothingToFindIsRefused) {
+  std::string text = test::kSoftBall;
+  for (const char* pair : {"particle_wall", "particle_particle"}) {
+    text += std::string("[contact.") + pair +
+            "]\nrestitution = 0.2\nsliding_friction = 0.2\nrolling_friction = 0.04\n";
+  }
+  EXPECT_THAT(error_of([&] { offered(study_of(text + "[experiment.drop]\nheight_mm = 100\n")); }),
+              HasSubstr("every coefficient has a value, so there is nothing to fit"));
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,88 @@
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tests/calibrate/sphere_study.h"
+#include "tests/cli/command_test.h"
+
+namespace repose::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Grains whose restitution alone is sought, and few of them wherever there are many.
+const std::string kStudy = calibrate::test::kSoftBall + R"([contact.particle_wall]
+restitution = 0.5
+sliding_friction = 0.3
+rolling_friction = 0.05
+[contact.particle_particle]
+restitution = { min = 0.2, max = 0.9 }
+sliding_friction = 0.4
+rolling_friction = 0.04
+[experiment.heap]
+tube_diameter_mm = 80
+tube_height_mm = 100
+lift_speed_mm_s = 200
+plate_mm = 300
+grains = 12
+[experiment.fill]
+tube_diameter_mm = 90
+tube_height_mm = 90
+[experiment.drop_on_grains]
+height_mm = 100
+grains = 4
+[experiment.tilt_on_grains]
+rate_deg_s = 10
+places = 2
+[experiment.roll_on_grains]
+rate_deg_s = 10
+places = 2
+)";
+
+class Plan : public CommandTest {
+ protected:
+  Plan() : CommandTest({"plan"}) { folder_.write("study.toml", kStudy); }
+};
+
+TEST_F(Plan, NamesTheExperimentThatTellsWhatIsSoughtWithItsLinesForTheStudy) {
+  const Finished done = run({"study.toml", "--minutes", "0.1", "--json", "plan.json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("nothing measured"), HasSubstr("+ pendulum"),
+                              HasSubstr("[experiment.pendulum]"), HasSubstr("release_deg = 30"),
+                              HasSubstr("# columns: release_deg,swing_deg")));
+  EXPECT_THAT(done.out, Not(HasSubstr("µs g")));
+  const json plan = json::parse(text("plan.json"));
+  ASSERT_EQ(plan["steps"].size(), 1U);
+  EXPECT_EQ(plan["steps"][0]["experiment"], "pendulum");
+  const std::string sought = "contact.particle_particle.restitution";
+  EXPECT_LT(plan["steps"][0]["interval_widths"][sought], plan["now"]["interval_widths"][sought]);
+  for (const json& experiment : plan["experiments"]) {
+    EXPECT_GT(experiment["run_s"], 0) << experiment;
+    EXPECT_EQ(experiment["measured"], false);
+  }
+  EXPECT_LE(longest_line(done.out), 80U);
+  const std::string first = text("plan.json");
+  EXPECT_EQ(run({"study.toml", "--minutes", "0.1", "--jobs", "1", "--json", "plan.json"}).exit_code,
+            0);
+  EXPECT_EQ(text("plan.json"), first) << "all of it is found in the folder";
+}
+
+TEST_F(Plan, TellsEveryFaultOfWhatWasTyped) {
+  const Finished done = run({"study.toml", "--minutes", "0", "--readings", "x", "--jobs", "0"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("--minutes 0: must be"), HasSubstr("--readings x: must be"),
+                              HasSubstr("--jobs 0: must be")));
+  EXPECT_FALSE(exists("study_calibration"));
+}
+
+TEST_F(Plan, OfAStudyThatSeeksNothingIsRefused) {
+  const Finished done = run({"study.toml", "--set", "contact.particle_particle.restitution=0.3"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, HasSubstr("every coefficient has a value"));
+  EXPECT_FALSE(exists("study_calibration"));
+}
+
+}  // namespace
+}  // namespace repose::testing
