@@ -67,6 +67,7 @@ class ExperimentRunner {
     try {
       dem::Repeat repeat = repeated(restart, spent_s);
       if (!repeat.envelopes.empty()) add_position_angle(repeat);
+      if (repeat.draw_down) add_draw_down_angles(repeat);
       run.value = repeat.value;
       run.readings = repeat.readings;
       run.steps = repeat.steps;

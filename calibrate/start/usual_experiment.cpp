@@ -20,6 +20,10 @@ double softening_for(double young_modulus_pa) {
   return std::min(1., std::pow(10, std::round(std::log10(kSoft_pa / young_modulus_pa))));
 }
 
+double longest_mm(const UsualBench& bench) {
+  return *std::max_element(bench.grain_mm.begin(), bench.grain_mm.end());
+}
+
 void adapt(dem::HeapProtocol& heap, const UsualBench& bench) {
   constexpr double kPlateWidths = 6;  // how far a low heap reaches, and more
   heap.tube_diameter_m = bench.tube_diameter_mm * kMPerMm;
@@ -30,10 +34,22 @@ void adapt(dem::HeapProtocol& heap, const UsualBench& bench) {
 /// A tube that holds a bulk of large grains, too.
 void adapt(dem::FillProtocol& fill, const UsualBench& bench) {
   constexpr double kLengths = 5;
-  const double longest_mm = *std::max_element(bench.grain_mm.begin(), bench.grain_mm.end());
-  const double wide_m = kMPerMm * kRound_mm * std::ceil(kLengths * longest_mm / kRound_mm);
+  const double wide_m = kMPerMm * kRound_mm * std::ceil(kLengths * longest_mm(bench) / kRound_mm);
   fill.tube_diameter_m = std::max(fill.tube_diameter_m, wide_m);
   fill.tube_height_m = std::max(fill.tube_height_m, wide_m);
+}
+
+/// Boxes as much larger or smaller as their slot must be for these grains.
+void adapt(dem::DrawDownProtocol& boxes, const UsualBench& bench) {
+  constexpr double kSlotGrains = 5.2, kStep_m = .005;
+  const auto stepped = [](double size_m) { return kStep_m * std::ceil(size_m / kStep_m - 1e-9); };
+  const double slot_m = stepped(kSlotGrains * kMPerMm * longest_mm(bench));
+  const double factor = slot_m / boxes.slot_m;
+  boxes = {.length_m = stepped(factor * boxes.length_m),
+           .depth_m = stepped(factor * boxes.depth_m),
+           .slot_m = slot_m,
+           .fill_m = stepped(factor * boxes.fill_m),
+           .drop_m = stepped(factor * boxes.drop_m)};
 }
 
 }  // namespace
@@ -48,6 +64,7 @@ dem::StudyExperiment usual_experiment(const dem::ExperimentEntry& entry, const U
   dem::StudyExperiment usual{.protocol = entry.usual, .measured = {}};
   if (auto* heap = std::get_if<dem::HeapProtocol>(&usual.protocol)) adapt(*heap, bench);
   if (auto* fill = std::get_if<dem::FillProtocol>(&usual.protocol)) adapt(*fill, bench);
+  if (auto* boxes = std::get_if<dem::DrawDownProtocol>(&usual.protocol)) adapt(*boxes, bench);
   if (dem::has_grain_contacts(entry.experiment) && entry.softening_effect.empty()) {
     usual.stiffness_factor = softening_for(bench.young_modulus_pa);
   }

@@ -99,18 +99,15 @@ std::vector<std::string> open_after(const calibrate::Plan& plan,
 std::string conclusion(const calibrate::Plan& plan) {
   const calibrate::Outlook& last = plan.steps.empty() ? plan.now : plan.steps.back().outlook;
   const std::vector<std::string> open = open_after(plan, last);
-  std::string text;
-  if (plan.steps.empty()) {
-    text = "No further experiment would determine more than what is measured does.";
-  } else {
-    text = fmt::format("{} would determine what can be determined.",
-                       plan.steps.size() == 1 ? "This experiment" : "These experiments");
+  const char* others = plan.steps.empty() ? "Further experiments" : "Others";
+  if (open.empty()) {
+    return fmt::format("{} would determine all of them. {} would add little.",
+                       plan.steps.empty() ? "What is measured" : "These experiments", others);
   }
-  if (open.empty()) return text;
-  return text + fmt::format(
-                    " {} would stay open in more than one material of five: it takes more "
-                    "readings, or a value from the literature.",
-                    fmt::join(open, ", "));
+  return fmt::format(
+      "{} would add little. {} would stay open in more than one material of five: it takes more "
+      "readings, or a value from the literature.",
+      others, fmt::join(open, ", "));
 }
 
 /// What the study needs to have it.

@@ -14,8 +14,9 @@ constexpr const char* kNotes = R"(
 EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, degrees),
 roll (distance along the flat, mm), heap (angle of repose, degrees) or, to
 tell grains apart, drop_on_grains (mm), tilt_on_grains, roll_on_grains
-(degrees), fill (bulk density, kg/m3), pendulum (swing, degrees). STUDY is a
-study file: samples/hazelnut/study.toml explains many of its keys.
+(degrees), fill (bulk density, kg/m3), pendulum (swing, degrees), draw_down
+(discharged mass, %). STUDY is a study file: samples/hazelnut/study.toml
+explains many of its keys.
 
 A heap's final state is rendered as silhouettes from --views directions,
 equally spaced over half a turn, each measured as repose measure does: 1 is the

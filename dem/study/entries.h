@@ -17,6 +17,7 @@ ExperimentEntry tilt_on_grains_entry();
 ExperimentEntry roll_on_grains_entry();
 ExperimentEntry fill_entry();
 ExperimentEntry pendulum_entry();
+ExperimentEntry draw_down_entry();
 
 inline constexpr std::string_view kWallRestitution = "contact.particle_wall.restitution";
 inline constexpr std::string_view kWallSliding = "contact.particle_wall.sliding_friction";

@@ -14,9 +14,9 @@ namespace repose::dem {
 
 std::span<const ExperimentEntry> all_experiments() {
   static const std::array<ExperimentEntry, std::variant_size_v<Protocol>> kEntries = {
-      drop_entry(),           tilt_entry(),           roll_entry(),
-      heap_entry(),           drop_on_grains_entry(), tilt_on_grains_entry(),
-      roll_on_grains_entry(), fill_entry(),           pendulum_entry()};
+      drop_entry(),           tilt_entry(),           roll_entry(),           heap_entry(),
+      drop_on_grains_entry(), tilt_on_grains_entry(), roll_on_grains_entry(), fill_entry(),
+      pendulum_entry(),       draw_down_entry()};
   return kEntries;
 }
 

@@ -35,7 +35,7 @@ struct BenchSheet {
 struct ExperimentEntry {
   Experiment experiment = Experiment::drop;
   std::string_view name;              ///< in study files, jobs and results: "drop"
-  std::string_view unit;              ///< of its value: "mm", "deg" or "kg/m3"
+  std::string_view unit;              ///< of its value: "mm", "deg", "kg/m3" or "%"
   std::string_view value_name;        ///< what its value is, for people: "rebound height"
   std::string_view description = "";  ///< how it is done, a sentence or two
   std::vector<Reading> readings;

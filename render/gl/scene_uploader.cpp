@@ -129,6 +129,7 @@ Stage SceneUploader::set(const Scene& scene, const View& view, Shown shown, std:
   const bool is_bent = view.k1 != 0 || view.k2 != 0;
   const double slab_half_m = kSlab * stage.radius_m;
   for (const PlacedWall& wall : scene.walls) {
+    if (is_pane(wall)) continue;
     const Vector middle = wall.pose.orientation.conjugate() * (stage.origin - wall.pose.position);
     const Surface surface =
         wall_surface(wall.shape, middle, slab_half_m, is_bent ? kWallPart * stage.radius_m : 1e9);

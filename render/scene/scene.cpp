@@ -1,6 +1,7 @@
 #include "render/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace repose::render {
 namespace {
@@ -27,6 +28,12 @@ std::vector<PlacedWall> placed(const std::vector<dem::Wall>& walls, double time_
 }
 
 }  // namespace
+
+bool is_pane(const PlacedWall& wall) {
+  constexpr double kUpright = 1e-6;  // sine of what it leans
+  const dem::Vector normal = wall.pose.orientation * dem::Vector::UnitZ();
+  return std::holds_alternative<dem::Plane>(wall.shape) && std::abs(normal.z()) < kUpright;
+}
 
 Scene scene_of(const dem::SavedState& state) {
   const dem::Checkpoint& checkpoint = state.checkpoint;

@@ -24,6 +24,10 @@ struct PlacedWall {
   dem::Pose pose;
 };
 
+/// An upright plane, which has no end and would hide all that is behind it: it is taken for glass,
+/// as before and behind the boxes of a bench, and not drawn.
+bool is_pane(const PlacedWall& wall);
+
 struct Scene {
   std::vector<dem::ClumpShape> shapes;
   std::vector<PlacedGrain> grains;

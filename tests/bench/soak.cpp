@@ -84,6 +84,17 @@ dem::HeapProtocol heap(double reach_m, base::Random& random) {
           .may_be_fewer = true};
 }
 
+dem::DrawDownProtocol draw_down(double reach_m, base::Random& random) {
+  dem::DrawDownProtocol boxes{.length_m = 0,
+                              .depth_m = reach_m * random.between(8, 10),
+                              .slot_m = reach_m * random.between(10, 14),
+                              .fill_m = reach_m * random.between(8, 10),
+                              .drop_m = 0};
+  boxes.length_m = boxes.slot_m + reach_m * random.between(16, 24);
+  boxes.drop_m = boxes.fill_m + boxes.slot_m * random.between(.5, 1);
+  return boxes;
+}
+
 dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base::Random& random) {
   constexpr double kSparse = .65, kDense = .85;
   const double reach_m = model.grain.reach_m();
@@ -117,6 +128,8 @@ dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base
       return dem::PendulumProtocol{.string_m = spread(random, .05, 2),
                                    .release_deg = random.between(5, 90),
                                    .pairs = whole(random, 1, 3)};
+    case dem::Experiment::draw_down:
+      return draw_down(reach_m, random);
     case dem::Experiment::heap:
       break;
   }

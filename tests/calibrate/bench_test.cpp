@@ -74,6 +74,7 @@ TEST(Bench, ReadingsAreInTheUnitsOfTheirNames) {
   EXPECT_NEAR(value(BenchTest::tilt_on_grains, {44.8}), 44.8, 1e-12);
   EXPECT_NEAR(value(BenchTest::roll_on_grains, {39.1}), 39.1, 1e-12);
   EXPECT_NEAR(value(BenchTest::fill, {1530}), 1530, 1e-12);
+  EXPECT_NEAR(value(BenchTest::draw_down, {71.5}), 71.5, 1e-12);
   EXPECT_NEAR(value(BenchTest::pendulum, {30, 30}), 1, 1e-12);
   // e = .5: three quarters of the speed, and of the sine of half the angle.
   EXPECT_NEAR(value(BenchTest::pendulum, {60, 44.0486256}), .5, 1e-7);
@@ -154,6 +155,9 @@ TEST(Bench, ImpossibleReadingsAreRefusedAllAtOnce) {
               AllOf(HasSubstr("swing_deg = 31 is more than release_deg = 30"),
                     HasSubstr("swing_deg = -1")));
   EXPECT_THAT(error_of(BenchTest::fill, {{-5}}), HasSubstr("bulk_density_kg_m3 = -5"));
+  EXPECT_THAT(error_of(BenchTest::draw_down, {{0}, {100}}),
+              AllOf(HasSubstr("row 1: discharged_percent = 0"),
+                    HasSubstr("row 2: discharged_percent = 100")));
   EXPECT_THAT(error_of(BenchTest::size, {}), HasSubstr("no readings"));
   EXPECT_THAT(error_of(BenchTest::size, {{1, 2}}), HasSubstr("2 values are given for 3 columns"));
 }

@@ -58,6 +58,12 @@ tube_diameter_mm = 95
 tube_height_mm = 95
 [experiment.pendulum]
 pairs = 2
+[experiment.draw_down]
+length_mm = 350
+depth_mm = 92
+slot_mm = 160
+fill_mm = 92
+drop_mm = 175
 )";
 
 /// Ten digits, none beyond the ninth decimal: there the libraries of two machines may differ.

@@ -20,11 +20,12 @@ TEST(ExperimentTable, HasEachExperimentInItsPlace) {
     EXPECT_EQ(&entry_of(entry.usual), &entry) << entry.name;
     EXPECT_EQ(&experiment_named(entry.name), &entry);
     EXPECT_EQ(name_of(entry.experiment), entry.name);
-    EXPECT_TRUE(entry.unit == "mm" || entry.unit == "deg" || entry.unit == "kg/m3") << entry.name;
+    EXPECT_THAT(entry.unit, ::testing::AnyOf("mm", "deg", "kg/m3", "%")) << entry.name;
   }
   EXPECT_EQ(
       experiment_names(),
-      "drop, tilt, roll, heap, drop_on_grains, tilt_on_grains, roll_on_grains, fill or pendulum");
+      "drop, tilt, roll, heap, drop_on_grains, tilt_on_grains, roll_on_grains, fill, pendulum "
+      "or draw_down");
   EXPECT_THAT(error_of([] { experiment_named("spin"); }),
               HasSubstr("experiment spin: unknown experiment. Fix: drop,"));
 }

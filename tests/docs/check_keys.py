@@ -23,7 +23,7 @@ OUTPUTS = {
     "track": ["track drop drop_01.avi --scale 20,10,20,90,208 --json -",
               "track roll roll_01.avi --released 150 --json -"],
     "shape": ["shape --size-mm 20,18,17 --density-kg-m3 900 --json -"],
-    "simulate": [f"simulate {name} study.toml --repeats 2 --json -" for name in ("drop", "roll", "tilt", "tilt_on_grains", "fill", "pendulum")]
+    "simulate": [f"simulate {name} study.toml --repeats 2 --json -" for name in ("drop", "roll", "tilt", "tilt_on_grains", "fill", "pendulum", "draw_down")]
     + ["simulate heap study.toml --views 2 --json -"],
     "render": ["render state/heap_seed_1.vtp --size 640,360 --out heap.png --truth -"],
     "bench": ["bench sliding --set angle_deg=22.1,22.9 --json -"],
@@ -34,6 +34,7 @@ OUTPUTS = {
 SECTIONS = ["study", "particle", "wall", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
             "experiment", "experiment.drop", "experiment.tilt", "experiment.roll", "experiment.heap",
             "experiment.drop_on_grains", "experiment.tilt_on_grains", "experiment.roll_on_grains", "experiment.fill", "experiment.pendulum",
+            "experiment.draw_down", "experiment.draw_down.also_measured",
             "experiment.heap.measured", "experiment.heap.also_measured",
             "experiment.drop.also_measured", "simulation"]
 

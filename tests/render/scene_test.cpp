@@ -54,6 +54,19 @@ TEST(Scene, ASavedStateShowsTheSame) {
   EXPECT_EQ(live.walls.size(), 1U);
 }
 
+TEST(Scene, UprightPlanesArePanes) {
+  const auto leaning = [](const dem::Vector& normal) {
+    return PlacedWall{
+        .shape = dem::Plane{},
+        .pose = {.orientation = dem::Quaternion::FromTwoVectors(dem::Vector::UnitZ(), normal)}};
+  };
+  EXPECT_TRUE(is_pane(leaning({0, 1, 0})));
+  EXPECT_TRUE(is_pane(leaning({-1, 0, 0})));
+  EXPECT_FALSE(is_pane(leaning({0, 0, 1})));
+  EXPECT_FALSE(is_pane(leaning({0, 1, .1})));
+  EXPECT_FALSE(is_pane({.shape = dem::Box{.half_size = {1, 1, 1}}}));
+}
+
 TEST(Scene, TheGroundIsTheHighestLevelFaceBelowTheGrains) {
   Scene scene = repose::testing::sphere_scene(.01, {{0, 0, .1}});
   EXPECT_FALSE(ground_m(scene));

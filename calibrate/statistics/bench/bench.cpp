@@ -40,6 +40,8 @@ Method method_of(BenchTest test) {
       return fill_method();
     case BenchTest::pendulum:
       return pendulum_method();
+    case BenchTest::draw_down:
+      return draw_down_method();
     case BenchTest::heap:
       break;
   }

@@ -26,13 +26,15 @@ enum class BenchTest {
   tilt_on_grains,
   roll_on_grains,
   fill,
-  pendulum
+  pendulum,
+  draw_down
 };
 
 /// All of them, in the order of the enum.
-inline constexpr std::array<std::string_view, 13> kBenchTestNames = {
-    "restitution", "sliding",        "rolling",        "density",        "young", "poisson", "size",
-    "heap",        "drop_on_grains", "tilt_on_grains", "roll_on_grains", "fill",  "pendulum"};
+inline constexpr std::array<std::string_view, 14> kBenchTestNames = {
+    "restitution",    "sliding", "rolling",  "density",        "young",
+    "poisson",        "size",    "heap",     "drop_on_grains", "tilt_on_grains",
+    "roll_on_grains", "fill",    "pendulum", "draw_down"};
 
 /// Something that is read off in a test. A reading must lie between `above` and `below`.
 struct ReadingColumn {

@@ -41,4 +41,15 @@ Method pendulum_method() {
           "counts as loss."};
 }
 
+Method draw_down_method() {
+  constexpr double kAll = 100;
+  return {.source = "mean of the discharges",
+          .columns = {{"discharged_percent", "mass that runs out, by that of the fill, times 100",
+                       0, kAll}},
+          .outputs = {{"discharged_mass", "%", "mass that runs out",
+                       [](ReadingValues v) { return v[0]; }, 0, kAll}},
+          .error = {},
+          .validity = "No material constant: it belongs to these boxes, filled to this height."};
+}
+
 }  // namespace repose::calibrate

@@ -47,5 +47,6 @@ Method tilt_on_grains_method();
 Method roll_on_grains_method();
 Method fill_method();
 Method pendulum_method();
+Method draw_down_method();
 
 }  // namespace repose::calibrate
