@@ -52,12 +52,20 @@ Problem with_all(dem::Study study, const dem::ClumpFile& grain, const Budget& bu
 
 }  // namespace
 
+std::set<dem::Experiment> every_experiment() {
+  std::set<dem::Experiment> all;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) all.insert(entry.experiment);
+  return all;
+}
+
 OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
-                           const Budget& budget) {
+                           const Budget& budget, const std::set<dem::Experiment>& possible) {
   OfferedStudy offered{.study = study, .added = {}, .problem = {}};
   const UsualBench bench = bench_of(study, grain.shape);
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    if (study.experiments.contains(entry.experiment)) continue;
+    if (study.experiments.contains(entry.experiment) || !possible.contains(entry.experiment)) {
+      continue;
+    }
     dem::StudyExperiment usual = usual_experiment(entry, bench);
     offered.added.emplace(entry.experiment, usual);
     if (entry.is_pictured) usual.stiffness_factor *= budget.heap_softening;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "calibrate/fit/problem.h"
 #include "calibrate/study/study_problem.h"
@@ -19,10 +20,14 @@ struct OfferedStudy {
 };
 
 /// Adds the experiments that a study lacks, done in the usual way with its grains and its tube.
+/// @param possible  those that could be done beside the study's
 /// @param study  as simulated (as_simulated), what was measured included
 /// @param budget  of the runs; heaps are as soft as it says
 /// @throws std::invalid_argument  nothing is sought, or the problem is not sound: every error.
 OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
-                           const Budget& budget);
+                           const Budget& budget, const std::set<dem::Experiment>& possible);
+
+/// All that there are.
+std::set<dem::Experiment> every_experiment();
 
 }  // namespace repose::calibrate

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <numbers>
+#include <set>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -142,6 +144,24 @@ std::optional<std::size_t> read_word(const Typed& typed, const std::vector<std::
                                      guess.empty() ? "" : fmt::format("Did you mean {}? ", guess),
                                      one_of(words)));
   return std::nullopt;
+}
+
+std::vector<std::size_t> read_words(const Typed& typed, const std::vector<std::string>& words) {
+  std::set<std::string> names;
+  std::string_view rest = typed.text;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::string& name = *names.emplace(rest.substr(0, comma)).first;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    const Typed one{typed.option, name, typed.errors};
+    if (name.empty()) one.refuse("names with commas between them", "A,B");
+    read_word(one, words);
+  }
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (names.contains(words[i])) places.push_back(i);
+  }
+  return places;
 }
 
 std::optional<std::size_t> read_ending(const Typed& typed,

@@ -61,6 +61,9 @@ std::optional<std::array<int, 2>> read_size(const Typed& typed);
 /// Which of `words` was typed.
 std::optional<std::size_t> read_word(const Typed& typed, const std::vector<std::string>& words);
 
+/// "A,B,...": places in `words` of those that were typed, each once, in the order of `words`.
+std::vector<std::size_t> read_words(const Typed& typed, const std::vector<std::string>& words);
+
 /// Which of `endings` (".png") the name of a file has, in small or capital letters.
 std::optional<std::size_t> read_ending(const Typed& typed, const std::vector<std::string>& endings);
 

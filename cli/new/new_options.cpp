@@ -105,27 +105,18 @@ void read_tube(const NewArguments& arguments, NewPlan& plan) {
   }
 }
 
-/// The usual ones, or those typed, each once, in the order of the table.
+/// The usual ones, or those typed.
 void read_experiments(const NewArguments& arguments, NewPlan& plan) {
   std::vector<std::string> names;
-  for (const dem::ExperimentEntry& entry : dem::all_experiments()) names.emplace_back(entry.name);
-  std::vector<std::string> typed;
-  std::string_view rest = arguments.experiments;
-  while (!rest.empty()) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    typed.emplace_back(rest.substr(0, comma));
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-  }
-  for (const std::string& name : typed) {
-    const Typed one{"--experiments", name, plan.errors};
-    if (name.empty()) one.refuse("names with commas between them", "--experiments drop,heap");
-    read_word(one, names);
-  }
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    const bool is_typed = std::find(typed.begin(), typed.end(), entry.name) != typed.end();
-    if (is_typed || (typed.empty() && entry.is_usual)) {
+    names.emplace_back(entry.name);
+    if (arguments.experiments.empty() && entry.is_usual) {
       plan.study.experiments.push_back(entry.experiment);
     }
+  }
+  for (const std::size_t place :
+       read_words({"--experiments", arguments.experiments, plan.errors}, names)) {
+    plan.study.experiments.push_back(dem::all_experiments()[place].experiment);
   }
 }
 

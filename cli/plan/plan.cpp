@@ -1,6 +1,7 @@
 #include "cli/plan/plan.h"
 
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
 #include "cli/plan/plan_table.h"
+#include "dem/study/experiment_table.h"
 
 namespace repose::cli {
 namespace {
@@ -28,11 +30,24 @@ struct PlanOptions {
   int readings = calibrate::kUsualReadings;
 };
 
-void offer(double core_s, PlanOptions& options) {
+/// All, or those typed.
+std::set<dem::Experiment> possible_experiments(const std::string& typed,
+                                               std::vector<std::string>& errors) {
+  if (typed.empty()) return calibrate::every_experiment();
+  std::vector<std::string> names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) names.emplace_back(entry.name);
+  std::set<dem::Experiment> possible;
+  for (const std::size_t place : read_words({"--experiments", typed, errors}, names)) {
+    possible.insert(dem::all_experiments()[place].experiment);
+  }
+  return possible;
+}
+
+void offer(double core_s, const std::set<dem::Experiment>& possible, PlanOptions& options) {
   const calibrate::StudyRecord& record = options.study.record;
   try {
-    options.offered =
-        calibrate::offered_study(record.study, record.grain, calibrate::plan_budget(core_s));
+    options.offered = calibrate::offered_study(record.study, record.grain,
+                                               calibrate::plan_budget(core_s), possible);
   } catch (const std::invalid_argument& error) {
     add_lines(error.what(), options.study.errors);
   }
@@ -55,7 +70,8 @@ PlanOptions options_of(const PlanArguments& arguments) {
   }
   const auto minutes = read_number_within({"--minutes", arguments.minutes, errors}, kLeast_minutes,
                                           kMost_minutes, "leave it out for 15");
-  if (errors.empty()) offer(kMinute_s * minutes.value_or(kUsual_minutes), options);
+  const std::set<dem::Experiment> possible = possible_experiments(arguments.experiments, errors);
+  if (errors.empty()) offer(kMinute_s * minutes.value_or(kUsual_minutes), possible, options);
   return options;
 }
 

@@ -11,6 +11,7 @@ namespace repose::cli {
 struct PlanArguments {
   std::string study;
   std::vector<std::string> settings;
+  std::string experiments;
   std::string readings;
   std::string minutes;
   std::string jobs;

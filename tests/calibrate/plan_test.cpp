@@ -144,7 +144,7 @@ class OfferedStudyTest : public ::testing::Test {
     return dem::read_study(folder_.path() / "study.toml");
   }
   static OfferedStudy offered(const dem::Study& study) {
-    return offered_study(study, dem::build_grain(study.grain), plan_budget(60));
+    return offered_study(study, dem::build_grain(study.grain), plan_budget(60), every_experiment());
   }
   TemporaryFolder folder_;
 };
@@ -159,6 +159,15 @@ TEST_F(OfferedStudyTest, HasEveryExperimentThatDependsOnWhatIsSoughtAndWhatWasMe
   EXPECT_THAT(names, Each(::testing::Not("pendulum"))) << "grains alone touch in it";
   EXPECT_THAT(measured, ElementsAre("drop", "tilt"));
   EXPECT_EQ(made.problem.observables[0].n, 5);
+}
+
+TEST_F(OfferedStudyTest, HasNothingButItsOwnExperimentsAndThoseThatCouldBeDone) {
+  const dem::Study study = study_of(test::kSphereStudy);
+  const OfferedStudy made = offered_study(study, dem::build_grain(study.grain), plan_budget(60),
+                                          {dem::Experiment::tilt, dem::Experiment::roll});
+  EXPECT_EQ(made.study.experiments.size(), 3U);
+  ASSERT_EQ(made.added.size(), 1U);
+  EXPECT_EQ(made.added.begin()->first, dem::Experiment::roll);
 }
 
 TEST_F(OfferedStudyTest, LinesForTheStudyFileAreReadAsTheExperimentThatWasPlanned) {

@@ -29,6 +29,7 @@ TEST(Usage, HelpDescribesTheMethodsAndFitsATerminal) {
                             {"compare", "--help"},
                             {"shape", "--help"},
                             {"simulate", "--help"},
+                            {"plan", "--help"},
                             {"bench", "--help"},
                             {"design", "--help"},
                             {"regress", "--help"},
