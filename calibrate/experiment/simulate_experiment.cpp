@@ -105,7 +105,7 @@ class ExperimentRunner {
       record.frame = [&](const dem::Simulation& simulation) { film->add(simulation); };
     }
     Clock::time_point saved_at = start_;
-    if (options_.folder != nullptr) {
+    if (options_.folder != nullptr && spec_.entry().resume != nullptr) {
       record.is_restart_due = [&] { return Clock::now() - saved_at >= kBetweenRestarts; };
       record.save_restart = [&](const dem::Simulation& simulation,
                                 const dem::HeapProgress& progress) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -10,7 +11,6 @@
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/placing.h"
-#include "dem/experiment/rain.h"
 #include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
@@ -39,18 +39,21 @@ bool is_below(const Simulation& simulation, int grain, const DrawDownProtocol& p
   return simulation.grain(grain).position.z() < protocol.drop_m;
 }
 
-int count_below(const Simulation& simulation, const DrawDownProtocol& protocol) {
+/// How many grains there are in either box.
+struct Counts {
+  int above = 0;
   int below = 0;
-  for (int k = 0; k < simulation.grain_count(); ++k) {
-    below += simulation.is_present(k) && is_below(simulation, k, protocol) ? 1 : 0;
-  }
-  return below;
-}
 
-int count_present(const Simulation& simulation) {
-  int present = 0;
-  for (int k = 0; k < simulation.grain_count(); ++k) present += simulation.is_present(k) ? 1 : 0;
-  return present;
+  int all() const { return above + below; }
+};
+
+Counts counts_of(const Simulation& simulation, const DrawDownProtocol& protocol) {
+  Counts counts;
+  for (int k = 0; k < simulation.grain_count(); ++k) {
+    if (!simulation.is_present(k)) continue;
+    (is_below(simulation, k, protocol) ? counts.below : counts.above) += 1;
+  }
+  return counts;
 }
 
 /// Opens the gate and waits until all grains rest. A gate that is pulled away at a metre per second
@@ -74,7 +77,7 @@ Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
     flow.is_at_rest = now_s <= last_s + kLongestSettling_s;
     if (!flow.is_at_rest) break;
     run.advance(steps);
-    const auto below = static_cast<std::size_t>(count_below(simulation, protocol));
+    const auto below = static_cast<std::size_t>(counts_of(simulation, protocol).below);
     if (below > flow.passed_s.size()) {
       last_s = simulation.time_s() - opened_s;
       flow.passed_s.resize(below, last_s);
@@ -87,14 +90,9 @@ Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
 /// Why there is nothing to read, where that is so.
 void check_flow(const ExperimentRun& run, const DrawDownProtocol& protocol, const Flow& flow) {
   const Simulation& simulation = run.simulation();
-  const int grains = count_present(simulation);
-  if (flow.passed_s.empty()) {
-    throw NoReading(
-        fmt::format("draw_down: none of {} grains runs out: they arch over the slot. Fix: a wider "
-                    "slot, or less friction.",
-                    grains));
-  }
+  const int grains = counts_of(simulation, protocol).all();
   double highest_above_m = 0;
+  bool has_arch = flow.passed_s.empty();
   for (int k = 0; k < simulation.grain_count(); ++k) {
     if (!simulation.is_present(k)) continue;
     if (is_below(simulation, k, protocol)) {
@@ -104,7 +102,9 @@ void check_flow(const ExperimentRun& run, const DrawDownProtocol& protocol, cons
           "drop_mm, or a lower fill_mm.");
     }
     highest_above_m = std::max(highest_above_m, highest_m(run.shape(), simulation.grain(k)));
-    if (std::abs(simulation.grain(k).position.x()) > .25 * protocol.slot_m) continue;
+    has_arch |= std::abs(simulation.grain(k).position.x()) < .25 * protocol.slot_m;
+  }
+  if (has_arch) {
     throw NoReading(
         fmt::format("draw_down: grains arch over the slot once {} of {} have run out. Fix: a wider "
                     "slot, or less friction.",
@@ -159,7 +159,7 @@ Repeat run_draw_down(const Model& model, const DrawDownProtocol& protocol, std::
   ExperimentRun run = filled_boxes(model, protocol, seed, {report, record});
   const Flow flow = discharge(run, protocol);
   check_flow(run, protocol, flow);
-  const int grains = count_present(run.simulation());
+  const int grains = counts_of(run.simulation(), protocol).all();
   const auto out = static_cast<double>(flow.passed_s.size());
   const double grain_g = 1e3 * model.grain_material.density_kg_m3 * model.grain.volume_m3;
   DrawDownOutlines outlines = outlines_of(run.simulation(), protocol);

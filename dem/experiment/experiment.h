@@ -68,7 +68,7 @@ struct RunRecord {
   /// multiples of `frame_interval_s` (above 0) of its time.
   std::function<void(const Simulation&)> frame;
   double frame_interval_s = 0;
-  /// Heaps only, the others take seconds: is handed what resume_heap() needs, whenever
+  /// Heaps only, the others are shorter: is handed what resume_heap() needs, whenever
   /// `is_restart_due` says so, which is asked every some million grain steps, and when the run is
   /// interrupted.
   std::function<void(const Simulation&, const HeapProgress&)> save_restart;

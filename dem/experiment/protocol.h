@@ -145,7 +145,7 @@ struct PendulumProtocol {
 /// single layer), when they arch over the slot, or when the lower heap reaches it.
 struct DrawDownProtocol {
   double length_m = .5;
-  double depth_m = .1;
+  double depth_m = .15;
   double slot_m = .12;
   double fill_m = .15;  ///< height of the grains in the upper box
   double drop_m = .25;  ///< from the slot's lower edge to the floor of the lower box

@@ -6,15 +6,15 @@ namespace {
 std::vector<ProtocolKey> keys_of(Protocol& protocol) {
   auto& draw_down = std::get<DrawDownProtocol>(protocol);
   return {length_key("length_mm", "500", draw_down.length_m),
-          length_key("depth_mm", "100", draw_down.depth_m),
+          length_key("depth_mm", "150", draw_down.depth_m),
           length_key("slot_mm", "120", draw_down.slot_m),
           length_key("fill_mm", "150", draw_down.fill_m),
           length_key("drop_mm", "250", draw_down.drop_m)};
 }
 
 double cost_s(const Model& model, const Protocol& protocol) {
-  // Filling, flow and coming to rest take about so long whatever the size.
-  constexpr double kPacked = .6, kStep_s = 2.4e-8, kSimulated_s = 4, kFallSpeed_m_s = 2;
+  // Filling, flow and coming to rest. There are walls on all sides.
+  constexpr double kPacked = .6, kStep_s = 4e-8, kSimulated_s = 3.5, kFallSpeed_m_s = 2;
   const auto& draw_down = std::get<DrawDownProtocol>(protocol);
   const double box_m3 = draw_down.length_m * draw_down.depth_m * draw_down.fill_m;
   const double grains = kPacked * box_m3 / model.grain.volume_m3;

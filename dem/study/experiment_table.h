@@ -58,7 +58,7 @@ struct ExperimentEntry {
   std::vector<ProtocolKey> (*keys)(Protocol& protocol) = nullptr;
   Repeat (*run)(const Model& model, const Protocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) = nullptr;
-  /// Goes on with an interrupted run; null: it takes seconds, and starts again.
+  /// Goes on with an interrupted run; null: it starts again.
   Repeat (*resume)(const Model& model, const Protocol& protocol, std::uint64_t seed,
                    const HeapRestart& from, const ProgressReport& report,
                    const RunRecord& record) = nullptr;

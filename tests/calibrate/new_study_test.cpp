@@ -1,7 +1,9 @@
 #include "calibrate/start/new_study.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <variant>
 
 #include <gmock/gmock.h>
 
@@ -112,6 +114,19 @@ TEST_F(NewStudyTest, SoftensNoExperimentWhoseReadingThatWouldChange) {
   EXPECT_LT(dem::model_for(study, Experiment::tilt_on_grains).stiffness_factor, 1);
   EXPECT_EQ(dem::model_for(study, Experiment::drop_on_grains).stiffness_factor, 1);
   EXPECT_EQ(dem::model_for(study, Experiment::pendulum).stiffness_factor, 1);
+}
+
+TEST_F(NewStudyTest, BoxesOfADrawDownSuitTheGrains) {
+  for (const GrainKind& kind : grain_kinds()) {
+    const auto boxes = std::get<dem::DrawDownProtocol>(
+        usual_experiment(dem::entry_of(Experiment::draw_down), {.grain_mm = kind.sizes}).protocol);
+    const double longest_m = *std::max_element(kind.sizes.begin(), kind.sizes.end()) / 1000;
+    EXPECT_GE(boxes.slot_m, 5 * longest_m) << kind.name;
+    EXPECT_GE(boxes.depth_m, 6 * longest_m) << kind.name;
+    EXPECT_GE(boxes.fill_m, 6 * longest_m) << kind.name;
+    EXPECT_GE(boxes.length_m, boxes.slot_m + 14 * longest_m) << kind.name;
+    EXPECT_GE(boxes.drop_m, boxes.fill_m + boxes.slot_m / 2) << kind.name;
+  }
 }
 
 TEST_F(NewStudyTest, HasTheTubeThatWasAskedFor) {

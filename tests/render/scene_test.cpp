@@ -64,7 +64,7 @@ TEST(Scene, UprightPlanesArePanes) {
   EXPECT_TRUE(is_pane(leaning({-1, 0, 0})));
   EXPECT_FALSE(is_pane(leaning({0, 0, 1})));
   EXPECT_FALSE(is_pane(leaning({0, 1, .1})));
-  EXPECT_FALSE(is_pane({.shape = dem::Box{.half_size = {1, 1, 1}}}));
+  EXPECT_FALSE(is_pane({.shape = dem::Box{.half_size = {1, 1, 1}}, .pose = {}}));
 }
 
 TEST(Scene, TheGroundIsTheHighestLevelFaceBelowTheGrains) {
