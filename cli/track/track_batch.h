@@ -7,6 +7,7 @@
 #include "cli/track/track_options.h"
 #include "vision/track/drop_track.h"
 #include "vision/track/roll_track.h"
+#include "vision/track/tilt_track.h"
 
 namespace repose::cli {
 
@@ -17,6 +18,7 @@ struct TrackedFilm {
   Filmed filmed = Filmed::drop;
   vision::DropTrack drop = {};     ///< of what was filmed, without the
   vision::RollTrack roll = {};     ///< strobe picture, which is large
+  vision::TiltTrack tilt = {};
   std::string overlay_error = {};  ///< why there is no overlay
 };
 

@@ -1,0 +1,44 @@
+#include "vision/track/plate_strip.h"
+
+#include <algorithm>
+
+#include <opencv2/imgproc.hpp>
+
+namespace repose::vision {
+namespace {
+
+/// Of the last row above the edge, so that none of the plate is mixed in.
+constexpr double kAbove_px = 1.5;
+
+}  // namespace
+
+PlateStrip strip_above(const PlateMotion& motion, const cv::Size& frame) {
+  constexpr double kHeight = .3;
+  constexpr int kInset_px = 2;
+  const EdgeLine& line = motion.seen.front().line;
+  const cv::Point2d origin = motion.origin(line);
+  const auto place = [&](int column) {
+    return (cv::Point2d(column, line.row_at(column)) - origin).dot(line.along());
+  };
+  const double from = place(motion.edge.from) + kInset_px, to = place(motion.edge.to) - kInset_px;
+  return {.from_px = from, .size = {std::max(1, cvFloor(to - from)), cvRound(kHeight * frame.height)}};
+}
+
+cv::Point2d in_frame(const cv::Point2d& place, const PlateMotion& motion, const EdgeLine& line,
+                     const PlateStrip& strip) {
+  return motion.origin(line) + (strip.from_px + place.x) * line.along() -
+         (kAbove_px + strip.size.height - 1 - place.y) * line.normal();
+}
+
+cv::Mat strip_picture(const cv::Mat& frame, const PlateMotion& motion, const EdgeLine& line,
+                      const PlateStrip& strip) {
+  const cv::Point2d corner = in_frame({0, 0}, motion, line, strip);
+  const cv::Point2d along = line.along(), down = line.normal();
+  const cv::Matx23d turn(along.x, down.x, corner.x, along.y, down.y, corner.y);
+  cv::Mat picture;
+  cv::warpAffine(frame, picture, turn, strip.size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                 cv::BORDER_REPLICATE);
+  return picture;
+}
+
+}  // namespace repose::vision
