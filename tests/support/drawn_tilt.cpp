@@ -144,11 +144,15 @@ int DrawnTilt::frames() const {
 }
 
 vision::Picture DrawnTilt::picture(int frame) const {
-  const cv::Mat scene = drawn_scene({width, height}, seed);
+  cv::Mat scene = drawn_scene({width, height}, seed);
   const double middle_s = frame / frames_per_s;
   // Only what moves by a good part of a pixel while the shutter is open is blurred.
   constexpr double kBefore_s = .05;
   const bool is_blurred = exposure > 0 && middle_s > onset_s() - kBefore_s;
+  const cv::Matx23d shaken(1, 0, Placing(*this, middle_s).shift, 0, 1, 0);
+  if (shakes_px != 0) {
+    cv::warpAffine(scene, scene, shaken, scene.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  }
   const int parts = is_blurred ? 8 : 2;
   cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
   for (int part = 0; part < parts; ++part) {

@@ -126,12 +126,13 @@ TemplateMatch GrainTemplate::refined(const cv::Mat& bgr, TemplateMatch match, bo
 TemplateMatch GrainTemplate::find(const cv::Mat& bgr, const TemplateMatch& expected,
                                   int reach_px) const {
   constexpr int kRise_px = 1;
-  TemplateMatch best{.moved = expected.moved};
+  TemplateMatch best = expected;
   double least = std::numeric_limits<double>::infinity();
   std::vector<cv::Vec3f> seen;
   for (int rise = -kRise_px; rise <= kRise_px; ++rise) {
     for (int along = -reach_px; along <= reach_px; ++along) {
-      const TemplateMatch one{.moved = expected.moved + cv::Point2d(along, rise)};
+      const TemplateMatch one{.moved = expected.moved + cv::Point2d(along, rise),
+                              .turned_rad = expected.turned_rad};
       if (!sample(bgr, one, seen)) continue;
       const double off = squares(seen);
       if (off >= least) continue;

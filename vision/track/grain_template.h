@@ -23,6 +23,7 @@ class GrainTemplate {
   /// @param mask  of the picture's size: what belongs to it
   GrainTemplate(const cv::Mat& bgr, const cv::Mat& mask);
 
+  /// Turned as expected.
   /// @param expected  where to begin
   /// @param reach_px  how far from there it may be along the rows
   TemplateMatch find(const cv::Mat& bgr, const TemplateMatch& expected, int reach_px) const;

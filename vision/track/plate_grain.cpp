@@ -77,30 +77,48 @@ cv::Mat around(const cv::Mat& mask) {
   return wide;
 }
 
+/// With its turn: from where it lies unturned, and where it turns fast, from where it would be had it
+/// turned on.
+TemplateMatch turned_match(const Followed& followed, const cv::Mat& strip,
+                           const TemplateMatch& unturned, int reach_px) {
+  constexpr double kFast_rad = 2 * kDegree;
+  TemplateMatch begin = unturned;
+  begin.turned_rad = followed.last.turned_rad;
+  const TemplateMatch near = followed.looks.find_turned(strip, begin);
+  const double turns_on = 2 * followed.last.turned_rad - followed.before.turned_rad;
+  if (std::abs(turns_on) < kFast_rad) return near;
+  const TemplateMatch expected{.moved = 2 * followed.last.moved - followed.before.moved,
+                               .turned_rad = turns_on};
+  const TemplateMatch on =
+      followed.looks.find_turned(strip, followed.looks.find(strip, expected, reach_px));
+  return on.likeness > near.likeness ? on : near;
+}
+
 void follow(Followed& followed, const cv::Mat& strip, std::size_t plate, double time_s,
             double sense) {
   constexpr double kPatience_s = .3, kLeastLikeness = .25, kMostRise_px = 4;
-  constexpr int kReach_px = 6;
+  constexpr int kReach_px = 12;
   if (followed.is_over) return;
-  TemplateMatch expected = followed.last;
-  expected.moved += followed.last.moved - followed.before.moved;
-  TemplateMatch match = followed.looks.find(strip, expected, kReach_px);
-  if (match.likeness < kLeastLikeness || std::abs(match.moved.y) > kMostRise_px) {
+  const TemplateMatch expected{.moved = 2 * followed.last.moved - followed.before.moved};
+  const TemplateMatch match = followed.looks.find(strip, expected, kReach_px);
+  const TemplateMatch turned = turned_match(followed, strip, match, kReach_px);
+  const TemplateMatch& best = turned.likeness > match.likeness ? turned : match;
+  if (best.likeness < kLeastLikeness || std::abs(best.moved.y) > kMostRise_px) {
     followed.is_over = time_s - followed.last_s > kPatience_s;
     return;
   }
-  match.turned_rad = followed.last.turned_rad;
-  const TemplateMatch turned = followed.looks.find_turned(strip, match);
   const double unlike = 1 - match.likeness;
+  // What turns in place of sliding is found by its turn alone after a while.
+  const bool is_found = match.likeness >= kLeastLikeness;
+  const cv::Point2d moved = is_found ? match.moved : turned.moved;
   followed.before = followed.last;
-  followed.last = match;
-  followed.last.turned_rad = turned.turned_rad;
+  followed.last = {.moved = moved, .turned_rad = turned.turned_rad};
   followed.last_s = time_s;
   OnPlateTrack& track = followed.track;
   track.seen.push_back({.plate = plate,
                         .time_s = time_s,
-                        .slid_px = sense * match.moved.x,
-                        .rise_px = -match.moved.y,
+                        .slid_px = sense * moved.x,
+                        .rise_px = -moved.y,
                         .turned_rad = turned.turned_rad,
                         .turn_gain = unlike > 0 ? (turned.likeness - match.likeness) / unlike : 0});
   followed.is_over = track.seen.back().slid_px > track.most_px();
@@ -110,7 +128,7 @@ void follow(Followed& followed, const cv::Mat& strip, std::size_t plate, double 
 
 double OnPlateTrack::least_px() const { return std::max(4.0, .2 * thing.height_px); }
 
-double OnPlateTrack::most_px() const { return std::max(24.0, 1.5 * thing.height_px); }
+double OnPlateTrack::most_px() const { return std::max(40.0, 2.5 * thing.height_px); }
 
 double OnPlateTrack::slid_px() const {
   double most = 0;

@@ -14,13 +14,16 @@ constexpr double kAbove_px = 1.5;
 
 PlateStrip strip_above(const PlateMotion& motion, const cv::Size& frame) {
   constexpr double kHeight = .3;
-  constexpr int kInset_px = 2;
+  // Something may hide the end of the edge that it stands on.
+  constexpr double kBeyond = .08;
   const EdgeLine& line = motion.seen.front().line;
   const cv::Point2d origin = motion.origin(line);
   const auto place = [&](int column) {
     return (cv::Point2d(column, line.row_at(column)) - origin).dot(line.along());
   };
-  const double from = place(motion.edge.from) + kInset_px, to = place(motion.edge.to) - kInset_px;
+  const int beyond = cvRound(kBeyond * frame.width);
+  const double from = place(std::max(0, motion.edge.from - beyond));
+  const double to = place(std::min(frame.width - 1, motion.edge.to + beyond));
   return {.from_px = from, .size = {std::max(1, cvFloor(to - from)), cvRound(kHeight * frame.height)}};
 }
 

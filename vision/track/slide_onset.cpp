@@ -8,7 +8,8 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kLeastNoise_px = .02;
+/// Of a place between whole pixels, as drawn films show it.
+constexpr double kLeastNoise_px = .1;
 /// So long before the slide is seen the rest is looked at, and the onset is sought.
 constexpr double kBefore_s = 1.5;
 /// Neighbouring places err alike: so many count as one.
@@ -61,11 +62,26 @@ double squares_left(std::span<const SlidAt> places, double begin_s) {
   return std::max(0.0, left);
 }
 
-/// The number of the first place of the slide proper: from there on none is back near the rest.
-std::size_t first_sliding(const std::vector<SlidAt>& places, std::size_t end, double near_px) {
-  std::size_t k = end;
-  while (k > 0 && places[k - 1].slid_px > near_px) --k;
+/// The number of the last place at which it stands still: what comes after is the slide proper, what
+/// came before may have crept.
+std::size_t last_at_rest(std::span<const SlidAt> places, double still_px) {
+  constexpr double kLook_s = .12;
+  std::size_t k = places.size() - 1;
+  for (std::size_t before = k; k > 0; --k) {
+    before = std::min(before, k);
+    while (before > 0 && places[k].time_s - places[before].time_s < kLook_s) --before;
+    if (places[k].slid_px - places[before].slid_px < still_px) break;
+  }
   return k;
+}
+
+/// The first of the places before that one, up to a while before, between which it does not move.
+std::size_t first_at_rest(std::span<const SlidAt> places, std::size_t last, double still_px) {
+  std::size_t first = last;
+  while (first > 0 && places[first - 1].time_s > places[last].time_s - kBefore_s &&
+         std::abs(places[first - 1].slid_px - places[last].slid_px) < 2 * still_px)
+    --first;
+  return first;
 }
 
 double noise_of(std::span<const SlidAt> rest) {
@@ -91,35 +107,27 @@ double crept_before(const std::vector<SlidAt>& places, double onset_s) {
 
 std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double least_px,
                                       double most_px) {
-  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kFewest = 3, kFewestSliding = 4;
+  constexpr double kStill_px = .4, kSigmas = 5;
   const auto gone = std::find_if(places.begin(), places.end(),
                                  [&](const SlidAt& one) { return one.slid_px > least_px; });
   if (gone == places.end()) return std::nullopt;
-  auto end = std::find_if(gone, places.end(),
+  const auto end = std::find_if(gone, places.end(),
                           [&](const SlidAt& one) { return one.slid_px > most_px; });
   const auto count = static_cast<std::size_t>(end - places.begin());
   const double noise = noise_of({places.begin(), gone});
-  const double rest = median_of([&] {
-    std::vector<double> values;
-    for (auto one = places.begin(); one != gone; ++one) {
-      if (one->time_s > gone->time_s - kBefore_s) values.push_back(one->slid_px);
-    }
-    return values;
-  }());
-  const std::size_t sliding =
-      first_sliding(places, static_cast<std::size_t>(gone - places.begin()),
-                    rest + std::max(.5, 5 * noise));
-  if (sliding < kFewest || count < sliding + kFewest) return std::nullopt;
-  const double seen_s = places[sliding].time_s;
-  std::size_t from = 0;
-  while (places[from].time_s < seen_s - kBefore_s) ++from;
+  const double still_px = std::max(kStill_px, kSigmas * noise);
+  const std::size_t rest = last_at_rest({places.data(), count}, still_px);
+  const std::size_t from = first_at_rest(places, rest, still_px);
+  if (rest < from + kFewest || count < rest + kFewestSliding) return std::nullopt;
+  const double seen_s = places[rest].time_s;
   const std::span<const SlidAt> fitted(places.data() + from, count - from);
 
   const double interval_s =
       (fitted.back().time_s - fitted.front().time_s) / static_cast<double>(fitted.size() - 1);
   constexpr double kParts = 20;  // of the time between frames
   std::vector<std::pair<double, double>> profile;
-  for (double t = fitted.front().time_s; t <= seen_s + interval_s; t += interval_s / kParts) {
+  for (double t = fitted.front().time_s; t <= seen_s + 2 * interval_s; t += interval_s / kParts) {
     profile.emplace_back(t, squares_left(fitted, t));
   }
   const auto best = std::min_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) {
@@ -131,6 +139,7 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
   auto earliest = best, latest = best;
   while (earliest != profile.begin() && std::prev(earliest)->second <= limit) --earliest;
   while (std::next(latest) != profile.end() && std::next(latest)->second <= limit) ++latest;
+  if (earliest == profile.begin()) return std::nullopt;
   return SlideOnset{.time_s = best->first,
                     .earliest_s = earliest->first,
                     .latest_s = latest->first,

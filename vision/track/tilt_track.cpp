@@ -136,7 +136,7 @@ std::string read_slide(const PlateMotion& motion, const PlateGrains& grains,
   for (const OnPlateSighting& one : grain.seen) places.push_back({one.time_s, one.slid_px});
   const auto onset = slide_onset(places, grain.least_px(), grain.most_px());
   if (!onset) {
-    return "too few frames show how the grain sets off. Rule: 4 at rest and 4 in its slide. Fix: "
+    return "too few frames show how the grain sets off. Rule: 4 at rest and 3 in its slide. Fix: "
            "begin the film earlier, show more of the plate below the grain, and take more frames "
            "per second.";
   }
