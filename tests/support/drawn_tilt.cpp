@@ -153,7 +153,7 @@ vision::Picture DrawnTilt::picture(int frame) const {
   if (shakes_px != 0) {
     cv::warpAffine(scene, scene, shaken, scene.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   }
-  const int parts = is_blurred ? 8 : 2;
+  const int parts = is_blurred ? 8 : 1;
   cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
   for (int part = 0; part < parts; ++part) {
     const double time_s = (frame + exposure * ((part + .5) / parts - .5)) / frames_per_s;

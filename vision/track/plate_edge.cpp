@@ -196,10 +196,17 @@ std::vector<PlateEdge> level_edges(const cv::Mat& grey, const cv::Mat& moves) {
     });
     if (is_taken) continue;
     taken.push_back(one);
-    PlateEdge edge{.line = {.lean_rad = one.lean_deg * kDegree}, .step = one.sign};
+    PlateEdge edge{.line = {.lean_rad = one.lean_deg * kDegree},
+                   .step = one.sign,
+                   .from = 0,
+                   .to = steps.cols - 1};
     edge.line.offset_px = edge.line.normal().dot(cv::Point2d(.5 * steps.cols, one.row));
+    // Its ends are seen on the line itself, which may lean otherwise by half a step or more.
+    const double length = edge.to - edge.from;
+    if (const auto seen = find_edge(grey, edge, edge.line)) edge.line = seen->line;
+    edge.to = edge.from;
     find_ends(steps, edge);
-    if (edge.to - edge.from > kLeastLength * steps.cols) edges.push_back(edge);
+    if (edge.to - edge.from > kLeastLength * length) edges.push_back(edge);
   }
   return edges;
 }

@@ -33,7 +33,24 @@ SceneShift::SceneShift(const cv::Mat& scene, const cv::Mat& counts) : grey_(shif
 }
 
 cv::Point2d SceneShift::of(const cv::Mat& frame) const {
-  const cv::Mat now = shift_picture(frame);
+  constexpr int kRounds = 6;
+  constexpr double kEnough_px = .5;
+  const cv::Mat seen = shift_picture(frame);
+  cv::Mat now = seen;
+  cv::Point2d shift;
+  for (int round = 0; round < kRounds; ++round) {
+    const cv::Point2d step = step_to(now);
+    shift += step;
+    // Gradients tell a pixel or so at a time.
+    if (std::hypot(step.x, step.y) < kEnough_px) break;
+    const cv::Matx23d back(1, 0, shift.x, 0, 1, shift.y);
+    cv::warpAffine(seen, now, back, seen.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                   cv::BORDER_REPLICATE);
+  }
+  return shift * (static_cast<double>(frame.cols) / seen.cols);
+}
+
+cv::Point2d SceneShift::step_to(const cv::Mat& now) const {
   // now = gain scene + offset - shift . gradient, where nothing stands before the scene.
   cv::Matx44d normal = cv::Matx44d::zeros();
   cv::Vec4d right(0, 0, 0, 0);
@@ -53,8 +70,7 @@ cv::Point2d SceneShift::of(const cv::Mat& frame) const {
   if (normal(0, 0) < kLeastGradient || normal(1, 1) < kLeastGradient) return {0, 0};
   for (int k = 0; k < 4; ++k) normal(k, k) += 1e-6;
   const cv::Vec4d solution = normal.solve(right, cv::DECOMP_CHOLESKY);
-  const double scale = static_cast<double>(frame.cols) / now.cols;
-  return {scale * solution[0], scale * solution[1]};
+  return {solution[0], solution[1]};
 }
 
 }  // namespace repose::vision

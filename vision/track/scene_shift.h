@@ -14,6 +14,8 @@ class SceneShift {
   cv::Point2d of(const cv::Mat& frame) const;
 
  private:
+  cv::Point2d step_to(const cv::Mat& now) const;
+
   cv::Mat grey_, across_, down_, counts_;  ///< much reduced
 };
 

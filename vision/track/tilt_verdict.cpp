@@ -150,18 +150,19 @@ std::string fault_of_plate(const std::optional<PlateMotion>& motion) {
 std::string fault_of_grains(const PlateGrains& grains, const std::vector<std::size_t>& sliding,
                             const PlateMotion& motion) {
   const auto& tracks = grains.tracks;
+  const auto is_cut_off = [](const OnPlateTrack& one) { return one.thing.touches_edge; };
+  const bool is_at_edge = sliding.empty()
+                              ? !tracks.empty() && std::all_of(tracks.begin(), tracks.end(), is_cut_off)
+                              : is_cut_off(tracks[sliding.front()]);
+  if (is_at_edge) {
+    return "the grain lies at the end of what is seen of the plate. Rule: all of it is seen from the "
+           "beginning. Fix: show the plate a few grains' widths farther on both sides of the grain.";
+  }
   if (sliding.empty()) {
     if (tracks.empty()) {
       return "no grain is seen on the plate. Rule: it stands out from the backdrop by 22 grey "
              "levels and is 4 pixels large at least. Fix: a backdrop of another colour than the "
              "grain, and the camera nearer or zoomed in.";
-    }
-    const bool is_at_edge = std::all_of(tracks.begin(), tracks.end(), [](const auto& one) {
-      return one.thing.touches_edge || one.seen.empty();
-    });
-    if (is_at_edge) {
-      return "the grain lies at the end of what is seen of the plate, and is lost at once. Fix: "
-             "show the plate a few grains' widths farther on both sides of the grain.";
     }
     return fmt::format(
         "no grain slides before the film ends: nothing on the plate moves along it while it turns "
