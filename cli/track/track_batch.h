@@ -16,8 +16,8 @@ struct TrackedFilm {
   std::string error = {};  ///< why it could not be read; empty: its track says
   bool is_internal_error = false;
   Filmed filmed = Filmed::drop;
-  vision::DropTrack drop = {};     ///< of what was filmed, without the
-  vision::RollTrack roll = {};     ///< strobe picture, which is large
+  vision::DropTrack drop = {};  ///< of what was filmed, without the
+  vision::RollTrack roll = {};  ///< strobe picture, which is large
   vision::TiltTrack tilt = {};
   std::string overlay_error = {};  ///< why there is no overlay
 };

@@ -24,8 +24,8 @@ MOV, AVI, MKV, WebM or GIF. FILE may be - for standard output.
          in each frame, and the slide is traced back to its onset: the angle
          is what the plate has turned until then. No scale is needed.
 
-Heights of a drop are those of a fall without air to the speed at the impact. With
---scale they are in its millimetres, and the film's frame rate is checked
+Heights of a drop are those of a fall without air to the speed at the impact.
+With --scale they are in its millimetres, and the film's frame rate is checked
 against gravity. Without, they follow from gravity and the frame rate, and are
 wrong where a film does not play as fast as it was taken (slow motion).
 

@@ -156,8 +156,6 @@ Json json_of(const TrackedFilm& film) {
 
 }  // namespace
 
-std::string track_json(const std::vector<TrackedFilm>& films) {
-  return json_text(films, json_of);
-}
+std::string track_json(const std::vector<TrackedFilm>& films) { return json_text(films, json_of); }
 
 }  // namespace repose::cli

@@ -74,11 +74,10 @@ void read_overlay(const TrackArguments& arguments, TrackPlan& plan,
 
 TrackPlan plan_track(const TrackArguments& arguments) {
   TrackPlan plan;
-  plan.filmed = read_choice<Filmed>({"track", arguments.experiment, plan.errors},
-                                    {{"drop", Filmed::drop},
-                                     {"roll", Filmed::roll},
-                                     {"tilt", Filmed::tilt}})
-                    .value_or(plan.filmed);
+  plan.filmed =
+      read_choice<Filmed>({"track", arguments.experiment, plan.errors},
+                          {{"drop", Filmed::drop}, {"roll", Filmed::roll}, {"tilt", Filmed::tilt}})
+          .value_or(plan.filmed);
   plan.videos = {arguments.videos.begin(), arguments.videos.end()};
   read_scale(arguments.scale, plan);
   read_own_options(arguments, plan);

@@ -91,7 +91,7 @@ void add_tilt(Table& table, const TrackedFilm& film, bool has_colour) {
   const Colour colour = colour_of(film, has_colour);
   const std::string status = status_text(film);
   if (tilt.has_reading) {
-    table.add_row({film.file, cell(tilt.angle_deg, 2), cell(tilt.rate_deg_s, 2),
+    table.add_row({film.file, cell(tilt.angle_deg, 2), cell(tilt.rate_deg_s, 3),
                    fmt::format("{:.2f}", tilt.onset_s), status},
                   colour);
   } else {

@@ -33,14 +33,14 @@ DrawnTilt random_tilt(double frames_per_s, unsigned seed) {
     return least + (most - least) * static_cast<double>(random()) / 4294967296.0;
   };
   const auto one_of = [&](unsigned count) { return random() % count == 0; };
-  DrawnTilt tilt{.frames_per_s = frames_per_s, .seed = seed};
+  DrawnTilt tilt{.width = 400, .height = 300, .frames_per_s = frames_per_s, .seed = seed};
   tilt.onset_deg = between(12, 40);
   tilt.rate_deg_s = .5 * std::pow(10, between(0, 1));
   tilt.rest_s = between(.3, 1);
   tilt.slides_with = between(.7, 1);
   tilt.uneven = one_of(2) ? between(0, .15) : 0;
   tilt.mm_per_px = between(.25, .6);
-  tilt.radius_px = between(5, 12);
+  tilt.radius_px = between(5, 11);
   tilt.bonded = 2 + static_cast<int>(random() % 2);
   tilt.hinge_part = one_of(2) ? between(-.25, -.03) : between(.03, .15);
   tilt.plate_from = tilt.hinge_part > 0 ? tilt.hinge_part - .02 : -.7;
@@ -75,14 +75,15 @@ void print_row(const Row& row) {
   fmt::print("  seed {}: {:.2f} at {:.2f}/s, ", row.drawn.seed, row.drawn.onset_deg,
              row.drawn.rate_deg_s);
   if (track.has_reading) {
-    fmt::print("read {:.2f} +- {:.2f}, off {:+.2f}; {:.3f} deg, {:.3f} px;",
-               track.angle_deg.value, track.angle_deg.uncertainty,
-               track.angle_deg.value - row.drawn.onset_deg, track.noise_deg, track.noise_px);
+    fmt::print("read {:.2f} +- {:.2f}, off {:+.2f}; {:.3f} deg, {:.3f} px;", track.angle_deg.value,
+               track.angle_deg.uncertainty, track.angle_deg.value - row.drawn.onset_deg,
+               track.noise_deg, track.noise_px);
     for (const vision::Warning& warning : track.warnings) fmt::print(" {}", warning.code);
     fmt::print("\n");
   } else {
     fmt::print("refused: {}\n", track.reason);
   }
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -91,11 +92,11 @@ void print_tilt_accuracy(double frames_per_s, int films, unsigned first_seed, bo
   std::vector<Row> rows(static_cast<std::size_t>(films));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
     rows[k] = row_of(random_tilt(frames_per_s, first_seed + static_cast<unsigned>(k)));
+    if (prints_each || !rows[k].track.has_reading) print_row(rows[k]);
   });
   std::vector<double> errors;
   int held = 0, flagged = 0;
   for (const Row& row : rows) {
-    if (prints_each || !row.track.has_reading) print_row(row);
     if (!row.track.has_reading) continue;
     const double off = std::abs(row.track.angle_deg.value - row.drawn.onset_deg);
     errors.push_back(off);

@@ -158,8 +158,7 @@ TEST_F(TrackCommand, FilmsOfTiltsBecomeATableThatTheBenchReads) {
   const Finished bench = run_repose(folder_, {"bench", "sliding", "tilts.csv", "--json", "-"});
   ASSERT_EQ(bench.exit_code, 0) << bench.err;
   EXPECT_EQ(json::parse(bench.out)["quantities"][0]["n"], 1);
-  EXPECT_THAT(run({"tilt", "a.mp4", "--scale", "0,0,99,0,90"}).err,
-              HasSubstr("angles need none"));
+  EXPECT_THAT(run({"tilt", "a.mp4", "--scale", "0,0,99,0,90"}).err, HasSubstr("angles need none"));
 }
 
 TEST_F(TrackCommand, AllThatIsWrongIsSaidAtOnce) {

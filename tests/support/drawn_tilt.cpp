@@ -84,9 +84,9 @@ void draw_plate(cv::Mat& scene, const DrawnTilt& tilt, const Placing& placing) {
       const double inside = std::min({-at.y, at.y + tilt.thickness_px, at.x - from, to - at.x});
       const auto cover = static_cast<float>(std::clamp(inside + .5, 0.0, 1.0));
       if (cover <= 0) continue;
-      const double mark = tilt.has_texture
-                              ? .12 * std::sin(.35 * at.x) * std::sin(1.1 * at.y + .02 * at.x * at.x)
-                              : 0;
+      const double mark =
+          tilt.has_texture ? .12 * std::sin(.35 * at.x) * std::sin(1.1 * at.y + .02 * at.x * at.x)
+                           : 0;
       const cv::Vec3f colour(cv::Vec3d(95, 90, 85) * (1 + mark));
       auto& pixel = scene.at<cv::Vec3f>(row, k);
       pixel += cover * (colour - pixel);
@@ -102,10 +102,11 @@ void draw_grain(cv::Mat& scene, const DrawnTilt& tilt, const Placing& placing, i
   own.onset_deg = onset_deg;
   const double onset_s = own.onset_s();
   const double slid_px = slid_mm(tilt, onset_deg, time_s - onset_s) / tilt.mm_per_px;
-  const double creep_px = tilt.creeps_px * std::clamp((time_s - .5 * onset_s) / (.4 * onset_s), 0.0, 1.0);
+  const double creep_px =
+      tilt.creeps_px * std::clamp((time_s - .5 * onset_s) / (.4 * onset_s), 0.0, 1.0);
   // Down the plate is towards the hinge.
-  const double middle = (tilt.grain_part - tilt.hinge_part) * tilt.width - kLower_px * grain -
-                        slid_px - creep_px;
+  const double middle =
+      (tilt.grain_part - tilt.hinge_part) * tilt.width - kLower_px * grain - slid_px - creep_px;
   const double turned = -tilt.rolls * slid_px / tilt.radius_px;
   const double r = tilt.radius_px;
   if (tilt.has_shadow) {
@@ -139,9 +140,7 @@ double DrawnTilt::onset_s() const {
   return from;
 }
 
-int DrawnTilt::frames() const {
-  return static_cast<int>(frames_per_s * (onset_s() + after_s));
-}
+int DrawnTilt::frames() const { return static_cast<int>(frames_per_s * (onset_s() + after_s)); }
 
 vision::Picture DrawnTilt::picture(int frame) const {
   cv::Mat scene = drawn_scene({width, height}, seed);

@@ -17,8 +17,7 @@ std::vector<SlidAt> slide(double step_px_s2, double growth_px_s3, double until_s
   for (int k = 0; k * kInterval_s < until_s; ++k) {
     const double time_s = k * kInterval_s, t = std::max(0.0, time_s - kOnset_s);
     const double jitter = .04 * std::sin(12.9898 * k * k);
-    places.push_back(
-        {time_s, jitter + .5 * step_px_s2 * t * t + growth_px_s3 * t * t * t / 6});
+    places.push_back({time_s, jitter + .5 * step_px_s2 * t * t + growth_px_s3 * t * t * t / 6});
   }
   return places;
 }

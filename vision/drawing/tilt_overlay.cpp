@@ -31,7 +31,7 @@ std::vector<TextRow> rows_of(const TiltTrack& track, const std::string& title) {
     rows.push_back({fmt::format("slides at {:.2f} ± {:.2f}°, after {:.2f} s", track.angle_deg.value,
                                 track.angle_deg.uncertainty, track.onset_s),
                     kDark});
-    rows.push_back({fmt::format("tilted by {:.2f} ± {:.2f}°/s from the dashed edge on",
+    rows.push_back({fmt::format("tilted by {:.3f} ± {:.3f}°/s from the dashed edge on",
                                 track.rate_deg_s.value, track.rate_deg_s.uncertainty),
                     kDark});
   }

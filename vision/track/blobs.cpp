@@ -71,8 +71,8 @@ double cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Ve
 }
 
 int reduction_for(const cv::Size& size) {
-  return std::max(
-      1, static_cast<int>(std::lround(std::max(size.width, size.height) / double{kReducedSide_px})));
+  return std::max(1, static_cast<int>(
+                         std::lround(std::max(size.width, size.height) / double{kReducedSide_px})));
 }
 
 cv::Mat reduced_frame(const cv::Mat& bgr, int reduction) {

@@ -48,7 +48,8 @@ GrainTemplate::GrainTemplate(const cv::Mat& bgr, const cv::Mat& mask) {
     pixels_[k].place -= centre_;
     pixels_[k].colour = colours[k];
     contrast_ += colours[k].dot(colours[k]);
-    mean_square_px2_ += pixels_[k].place.dot(pixels_[k].place) / static_cast<double>(pixels_.size());
+    mean_square_px2_ +=
+        pixels_[k].place.dot(pixels_[k].place) / static_cast<double>(pixels_.size());
   }
 }
 
@@ -63,7 +64,8 @@ bool GrainTemplate::sample(const cv::Mat& bgr, const TemplateMatch& match,
   for (const Pixel& pixel : pixels_) {
     const double x = centre.x + c * pixel.place.x - s * pixel.place.y;
     const double y = centre.y + s * pixel.place.x + c * pixel.place.y;
-    seen.push_back(at(bgr, std::clamp(x, 0.0, bgr.cols - 1.001), std::clamp(y, 0.0, bgr.rows - 1.001)));
+    seen.push_back(
+        at(bgr, std::clamp(x, 0.0, bgr.cols - 1.001), std::clamp(y, 0.0, bgr.rows - 1.001)));
   }
   take_out_mean(seen);
   return true;
@@ -84,8 +86,7 @@ TemplateMatch GrainTemplate::refined(const cv::Mat& bgr, TemplateMatch match, bo
   cv::Matx33d normal = cv::Matx33d::zeros();
   const auto terms_of = [&](const Pixel& pixel, int channel) {
     const double across = pixel.across[channel], down = pixel.down[channel];
-    return cv::Vec3d(across, down,
-                     turns ? down * pixel.place.x - across * pixel.place.y : 0);
+    return cv::Vec3d(across, down, turns ? down * pixel.place.x - across * pixel.place.y : 0);
   };
   for (const Pixel& pixel : pixels_) {
     for (int channel = 0; channel < 3; ++channel) {

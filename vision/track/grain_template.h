@@ -14,10 +14,11 @@ struct TemplateMatch {
 };
 
 /// A piece of a picture that is found again in others to a fraction of a pixel, by least squares of
-/// its colours, each less its mean. Source: S. Baker, I. Matthews, Lucas-Kanade 20 years on, Int. J.
-/// Comput. Vision 56 (2004) 221-255, section 3.2 (the inverse compositional algorithm), for a shift
-/// and a turn about the piece's centre. Holds for shifts of a pixel or so from where the search
-/// begins, which goes through whole pixels first. Checked by track_tilt_test.cpp of tests/vision.
+/// its colours, each less its mean. Source: S. Baker, I. Matthews, Lucas-Kanade 20 years on, Int.
+/// J. Comput. Vision 56 (2004) 221-255, section 3.2 (the inverse compositional algorithm), for a
+/// shift and a turn about the piece's centre. Holds for shifts of a pixel or so from where the
+/// search begins, which goes through whole pixels first. Checked by track_tilt_test.cpp of
+/// tests/vision.
 class GrainTemplate {
  public:
   /// @param mask  of the picture's size: what belongs to it

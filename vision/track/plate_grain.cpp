@@ -50,8 +50,8 @@ cv::Mat first_strip(const std::filesystem::path& file, const PlateMotion& motion
     for (; at < plate.frame && has_more; ++at) has_more = film.skip(frame);
     if (!has_more || !film.next(frame)) break;
     ++at;
-    strips.push_back(strip_picture(reduced_frame(frame.bgr, motion.reduction), motion, plate.line,
-                                   strip));
+    strips.push_back(
+        strip_picture(reduced_frame(frame.bgr, motion.reduction), motion, plate.line, strip));
   }
   return strips.empty() ? cv::Mat() : median_of(strips);
 }
@@ -77,8 +77,8 @@ cv::Mat around(const cv::Mat& mask) {
   return wide;
 }
 
-/// With its turn: from where it lies unturned, and where it turns fast, from where it would be had it
-/// turned on.
+/// With its turn: from where it lies unturned, and where it turns fast, from where it would be had
+/// it turned on.
 TemplateMatch turned_match(const Followed& followed, const cv::Mat& strip,
                            const TemplateMatch& unturned, int reach_px) {
   constexpr double kFast_rad = 2 * kDegree;

@@ -12,9 +12,9 @@ namespace repose::vision {
 
 /// Something that stands on the plate, in the plate's strip before it moves.
 struct OnPlate {
-  cv::Mat mask;              ///< of the strip's size
-  cv::Point2d centre = {};   ///< in the strip
-  double width_px = 0;  ///< along the plate
+  cv::Mat mask;             ///< of the strip's size
+  cv::Point2d centre = {};  ///< in the strip
+  double width_px = 0;      ///< along the plate
   double height_px = 0;
   double elongation = 1;      ///< its length over its breadth; 1: round
   bool touches_edge = false;  ///< not all of it is seen

@@ -47,8 +47,8 @@ EdgeLine expected_line(const Followed& followed, double time_s) {
   EdgeLine line{.lean_rad =
                     last.line.lean_rad + ahead * (last.line.lean_rad - before.line.lean_rad)};
   const double row = last.line.row_at(middle);
-  line.offset_px = line.normal().dot(
-      cv::Point2d(middle, row + ahead * (row - before.line.row_at(middle))));
+  line.offset_px =
+      line.normal().dot(cv::Point2d(middle, row + ahead * (row - before.line.row_at(middle))));
   return line;
 }
 
@@ -157,15 +157,15 @@ std::optional<PlateMotion> motion_of(Followed& followed, int reduction) {
 double weight_of(const PlateMotion& motion) {
   constexpr double kEnough_rad = 8 * kDegree;
   return (motion.edge.to - motion.edge.from) * motion.seen_part *
-         std::min(1.0, motion.turned_rad / kEnough_rad) *
-         static_cast<double>(motion.seen.size()) / (1 + motion.wobble_px);
+         std::min(1.0, motion.turned_rad / kEnough_rad) * static_cast<double>(motion.seen.size()) /
+         (1 + motion.wobble_px);
 }
 
 std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
   if (motions.empty()) return std::nullopt;
-  const auto best = std::max_element(
-      motions.begin(), motions.end(),
-      [](const auto& a, const auto& b) { return weight_of(a) < weight_of(b); });
+  const auto best =
+      std::max_element(motions.begin(), motions.end(),
+                       [](const auto& a, const auto& b) { return weight_of(a) < weight_of(b); });
   constexpr double kAlike = .1, kLeastWeight = .45;
   const auto row = [](const PlateMotion& motion) {
     return motion.seen.front().line.row_at(.5 * (motion.edge.from + motion.edge.to));

@@ -12,19 +12,20 @@ constexpr double kAbove_px = 1.5;
 
 }  // namespace
 
+double along_plate(const PlateMotion& motion, int column) {
+  const EdgeLine& line = motion.seen.front().line;
+  return (cv::Point2d(column, line.row_at(column)) - motion.origin(line)).dot(line.along());
+}
+
 PlateStrip strip_above(const PlateMotion& motion, const cv::Size& frame) {
   constexpr double kHeight = .3;
   // Something may hide the end of the edge that it stands on.
   constexpr double kBeyond = .08;
-  const EdgeLine& line = motion.seen.front().line;
-  const cv::Point2d origin = motion.origin(line);
-  const auto place = [&](int column) {
-    return (cv::Point2d(column, line.row_at(column)) - origin).dot(line.along());
-  };
   const int beyond = cvRound(kBeyond * frame.width);
-  const double from = place(std::max(0, motion.edge.from - beyond));
-  const double to = place(std::min(frame.width - 1, motion.edge.to + beyond));
-  return {.from_px = from, .size = {std::max(1, cvFloor(to - from)), cvRound(kHeight * frame.height)}};
+  const double from = along_plate(motion, std::max(0, motion.edge.from - beyond));
+  const double to = along_plate(motion, std::min(frame.width - 1, motion.edge.to + beyond));
+  return {.from_px = from,
+          .size = {std::max(1, cvFloor(to - from)), cvRound(kHeight * frame.height)}};
 }
 
 cv::Point2d in_frame(const cv::Point2d& place, const PlateMotion& motion, const EdgeLine& line,

@@ -13,6 +13,9 @@ struct PlateStrip {
   cv::Size size;
 };
 
+/// How far along the plate from the origin the edge is in a column of the first frame.
+double along_plate(const PlateMotion& motion, int column);
+
 PlateStrip strip_above(const PlateMotion& motion, const cv::Size& frame);
 
 /// @param frame  reduced as the motion is

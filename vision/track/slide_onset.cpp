@@ -62,8 +62,8 @@ double squares_left(std::span<const SlidAt> places, double begin_s) {
   return std::max(0.0, left);
 }
 
-/// The number of the last place at which it stands still: what comes after is the slide proper, what
-/// came before may have crept.
+/// The number of the last place at which it stands still: what comes after is the slide proper,
+/// what came before may have crept.
 std::size_t last_at_rest(std::span<const SlidAt> places, double still_px) {
   constexpr double kLook_s = .12;
   std::size_t k = places.size() - 1;
@@ -90,7 +90,7 @@ double noise_of(std::span<const SlidAt> rest) {
   for (std::size_t k = 1; k < rest.size(); ++k) {
     steps.push_back(std::abs(rest[k].slid_px - rest[k - 1].slid_px));
   }
-  return std::max(kLeastNoise_px, kSigmaPerMad * median_of(steps) / std::sqrt(2));
+  return kSigmaPerMad * median_of(steps) / std::sqrt(2);
 }
 
 double crept_before(const std::vector<SlidAt>& places, double onset_s) {
@@ -112,8 +112,8 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
   const auto gone = std::find_if(places.begin(), places.end(),
                                  [&](const SlidAt& one) { return one.slid_px > least_px; });
   if (gone == places.end()) return std::nullopt;
-  const auto end = std::find_if(gone, places.end(),
-                          [&](const SlidAt& one) { return one.slid_px > most_px; });
+  const auto end =
+      std::find_if(gone, places.end(), [&](const SlidAt& one) { return one.slid_px > most_px; });
   const auto count = static_cast<std::size_t>(end - places.begin());
   const double noise = noise_of({places.begin(), gone});
   const double still_px = std::max(kStill_px, kSigmas * noise);
@@ -130,9 +130,9 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
   for (double t = fitted.front().time_s; t <= seen_s + 2 * interval_s; t += interval_s / kParts) {
     profile.emplace_back(t, squares_left(fitted, t));
   }
-  const auto best = std::min_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) {
-    return a.second < b.second;
-  });
+  const auto best =
+      std::min_element(profile.begin(), profile.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
   const double free = std::max(1.0, static_cast<double>(fitted.size()) - 4);
   const double variance = std::max(best->second / free, kLeastNoise_px * kLeastNoise_px);
   const double limit = best->second + kChiSquare95 * kAlike * variance;

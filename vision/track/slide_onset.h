@@ -32,10 +32,10 @@ struct SlideOnset {
 ///     j   g w (cos A + m sin A)      px/s^3   >= 0; w in rad/s
 ///
 /// Derived: Newton's second law with Coulomb's friction on a slope A + w (t - t0), to third order;
-/// the sheet of `repose simulate tilt` is read by the same law without the step. Holds for slides in
-/// which the plate turns by some degrees. t0 is that of the least squares, with a and j fitted at
-/// each t0; its interval is that of the profile likelihood (neighbouring places err alike). Checked
-/// by SlideOnset.* of tests/vision/slide_onset_test.cpp.
+/// the sheet of `repose simulate tilt` is read by the same law without the step. Holds for slides
+/// in which the plate turns by some degrees. t0 is that of the least squares, with a and j fitted
+/// at each t0; its interval is that of the profile likelihood (neighbouring places err alike).
+/// Checked by SlideOnset.* of tests/vision/slide_onset_test.cpp.
 /// @param most_px  places beyond are left out
 /// @return none where it never gets `least_px` far
 std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double least_px,

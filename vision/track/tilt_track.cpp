@@ -57,9 +57,11 @@ Point point_of(const cv::Point2d& at, const PlateMotion& motion) {
   return {motion.reduction * (at.x + .5), motion.reduction * (at.y + .5)};
 }
 
-Segment edge_at(const PlateMotion& motion, const PlateStrip& strip, const EdgeLine& line) {
-  const cv::Point2d from = motion.origin(line) + strip.from_px * line.along();
-  return {point_of(from, motion), point_of(from + strip.size.width * line.along(), motion)};
+Segment edge_at(const PlateMotion& motion, const EdgeLine& line) {
+  const auto end = [&](int column) {
+    return point_of(motion.origin(line) + along_plate(motion, column) * line.along(), motion);
+  };
+  return {end(motion.edge.from), end(motion.edge.to)};
 }
 
 const PlateSighting& sighting_at(const PlateMotion& motion, double time_s) {
@@ -106,9 +108,9 @@ void read_onset(const PlateMotion& motion, const PlateGrains& grains, const OnPl
   track.onset_s = at_s;
   track.noise_px = motion.reduction * onset.rest_noise_px;
   track.grain_px = motion.reduction * grain.thing.width_px;
-  track.level_edge = edge_at(motion, grains.strip, motion.seen.front().line);
+  track.level_edge = edge_at(motion, motion.seen.front().line);
   const PlateSighting& plate = sighting_at(motion, at_s);
-  track.onset_edge = edge_at(motion, grains.strip, plate.line);
+  track.onset_edge = edge_at(motion, plate.line);
   track.onset = point_of(in_frame(grain.thing.centre, motion, plate.line, grains.strip), motion);
   track.has_reading = true;
 }

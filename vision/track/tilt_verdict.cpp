@@ -151,12 +151,14 @@ std::string fault_of_grains(const PlateGrains& grains, const std::vector<std::si
                             const PlateMotion& motion) {
   const auto& tracks = grains.tracks;
   const auto is_cut_off = [](const OnPlateTrack& one) { return one.thing.touches_edge; };
-  const bool is_at_edge = sliding.empty()
-                              ? !tracks.empty() && std::all_of(tracks.begin(), tracks.end(), is_cut_off)
-                              : is_cut_off(tracks[sliding.front()]);
+  const bool is_at_edge =
+      sliding.empty() ? !tracks.empty() && std::all_of(tracks.begin(), tracks.end(), is_cut_off)
+                      : is_cut_off(tracks[sliding.front()]);
   if (is_at_edge) {
-    return "the grain lies at the end of what is seen of the plate. Rule: all of it is seen from the "
-           "beginning. Fix: show the plate a few grains' widths farther on both sides of the grain.";
+    return "the grain lies at the end of what is seen of the plate. Rule: all of it is seen from "
+           "the "
+           "beginning. Fix: show the plate a few grains' widths farther on both sides of the "
+           "grain.";
   }
   if (sliding.empty()) {
     if (tracks.empty()) {
