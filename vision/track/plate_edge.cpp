@@ -37,9 +37,9 @@ std::vector<double> sums_along(const cv::Mat& steps, double slope, double sign) 
   return sums;
 }
 
-/// The longest stretch in which the edge is seen, but for gaps as wide as a grain or its shadow.
+/// The longest stretch in which the edge is seen, but for gaps as wide as a row of grains.
 void find_ends(const cv::Mat& steps, PlateEdge& edge) {
-  constexpr double kGap = .15;
+  constexpr double kGap = .3;
   const int gap = cvRound(kGap * steps.cols);
   int from = -1, last = -1;
   const auto close = [&] {

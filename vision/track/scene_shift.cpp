@@ -33,8 +33,8 @@ SceneShift::SceneShift(const cv::Mat& scene, const cv::Mat& counts) : grey_(shif
 }
 
 cv::Point2d SceneShift::of(const cv::Mat& frame) const {
-  constexpr int kRounds = 6;
-  constexpr double kEnough_px = .5;
+  constexpr int kRounds = 10;
+  constexpr double kEnough_px = .1;
   const cv::Mat seen = shift_picture(frame);
   cv::Mat now = seen;
   cv::Point2d shift;
