@@ -13,16 +13,21 @@ namespace {
 /// Why a film shows another experiment than the study's; empty: it does not.
 std::string other_setting(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
                           const std::map<std::string, FilmNumber>& row) {
+  std::vector<dem::FilmedSetting> settings = entry.filmed_settings;
   for (const auto& [column, key] : entry.sheet.protocol) {
+    settings.push_back({column, key, kSameSetting});
+  }
+  for (const auto& [column, key, tolerance] : settings) {
     const FilmNumber& seen = row.at(std::string(column));
     const double meant = protocol_value(entry, protocol, key);
-    if (std::abs(seen.value - meant) <= kSameSetting * meant + seen.uncertainty) continue;
+    if (std::abs(seen.value - meant) <= tolerance * meant + seen.uncertainty) continue;
     return fmt::format(
         "{0} = {1:.4g} ± {2:.2g} in it, and the study has {3} = {4:g} in [experiment.{5}]. Rule: "
         "the same within {6:g} % and the film's interval. Fix: write {3} = {1:.4g} there if the "
         "bench was set so. Of films that show it wrongly, as those in slow motion, give a sheet of "
-        "readings instead: repose track {5} --scale ... --csv {5}.csv.",
-        column, seen.value, seen.uncertainty, key, meant, entry.name, 100 * kSameSetting);
+        "readings instead: repose track {5} {7}--csv {5}.csv.",
+        column, seen.value, seen.uncertainty, key, meant, entry.name, 100 * tolerance,
+        entry.sheet.protocol.empty() ? "" : "--scale ... ");
   }
   return {};
 }

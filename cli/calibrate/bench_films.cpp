@@ -31,6 +31,10 @@ std::string warnings_text(const TrackedFilm& film) {
 
 /// As a bench would write it down.
 std::map<std::string, calibrate::FilmNumber> row_of(const TrackedFilm& film) {
+  if (film.filmed == Filmed::tilt) {
+    return {{"angle_deg", number_of(film.tilt.angle_deg)},
+            {"rate_deg_s", number_of(film.tilt.rate_deg_s)}};
+  }
   if (film.filmed == Filmed::roll) {
     return {{"incline_deg", number_of(film.roll.incline_deg)},
             {"released_mm", number_of(film.roll.released_mm)},
@@ -80,6 +84,7 @@ void read_films_of(const dem::ExperimentEntry& entry, const dem::StudyExperiment
     tracking.filmed = Filmed::roll;
     tracking.released_mm = calibrate::protocol_value(entry, described.protocol, "release_mm");
   }
+  if (entry.experiment == dem::Experiment::tilt) tracking.filmed = Filmed::tilt;
   tracking.videos = std::move(list.files);
   tracking.threads = plan.jobs;
   // Nothing is written yet that an interrupt could leave half done: it ends the program at once.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
+#include "cli/common/json_text.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
@@ -136,11 +137,7 @@ Json picture_json(const MeasuredPicture& picture) {
 }  // namespace
 
 std::string measure_json(const std::vector<MeasuredPicture>& pictures) {
-  Json json = Json::array();
-  for (const MeasuredPicture& picture : pictures) json.push_back(picture_json(picture));
-  constexpr int kIndent = 2;
-  // File names need not be UTF-8, JSON must be.
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(pictures, picture_json);
 }
 
 }  // namespace repose::cli

@@ -15,6 +15,7 @@
 #include "cli/common/progress.h"
 #include "vision/drawing/drop_overlay.h"
 #include "vision/drawing/roll_overlay.h"
+#include "vision/drawing/tilt_overlay.h"
 
 namespace repose::cli {
 namespace {
@@ -42,9 +43,45 @@ class FilmsProgress {
   ProgressLine line_;
 };
 
+/// What is read of the track of the experiment that was filmed.
+template <typename Read>
+decltype(auto) of_track(const TrackedFilm& film, const Read& read) {
+  switch (film.filmed) {
+    case Filmed::drop:
+      return read(film.drop);
+    case Filmed::roll:
+      return read(film.roll);
+    case Filmed::tilt:
+      break;
+  }
+  return read(film.tilt);
+}
+
 vision::Picture overlay_of(const TrackedFilm& film, const std::string& title) {
-  return film.filmed == Filmed::drop ? vision::draw_drop_overlay(film.drop, title)
-                                     : vision::draw_roll_overlay(film.roll, title);
+  switch (film.filmed) {
+    case Filmed::drop:
+      return vision::draw_drop_overlay(film.drop, title);
+    case Filmed::roll:
+      return vision::draw_roll_overlay(film.roll, title);
+    case Filmed::tilt:
+      break;
+  }
+  return vision::draw_tilt_overlay(film.tilt, title);
+}
+
+void track(const std::filesystem::path& file, const vision::TrackOptions& options,
+           TrackedFilm& tracked) {
+  switch (tracked.filmed) {
+    case Filmed::drop:
+      tracked.drop = vision::track_drop(file, options);
+      break;
+    case Filmed::roll:
+      tracked.roll = vision::track_roll(file, options);
+      break;
+    case Filmed::tilt:
+      tracked.tilt = vision::track_tilt(file, options);
+      break;
+  }
 }
 
 void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
@@ -64,14 +101,11 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
                                        .released_mm = plan.released_mm,
                                        .draws_strobe = !plan.overlays.empty(),
                                        .progress = progress};
-    if (plan.filmed == Filmed::drop) {
-      tracked.drop = vision::track_drop(plan.videos[index], options);
-    } else {
-      tracked.roll = vision::track_roll(plan.videos[index], options);
-    }
+    track(plan.videos[index], options, tracked);
     if (!plan.overlays.empty()) draw(plan, index, tracked);
     tracked.drop.strobe = {};
     tracked.roll.strobe = {};
+    tracked.tilt.strobe = {};
   } catch (const std::invalid_argument& error) {
     tracked.error = naming_file(tracked.file, error.what());
   } catch (const std::exception& error) {
@@ -86,23 +120,33 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
 }  // namespace
 
 vision::MeasureStatus status_of(const TrackedFilm& film) {
-  return film.filmed == Filmed::drop ? film.drop.status : film.roll.status;
+  return of_track(film, [](const auto& track) { return track.status; });
 }
 
 const std::string& reason_of(const TrackedFilm& film) {
-  return film.filmed == Filmed::drop ? film.drop.reason : film.roll.reason;
+  return of_track(film, [](const auto& track) -> const std::string& { return track.reason; });
 }
 
 const std::vector<vision::Warning>& warnings_of(const TrackedFilm& film) {
-  return film.filmed == Filmed::drop ? film.drop.warnings : film.roll.warnings;
+  return of_track(film, [](const auto& track) -> const std::vector<vision::Warning>& {
+    return track.warnings;
+  });
 }
 
 const vision::FilmFacts& facts_of(const TrackedFilm& film) {
-  return film.filmed == Filmed::drop ? film.drop.film : film.roll.film;
+  return of_track(film, [](const auto& track) -> const vision::FilmFacts& { return track.film; });
 }
 
 bool has_reading(const TrackedFilm& film) {
-  return film.filmed == Filmed::drop ? !film.drop.bounces.empty() : film.roll.has_reading;
+  switch (film.filmed) {
+    case Filmed::drop:
+      return !film.drop.bounces.empty();
+    case Filmed::roll:
+      return film.roll.has_reading;
+    case Filmed::tilt:
+      break;
+  }
+  return film.tilt.has_reading;
 }
 
 std::vector<TrackedFilm> track_batch(const TrackPlan& plan,

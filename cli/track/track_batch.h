@@ -7,6 +7,7 @@
 #include "cli/track/track_options.h"
 #include "vision/track/drop_track.h"
 #include "vision/track/roll_track.h"
+#include "vision/track/tilt_track.h"
 
 namespace repose::cli {
 
@@ -15,8 +16,9 @@ struct TrackedFilm {
   std::string error = {};  ///< why it could not be read; empty: its track says
   bool is_internal_error = false;
   Filmed filmed = Filmed::drop;
-  vision::DropTrack drop = {};     ///< of what was filmed, without the
-  vision::RollTrack roll = {};     ///< strobe picture, which is large
+  vision::DropTrack drop = {};  ///< of what was filmed, without the
+  vision::RollTrack roll = {};  ///< strobe picture, which is large
+  vision::TiltTrack tilt = {};
   std::string overlay_error = {};  ///< why there is no overlay
 };
 

@@ -19,14 +19,18 @@ MOV, AVI, MKV, WebM or GIF. FILE may be - for standard output.
          the planes below them meet. Distances are along the planes from
          there, in millimetres of --scale, or of --released: how far up the
          incline the grains were let go.
+  tilt   The plate is level at first and is tilted slowly until the grain, or
+         grains that are bonded, slides. A line is fitted to the plate's edge
+         in each frame, and the slide is traced back to its onset: the angle
+         is what the plate has turned until then. No scale is needed.
 
-Heights of a drop are those of a fall without air to the speed at the impact. With
---scale they are in its millimetres, and the film's frame rate is checked
+Heights of a drop are those of a fall without air to the speed at the impact.
+With --scale they are in its millimetres, and the film's frame rate is checked
 against gravity. Without, they follow from gravity and the frame rate, and are
 wrong where a film does not play as fast as it was taken (slow motion).
 
 The table for --csv has the columns that repose bench restitution reads, or
-repose bench rolling, and a film's name as sample.
+rolling, or sliding, and a film's name as sample.
 
 Uncertainties are half-widths of 95 % intervals.
 
@@ -35,6 +39,7 @@ Examples:
   repose track drop drop_01.mp4 drop_02.mp4 --csv drops.csv
   repose bench restitution drops.csv
   repose track roll roll_01.mp4 --released 150 --csv rolls.csv
+  repose track tilt tilt_01.mp4 --overlay tilt_01.png --csv tilts.csv
 )";
 
 }  // namespace
@@ -44,7 +49,7 @@ Command track_command() {
   return {
       .name = "track",
       .summary = "Read bench experiments off films",
-      .options = {{"experiment", "drop|roll", "Which experiment is filmed", &given->experiment,
+      .options = {{"experiment", "drop|roll|tilt", "Which experiment is filmed", &given->experiment,
                    true},
                   {"videos", "VIDEO ...", "Films, a repeat each", &given->videos, true},
                   {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale},
@@ -52,7 +57,7 @@ Command track_command() {
                   {"--bounces", "first|all", "Bounces in the CSV table (first)", &given->bounces},
                   {"--overlay", "FILE.png|FOLDER", "Draw what was tracked", &given->overlay},
                   {"--json", "FILE|-", "All results, for programs", &given->json_file},
-                  {"--csv", "FILE|-", "A row for each bounce or roll", &given->csv_file},
+                  {"--csv", "FILE|-", "A row for each bounce, roll or tilt", &given->csv_file},
                   {"--threads", "N", "Films at a time (all cores)", &given->threads}},
       .notes = kNotes,
       .missing = "an experiment and a film are needed. Fix: repose track drop VIDEO.",

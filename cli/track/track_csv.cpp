@@ -17,6 +17,9 @@ constexpr const char* kRollHeader =
     "sample,incline_deg,released_mm,stopped_mm,incline_uncertainty_deg,released_uncertainty_mm,"
     "stopped_uncertainty_mm,stopped_s,status\n";
 
+constexpr const char* kTiltHeader =
+    "sample,angle_deg,angle_uncertainty_deg,rate_deg_s,rate_uncertainty_deg_s,onset_s,status\n";
+
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 std::string sample_of(const TrackedFilm& film) {
@@ -52,12 +55,27 @@ std::string roll_row(const TrackedFilm& film) {
   return base::csv_row(cells);
 }
 
+std::string tilt_row(const TrackedFilm& film) {
+  const vision::TiltTrack& tilt = film.tilt;
+  const std::vector<std::string> cells = {sample_of(film),
+                                          number(tilt.angle_deg.value),
+                                          number(tilt.angle_deg.uncertainty),
+                                          number(tilt.rate_deg_s.value),
+                                          number(tilt.rate_deg_s.uncertainty),
+                                          number(tilt.onset_s),
+                                          name_of(tilt.status)};
+  return base::csv_row(cells);
+}
+
 }  // namespace
 
 std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& plan) {
-  if (plan.filmed == Filmed::roll) {
-    std::string csv = kRollHeader;
-    for (const TrackedFilm& film : films) csv += has_reading(film) ? roll_row(film) : "";
+  if (plan.filmed != Filmed::drop) {
+    const bool rolls = plan.filmed == Filmed::roll;
+    std::string csv = rolls ? kRollHeader : kTiltHeader;
+    for (const TrackedFilm& film : films) {
+      if (has_reading(film)) csv += rolls ? roll_row(film) : tilt_row(film);
+    }
     return csv;
   }
   std::string csv = kDropHeader;

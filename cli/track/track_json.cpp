@@ -3,12 +3,25 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
+#include "cli/common/json_text.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+const char* name_of(Filmed filmed) {
+  switch (filmed) {
+    case Filmed::drop:
+      return "drop";
+    case Filmed::roll:
+      return "roll";
+    case Filmed::tilt:
+      break;
+  }
+  return "tilt";
+}
 
 Json bounce_json(const vision::Bounce& bounce) {
   return {{"time_s", bounce.time_s},
@@ -90,21 +103,45 @@ Json roll_track_json(const vision::RollTrack& roll) {
           {"path", path_json(roll.places)}};
 }
 
+Json tilt_json(const vision::TiltTrack& tilt) {
+  return {{"angle_deg", tilt.angle_deg.value},
+          {"angle_uncertainty_deg", tilt.angle_deg.uncertainty},
+          {"rate_deg_s", tilt.rate_deg_s.value},
+          {"rate_uncertainty_deg_s", tilt.rate_deg_s.uncertainty},
+          {"onset_s", tilt.onset_s},
+          {"begin_deg", tilt.begin_deg},
+          {"turned_deg", tilt.turned_deg},
+          {"onset_px", {tilt.onset.x, tilt.onset.y}}};
+}
+
+Json tilt_track_json(const vision::TiltTrack& tilt) {
+  Json plate = Json::array();
+  for (const vision::PlateAngle& one : tilt.plate) plate.push_back({one.time_s, one.angle_deg});
+  return {{"noise_deg", tilt.noise_deg},
+          {"noise_px", tilt.noise_px},
+          {"grain_px", tilt.grain_px},
+          {"plate", plate},
+          {"path", path_json(tilt.places)}};
+}
+
 /// What only the films of one experiment have.
 void add_readings(const TrackedFilm& film, Json& json) {
   const bool has_track = has_reading(film);
   if (film.filmed == Filmed::drop) {
     json["bounces"] = bounces_json(film.drop.bounces);
     json["track"] = has_track ? drop_track_json(film.drop) : Json();
-  } else {
+  } else if (film.filmed == Filmed::roll) {
     json["roll"] = has_track ? roll_json(film.roll) : Json();
     json["track"] = has_track ? roll_track_json(film.roll) : Json();
+  } else {
+    json["tilt"] = has_track ? tilt_json(film.tilt) : Json();
+    json["track"] = has_track ? tilt_track_json(film.tilt) : Json();
   }
 }
 
 Json json_of(const TrackedFilm& film) {
   Json json{{"file", film.file},
-            {"experiment", film.filmed == Filmed::drop ? "drop" : "roll"},
+            {"experiment", name_of(film.filmed)},
             {"status", name_of(status_of(film))}};
   add_readings(film, json);
   json["film"] = film.error.empty() ? film_json(facts_of(film)) : Json();
@@ -119,11 +156,6 @@ Json json_of(const TrackedFilm& film) {
 
 }  // namespace
 
-std::string track_json(const std::vector<TrackedFilm>& films) {
-  Json json = Json::array();
-  for (const TrackedFilm& film : films) json.push_back(json_of(film));
-  constexpr int kIndent = 2;
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
-}
+std::string track_json(const std::vector<TrackedFilm>& films) { return json_text(films, json_of); }
 
 }  // namespace repose::cli

@@ -11,7 +11,7 @@ namespace repose::cli {
 std::string track_json(const std::vector<TrackedFilm>& films);
 
 /// The table that `repose bench restitution` reads, of drops: a row for each first bounce, or for
-/// all; or `repose bench rolling`, of rolls.
+/// all; `repose bench rolling`, of rolls; `repose bench sliding`, of tilts.
 std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& plan);
 
 }  // namespace repose::cli

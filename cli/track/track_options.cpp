@@ -29,20 +29,20 @@ void read_scale(const std::string& text, TrackPlan& plan) {
   plan.scale = vision::ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
 }
 
-/// What a roll needs, and what only a roll has.
-void read_roll(const TrackArguments& arguments, TrackPlan& plan) {
+/// What one experiment has and others do not.
+void read_own_options(const TrackArguments& arguments, TrackPlan& plan) {
   plan.released_mm = read_positive({"--released", arguments.released, plan.errors},
                                    "a distance in mm above 0", "--released 150");
-  if (plan.filmed == Filmed::drop) {
-    if (!arguments.released.empty()) {
-      plan.errors.emplace_back("--released: is for track roll. Fix: leave it out.");
-    }
-    return;
-  }
-  if (!arguments.bounces.empty()) {
-    plan.errors.emplace_back("--bounces: is for track drop. Fix: leave it out.");
-  }
-  if (arguments.scale.empty() == arguments.released.empty()) {
+  const auto belongs = [&](bool does, const std::string& given, const char* message) {
+    if (!does && !given.empty()) plan.errors.emplace_back(message);
+  };
+  belongs(plan.filmed == Filmed::roll, arguments.released,
+          "--released: is for track roll. Fix: leave it out.");
+  belongs(plan.filmed == Filmed::drop, arguments.bounces,
+          "--bounces: is for track drop. Fix: leave it out.");
+  belongs(plan.filmed != Filmed::tilt, arguments.scale,
+          "--scale: is for track drop and roll; angles need none. Fix: leave it out.");
+  if (plan.filmed == Filmed::roll && arguments.scale.empty() == arguments.released.empty()) {
     plan.errors.push_back(fmt::format(
         "track roll: {}. Rule: millimetres come from --scale or from --released. Fix: --scale "
         "X1,Y1,X2,Y2,MM of a ruler beside the way, or --released MM, how far up the incline from "
@@ -74,12 +74,13 @@ void read_overlay(const TrackArguments& arguments, TrackPlan& plan,
 
 TrackPlan plan_track(const TrackArguments& arguments) {
   TrackPlan plan;
-  plan.filmed = read_choice<Filmed>({"track", arguments.experiment, plan.errors},
-                                    {{"drop", Filmed::drop}, {"roll", Filmed::roll}})
-                    .value_or(plan.filmed);
+  plan.filmed =
+      read_choice<Filmed>({"track", arguments.experiment, plan.errors},
+                          {{"drop", Filmed::drop}, {"roll", Filmed::roll}, {"tilt", Filmed::tilt}})
+          .value_or(plan.filmed);
   plan.videos = {arguments.videos.begin(), arguments.videos.end()};
   read_scale(arguments.scale, plan);
-  read_roll(arguments, plan);
+  read_own_options(arguments, plan);
   plan.tells_all_bounces = read_choice<bool>({"--bounces", arguments.bounces, plan.errors},
                                              {{"first", false}, {"all", true}})
                                .value_or(false);

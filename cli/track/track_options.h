@@ -11,7 +11,7 @@
 namespace repose::cli {
 
 /// The experiments that films are read of.
-enum class Filmed { drop, roll };
+enum class Filmed { drop, roll, tilt };
 
 /// A `repose track` that can be carried out.
 struct TrackPlan {

@@ -86,12 +86,48 @@ void add_roll(Table& table, const TrackedFilm& film, bool has_colour) {
   add_notes(table, film);
 }
 
+void add_tilt(Table& table, const TrackedFilm& film, bool has_colour) {
+  const vision::TiltTrack& tilt = film.tilt;
+  const Colour colour = colour_of(film, has_colour);
+  const std::string status = status_text(film);
+  if (tilt.has_reading) {
+    table.add_row({film.file, cell(tilt.angle_deg, 2), cell(tilt.rate_deg_s, 3),
+                   fmt::format("{:.2f}", tilt.onset_s), status},
+                  colour);
+  } else {
+    table.add_row({film.file, kNothing, kNothing, kNothing, status}, colour);
+  }
+  add_notes(table, film);
+}
+
+void add_film(Table& table, const TrackedFilm& film, bool has_colour) {
+  switch (film.filmed) {
+    case Filmed::drop:
+      return add_drop(table, film, has_colour);
+    case Filmed::roll:
+      return add_roll(table, film, has_colour);
+    case Filmed::tilt:
+      return add_tilt(table, film, has_colour);
+  }
+}
+
+/// What the mean of several films is taken of.
+double value_of(const TrackedFilm& film) {
+  switch (film.filmed) {
+    case Filmed::drop:
+      return film.drop.bounces.front().restitution.value;
+    case Filmed::roll:
+      return film.roll.stopped_mm.value;
+    case Filmed::tilt:
+      break;
+  }
+  return film.tilt.angle_deg.value;
+}
+
 std::string mean_text(const std::vector<TrackedFilm>& films, Filmed filmed) {
   std::vector<double> values;
   for (const TrackedFilm& film : films) {
-    if (!has_reading(film)) continue;
-    values.push_back(filmed == Filmed::drop ? film.drop.bounces.front().restitution.value
-                                            : film.roll.stopped_mm.value);
+    if (has_reading(film)) values.push_back(value_of(film));
   }
   if (values.size() < 2) return {};
   const calibrate::Summary summary = calibrate::summarise(values);
@@ -100,6 +136,7 @@ std::string mean_text(const std::vector<TrackedFilm>& films, Filmed filmed) {
                        summary.n, of, summary.mean, summary.mean_uncertainty.value_or(0),
                        summary.sd.value_or(0), decimals, unit);
   };
+  if (filmed == Filmed::tilt) return text("tilts", 2, "°");
   return filmed == Filmed::drop ? text("first bounces", 3, "") : text("rolls", 1, " mm");
 }
 
@@ -111,6 +148,13 @@ Table empty_table(Filmed filmed) {
                   {.heading = "restitution"},
                   {.heading = "drop [mm]"},
                   {.heading = "rebound [mm]"},
+                  {.heading = "status"}});
+  }
+  if (filmed == Filmed::tilt) {
+    return Table({{.heading = "film"},
+                  {.heading = "slides at [°]"},
+                  {.heading = "rate [°/s]"},
+                  number_column("after [s]"),
                   {.heading = "status"}});
   }
   return Table({{.heading = "film"},
@@ -126,9 +170,7 @@ Table empty_table(Filmed filmed) {
 std::string track_table(const std::vector<TrackedFilm>& films, Filmed filmed, int columns,
                         bool has_colour) {
   Table table = empty_table(filmed);
-  for (const TrackedFilm& film : films) {
-    filmed == Filmed::drop ? add_drop(table, film, has_colour) : add_roll(table, film, has_colour);
-  }
+  for (const TrackedFilm& film : films) add_film(table, film, has_colour);
   Page page(columns);
   page.add(table);
   const std::string mean = mean_text(films, filmed);

@@ -8,8 +8,8 @@
 
 namespace repose::cli {
 
-/// The films' bounces or rolls as a table, what is to be known of each film, and the mean of first
-/// bounces or of rolls.
+/// The films' bounces, rolls or tilts as a table, what is to be known of each film, and the mean of
+/// first bounces, rolls or tilts.
 std::string track_table(const std::vector<TrackedFilm>& films, Filmed filmed, int columns,
                         bool has_colour);
 

@@ -32,6 +32,13 @@ struct BenchSheet {
   std::vector<std::pair<std::string_view, std::string_view>> protocol = {};
 };
 
+/// A key of the protocol that films show and sheets need not have.
+struct FilmedSetting {
+  std::string_view column;  ///< of what a film gives: "rate_deg_s"
+  std::string_view key;
+  double tolerance = 0;  ///< how far they may differ, as a fraction of the key's value
+};
+
 struct ExperimentEntry {
   Experiment experiment = Experiment::drop;
   std::string_view name;              ///< in study files, jobs and results: "drop"
@@ -48,6 +55,7 @@ struct ExperimentEntry {
   bool is_usual = true;       ///< part of a new study that names no experiments
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
   bool is_filmed = false;     ///< a film of it on the bench gives a row of its sheet
+  std::vector<FilmedSetting> filmed_settings = {};
   /// How many readings of a bench a run's number is the mean of; null: one.
   int (*readings_per_run)(const Protocol& protocol) = nullptr;
   /// What softened grains do to its value, to follow "a drop with stiffness_factor = 0.1"; empty:

@@ -33,6 +33,9 @@ ExperimentEntry tilt_entry() {
           .tells = kWallSliding,
           .sheet = {.test = "sliding", .value = "angle_deg"},
           .is_stochastic = false,
+          .is_filmed = true,
+          // A hand or a worn motor does not keep it, and the angle hardly depends on it.
+          .filmed_settings = {{"rate_deg_s", "rate_deg_s", .2}},
           .usual = TiltProtocol{},
           .keys = keys_of,
           .run =

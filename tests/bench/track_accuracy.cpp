@@ -1,8 +1,8 @@
-// How near repose track drop comes to what is known of drawn films, and how often its intervals
+// How near repose track comes to what is known of drawn films, and how often its intervals
 // hold: films with many settings, written as H.264 and read again.
 //
-//   track_accuracy [--experiment drop|roll] [--films 40] [--first-seed 1] [--rates 30,60,240]
-//   [--threads N]
+//   track_accuracy [--experiment drop|roll|tilt] [--films 40] [--first-seed 1] [--rates 30,60,240]
+//   [--each] [--threads N]
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,7 @@
 
 #include "render/film/film.h"
 #include "tests/bench/median.h"
+#include "tests/bench/tilt_accuracy.h"
 #include "tests/support/drawn_drop.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/temporary_folder.h"
@@ -186,8 +187,8 @@ auto made(int films, unsigned first_seed, const Made& make) {
 int main(int argc, char** argv) {
   CLI::App app("Accuracy of repose track on drawn films");
   std::string experiment = "drop";
-  app.add_option("--experiment", experiment, "drop or roll")
-      ->check(CLI::IsMember({"drop", "roll"}));
+  app.add_option("--experiment", experiment, "drop, roll or tilt")
+      ->check(CLI::IsMember({"drop", "roll", "tilt"}));
   int films = 40;
   unsigned first_seed = 1;
   std::size_t threads = 2;
@@ -195,10 +196,16 @@ int main(int argc, char** argv) {
   app.add_option("--first-seed", first_seed, "of the first film; the others follow");
   std::vector<double> rates = {30, 60, 240};
   app.add_option("--rates", rates, "frames per second")->delimiter(',');
+  bool prints_each = false;
+  app.add_flag("--each", prints_each, "a line for each film of a tilt");
   app.add_option("--threads", threads, "films at a time");
   CLI11_PARSE(app, argc, argv);
   const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
   for (const double frames_per_s : rates) {
+    if (experiment == "tilt") {
+      repose::bench::print_tilt_accuracy(frames_per_s, films, first_seed, prints_each);
+      continue;
+    }
     if (experiment == "drop") {
       print(frames_per_s, made(films, first_seed, [&](unsigned seed) {
               return row_of(random_drop(frames_per_s, seed));

@@ -9,6 +9,7 @@
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
 #include "tests/support/drawn_roll.h"
+#include "tests/support/drawn_tilt.h"
 
 namespace repose::testing {
 namespace {
@@ -148,6 +149,34 @@ TEST_F(CalibrateFilms, OfRollsHaveTheirMillimetresFromTheRelease) {
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, AllOf(HasSubstr("roll.mp4: incline_deg = "),
                                HasSubstr("the study has incline_deg = 25 in [experiment.roll]")));
+}
+
+TEST_F(CalibrateFilms, OfTiltsMustHaveAboutTheRateOfTheStudy) {
+  const DrawnTilt tilt{.width = 240,
+                       .height = 140,
+                       .frames_per_s = 30,
+                       .rest_s = .3,
+                       .rate_deg_s = 6,
+                       .onset_deg = 11,
+                       .after_s = .4,
+                       .mm_per_px = .8,
+                       .radius_px = 6,
+                       .thickness_px = 6};
+  render::Film film(path("tilt.mp4"), tilt.frames_per_s);
+  for (int frame = 0; frame < tilt.frames(); ++frame) film.add(tilt.picture(frame));
+  film.close();
+  const auto told = [&](const std::string& rate) {
+    return run({"study.toml", "--dry-run", "--set", "experiment.drop.measured = { values = [90] }",
+                "--set",
+                "experiment.tilt = { rate_deg_s = " + rate +
+                    ", measured = { videos = [\"tilt.mp4\"] } }"});
+  };
+  EXPECT_EQ(told("7").exit_code, 0) << told("7").err;
+  const Finished other = told("2");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err,
+              AllOf(HasSubstr("tilt.mp4: rate_deg_s = "), HasSubstr("the same within 20 %"),
+                    HasSubstr("the study has rate_deg_s = 2 in [experiment.tilt]")));
 }
 
 TEST_F(CalibrateFilms, AreTakenFromFoldersToo) {

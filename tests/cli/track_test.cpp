@@ -8,6 +8,7 @@
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
 #include "tests/support/drawn_roll.h"
+#include "tests/support/drawn_tilt.h"
 
 namespace repose::testing {
 namespace {
@@ -128,6 +129,36 @@ TEST_F(TrackCommand, ARollNeedsOneScaleAndNoBounces) {
   EXPECT_THAT(run({"roll", "a.mp4", "--scale", "0,0,99,0,90", "--released", "9"}).err,
               HasSubstr("there are two scales"));
   EXPECT_THAT(run({"drop", "a.mp4", "--released", "9"}).err, HasSubstr("is for track roll"));
+}
+
+TEST_F(TrackCommand, FilmsOfTiltsBecomeATableThatTheBenchReads) {
+  const DrawnTilt tilt{.width = 240,
+                       .height = 140,
+                       .frames_per_s = 30,
+                       .rest_s = .3,
+                       .rate_deg_s = 6,
+                       .onset_deg = 11,
+                       .after_s = .4,
+                       .mm_per_px = .8,
+                       .radius_px = 6,
+                       .thickness_px = 6};
+  render::Film drawn(path("a.mp4"), tilt.frames_per_s);
+  for (int frame = 0; frame < tilt.frames(); ++frame) drawn.add(tilt.picture(frame));
+  drawn.close();
+  const Finished done =
+      run({"tilt", "a.mp4", "--csv", "tilts.csv", "--json", "t.json", "--overlay", "a.png"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("slides at [°]"));
+  EXPECT_TRUE(exists("a.png"));
+  EXPECT_THAT(text("tilts.csv"), StartsWith("sample,angle_deg,"));
+  const json film = json::parse(text("t.json"))[0];
+  EXPECT_EQ(film["experiment"], "tilt");
+  EXPECT_NEAR(film["tilt"]["angle_deg"].get<double>(), tilt.onset_deg, .4);
+  EXPECT_EQ(film["track"]["plate"].size(), film["film"]["frames"].get<std::size_t>());
+  const Finished bench = run_repose(folder_, {"bench", "sliding", "tilts.csv", "--json", "-"});
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  EXPECT_EQ(json::parse(bench.out)["quantities"][0]["n"], 1);
+  EXPECT_THAT(run({"tilt", "a.mp4", "--scale", "0,0,99,0,90"}).err, HasSubstr("angles need none"));
 }
 
 TEST_F(TrackCommand, AllThatIsWrongIsSaidAtOnce) {

@@ -21,7 +21,8 @@ OUTPUTS = {
     "compare": ["compare photo.jpg render.png --json -"],
     "compare of sets": ["compare photos render.png --json -"],
     "track": ["track drop drop_01.avi --scale 20,10,20,90,208 --json -",
-              "track roll roll_01.avi --released 150 --json -"],
+              "track roll roll_01.avi --released 150 --json -",
+              "track tilt tilt_01.avi --json -"],
     "shape": ["shape --size-mm 20,18,17 --density-kg-m3 900 --json -"],
     "simulate": [f"simulate {name} study.toml --repeats 2 --json -" for name in ("drop", "roll", "tilt", "tilt_on_grains", "fill", "pendulum", "draw_down")]
     + ["simulate heap study.toml --views 2 --json -"],

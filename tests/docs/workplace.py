@@ -109,8 +109,39 @@ def rolled_grain_avi(frames_per_s=60, slope=math.radians(20)):
     return grain_avi(place, frames_per_s, frames=80)
 
 
+def tilted_plate_avi(frames_per_s=30, width=160, height=120, rate=math.radians(8), onset=math.radians(12)):
+    """A bar on a plate that turns about its left end after 10 frames, until the bar slides towards it."""
+    hinge_x, hinge_y = 10.0, 100.0
+
+    def cover(inside):
+        return min(1.0, max(0.0, inside + 0.5))
+
+    def frame(k):
+        t = max(0, k - 10) / frames_per_s
+        c, s = math.cos(rate * t), math.sin(rate * t)
+        slid = 300 * max(0.0, t - onset / rate) ** 2
+        rows = []
+        for y in range(height):
+            row = bytearray(bytes([190, 200, 205]) * width)
+            up = hinge_y - y - 0.5
+            for x in range(width):
+                right = x + 0.5 - hinge_x
+                along, above = right * c + up * s, -right * s + up * c
+                if not -7 < above < 10:
+                    continue
+                bar = cover(min(above, 9 - above, 10 - abs(along - 90 + slid)))
+                plate = cover(min(-above, above + 6, along, 140 - along))
+                for channel, (dark, grey) in enumerate(((40, 90), (60, 100), (90, 110))):
+                    wall = row[3 * x + channel]
+                    row[3 * x + channel] = round((wall * (1 - bar) + dark * bar) * (1 - plate) + grey * plate)
+            rows.append(row)
+        return b"".join(reversed(rows))
+
+    return avi(frame, frames_per_s, width, height, frames=68)
+
+
 def grain_avi(place, frames_per_s, width=160, height=120, frames=60):
-    """A film without compression: a dark disc before a light wall, `place` of it right and up from the floor."""
+    """A dark disc before a light wall, `place` of it right and up from the floor."""
     radius = 5.0
     floor = height - 14
 
@@ -126,6 +157,11 @@ def grain_avi(place, frames_per_s, width=160, height=120, frames=60):
                     rows[y][3 * x + c] = round(rows[y][3 * x + c] * (1 - cover) + dark * cover)
         return b"".join(reversed(rows))
 
+    return avi(frame, frames_per_s, width, height, frames)
+
+
+def avi(frame, frames_per_s, width, height, frames):
+    """A film without compression; `frame` has the rows from below, blue, green and red."""
     def chunk(kind, data):
         return kind + struct.pack("<I", len(data)) + data
 
@@ -186,6 +222,7 @@ def prepare(folder, root, repose):
     (folder / "drop_01.avi").write_bytes(dropped_grain_avi(0.6))
     (folder / "drop_02.avi").write_bytes(dropped_grain_avi(0.5))
     (folder / "roll_01.avi").write_bytes(rolled_grain_avi())
+    (folder / "tilt_01.avi").write_bytes(tilted_plate_avi())
     (folder / "drops.csv").write_text(DROPS, encoding="utf-8")
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
     for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):

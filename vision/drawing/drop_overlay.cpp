@@ -22,19 +22,17 @@ void draw_flights(const Canvas& canvas, const DropTrack& track) {
     cv::circle(canvas.image(), canvas.at(flight.top), cvRound(canvas.length(.006)), kYellow,
                canvas.stroke(1), cv::LINE_AA);
   }
-  for (const GrainPlace& place : track.places) {
-    cv::circle(canvas.image(), canvas.at(place.centre), canvas.stroke(.6), kOrange, cv::FILLED,
-               cv::LINE_AA);
-  }
+  draw_path(canvas, track.places);
 }
 
 void draw_impacts(const Canvas& canvas, const DropTrack& track, const Lettering& lettering) {
   const double arm = .015;
+  std::vector<cv::Rect> labels;
   for (std::size_t k = 0; k < track.bounces.size(); ++k) {
     const cv::Point2d at = canvas.at(track.bounces[k].place);
     const cv::Point2d across(canvas.length(arm), 0);
     canvas.draw({at - across, at + across}, kVermilion, 1.2);
-    draw_label(canvas, track.bounces[k].place, fmt::format("{}", k + 1), k, lettering);
+    draw_label(canvas, track.bounces[k].place, fmt::format("{}", k + 1), lettering, labels);
   }
 }
 
@@ -49,10 +47,7 @@ std::vector<TextRow> rows_of(const DropTrack& track, const std::string& title) {
                      bounce.drop_mm.value, bounce.rebound_mm.value),
          kDark});
   }
-  if (track.status == MeasureStatus::refused)
-    rows.push_back({"refused: " + track.reason, kVermilion});
-  for (const Warning& warning : track.warnings)
-    rows.push_back({"! " + warning.message, kVermilion});
+  add_verdict(track.status, track.reason, track.warnings, rows);
   return rows;
 }
 

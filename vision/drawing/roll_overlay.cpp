@@ -3,7 +3,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
 #include "vision/drawing/drawn_size.h"
 #include "vision/drawing/track_drawing.h"
@@ -11,23 +10,21 @@
 namespace repose::vision {
 namespace {
 
-void draw_path(const Canvas& canvas, const RollTrack& track) {
+void draw_lines(const Canvas& canvas, const RollTrack& track) {
   if (track.has_reading) {
     canvas.draw(canvas.path_of({track.released, track.corner, track.stopped}), kSkyBlue, 1);
   }
-  for (const GrainPlace& place : track.places) {
-    cv::circle(canvas.image(), canvas.at(place.centre), canvas.stroke(.6), kOrange, cv::FILLED,
-               cv::LINE_AA);
-  }
+  draw_path(canvas, track.places);
 }
 
 void draw_places(const Canvas& canvas, const RollTrack& track, const Lettering& lettering) {
+  std::vector<cv::Rect> labels;
   for (const auto& [place, name] :
        {std::pair(track.released, "let go"), {track.foot, "foot"}, {track.stopped, "at rest"}}) {
     const cv::Point2d at = canvas.at(place);
     const cv::Point2d up(0, canvas.length(.015));
     canvas.draw({at - up, at + up}, kVermilion, 1.2);
-    draw_label(canvas, place, name, 0, lettering);
+    draw_label(canvas, place, name, lettering, labels);
   }
 }
 
@@ -43,10 +40,7 @@ std::vector<TextRow> rows_of(const RollTrack& track, const std::string& title) {
                                 track.incline_deg.value, track.incline_deg.uncertainty),
                     kDark});
   }
-  if (track.status == MeasureStatus::refused)
-    rows.push_back({"refused: " + track.reason, kVermilion});
-  for (const Warning& warning : track.warnings)
-    rows.push_back({"! " + warning.message, kVermilion});
+  add_verdict(track.status, track.reason, track.warnings, rows);
   return rows;
 }
 
@@ -58,7 +52,7 @@ Picture draw_roll_overlay(const RollTrack& track, const std::string& title) {
   const double scale = drawing_scale(track.strobe);
   cv::Mat image = scaled(track.strobe, scale);
   const Canvas canvas(image, scale);
-  draw_path(canvas, track);
+  draw_lines(canvas, track);
   if (track.has_reading) draw_places(canvas, track, lettering);
   return with_caption(image, rows_of(track, title), lettering);
 }

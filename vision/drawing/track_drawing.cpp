@@ -19,15 +19,40 @@ void require_strobe(const Picture& strobe, const std::string& title, const std::
                   title, reason));
 }
 
+void draw_path(const Canvas& canvas, const std::vector<GrainPlace>& places) {
+  for (const GrainPlace& place : places) {
+    cv::circle(canvas.image(), canvas.at(place.centre), canvas.stroke(.6), kOrange, cv::FILLED,
+               cv::LINE_AA);
+  }
+}
+
+void add_verdict(MeasureStatus status, const std::string& reason,
+                 const std::vector<Warning>& warnings, std::vector<TextRow>& rows) {
+  if (status == MeasureStatus::refused) rows.push_back({"refused: " + reason, kVermilion});
+  for (const Warning& warning : warnings) rows.push_back({"! " + warning.message, kVermilion});
+}
+
 void draw_label(const Canvas& canvas, const Point& point, const std::string& text,
-                std::size_t column, const Lettering& lettering) {
+                const Lettering& lettering, std::vector<cv::Rect>& taken) {
   const int height = std::max(12, cvRound(canvas.length(.018)));
   const int pad = height / 3;
   const cv::Size size(lettering.width(text, height) + 2 * pad, height + 2 * pad);
-  cv::Point at(canvas.at(point) +
-               cv::Point2d((2 + 2.2 * static_cast<double>(column)) * height, -.5 * size.height));
-  at.x = std::clamp(at.x, 0, std::max(0, canvas.image().cols - size.width));
-  at.y = std::clamp(at.y, 0, std::max(0, canvas.image().rows - size.height));
+  const cv::Size image = canvas.image().size();
+  cv::Point at(canvas.at(point) + cv::Point2d(2 * height, -.5 * size.height));
+  at.x = std::clamp(at.x, 0, std::max(0, image.width - size.width));
+  at.y = std::clamp(at.y, 0, std::max(0, image.height - size.height));
+  const int first_column = at.x;
+  // Each time past one of them, or to the next row at the image's edge: it ends.
+  for (std::size_t k = 0; k < taken.size();) {
+    if ((taken[k] & cv::Rect(at, size)).empty()) {
+      ++k;
+      continue;
+    }
+    at.x = taken[k].br().x + pad;
+    if (at.x + size.width > image.width) at = {first_column, taken[k].br().y + pad};
+    k = 0;
+  }
+  taken.emplace_back(at, size);
   cv::rectangle(canvas.image(), cv::Rect(at, size), kDark, cv::FILLED);
   lettering.draw(canvas.image(), text, at + cv::Point(pad, pad), height, kWhite);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,6 +7,7 @@
 #include "vision/drawing/lettering.h"
 #include "vision/drawing/text_rows.h"
 #include "vision/picture/picture.h"
+#include "vision/track/track.h"
 
 /// What the overlays of all tracked experiments have in common.
 namespace repose::vision {
@@ -15,10 +15,17 @@ namespace repose::vision {
 /// @throws std::invalid_argument  there is no picture to draw into.
 void require_strobe(const Picture& strobe, const std::string& title, const std::string& reason);
 
+/// The grain's centre in each frame.
+void draw_path(const Canvas& canvas, const std::vector<GrainPlace>& places);
+
+/// Why there is no number, and every warning.
+void add_verdict(MeasureStatus status, const std::string& reason,
+                 const std::vector<Warning>& warnings, std::vector<TextRow>& rows);
+
 /// A text beside a point, on a plate so that it can be read on any ground.
-/// @param column  how far beside, so that those of one place stand side by side
+/// @param taken  where labels are already, beside which it is put; its own place is added
 void draw_label(const Canvas& canvas, const Point& point, const std::string& text,
-                std::size_t column, const Lettering& lettering);
+                const Lettering& lettering, std::vector<cv::Rect>& taken);
 
 /// The image with texts below it.
 Picture with_caption(const cv::Mat& image, const std::vector<TextRow>& rows,

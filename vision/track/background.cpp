@@ -6,27 +6,6 @@
 #include <opencv2/imgproc.hpp>
 
 namespace repose::vision {
-namespace {
-
-constexpr double kSigmaPerMad = 1.4826;
-constexpr double kOtherThing = 18;  ///< grey levels between two things
-
-cv::Mat median_of(std::span<const cv::Mat> frames) {
-  cv::Mat median(frames.front().size(), frames.front().type());
-  const auto bytes = static_cast<std::size_t>(median.cols) * median.elemSize();
-  cv::parallel_for_({0, median.rows}, [&](const cv::Range& rows) {
-    std::vector<uchar> values(frames.size());
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    for (int row = rows.start; row < rows.end; ++row) {
-      for (std::size_t k = 0; k < bytes; ++k) {
-        for (std::size_t n = 0; n < frames.size(); ++n) values[n] = frames[n].ptr(row)[k];
-        std::nth_element(values.begin(), middle, values.end());
-        median.ptr(row)[k] = *middle;
-      }
-    }
-  });
-  return median;
-}
 
 cv::Mat greatest_difference(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat difference;
@@ -35,6 +14,11 @@ cv::Mat greatest_difference(const cv::Mat& a, const cv::Mat& b) {
   cv::split(difference, channels);
   return cv::max(cv::max(channels[0], channels[1]), channels[2]);
 }
+
+namespace {
+
+constexpr double kSigmaPerMad = 1.4826;
+constexpr double kOtherThing = 18;  ///< grey levels between two things
 
 /// Mean step of brightness across a region's border.
 double edge_around(const cv::Mat& picture, const cv::Mat& border) {
@@ -96,6 +80,23 @@ double noise_of(const std::vector<cv::Mat>& samples, const cv::Mat& scene) {
 }
 
 }  // namespace
+
+cv::Mat median_of(std::span<const cv::Mat> frames) {
+  cv::Mat median(frames.front().size(), frames.front().type());
+  const auto bytes = static_cast<std::size_t>(median.cols) * median.elemSize();
+  cv::parallel_for_({0, median.rows}, [&](const cv::Range& rows) {
+    std::vector<uchar> values(frames.size());
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    for (int row = rows.start; row < rows.end; ++row) {
+      for (std::size_t k = 0; k < bytes; ++k) {
+        for (std::size_t n = 0; n < frames.size(); ++n) values[n] = frames[n].ptr(row)[k];
+        std::nth_element(values.begin(), middle, values.end());
+        median.ptr(row)[k] = *middle;
+      }
+    }
+  });
+  return median;
+}
 
 Background background_of(const std::vector<cv::Mat>& samples) {
   const std::span<const cv::Mat> all = samples;

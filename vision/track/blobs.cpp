@@ -12,7 +12,6 @@ constexpr int kReducedSide_px = 960;
 constexpr double kLeastDifference = 12;  ///< grey levels; films' compression leaves less
 constexpr double kSigmas = 5;
 constexpr std::size_t kMostBlobs = 24;
-constexpr int kShiftWidth_px = 240;
 
 /// Of the channel that differs most.
 cv::Mat difference_of(const cv::Mat& a, const cv::Mat& b) {
@@ -27,16 +26,6 @@ cv::Mat difference_of(const cv::Mat& a, const cv::Mat& b) {
     }
   }
   return greatest;
-}
-
-cv::Mat shift_picture(const cv::Mat& frame) {
-  const double scale = std::min(1.0, kShiftWidth_px / static_cast<double>(frame.cols));
-  cv::Mat small, grey;
-  cv::resize(frame, small, {}, scale, scale, cv::INTER_AREA);
-  cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
-  grey.convertTo(grey, CV_32F);
-  cv::GaussianBlur(grey, grey, {5, 5}, 1);
-  return grey;
 }
 
 /// The difference that all but a few of a thing's pixels stay below: where nothing of the
@@ -81,15 +70,23 @@ double cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Ve
   return std::clamp((part - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 
-BlobFinder::BlobFinder(Background background) : background_(std::move(background)) {
-  const cv::Mat& scene = background_.bgr;
-  reduction_ = std::max(
-      1, static_cast<int>(std::lround(std::max(scene.cols, scene.rows) / double{kReducedSide_px})));
-  cv::resize(scene, reduced_, scene.size() / reduction_, 0, 0, cv::INTER_AREA);
-  grey_ = shift_picture(reduced_);
-  cv::Sobel(grey_, across_, CV_32F, 1, 0, 3, 1. / 8);
-  cv::Sobel(grey_, down_, CV_32F, 0, 1, 3, 1. / 8);
+int reduction_for(const cv::Size& size) {
+  return std::max(1, static_cast<int>(
+                         std::lround(std::max(size.width, size.height) / double{kReducedSide_px})));
 }
+
+cv::Mat reduced_frame(const cv::Mat& bgr, int reduction) {
+  if (reduction == 1) return bgr;
+  cv::Mat small;
+  cv::resize(bgr, small, bgr.size() / reduction, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+BlobFinder::BlobFinder(Background background)
+    : background_(std::move(background)),
+      reduction_(reduction_for(background_.bgr.size())),
+      reduced_(reduced_frame(background_.bgr, reduction_)),
+      shift_(reduced_) {}
 
 std::vector<cv::Rect> BlobFinder::rough_places(const cv::Mat& small, cv::Mat& labels,
                                                std::vector<int>& numbers) const {
@@ -167,11 +164,11 @@ double BlobFinder::crest(const cv::Mat& seen, const cv::Mat& mask, const Blob& b
 }
 
 Look BlobFinder::look(const cv::Mat& frame) const {
-  cv::Mat small, labels;
-  cv::resize(frame, small, reduced_.size(), 0, 0, cv::INTER_AREA);
+  const cv::Mat small = reduced_frame(frame, reduction_);
+  cv::Mat labels;
   std::vector<int> numbers;
   const std::vector<cv::Rect> places = rough_places(small, labels, numbers);
-  Look look{.shift = reduction_ * shift(small)};
+  Look look{.shift = reduction_ * shift_.of(small)};
   std::vector<Blob>& blobs = look.blobs;
   const cv::Rect whole({0, 0}, labels.size());
   const cv::Mat dot = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
@@ -193,30 +190,6 @@ Look BlobFinder::look(const cv::Mat& frame) const {
   std::sort(blobs.begin(), blobs.end(),
             [](const Blob& a, const Blob& b) { return a.centre.x < b.centre.x; });
   return look;
-}
-
-cv::Point2d BlobFinder::shift(const cv::Mat& small) const {
-  const cv::Mat now = shift_picture(small);
-  // now = gain scene + offset - shift . gradient, where nothing stands before the scene.
-  cv::Matx44d normal = cv::Matx44d::zeros();
-  cv::Vec4d right(0, 0, 0, 0);
-  constexpr double kOtherThing = 20;
-  for (int row = 0; row < now.rows; ++row) {
-    for (int k = 0; k < now.cols; ++k) {
-      const double scene = grey_.at<float>(row, k);
-      const double difference = now.at<float>(row, k) - scene;
-      if (std::abs(difference) > kOtherThing) continue;
-      const cv::Vec4d terms(-across_.at<float>(row, k), -down_.at<float>(row, k), scene / 128, 1);
-      normal += terms * terms.t();
-      right += difference * terms;
-    }
-  }
-  constexpr double kLeastGradient = 50;  // of a scene with anything to hold on to
-  if (normal(0, 0) < kLeastGradient || normal(1, 1) < kLeastGradient) return {0, 0};
-  for (int k = 0; k < 4; ++k) normal(k, k) += 1e-6;
-  const cv::Vec4d solution = normal.solve(right, cv::DECOMP_CHOLESKY);
-  const double scale = static_cast<double>(small.cols) / now.cols;
-  return {scale * solution[0], scale * solution[1]};
 }
 
 }  // namespace repose::vision

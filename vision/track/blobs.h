@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/track/background.h"
+#include "vision/track/scene_shift.h"
 
 namespace repose::vision {
 
@@ -22,6 +23,10 @@ struct Blob {
 /// How much of a pixel a thing covers, 0 to 1: where its colour lies between the background's and
 /// the thing's own. Shadows of the background do not get far that way.
 double cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing);
+
+/// How many times smaller frames are made in which things are looked for: to some 960 pixels.
+int reduction_for(const cv::Size& size);
+cv::Mat reduced_frame(const cv::Mat& bgr, int reduction);
 
 struct Look {
   std::vector<Blob> blobs = {};  ///< the largest ones, from the left to the right
@@ -42,14 +47,13 @@ class BlobFinder {
  private:
   std::vector<cv::Rect> rough_places(const cv::Mat& small, cv::Mat& labels,
                                      std::vector<int>& numbers) const;
-  cv::Point2d shift(const cv::Mat& small) const;
   Blob refine(const cv::Mat& frame, const cv::Rect& place, const cv::Mat& mask) const;
   double crest(const cv::Mat& seen, const cv::Mat& mask, const Blob& blob) const;
 
   Background background_;
   int reduction_ = 1;
   cv::Mat reduced_;
-  cv::Mat grey_, across_, down_;  ///< of the scene, much reduced
+  SceneShift shift_;
 };
 
 }  // namespace repose::vision

@@ -15,8 +15,7 @@ FilmFacts facts_of(const FilmSurvey& survey) {
           .dropped_frames = survey.dropped_frames};
 }
 
-std::string fault_of(const FilmGrains& film) {
-  const FilmSurvey& survey = film.survey;
+std::string fault_of_shot(const FilmSurvey& survey, double moved_px) {
   if (survey.times_s.size() < kFewestFrames) {
     return fmt::format(
         "the film has {} frames. Rule: {} or more. Fix: film from before the grain is let go until "
@@ -29,7 +28,6 @@ std::string fault_of(const FilmGrains& film) {
         "drop, from a camera that stands still.",
         *survey.cut + 1);
   }
-  const double moved_px = farthest_shift_px(film);
   const double most_px = std::max(4.0, .004 * survey.size.width);
   if (moved_px > most_px) {
     return fmt::format(
@@ -37,6 +35,12 @@ std::string fault_of(const FilmGrains& film) {
         "camera on a stand, start it with a remote, and keep its zoom.",
         moved_px, most_px);
   }
+  return {};
+}
+
+std::string fault_of(const FilmGrains& film) {
+  const std::string fault = fault_of_shot(film.survey, farthest_shift_px(film));
+  if (!fault.empty()) return fault;
   if (film.paths.empty()) {
     return "nothing moves before a scene at rest. Fix: film from the side, with a backdrop of "
            "another colour than the grain, and fix exposure and focus.";
@@ -44,8 +48,7 @@ std::string fault_of(const FilmGrains& film) {
   return {};
 }
 
-bool warn_of_film(const FilmGrains& film, std::vector<Warning>& warnings) {
-  const FilmSurvey& survey = film.survey;
+bool warn_of_film(const FilmSurvey& survey, double moved_px, std::vector<Warning>& warnings) {
   const auto frames = static_cast<int>(survey.times_s.size());
   const bool is_cut_short = survey.claimed_frames > frames + 2 + frames / 50;
   if (is_cut_short) {
@@ -66,7 +69,6 @@ bool warn_of_film(const FilmGrains& film, std::vector<Warning>& warnings) {
                                 survey.dropped_frames)});
   }
   constexpr double kMoved_px = .8;
-  const double moved_px = farthest_shift_px(film);
   if (moved_px > kMoved_px) {
     warnings.push_back(
         {.code = "camera_moves",
@@ -74,6 +76,10 @@ bool warn_of_film(const FilmGrains& film, std::vector<Warning>& warnings) {
                                 moved_px)});
   }
   return is_cut_short;
+}
+
+bool warn_of_film(const FilmGrains& film, std::vector<Warning>& warnings) {
+  return warn_of_film(film.survey, farthest_shift_px(film), warnings);
 }
 
 }  // namespace repose::vision

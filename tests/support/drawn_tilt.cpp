@@ -1,0 +1,168 @@
+#include "tests/support/drawn_tilt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/support/drawn_film.h"
+
+namespace repose::testing {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kGravity_mm_s2 = 9806.65;
+constexpr double kApart = 1.8;  ///< of bonded balls, in radii
+
+/// Way down the plate after the onset: the weight along the plate less the friction in motion,
+/// integrated twice over time, the plate turning steadily on.
+double slid_mm(const DrawnTilt& tilt, double onset_deg, double since_s) {
+  if (since_s <= 0) return 0;
+  const double begin = onset_deg * kDegree, rate = tilt.rate_deg_s * kDegree;
+  const double now = begin + rate * since_s, friction = tilt.slides_with * std::tan(begin);
+  const double weight = since_s * std::cos(begin) - (std::sin(now) - std::sin(begin)) / rate;
+  const double held = (std::cos(begin) - std::cos(now)) / rate - since_s * std::sin(begin);
+  return kGravity_mm_s2 / rate * (weight - friction * held);
+}
+
+/// From the plate to the picture: x along it from the hinge, y upwards from its upper edge.
+struct Placing {
+  Placing(const DrawnTilt& tilt, double time_s)
+      : tilt_(tilt),
+        angle(tilt.angle_deg(time_s) * kDegree),
+        shift(tilt.shakes_px * std::sin(std::numbers::pi * time_s)) {}
+
+  cv::Point2d in_picture(const cv::Point2d& at) const {
+    const double c = std::cos(angle), s = std::sin(angle);
+    // Below the hinge lies half the plate's thickness.
+    const double y = at.y + .5 * tilt_.thickness_px;
+    const cv::Point2d plain(tilt_.hinge_part * tilt_.width + at.x * c - y * s,
+                            row_of_hinge() - at.x * s - y * c);
+    return leaned(plain) + cv::Point2d(shift, 0);
+  }
+  cv::Point2d on_plate(const cv::Point2d& seen) const {
+    const cv::Point2d plain = straightened(seen - cv::Point2d(shift, 0));
+    const double x = plain.x - tilt_.hinge_part * tilt_.width, y = row_of_hinge() - plain.y;
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {x * c + y * s, -x * s + y * c - .5 * tilt_.thickness_px};
+  }
+
+ private:
+  double row_of_hinge() const { return tilt_.edge_row * tilt_.height + .5 * tilt_.thickness_px; }
+  cv::Point2d leaned(const cv::Point2d& plain) const {
+    const cv::Point2d middle(.5 * tilt_.width, .5 * tilt_.height);
+    cv::Point2d off = plain - middle;
+    if (tilt_.goes_left) off.x = -off.x;
+    const double c = std::cos(tilt_.lean_rad), s = std::sin(tilt_.lean_rad);
+    return middle + cv::Point2d(off.x * c - off.y * s, off.x * s + off.y * c);
+  }
+  cv::Point2d straightened(const cv::Point2d& seen) const {
+    const cv::Point2d middle(.5 * tilt_.width, .5 * tilt_.height);
+    const double c = std::cos(tilt_.lean_rad), s = std::sin(tilt_.lean_rad);
+    cv::Point2d off = seen - middle;
+    off = {off.x * c + off.y * s, -off.x * s + off.y * c};
+    if (tilt_.goes_left) off.x = -off.x;
+    return middle + off;
+  }
+
+  const DrawnTilt& tilt_;
+
+ public:
+  double angle;
+  double shift;
+};
+
+/// Each pixel by how much of it the plate covers.
+void draw_plate(cv::Mat& scene, const DrawnTilt& tilt, const Placing& placing) {
+  const double from = (tilt.plate_from - tilt.hinge_part) * tilt.width;
+  const double to = (tilt.plate_to - tilt.hinge_part) * tilt.width;
+  for (int row = 0; row < scene.rows; ++row) {
+    for (int k = 0; k < scene.cols; ++k) {
+      const cv::Point2d at = placing.on_plate({k + .5, row + .5});
+      const double inside = std::min({-at.y, at.y + tilt.thickness_px, at.x - from, to - at.x});
+      const auto cover = static_cast<float>(std::clamp(inside + .5, 0.0, 1.0));
+      if (cover <= 0) continue;
+      const double mark =
+          tilt.has_texture ? .12 * std::sin(.35 * at.x) * std::sin(1.1 * at.y + .02 * at.x * at.x)
+                           : 0;
+      const cv::Vec3f colour(cv::Vec3d(95, 90, 85) * (1 + mark));
+      auto& pixel = scene.at<cv::Vec3f>(row, k);
+      pixel += cover * (colour - pixel);
+    }
+  }
+}
+
+void draw_grain(cv::Mat& scene, const DrawnTilt& tilt, const Placing& placing, int grain,
+                double time_s) {
+  constexpr double kEarlier_deg = 2, kLower_px = 90;
+  const double onset_deg = tilt.onset_deg - kEarlier_deg * grain;
+  DrawnTilt own = tilt;
+  own.onset_deg = onset_deg;
+  const double onset_s = own.onset_s();
+  const double slid_px = slid_mm(tilt, onset_deg, time_s - onset_s) / tilt.mm_per_px;
+  const double creep_px =
+      tilt.creeps_px * std::clamp((time_s - .5 * onset_s) / (.4 * onset_s), 0.0, 1.0);
+  // Down the plate is towards the hinge.
+  const double middle =
+      (tilt.grain_part - tilt.hinge_part) * tilt.width - kLower_px * grain - slid_px - creep_px;
+  const double turned = -tilt.rolls * slid_px / tilt.radius_px;
+  const double r = tilt.radius_px;
+  if (tilt.has_shadow) {
+    draw_shadow(scene, placing.in_picture({middle + 6, .5 * r}), 1.2 * r * tilt.bonded, .15);
+  }
+  for (int k = 0; k < tilt.bonded; ++k) {
+    const double off = (k - .5 * (tilt.bonded - 1)) * kApart * r;
+    const cv::Point2d centre(middle + off * std::cos(turned), r - off * std::sin(turned));
+    draw_ball(scene, placing.in_picture(centre), r, {50, 75, 120});
+    if (!tilt.has_spot) continue;
+    const cv::Point2d spot = centre + .55 * r * cv::Point2d(std::cos(turned), -std::sin(turned));
+    draw_ball(scene, placing.in_picture(spot), .3 * r, {190, 190, 200});
+  }
+}
+
+}  // namespace
+
+double DrawnTilt::angle_deg(double time_s) const {
+  const double t = std::max(0.0, time_s - rest_s);
+  const double pi = std::numbers::pi;
+  return rate_deg_s * (t + uneven / pi * (1 - std::cos(pi * t)));
+}
+
+double DrawnTilt::onset_s() const {
+  double from = rest_s, to = rest_s + 2 * onset_deg / rate_deg_s;
+  constexpr int kHalvings = 60;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = .5 * (from + to);
+    (angle_deg(middle) < onset_deg ? from : to) = middle;
+  }
+  return from;
+}
+
+int DrawnTilt::frames() const { return static_cast<int>(frames_per_s * (onset_s() + after_s)); }
+
+vision::Picture DrawnTilt::picture(int frame) const {
+  cv::Mat scene = drawn_scene({width, height}, seed);
+  const double middle_s = frame / frames_per_s;
+  // Only what moves by a good part of a pixel while the shutter is open is blurred.
+  constexpr double kBefore_s = .05;
+  const bool is_blurred = exposure > 0 && middle_s > onset_s() - kBefore_s;
+  const cv::Matx23d shaken(1, 0, Placing(*this, middle_s).shift, 0, 1, 0);
+  if (shakes_px != 0) {
+    cv::warpAffine(scene, scene, shaken, scene.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  }
+  const int parts = is_blurred ? 8 : 1;
+  cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
+  for (int part = 0; part < parts; ++part) {
+    const double time_s = (frame + exposure * ((part + .5) / parts - .5)) / frames_per_s;
+    const Placing placing(*this, time_s);
+    cv::Mat now = scene.clone();
+    for (int grain = 0; grain < grains; ++grain) draw_grain(now, *this, placing, grain, time_s);
+    draw_plate(now, *this, placing);
+    sum += now / parts;
+  }
+  return noisy_picture(sum, noise, seed * 1000003U + static_cast<unsigned>(frame));
+}
+
+}  // namespace repose::testing

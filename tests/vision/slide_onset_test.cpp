@@ -1,0 +1,59 @@
+#include "vision/track/slide_onset.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+namespace repose::vision {
+namespace {
+
+constexpr double kOnset_s = 2.0137;
+constexpr double kInterval_s = 1. / 60;
+
+/// At rest, then sliding by the law with a step and a growth; jittered by a few hundredths of a
+/// pixel, the same each time.
+std::vector<SlidAt> slide(double step_px_s2, double growth_px_s3, double until_s = 2.6) {
+  std::vector<SlidAt> places;
+  for (int k = 0; k * kInterval_s < until_s; ++k) {
+    const double time_s = k * kInterval_s, t = std::max(0.0, time_s - kOnset_s);
+    const double jitter = .04 * std::sin(12.9898 * k * k);
+    places.push_back({time_s, jitter + .5 * step_px_s2 * t * t + growth_px_s3 * t * t * t / 6});
+  }
+  return places;
+}
+
+void expect_onset(const std::vector<SlidAt>& places, double within_s) {
+  const auto onset = slide_onset(places, 4, 40);
+  ASSERT_TRUE(onset);
+  EXPECT_NEAR(onset->time_s, kOnset_s, within_s);
+  EXPECT_LE(onset->earliest_s, kOnset_s);
+  EXPECT_GE(onset->latest_s, kOnset_s);
+  EXPECT_LT(onset->latest_s - onset->earliest_s, 4 * within_s);
+}
+
+// Half the time between frames where friction falls at the onset. Where it does not, the first
+// tenth of a second moves the grain by less than its jitter.
+TEST(SlideOnset, IsTracedBackWhereFrictionFalls) { expect_onset(slide(900, 800), kInterval_s / 2); }
+TEST(SlideOnset, IsTracedBackWhereFrictionStays) { expect_onset(slide(0, 1200), .04); }
+
+TEST(SlideOnset, IsTheSameFromWhereverTheGrainLay) {
+  std::vector<SlidAt> moved = slide(900, 800);
+  for (SlidAt& one : moved) one.slid_px += .4;
+  EXPECT_NEAR(slide_onset(moved, 4, 40)->time_s, slide_onset(slide(900, 800), 4, 40)->time_s, .004);
+}
+
+TEST(SlideOnset, IsNotFoundWhereNothingSlidesOrHardlyAnythingIsSeen) {
+  EXPECT_FALSE(slide_onset({}, 4, 40));
+  EXPECT_FALSE(slide_onset(slide(900, 800, 1.9), 4, 40));
+  const std::vector<SlidAt> all = slide(900, 800);
+  EXPECT_FALSE(slide_onset({all.begin() + 122, all.end()}, 4, 40)) << "without its rest";
+}
+
+TEST(SlideOnset, TellsHowFarTheGrainCreptBefore) {
+  std::vector<SlidAt> crept = slide(900, 800);
+  for (SlidAt& one : crept) one.slid_px += one.time_s < 1 ? -2 : 0;
+  EXPECT_NEAR(slide_onset(crept, 4, 40)->crept_px, 2, .1);
+}
+
+}  // namespace
+}  // namespace repose::vision

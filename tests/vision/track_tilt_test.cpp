@@ -1,0 +1,160 @@
+#include <cmath>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include "render/film/film.h"
+#include "tests/support/drawn_tilt.h"
+#include "tests/support/temporary_folder.h"
+#include "vision/drawing/tilt_overlay.h"
+#include "vision/track/tilt_track.h"
+
+namespace repose::vision {
+namespace {
+
+using repose::testing::DrawnTilt;
+using repose::testing::TemporaryFolder;
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// Small and short, so that many can be drawn.
+DrawnTilt small_tilt() {
+  return {.width = 300,
+          .height = 170,
+          .frames_per_s = 30,
+          .rest_s = .3,
+          .rate_deg_s = 6,
+          .onset_deg = 10,
+          .after_s = .4,
+          .mm_per_px = .6,
+          .radius_px = 6,
+          .thickness_px = 6};
+}
+
+TiltTrack tracked(const DrawnTilt& tilt, const TrackOptions& options = {}) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "tilt.mp4";
+  render::Film film(file, tilt.frames_per_s);
+  for (int frame = 0; frame < tilt.frames(); ++frame) film.add(tilt.picture(frame));
+  film.close();
+  return track_tilt(file, options);
+}
+
+/// At 30 frames per second such a plate turns by .2 degrees from frame to frame.
+void expect_truth(const TiltTrack& track, const DrawnTilt& tilt) {
+  ASSERT_TRUE(track.has_reading) << track.reason;
+  EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, .3);
+  EXPECT_NEAR(track.rate_deg_s.value, tilt.rate_deg_s, .02 * tilt.rate_deg_s);
+  EXPECT_NEAR(track.onset_s, tilt.onset_s(), .05);
+  EXPECT_GT(track.angle_deg.uncertainty, 0);
+  EXPECT_LT(track.angle_deg.uncertainty, 1);
+}
+
+auto has_warning(const char* code) { return Contains(Field(&Warning::code, code)); }
+
+TEST(TrackTilt, FindsAndDrawsTheAngleAtWhichBondedGrainsSlide) {
+  const TiltTrack track = tracked(small_tilt(), {.draws_strobe = true});
+  expect_truth(track, small_tilt());
+  EXPECT_EQ(track.status, MeasureStatus::ok);
+  EXPECT_THAT(track.warnings, IsEmpty());
+  EXPECT_GT(draw_tilt_overlay(track, "tilt.mp4").height, small_tilt().height);
+}
+
+TEST(TrackTilt, FindsItWhereTheHingeIsOutOfThePictureOnTheOtherSide) {
+  DrawnTilt tilt = small_tilt();
+  tilt.hinge_part = -.15;
+  tilt.plate_from = -.4;
+  tilt.goes_left = true;
+  tilt.has_texture = true;
+  tilt.lean_rad = .015;
+  expect_truth(tracked(tilt), tilt);
+}
+
+TEST(TrackTilt, TellsWhatARoundGrainCannotShow) {
+  DrawnTilt tilt = small_tilt();
+  tilt.bonded = 1;
+  const TiltTrack track = tracked(tilt);
+  expect_truth(track, tilt);
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  EXPECT_THAT(track.warnings, has_warning("may_roll"));
+}
+
+TEST(TrackTilt, RefusesWhatIsSeenToRollOrTip) {
+  DrawnTilt tips = small_tilt();
+  tips.rolls = 1;
+  EXPECT_THAT(tracked(tips).reason, HasSubstr("rolls or tips at 1"));
+  DrawnTilt rolls = tips;
+  rolls.bonded = 1;
+  rolls.radius_px = 10;
+  rolls.has_spot = true;
+  const TiltTrack track = tracked(rolls);
+  EXPECT_THAT(track.reason, HasSubstr("Fix: bond three grains"));
+  EXPECT_FALSE(track.has_reading);
+}
+
+TEST(TrackTilt, RefusesAPlateAtRestAndOneThatHardlyTurns) {
+  DrawnTilt tilt = small_tilt();
+  tilt.rest_s = 1;
+  tilt.after_s = -2.1;
+  EXPECT_THAT(tracked(tilt).reason, HasSubstr("no plate is seen to turn"));
+  tilt.after_s = -1.35;
+  EXPECT_THAT(tracked(tilt).reason, HasSubstr("degrees only"));
+}
+
+TEST(TrackTilt, RefusesAFilmThatEndsBeforeTheSlideOrHasNoGrain) {
+  DrawnTilt tilt = small_tilt();
+  tilt.after_s = -.2;
+  const TiltTrack track = tracked(tilt);
+  EXPECT_THAT(track.reason, HasSubstr("no grain slides before the film ends"));
+  EXPECT_THAT(track.plate, Not(IsEmpty())) << "it is still told how the plate turned";
+  tilt.grains = 0;
+  EXPECT_THAT(tracked(tilt).reason, HasSubstr("no grain is seen on the plate"));
+}
+
+TEST(TrackTilt, RefusesAGrainAtTheEndOfThePlateThatIsSeen) {
+  DrawnTilt tilt = small_tilt();
+  tilt.plate_to = 1.2;
+  tilt.grain_part = .98;
+  EXPECT_THAT(tracked(tilt).reason, HasSubstr("lies at the end of what is seen"));
+}
+
+TEST(TrackTilt, RefusesGrainsThatSlideApart) {
+  DrawnTilt tilt = small_tilt();
+  tilt.grains = 2;
+  tilt.grain_part = .6;
+  EXPECT_THAT(tracked(tilt).reason, HasSubstr("several things slide"));
+}
+
+TEST(TrackTilt, RefusesACameraThatMovesAndAFilmOfAFewFrames) {
+  DrawnTilt tilt = small_tilt();
+  tilt.height = 300;
+  tilt.shakes_px = 20;
+  EXPECT_THAT(tracked(tilt).reason, HasSubstr("the camera moves"));
+  DrawnTilt few = small_tilt();
+  few.after_s = .2 - few.onset_s();
+  EXPECT_THAT(tracked(few).reason, HasSubstr("frames. Rule: 8 or more"));
+}
+
+TEST(TrackTilt, FlagsCreepAndAPlateThatWasNotAtRest) {
+  DrawnTilt tilt = small_tilt();
+  tilt.rest_s = 0;
+  tilt.creeps_px = 3;
+  const TiltTrack track = tracked(tilt);
+  EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, .7);
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  EXPECT_THAT(track.warnings, has_warning("no_rest"));
+  EXPECT_THAT(track.warnings, has_warning("creeps"));
+}
+
+TEST(TrackTilt, WarnsOfAnUnevenRate) {
+  DrawnTilt tilt = small_tilt();
+  tilt.onset_deg = 12;
+  tilt.uneven = .6;
+  EXPECT_THAT(tracked(tilt).warnings, has_warning("uneven_rate"));
+}
+
+}  // namespace
+}  // namespace repose::vision

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace repose::vision {
+
+/// How far a scene lies from where it lay: of cameras that move.
+class SceneShift {
+ public:
+  /// @param counts  0 where something moves before the scene; empty: it counts everywhere
+  explicit SceneShift(const cv::Mat& scene, const cv::Mat& counts = {});
+
+  /// Of a frame of the scene's size, from the scene [px]. Of one with nothing to hold on to: none.
+  cv::Point2d of(const cv::Mat& frame) const;
+
+ private:
+  cv::Point2d step_to(const cv::Mat& now) const;
+
+  cv::Mat grey_, across_, down_, counts_;  ///< much reduced
+};
+
+}  // namespace repose::vision

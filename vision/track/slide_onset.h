@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace repose::vision {
+
+/// How far something has slid at a time.
+struct SlidAt {
+  double time_s = 0;
+  double slid_px = 0;
+};
+
+/// When something that lay at rest began to slide.
+struct SlideOnset {
+  double time_s = 0;
+  double earliest_s = 0;  ///< of its 95 % interval
+  double latest_s = 0;
+  double rms_px = 0;         ///< of the places from what was fitted
+  double rest_noise_px = 0;  ///< standard deviation of a place at rest
+  double crept_px = 0;       ///< between the beginning and the onset
+};
+
+/// Traces a slide back to its onset t0. On a plate that turns at a steady rate w the excess of
+/// weight over friction grows from a step a, where friction falls when the slide begins, and then
+/// about linearly with time:
+///
+///     s(t) = a (t - t0)^2 / 2 + j (t - t0)^3 / 6
+///
+///     s   way down the plate         px
+///     a   g (sin A - m cos A)        px/s^2   >= 0; A: angle of the onset, m: friction in motion
+///     j   g w (cos A + m sin A)      px/s^3   >= 0; w in rad/s
+///
+/// Derived: Newton's second law with Coulomb's friction on a slope A + w (t - t0), to third order;
+/// the sheet of `repose simulate tilt` is read by the same law without the step. Holds for slides
+/// in which the plate turns by some degrees. t0 is that of the least squares, with a and j fitted
+/// at each t0; its interval is that of the profile likelihood (neighbouring places err alike).
+/// Checked by SlideOnset.* of tests/vision/slide_onset_test.cpp.
+/// @param most_px  places beyond are left out
+/// @return none where it never gets `least_px` far
+std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double least_px,
+                                      double most_px);
+
+}  // namespace repose::vision
