@@ -31,11 +31,16 @@ std::vector<double> bought(const std::vector<Experiment>& experiments,
 
 }  // namespace
 
+Cost minimum_cost(const Experiment& experiment) {
+  return {.seconds = least_jobs(experiment) * experiment.run_s, .jobs = least_jobs(experiment)};
+}
+
 Cost minimum_cost(const Problem& problem) {
   Cost cost;
   for (const Experiment& experiment : measured_experiments(problem)) {
-    cost.jobs += least_jobs(experiment);
-    cost.seconds += least_jobs(experiment) * experiment.run_s;
+    const Cost of_one = minimum_cost(experiment);
+    cost.jobs += of_one.jobs;
+    cost.seconds += of_one.seconds;
   }
   return cost;
 }

@@ -11,6 +11,9 @@ struct Cost {
   int jobs = 0;
 };
 
+/// Of an experiment's runs in the smallest first round.
+Cost minimum_cost(const Experiment& experiment);
+
 /// Of the smallest first round.
 Cost minimum_cost(const Problem& problem);
 

@@ -6,6 +6,9 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "calibrate/fit/budget.h"
 #include "calibrate/start/usual_experiment.h"
 #include "dem/study/experiment_table.h"
 
@@ -50,6 +53,34 @@ Problem with_all(dem::Study study, const dem::ClumpFile& grain, const Budget& bu
   return problem;
 }
 
+dem::Experiment named(const Experiment& experiment) {
+  return dem::experiment_named(experiment.name).experiment;
+}
+
+/// Leaves out what was added until the fewest runs of all take no longer than `core_s`.
+void keep_within(double core_s, OfferedStudy& offered) {
+  constexpr double kMinute_s = 60;
+  std::vector<Experiment>& experiments = offered.problem.experiments;
+  const auto added_s = [&](const Experiment& experiment) {
+    return offered.added.contains(named(experiment)) ? minimum_cost(experiment).seconds : 0;
+  };
+  double all_s = 0;
+  for (const Experiment& experiment : experiments) all_s += minimum_cost(experiment).seconds;
+  while (all_s > core_s) {
+    const auto dearest = std::ranges::max_element(experiments, {}, added_s);
+    const double seconds = added_s(*dearest);
+    if (seconds <= 0) return;
+    offered.notes.push_back(fmt::format(
+        "{} is left out: its simulations would take {:.0f} minutes of a core alone. To have it in "
+        "the plan, give --minutes {:.0f}.",
+        dearest->name, seconds / kMinute_s, std::ceil(all_s / kMinute_s)));
+    offered.added.erase(named(*dearest));
+    offered.study.experiments.erase(named(*dearest));
+    experiments.erase(dearest);
+    all_s -= seconds;
+  }
+}
+
 }  // namespace
 
 std::set<dem::Experiment> every_experiment() {
@@ -60,7 +91,7 @@ std::set<dem::Experiment> every_experiment() {
 
 OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
                            const Budget& budget, const std::set<dem::Experiment>& possible) {
-  OfferedStudy offered{.study = study, .added = {}, .problem = {}};
+  OfferedStudy offered{.study = study, .added = {}, .problem = {}, .notes = {}};
   const UsualBench bench = bench_of(study, grain.shape);
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
     if (study.experiments.contains(entry.experiment) || !possible.contains(entry.experiment)) {
@@ -72,6 +103,9 @@ OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
     offered.study.experiments.emplace(entry.experiment, usual);
   }
   offered.problem = with_all(offered.study, grain, budget);
+  // A problem that is dearer than its budget was given more.
+  offered.problem.settings.budget_s = budget.settings.budget_s;
+  keep_within(kFirstFraction * budget.settings.budget_s, offered);
   return offered;
 }
 

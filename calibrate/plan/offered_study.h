@@ -2,6 +2,8 @@
 
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "calibrate/fit/problem.h"
 #include "calibrate/study/study_problem.h"
@@ -17,9 +19,11 @@ struct OfferedStudy {
   std::map<dem::Experiment, dem::StudyExperiment> added;
   /// All experiments that depend on a coefficient that is sought; what was measured of them.
   Problem problem;
+  std::vector<std::string> notes;  ///< experiments left out because they take too long
 };
 
-/// Adds the experiments that a study lacks, done in the usual way with its grains and its tube.
+/// Adds the experiments that a study lacks, done in the usual way with its grains; but not those,
+/// the dearest first, of which the fewest runs would take longer than the budget has.
 /// @param possible  those that could be done beside the study's
 /// @param study  as simulated (as_simulated), what was measured included
 /// @param budget  of the runs; heaps are as soft as it says

@@ -91,6 +91,7 @@ std::optional<Plan> make_plan(const OfferedStudy& offered, const StudyContext& c
                               int readings) {
   Plan plan;
   plan.readings = readings;
+  plan.notes = offered.notes;
   for (const Parameter& parameter : offered.problem.parameters) {
     plan.parameters.push_back(parameter.name);
   }

@@ -144,7 +144,8 @@ class OfferedStudyTest : public ::testing::Test {
     return dem::read_study(folder_.path() / "study.toml");
   }
   static OfferedStudy offered(const dem::Study& study) {
-    return offered_study(study, dem::build_grain(study.grain), plan_budget(60), every_experiment());
+    return offered_study(study, dem::build_grain(study.grain), plan_budget(1e6),
+                         every_experiment());
   }
   TemporaryFolder folder_;
 };
@@ -168,6 +169,19 @@ TEST_F(OfferedStudyTest, HasNothingButItsOwnExperimentsAndThoseThatCouldBeDone) 
   EXPECT_EQ(made.study.experiments.size(), 3U);
   ASSERT_EQ(made.added.size(), 1U);
   EXPECT_EQ(made.added.begin()->first, dem::Experiment::roll);
+}
+
+TEST_F(OfferedStudyTest, LeavesOutWhatWouldTakeLongerThanAllOfItMayAndSaysSo) {
+  const dem::Study study = study_of(test::kSphereStudy);
+  const dem::ClumpFile grain = dem::build_grain(study.grain);
+  const OfferedStudy made = offered_study(study, grain, plan_budget(6), every_experiment());
+  EXPECT_FALSE(made.added.contains(dem::Experiment::draw_down));
+  EXPECT_FALSE(made.study.experiments.contains(dem::Experiment::draw_down));
+  EXPECT_THAT(made.notes, ::testing::Contains(HasSubstr("draw_down is left out: its simulations")));
+  EXPECT_THAT(made.notes.front(), HasSubstr("give --minutes"));
+  EXPECT_EQ(made.problem.observables.size(), 2U) << "what is measured stays";
+  const OfferedStudy all = offered_study(study, grain, plan_budget(1e6), every_experiment());
+  EXPECT_THAT(all.notes, IsEmpty());
 }
 
 TEST_F(OfferedStudyTest, LinesForTheStudyFileAreReadAsTheExperimentThatWasPlanned) {
