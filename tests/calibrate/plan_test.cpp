@@ -20,7 +20,6 @@ namespace {
 using repose::testing::TemporaryFolder;
 using ::testing::Each;
 using ::testing::ElementsAre;
-using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Lt;
