@@ -36,6 +36,13 @@ bool depends(const Experiment& experiment, std::size_t parameter) {
          experiment.parameters.end();
 }
 
+std::string worth_of_ten(double fraction) {
+  return fmt::format(
+      "ten readings would reduce the uncertainty of this coefficient to about {:.0f} % of its "
+      "present value",
+      100 * std::sqrt(1 - fraction));
+}
+
 }  // namespace
 
 Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Solution& solution)
@@ -43,9 +50,15 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
   for (const Experiment& experiment : measured_experiments(problem)) {
     for (const std::string& reading : experiment.measurable) {
       if (!is_measured(problem, experiment.name, reading)) {
-        learn_unmeasured(experiment, reading, runs);
+        learn_unmeasured(experiment, reading, runs, unmeasured_);
       }
     }
+  }
+  for (const Offer& offer : problem.offers) {
+    const auto is_failed = [](const Run& run) { return !run.failure.empty(); };
+    const auto failed = std::ranges::count_if(offer.runs, is_failed);
+    if (2 * failed > std::ssize(offer.runs)) continue;  // it mostly gives no reading: no advice
+    learn_unmeasured(offer.experiment, "value", offer.runs, offered_);
   }
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     more_readings_.push_back(more_readings(i));
@@ -53,7 +66,7 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
 }
 
 void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& reading,
-                               const std::vector<Run>& runs) {
+                               const std::vector<Run>& runs, std::vector<Unmeasured>& all) const {
   const TrainingSet training_set = training_set_of(problem_, experiment, reading, runs);
   if (training_set.readings.size() < kFewest) return;
   const Surrogate surrogate(training_set, {}, false);
@@ -69,7 +82,7 @@ void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& 
         slope * slope * w.variance + scatter * scatter * experiment.readings_per_run / kReadings;
   }
   of_ten.noise2 /= static_cast<double>(solution_.sets.points.size());
-  unmeasured_.push_back(std::move(unmeasured));
+  all.push_back(std::move(unmeasured));
 }
 
 Advisor::Measurement Advisor::more_readings(std::size_t observable) const {
@@ -129,20 +142,27 @@ bool Advisor::more_runs_would_help(std::size_t parameter) const {
   return false;
 }
 
-std::string Advisor::unmeasured_advice(std::size_t parameter) const {
-  const Unmeasured* best = nullptr;
-  double most = kWorthwhile;
-  for (const Unmeasured& unmeasured : unmeasured_) {
+Advisor::Best Advisor::best_of(const std::vector<Unmeasured>& all, std::size_t parameter) const {
+  Best best{.fraction = kWorthwhile};
+  for (const Unmeasured& unmeasured : all) {
     const double fraction = fraction_explained(unmeasured.of_ten, parameter);
-    if (fraction <= most) continue;
-    most = fraction;
-    best = &unmeasured;
+    if (fraction > best.fraction) best = {&unmeasured, fraction};
   }
-  if (best == nullptr) return "";
-  return fmt::format(
-      "also measure {} in the {} experiment: ten readings would reduce the uncertainty of this "
-      "coefficient to about {:.0f} % of its present value",
-      best->reading, best->experiment, 100 * std::sqrt(1 - most));
+  return best;
+}
+
+std::string Advisor::unmeasured_advice(std::size_t parameter) const {
+  const Best best = best_of(unmeasured_, parameter);
+  if (best.unmeasured == nullptr) return "";
+  return fmt::format("also measure {} in the {} experiment: {}", best.unmeasured->reading,
+                     best.unmeasured->experiment, worth_of_ten(best.fraction));
+}
+
+std::string Advisor::offer_advice(std::size_t parameter) const {
+  const Best best = best_of(offered_, parameter);
+  if (best.unmeasured == nullptr) return "";
+  return fmt::format("add [experiment.{}] and its readings to the study: {}",
+                     best.unmeasured->experiment, worth_of_ten(best.fraction));
 }
 
 std::string Advisor::more_readings_advice(std::size_t parameter) const {
@@ -172,7 +192,10 @@ std::string Advisor::unmade_advice(std::size_t parameter) const {
     return std::ranges::any_of(problem_.experiments,
                                [&](const Experiment& e) { return e.name == experiment; });
   });
-  if (!is_told && !tellers.empty()) {
+  const std::string offer = offer_advice(parameter);
+  if (!offer.empty()) {
+    parts.push_back(offer);
+  } else if (!is_told && !tellers.empty()) {
     parts.push_back(
         fmt::format("do an experiment that tells it from the others: add [experiment.{}] and its "
                     "readings to the study (repose plan tells what each would give)",

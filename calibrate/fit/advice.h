@@ -28,24 +28,33 @@ class Advisor {
     std::string reading;
     Measurement of_ten = {};
   };
+  /// The one that takes away most of a parameter's variance.
+  struct Best {
+    const Unmeasured* unmeasured = nullptr;  ///< null: none is worth its while
+    double fraction = 0;
+  };
 
+  /// Adds what ten readings would be, where enough runs have them.
   void learn_unmeasured(const Experiment& experiment, const std::string& reading,
-                        const std::vector<Run>& runs);
+                        const std::vector<Run>& runs, std::vector<Unmeasured>& all) const;
   /// An observable measured again, until it has kMoreReadings times as many readings.
   Measurement more_readings(std::size_t observable) const;
   double fraction_explained(const Measurement& measurement, std::size_t parameter) const;
+  Best best_of(const std::vector<Unmeasured>& all, std::size_t parameter) const;
 
   /// Each: a sentence's part, or nothing.
   std::string unmeasured_advice(std::size_t parameter) const;
   std::string more_readings_advice(std::size_t parameter) const;
   std::string unmade_advice(std::size_t parameter) const;
+  std::string offer_advice(std::size_t parameter) const;
 
   /// Some observable depends on it visibly, and its surrogate is the weakest link.
   bool more_runs_would_help(std::size_t parameter) const;
 
   const Problem& problem_;
   const Solution& solution_;
-  std::vector<Unmeasured> unmeasured_;
+  std::vector<Unmeasured> unmeasured_;      ///< of the experiments that were measured
+  std::vector<Unmeasured> offered_;         ///< of those that the study does not have
   std::vector<Measurement> more_readings_;  ///< of each observable
 };
 

@@ -69,14 +69,6 @@ struct FitSettings {
   bool robust = false;     ///< Cauchy's loss: an observable that fits nothing else counts less
 };
 
-/// Parameters to be found, what was measured, and what can be simulated.
-struct Problem {
-  std::vector<Parameter> parameters;
-  std::vector<Observable> observables;
-  std::vector<Experiment> experiments;
-  FitSettings settings;
-};
-
 /// One simulation to be run.
 struct Job {
   std::string experiment;
@@ -99,6 +91,22 @@ struct Run {
   /// By name; the experiment's own number is called "value". Empty when it failed.
   std::map<std::string, double> readings;
   std::string failure;  ///< why there is no reading ("the grains stay in the tube"); else empty
+};
+
+/// An experiment that the study does not have and that was simulated all the same: the advice says
+/// what readings of it would be worth.
+struct Offer {
+  Experiment experiment;
+  std::vector<Run> runs;  ///< all over the bounds, each once, in a fixed order
+};
+
+/// Parameters to be found, what was measured, and what can be simulated.
+struct Problem {
+  std::vector<Parameter> parameters;
+  std::vector<Observable> observables;
+  std::vector<Experiment> experiments;
+  FitSettings settings;
+  std::vector<Offer> offers = {};
 };
 
 /// Every error of a problem, a line each: where, the value, the rule, "Fix: ...". Empty: none.

@@ -22,15 +22,9 @@ class PlanRuns {
 
   /// False when interrupted.
   bool make(Plan& plan) {
-    Problem everything = offered_.problem;
-    everything.observables.clear();
-    for (const Experiment& experiment : offered_.problem.experiments) {
-      Observable& observable = everything.observables.emplace_back();
-      observable.name = observable.experiment = experiment.name;
-    }
     std::map<std::string, std::vector<Job>> jobs;
-    for (Job& job : first_round(everything)) {
-      later_s_ += run_s_of(everything, job);
+    for (Job& job : plan_jobs(offered_)) {
+      later_s_ += run_s_of(offered_.problem, job);
       jobs[job.experiment].push_back(std::move(job));
     }
     for (const Experiment& experiment : offered_.problem.experiments) {
@@ -85,6 +79,16 @@ Budget plan_budget(double core_s) {
   budget.name = "plan";
   budget.settings.budget_s = core_s / kFirstFraction;
   return budget;
+}
+
+std::vector<Job> plan_jobs(const OfferedStudy& offered) {
+  Problem everything = offered.problem;
+  everything.observables.clear();
+  for (const Experiment& experiment : offered.problem.experiments) {
+    Observable& observable = everything.observables.emplace_back();
+    observable.name = observable.experiment = experiment.name;
+  }
+  return first_round(everything);
 }
 
 std::optional<Plan> make_plan(const OfferedStudy& offered, const StudyContext& context,

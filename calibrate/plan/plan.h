@@ -29,6 +29,10 @@ struct Plan {
 /// The budget of a plan's runs: this many seconds of one core.
 Budget plan_budget(double core_s);
 
+/// What a plan simulates: the first round of a fit to all experiments. By experiment, those of a
+/// larger budget begin with those of a smaller one.
+std::vector<Job> plan_jobs(const OfferedStudy& offered);
+
 /// Simulates each experiment over the whole box, and says what it tells. Runs are kept: a
 /// calibration in the same folder begins with them. None when it was interrupted.
 /// @throws std::invalid_argument  the study has a protocol that cannot be run; a measured

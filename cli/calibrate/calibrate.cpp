@@ -13,6 +13,7 @@
 #include "base/folder_lock.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/run_folder.h"
+#include "calibrate/plan/offers.h"
 #include "calibrate/result/result.h"
 #include "calibrate/study/rank_executor.h"
 #include "calibrate/study/study_folder.h"
@@ -122,11 +123,19 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::StudyConte
   return ExitCode::done;
 }
 
+/// With what plans have left in the folder.
+calibrate::Problem advised_problem(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
+  calibrate::Problem problem = plan.problem.problem;
+  problem.offers = calibrate::offers_in(folder, plan.record.study, plan.record.grain);
+  return problem;
+}
+
 /// The whole study, from rank 0 where there are ranks.
 ExitCode run_study_with(const CalibratePlan& plan, const calibrate::StudyContext& context) {
   if (plan.record.method == "paper") return run_as_published(plan, context);
+  const calibrate::Problem problem = advised_problem(plan, context.folder);
   const auto outcome = with_progress(context, [&](const calibrate::StudyContext& shown) {
-    return run_study(plan.problem.problem, plan.record.budget, shown);
+    return run_study(problem, plan.record.budget, shown);
   });
   if (!outcome) return interrupted(context.folder);
   if (outcome->reused > 0) {

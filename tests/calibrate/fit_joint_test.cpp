@@ -291,6 +291,28 @@ TEST(JointFit, AnExperimentThatTellsAnOpenParameterIsAdvisedUnlessTheStudyHasIt)
               AllOf(HasSubstr("do the drop experiment"), Not(HasSubstr("add ["))));
 }
 
+TEST(JointFit, AnExperimentThatAPlanSimulatedIsAdvisedWithWhatItWouldGive) {
+  Problem problem = plate(20, .9, 10);
+  problem.parameters.push_back({"bounce", 0, 1, {}, {"drop"}});
+  Offer& offer = problem.offers.emplace_back(Offer{{"pendulum", {1}, 1, true, {"value"}}, {}});
+  constexpr int kRuns = 20;
+  for (int k = 0; k < kRuns; ++k) {
+    const double bounce = (k + .5) / kRuns;
+    offer.runs.push_back({.job = {"pendulum", {.4, bounce}, static_cast<std::uint64_t>(k)},
+                          .readings = {{"value", 10 + 20 * bounce + (k % 2 == 0 ? .1 : -.1)}},
+                          .failure = {}});
+  }
+  EXPECT_THAT(plate_fit(problem).parameters[1].advice,
+              AllOf(HasSubstr("add [experiment.pendulum]"), HasSubstr("would reduce"),
+                    Not(HasSubstr("[experiment.drop]"))));
+  for (std::size_t k = 0; k < 11; ++k) {
+    offer.runs[k].readings.clear();
+    offer.runs[k].failure = "they miss each other";
+  }
+  EXPECT_THAT(plate_fit(problem).parameters[1].advice, HasSubstr("add [experiment.drop]"))
+      << "one that gives a reading of few materials is no advice";
+}
+
 TEST(JointFit, WhereTheBenchScattersMoreReadingsAreAdvised) {
   EXPECT_THAT(plate_fit(plate(20, 30, 4)).parameters[0].advice,
               HasSubstr("take more bench readings of tilt: 16 in place of 4"));

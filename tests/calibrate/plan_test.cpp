@@ -5,10 +5,13 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/experiment/run_folder.h"
 #include "calibrate/fit/random.h"
 #include "calibrate/fit/sequence.h"
 #include "calibrate/fit/unit_box.h"
+#include "calibrate/plan/offers.h"
 #include "calibrate/start/usual_experiment.h"
+#include "calibrate/study/study_simulator.h"
 #include "dem/study/experiment_table.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
@@ -206,6 +209,35 @@ TEST_F(OfferedStudyTest, OfLargeGrainsHasTubesThatHoldABulkOfThem) {
   const OfferedStudy made = offered(study_of(text));
   EXPECT_GE(made.study.protocol<dem::FillProtocol>().tube_diameter_m, 4 * .06);
   EXPECT_GE(made.study.protocol<dem::HeapProtocol>().tube_diameter_m, 5 * .04);
+}
+
+TEST_F(OfferedStudyTest, WhatAPlanSimulatedIsOfferedToACalibrationInTheSameFolder) {
+  const dem::Study study = study_of(test::kSphereStudy);
+  const dem::ClumpFile grain = dem::build_grain(study.grain);
+  const RunFolder folder(folder_.path() / "runs");
+  EXPECT_THAT(offers_in(folder, study, grain), IsEmpty());
+
+  const OfferedStudy small =
+      offered_study(study, grain, plan_budget(200), {dem::Experiment::roll, dem::Experiment::fill});
+  const StudySimulator simulator(small.study, grain, small.problem.parameters);
+  std::vector<calibrate::Run> saved;
+  for (const Job& job : plan_jobs(small)) {
+    SimulatedRun run;
+    run.seed = job.seed;
+    run.value = 7;
+    run.timestep_s = 1e-6;
+    run.readings["time_s"] = 1;
+    folder.save(simulator.spec(job), run);
+    if (job.experiment == "roll") saved.push_back(run_of({job, run}));
+  }
+  const std::vector<Offer> offers = offers_in(folder, study, grain);
+  ASSERT_EQ(offers.size(), 2U) << "what the study has is not offered";
+  EXPECT_EQ(offers[0].experiment.name, "roll");
+  ASSERT_EQ(offers[0].runs.size(), saved.size());
+  for (std::size_t k = 0; k < saved.size(); ++k) {
+    EXPECT_EQ(offers[0].runs[k].job, saved[k].job);
+    EXPECT_EQ(offers[0].runs[k].readings.at("value"), 7);
+  }
 }
 
 TEST_F(OfferedStudyTest, WithNothingToFindIsRefused) {
