@@ -28,7 +28,7 @@ Json json_of(const dem::PairCoefficients& pair) {
 
 Json protocol_json(dem::Protocol protocol) {
   Json json = Json::object();
-  for (const dem::ProtocolKey& key : dem::entry_of(protocol).keys(protocol)) {
+  for (const dem::ProtocolKey& key : with_effect(dem::entry_of(protocol).keys(protocol))) {
     const auto value = dem::value_of(key);
     json[key.name] = value ? Json(*value) : Json(nullptr);
   }

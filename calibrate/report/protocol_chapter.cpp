@@ -132,10 +132,11 @@ void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry
   if (described == record.study.experiments.end()) return;
   Settings settings;
   dem::Protocol protocol = described->second.protocol;
-  for (const dem::ProtocolKey& key : entry.keys(protocol)) {
+  for (const dem::ProtocolKey& key : with_effect(entry.keys(protocol))) {
     const auto value = dem::value_of(key);
     const auto [what, unit] = name_and_unit(key.name);
-    settings.add(what, value ? shown(value) + (unit.empty() ? "" : ' ' + unit) : "as many as fit",
+    settings.add(what,
+                 value ? shown(value) + (unit.empty() ? "" : ' ' + unit) : std::string(key.absence),
                  states(stated, key.name));
   }
   settings.add("fraction of the real stiffness", shown(described->second.stiffness_factor),

@@ -73,7 +73,7 @@ dem::StudyExperiment usual_experiment(const dem::ExperimentEntry& entry, const U
 
 std::string protocol_lines(const dem::ExperimentEntry& entry, dem::Protocol protocol) {
   std::string text = fmt::format("[experiment.{}]\n", entry.name);
-  for (const dem::ProtocolKey& key : entry.keys(protocol)) {
+  for (const dem::ProtocolKey& key : with_effect(entry.keys(protocol))) {
     if (const auto value = value_of(key)) {
       text += fmt::format("{} = {}\n", key.name, toml_number(*value));
     }

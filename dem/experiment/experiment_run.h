@@ -22,6 +22,7 @@ class ExperimentRun {
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
   HeapProgress& progress() { return progress_; }
+  const HeapProgress& progress() const { return progress_; }
   const Observers& observers() const { return observers_; }
   const ClumpShape& shape() const { return simulation_.setup().kinds.front().shape; }
 

@@ -1,5 +1,8 @@
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +11,8 @@
 #include "dem/experiment/grain_limit.h"
 #include "dem/experiment/heap_fill.h"
 #include "dem/experiment/model_setup.h"
+#include "dem/experiment/rain.h"
+#include "dem/experiment/tapping.h"
 
 namespace repose::dem {
 namespace {
@@ -36,10 +41,22 @@ void check_sizes(const FillProtocol& protocol, double grain_m, base::ErrorList& 
                   protocol.pour_m));
 }
 
+void check_taps(const FillProtocol& protocol, base::ErrorList& errors) {
+  if (!protocol.taps) return;
+  errors.require(*protocol.taps >= 1 && *protocol.taps <= kMostTaps,
+                 fmt::format("fill.taps is {}. Rule: 1 to {}. Fix: leave it out not to tap.",
+                             *protocol.taps, kMostTaps));
+  errors.require(protocol.tap_m > 0 && protocol.tap_m <= protocol.tube_height_m,
+                 fmt::format("fill.tap_m is {:g}. Rule: above 0, and at most the tube's height, "
+                             "{:g}. Fix: how far the tube drops at each tap, such as 0.003.",
+                             protocol.tap_m, protocol.tube_height_m));
+}
+
 void check(const Model& model, const FillProtocol& protocol) {
   base::ErrorList errors;
   find_errors(model, errors);
   check_sizes(protocol, 2 * model.grain.reach_m(), errors);
+  check_taps(protocol, errors);
   constexpr double kPacked = .65;
   const double grains = kPacked * volume_m3(protocol) / model.grain.volume_m3;
   errors.require(
@@ -61,24 +78,52 @@ HeapProtocol tube_of(const FillProtocol& protocol) {
           .grains = {}};
 }
 
+/// As high as it is filled.
+HeapProtocol collared(HeapProtocol tube, const FillProtocol& protocol) {
+  // Grains that come to lie a third denser, as hardly any do, still reach the rim.
+  constexpr double kCollar = 1. / 3;
+  if (protocol.taps) tube.tube_height_m *= 1 + kCollar;
+  return tube;
+}
+
+double count_below(const Simulation& simulation, double rim_m) {
+  double grains = 0;
+  for (int k = 0; k < simulation.grain_count(); ++k) {
+    if (simulation.is_present(k) && simulation.grain(k).position.z() <= rim_m) ++grains;
+  }
+  return grains;
+}
+
+/// Taps the tube; returns by how much denser it is below its rim.
+double tapped(ExperimentRun& run, const FillProtocol& protocol) {
+  const double poured = count_below(run.simulation(), protocol.tube_height_m);
+  tap(run, *protocol.taps, protocol.tap_m);
+  if (above_rim(run.simulation(), protocol.tube_height_m).empty()) {
+    throw NoReading("the grains sank below the rim of the tube when it was tapped");
+  }
+  return count_below(run.simulation(), protocol.tube_height_m) / poured;
+}
+
 }  // namespace
 
 Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {
   check(model, protocol);
   const HeapProtocol tube = tube_of(protocol);
-  const double spout_m = protocol.tube_height_m + protocol.pour_m;
-  ExperimentRun run =
-      fill_tube(empty_tube(model, tube, {report, record}, spout_m), model, tube, seed, spout_m);
-  const Simulation& struck = run.simulation();
-  double grains = 0;
-  for (int k = 0; k < struck.grain_count(); ++k) grains += struck.is_present(k) ? 1 : 0;
+  const HeapProtocol filled = collared(tube, protocol);
+  const double spout_m = filled.tube_height_m + protocol.pour_m;
+  std::map<std::string, double> readings;
+  ExperimentRun filling = empty_tube(model, filled, {report, record}, spout_m);
+  pour(filling, filled, seed, spout_m);
+  if (protocol.taps) readings["hausner_ratio"] = tapped(filling, protocol);
+  ExperimentRun run = struck_level(filling, model, tube, spout_m);
+  const double grains = count_below(run.simulation(), protocol.tube_height_m);
   const double mass_kg = grains * model.grain_material.density_kg_m3 * model.grain.volume_m3;
   const double density = mass_kg / volume_m3(protocol);
-  return run.finish(density, seed,
-                    {{"grains", grains},
-                     {"mass_g", 1e3 * mass_kg},
-                     {"solid_fraction", density / model.grain_material.density_kg_m3}});
+  readings.insert({{"grains", grains},
+                   {"mass_g", 1e3 * mass_kg},
+                   {"solid_fraction", density / model.grain_material.density_kg_m3}});
+  return run.finish(density, seed, std::move(readings));
 }
 
 }  // namespace repose::dem

@@ -75,17 +75,14 @@ ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
           observers};
 }
 
-ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
-                        std::uint64_t seed, std::optional<double> spout_m) {
+void pour(ExperimentRun& filling, const HeapProtocol& protocol, std::uint64_t seed,
+          std::optional<double> spout_m) {
+  rain(filling, rain_of(protocol, filling.shape().reach_m(), spout_m), seed);
+}
+
+ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
+                           const HeapProtocol& protocol, std::optional<double> spout_m) {
   const double reach = model.grain.reach_m();
-  rain(filling, rain_of(protocol, reach, spout_m), seed);
-  const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
-  if (protocol.grains && !protocol.may_be_fewer && over > 0) {
-    throw std::invalid_argument(fmt::format(
-        "heap.grains is {}. Rule: at most what fits into the tube, {}. Fix: fewer grains, a taller "
-        "or wider tube, or leave the number out to fill it.",
-        *protocol.grains, static_cast<std::size_t>(filling.simulation().grain_count()) - over));
-  }
   SimulationSetup setup = model_setup(
       model, model.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
       fastest_rain_m_s(reach, spout_m), kCourseFraction);
@@ -94,6 +91,19 @@ ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapPro
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),
           filling.observers(),
           {.work = filling.progress().work}};
+}
+
+ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
+                        std::uint64_t seed) {
+  pour(filling, protocol, seed);
+  const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
+  if (protocol.grains && !protocol.may_be_fewer && over > 0) {
+    throw std::invalid_argument(fmt::format(
+        "heap.grains is {}. Rule: at most what fits into the tube, {}. Fix: fewer grains, a taller "
+        "or wider tube, or leave the number out to fill it.",
+        *protocol.grains, static_cast<std::size_t>(filling.simulation().grain_count()) - over));
+  }
+  return struck_level(filling, model, protocol);
 }
 
 }  // namespace repose::dem

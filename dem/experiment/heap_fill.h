@@ -17,12 +17,20 @@ inline constexpr int kHeapTube = 1;
 ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
                          const Observers& observers, std::optional<double> spout_m = {});
 
-/// The tube, full of grains at rest, its time set back to 0.
+/// Pours grains into it until they are heaped over its rim, `protocol.tube_height_m`, and rest.
+/// `filling` is empty, or was interrupted while it was filled.
+void pour(ExperimentRun& filling, const HeapProtocol& protocol, std::uint64_t seed,
+          std::optional<double> spout_m = {});
+
+/// The tube with what lies below its rim, its time set back to 0: grains whose centres lie higher
+/// are off.
+ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
+                           const HeapProtocol& protocol, std::optional<double> spout_m = {});
+
+/// The tube, full of grains at rest, its time set back to 0: poured and struck level.
 ///
-/// The grains rain in layers, each a little above what is there: places and poses are random. What
-/// lies above the rim in the end is taken off. `filling` is empty, or was interrupted while it was
-/// filled. Throws std::invalid_argument when `protocol.grains` are more than fit.
+/// Throws std::invalid_argument when `protocol.grains` are more than fit.
 ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
-                        std::uint64_t seed, std::optional<double> spout_m = {});
+                        std::uint64_t seed);
 
 }  // namespace repose::dem

@@ -22,6 +22,7 @@ struct Reading {
   std::string_view unit;  ///< "mm", "deg", "g", "s"; empty: a pure number
   /// A bench can measure it too: a key of [experiment.NAME.also_measured].
   bool is_measurable = false;
+  std::string_view needs = "";  ///< the key of the protocol without which there is none
 };
 
 /// What a bench writes down of it, a row for each repeat: the columns of a test of `repose bench`.

@@ -8,18 +8,23 @@ namespace {
 
 std::vector<ProtocolKey> keys_of(Protocol& protocol) {
   auto& fill = std::get<FillProtocol>(protocol);
+  ProtocolKey tap = length_key("tap_mm", "3", fill.tap_m);
+  tap.needs = "taps";
   return {length_key("tube_diameter_mm", "100", fill.tube_diameter_m),
           length_key("tube_height_mm", "100", fill.tube_height_m),
-          length_key("pour_mm", "50", fill.pour_m)};
+          length_key("pour_mm", "50", fill.pour_m),
+          count_key("taps", "50", kMostTaps, fill.taps, "none"), tap};
 }
 
 double cost_s(const Model& model, const Protocol& protocol) {
   constexpr double kPacked = .6, kStep_s = 2.4e-8, kSettling_s = 1, kFallSpeed_m_s = 2;
+  constexpr double kTap_s = .1;
   const auto& fill = std::get<FillProtocol>(protocol);
   const double radius = fill.tube_diameter_m / 2;
   const double tube_m3 = std::numbers::pi * radius * radius * fill.tube_height_m;
   const double grains = kPacked * tube_m3 / model.grain.volume_m3;
-  return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains * kSettling_s /
+  const double simulated_s = kSettling_s + kTap_s * fill.taps.value_or(0);
+  return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains * simulated_s /
          course_timestep_s(model, kFallSpeed_m_s);
 }
 
@@ -32,8 +37,11 @@ ExperimentEntry fill_entry() {
           .value_name = "bulk density",
           .description =
               "Grains are poured into a tube that stands on a plate until they heap over its rim. "
-              "They are struck level, and what is in the tube is weighed.",
-          .readings = {{"grains", ""}, {"mass_g", "g"}, {"solid_fraction", ""}},
+              "They are struck level, if wanted after taps, and what is in the tube is weighed.",
+          .readings = {{"hausner_ratio", "", true, "taps"},
+                       {"grains", ""},
+                       {"mass_g", "g"},
+                       {"solid_fraction", ""}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
           .sheet = {.test = "fill", .value = "bulk_density_kg_m3", .protocol = {}},

@@ -15,7 +15,7 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
           length_key("lift_speed_mm_s", "30", heap.lift_speed_m_s),
           length_key("plate_mm", "400", heap.plate_m),
           length_key("plate_thickness_mm", "2", heap.plate_thickness_m),
-          count_key("grains", "455", kMaxGrains, heap.grains)};
+          count_key("grains", "455", kMaxGrains, heap.grains, "as many as fit")};
 }
 
 double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {

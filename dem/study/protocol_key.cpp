@@ -1,5 +1,7 @@
 #include "dem/study/protocol_key.h"
 
+#include <algorithm>
+
 namespace repose::dem {
 
 ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m) {
@@ -27,12 +29,14 @@ ProtocolKey count_key(std::string name, std::string example, int max, int& value
           .value = &value};
 }
 
-ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value) {
+ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value,
+                      std::string_view absence) {
   return {.name = std::move(name),
           .example = std::move(example),
           .range = from_to(1, max),
           .unit = 1,
-          .value = &value};
+          .value = &value,
+          .absence = absence};
 }
 
 std::optional<double> value_of(const ProtocolKey& key) {
@@ -40,6 +44,15 @@ std::optional<double> value_of(const ProtocolKey& key) {
   if (int* const* whole = std::get_if<int*>(&key.value)) return **whole;
   const std::optional<int>& count = *std::get<std::optional<int>*>(key.value);
   return count ? std::optional<double>(*count) : std::nullopt;
+}
+
+std::vector<ProtocolKey> with_effect(const std::vector<ProtocolKey>& keys) {
+  std::vector<ProtocolKey> those;
+  for (const ProtocolKey& key : keys) {
+    const auto needed = std::ranges::find(keys, key.needs, &ProtocolKey::name);
+    if (needed == keys.end() || value_of(*needed)) those.push_back(key);
+  }
+  return those;
 }
 
 }  // namespace repose::dem

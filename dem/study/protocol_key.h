@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,15 +18,21 @@ struct ProtocolKey {
   Range range;
   double unit = 1;  ///< of the key, in that of the protocol: .001 for mm in m
   std::variant<double*, int*, std::optional<int>*> value;
+  std::string_view absence = "";  ///< what it means to leave it out: "as many as fit"
+  std::string_view needs = "";    ///< the key without which it says nothing
 };
 
 ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m);
 ProtocolKey number_key(std::string name, std::string example, const Range& range, double& value);
 /// 1 to `max`.
 ProtocolKey count_key(std::string name, std::string example, int max, int& value);
-ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value);
+ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value,
+                      std::string_view absence);
 
 /// The value in the key's unit; none for a number that was left out.
 std::optional<double> value_of(const ProtocolKey& key);
+
+/// Those of them that say something: not those whose needed key has no value.
+std::vector<ProtocolKey> with_effect(const std::vector<ProtocolKey>& keys);
 
 }  // namespace repose::dem

@@ -1,7 +1,9 @@
 #include "dem/study/read_experiments.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -100,12 +102,25 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
   return result;
 }
 
+/// What is there says nothing without another key of the experiment.
+void refuse_without(const Section& experiment, const ConfigValue& value, const std::string& name,
+                    std::string_view needed) {
+  if (needed.empty() || experiment.has(std::string(needed))) return;
+  experiment.wrong(value, fmt::format("{} needs {}.{}", name, experiment.path(), needed),
+                   fmt::format("add {}, or take it out", needed));
+}
+
 /// [experiment.heap.also_measured]: readings beside the experiment's own number.
-void read_also(Section& experiment, const std::vector<std::string>& names, Measured& measured) {
+void read_also(Section& experiment, const ExperimentEntry& entry, Measured& measured) {
+  const auto is_measurable = [](const Reading& reading) { return reading.is_measurable; };
+  if (std::ranges::none_of(entry.readings, is_measurable)) return;
   Section also = experiment.section("also_measured");
-  for (const std::string& name : names) {
+  for (const Reading& known : entry.readings) {
+    if (!known.is_measurable) continue;
+    const std::string name(known.name);
     Section reading = also.section(name);
     if (!reading.exists()) continue;
+    refuse_without(experiment, *also.value(name), reading.path(), known.needs);
     constexpr Range kAny = from_to(-1e6, 1e6);
     MeasuredReading read{.name = name,
                          .mean = reading.needed_number("mean", kAny, "mean = 120"),
@@ -142,15 +157,17 @@ void read_experiment(Section section, const ExperimentEntry& entry, const NamedF
                      Study& study) {
   if (!section.exists()) return;
   StudyExperiment described{.protocol = entry.usual, .measured = {}};
-  for (const ProtocolKey& key : entry.keys(described.protocol)) read_key(section, key);
+  const std::vector<ProtocolKey> keys = entry.keys(described.protocol);
+  for (const ProtocolKey& key : keys) read_key(section, key);
+  for (const ProtocolKey& key : keys) {
+    if (section.has(key.name)) {
+      refuse_without(section, *section.value(key.name), section.full(key.name), key.needs);
+    }
+  }
   read_key(section,
            number_key("stiffness_factor", "0.01", above(0, 1), described.stiffness_factor));
   described.measured = read_measured(section, entry, files);
-  std::vector<std::string> measurable;
-  for (const Reading& reading : entry.readings) {
-    if (reading.is_measurable) measurable.emplace_back(reading.name);
-  }
-  if (!measurable.empty()) read_also(section, measurable, described.measured);
+  read_also(section, entry, described.measured);
   section.refuse_others();
   study.experiments.emplace(entry.experiment, std::move(described));
 }

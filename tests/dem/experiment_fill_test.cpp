@@ -47,6 +47,23 @@ TEST(Fill, FrictionMakesLooserPackings) {
   EXPECT_LT(run_fill(rough, kTube, 1).value, run_fill(smooth, kTube, 1).value - 20);
 }
 
+TEST(Fill, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
+  FillProtocol tube = kTube;
+  tube.tap_m = .01;
+  const Repeat poured = run_fill(balls(), tube, 1);
+  tube.taps = 1;
+  const Repeat once = run_fill(balls(), tube, 1);
+  tube.taps = 4;
+  const Repeat often = run_fill(balls(), tube, 1);
+  EXPECT_EQ(poured.readings.count("hausner_ratio"), 0U);
+  EXPECT_GT(once.readings.at("hausner_ratio"), 1);
+  EXPECT_GT(often.readings.at("hausner_ratio"), once.readings.at("hausner_ratio"));
+  EXPECT_NEAR(often.value / often.readings.at("hausner_ratio"), poured.value, .05 * poured.value)
+      << "below the collar it is poured as without";
+  // Random close packing (Scott and Kilgour 1969, J. Phys. D 2, 863).
+  EXPECT_LT(often.readings.at("solid_fraction"), .637);
+}
+
 TEST(Fill, IsTheSameAtAnyNumberOfThreads) {
   Model two = balls();
   two.threads = 2;
@@ -60,6 +77,14 @@ TEST(Fill, TellsEveryErrorAtOnce) {
               }),
               AllOf(HasSubstr("fill.tube_diameter_m is 0.03"), HasSubstr("4 grains or more"),
                     HasSubstr("fill.tube_height_m is 0.02"), HasSubstr("fill.pour_m is 0")));
+  EXPECT_THAT(error_of([] {
+                FillProtocol tapped = kTube;
+                tapped.taps = 0;
+                tapped.tap_m = .2;
+                run_fill(balls(), tapped, 1);
+              }),
+              AllOf(HasSubstr("fill.taps is 0"), HasSubstr("fill.tap_m is 0.2"),
+                    HasSubstr("at most the tube's height, 0.15")));
   EXPECT_THAT(error_of([] { run_fill(balls(), {.tube_diameter_m = 9, .tube_height_m = 9}, 1); }),
               HasSubstr("Rule: at most 100000. Fix: a smaller tube"));
 }

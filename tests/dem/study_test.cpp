@@ -320,6 +320,17 @@ TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
   EXPECT_THAT(errors(heap + "width_mm = { mean = 1 }\n"), HasSubstr("width_mm"));
 }
 
+TEST_F(StudyFile, WhatSaysNothingWithoutAnotherKeyIsRefusedWithoutIt) {
+  const std::string tapped = "tap_mm = 5\n[experiment.fill.also_measured]\n" +
+                             std::string("hausner_ratio = { mean = 1.1 }\n");
+  EXPECT_THAT(errors(kStudy + "[experiment.fill]\n" + tapped),
+              AllOf(HasSubstr("experiment.fill.tap_mm needs experiment.fill.taps. Fix: add taps"),
+                    HasSubstr("hausner_ratio needs experiment.fill.taps")));
+  const Study study = read(kStudy + "[experiment.fill]\ntaps = 50\n" + tapped);
+  EXPECT_EQ(study.protocol<FillProtocol>().taps, 50);
+  EXPECT_DOUBLE_EQ(study.protocol<FillProtocol>().tap_m, .005);
+}
+
 TEST_F(StudyFile, SaysHowFarBenchAndSimulationMayBeApart) {
   const std::string tilt =
       kStudy + "[experiment.tilt]\nmeasured = { values = [9, 10], tolerance = ";
