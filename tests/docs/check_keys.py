@@ -11,7 +11,7 @@ import documents
 import workplace
 
 # Objects whose keys are names of factors, coefficients, observables or experiments.
-OPEN = {"levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated", "checked_at",
+OPEN = {"effects", "interval_widths", "determined", "levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated", "checked_at",
         "stiffness_factor", "shortest_timestep_s"}
 # Commands by the heading in json.md under which their output is described. (repose verify is left out:
 # it takes long.)
@@ -24,17 +24,21 @@ OUTPUTS = {
               "track roll roll_01.avi --released 150 --json -",
               "track tilt tilt_01.avi --json -"],
     "shape": ["shape --size-mm 20,18,17 --density-kg-m3 900 --json -"],
-    "simulate": [f"simulate {name} study.toml --repeats 2 --json -" for name in ("drop", "roll", "tilt", "tilt_on_grains", "fill", "pendulum", "draw_down")]
+    "simulate": [f"simulate {name} study.toml --repeats 2 --json -"
+                 for name in ("drop", "roll", "tilt", "tilt_on_grains", "pendulum", "draw_down")]
+    + ["simulate fill study.toml --repeats 2 --set experiment.fill.taps=1 --json -"]
     + ["simulate heap study.toml --views 2 --json -"],
     "render": ["render state/heap_seed_1.vtp --size 640,360 --out heap.png --truth -"],
     "bench": ["bench sliding --set angle_deg=22.1,22.9 --json -"],
     "regress": ["regress runs.csv --response angle_deg --target 23 --json -"],
     "export": ["export hazelnut --to edem --json -"],
+    "plan": ["plan study.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
     "calibrate": ["calibrate study.toml --out hazelnut --json -"],
 }
 SECTIONS = ["study", "particle", "wall", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
             "experiment", "experiment.drop", "experiment.tilt", "experiment.roll", "experiment.heap",
-            "experiment.drop_on_grains", "experiment.tilt_on_grains", "experiment.roll_on_grains", "experiment.fill", "experiment.pendulum",
+            "experiment.drop_on_grains", "experiment.tilt_on_grains", "experiment.roll_on_grains", "experiment.fill",
+            "experiment.fill.also_measured", "experiment.pendulum",
             "experiment.draw_down", "experiment.draw_down.also_measured",
             "experiment.heap.measured", "experiment.heap.also_measured",
             "experiment.drop.also_measured", "simulation"]

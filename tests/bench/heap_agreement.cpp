@@ -1,0 +1,157 @@
+// Do heaps of the exported LIGGGHTS deck stand at the angle of our own? Same clump, contact law,
+// coefficients, stiffness and time step; each engine fills its tube in its own way.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/core.h>
+
+#include "calibrate/experiment/position_angle.h"
+#include "calibrate/export/export.h"
+#include "calibrate/statistics/summary.h"
+#include "dem/experiment/heap_envelope.h"
+#include "dem/study/grain_source.h"
+#include "tests/peers/liggghts.h"
+
+namespace {
+
+namespace calibrate = repose::calibrate;
+namespace dem = repose::dem;
+namespace testing = repose::testing;
+
+constexpr int kViews = 18;
+
+struct Heap {
+  double angle_deg = 0;
+  double height_mm = 0;
+  double base_radius_mm = 0;
+};
+
+Heap heap_of(const std::vector<dem::HeapEnvelope>& envelopes) {
+  constexpr double kMm = 1e3;
+  const calibrate::PositionAngle angle = calibrate::position_angle(envelopes);
+  return {angle.angle_deg, kMm * dem::height_m(envelopes), kMm * angle.base_radius_m};
+}
+
+/// LIGGGHTS takes no others for seeds.
+int prime_from(int number) {
+  const auto is_prime = [](int n) {
+    for (int k = 2; k * k <= n; ++k) {
+      if (n % k == 0) return false;
+    }
+    return true;
+  };
+  while (!is_prime(number)) ++number;
+  return number;
+}
+
+/// Rows of id, type, x, y, z and radius below a head of nine lines.
+std::vector<dem::ClumpSphere> spheres_in(const std::filesystem::path& dump) {
+  std::ifstream in(dump);
+  std::string line;
+  for (int k = 0; k < 9; ++k) std::getline(in, line);
+  std::vector<dem::ClumpSphere> spheres;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    double id = 0, type = 0;
+    dem::ClumpSphere sphere;
+    words >> id >> type >> sphere.centre.x() >> sphere.centre.y() >> sphere.centre.z() >>
+        sphere.radius;
+    if (sphere.centre.z() > 0) spheres.push_back(sphere);
+  }
+  return spheres;
+}
+
+Heap their_heap(const calibrate::StudyExport& decks, int number) {
+  constexpr int kSmallestSeed = 20000, kApart = 1000;
+  const testing::TemporaryFolder folder;
+  for (const calibrate::ExportedFile& file : decks.files) folder.write(file.name, file.text);
+  const std::string seed = std::to_string(prime_from(kSmallestSeed + kApart * number));
+  const testing::Finished done = testing::run_program(
+      "liggghts", folder, {"-in", "heap.lig", "-log", "none", "-var", "seed", seed});
+  if (done.exit_code != 0) {
+    constexpr std::size_t kShown = 600;
+    const std::size_t from = done.out.size() - std::min(done.out.size(), kShown);
+    throw std::runtime_error("heap.lig failed: " + done.out.substr(from));
+  }
+  return heap_of(dem::heap_envelopes(spheres_in(folder.path() / "heap.dump"), kViews));
+}
+
+Heap our_heap(const dem::Model& model, const dem::HeapProtocol& protocol, int number) {
+  return heap_of(dem::run_heap(model, protocol, static_cast<std::uint64_t>(number) + 1).envelopes);
+}
+
+void print_row(const std::string& name, const Heap& heap) {
+  fmt::print("{:<12}{:>9.2f}{:>11.1f}{:>13.1f}\n", name, heap.angle_deg, heap.height_mm,
+             heap.base_radius_mm);
+  std::fflush(stdout);
+}
+
+/// Welch's interval of the difference of two means.
+void print_difference(const std::vector<double>& ours, const std::vector<double>& theirs) {
+  const calibrate::Summary a = calibrate::summarise(ours), b = calibrate::summarise(theirs);
+  const double va = a.sd.value_or(0) * a.sd.value_or(0) / a.n;
+  const double vb = b.sd.value_or(0) * b.sd.value_or(0) / b.n;
+  fmt::print("ours {:.2f}, sd {:.2f}; LIGGGHTS {:.2f}, sd {:.2f}, deg\n", a.mean, a.sd.value_or(0),
+             b.mean, b.sd.value_or(0));
+  if (!(va + vb > 0) || a.n < 2 || b.n < 2) return;
+  const double freedom = (va + vb) * (va + vb) / (va * va / (a.n - 1) + vb * vb / (b.n - 1));
+  const double t =
+      quantile(complement(boost::math::students_t_distribution<double>(freedom), .025));
+  fmt::print("ours less theirs {:+.2f} ± {:.2f} deg (95 %)\n", a.mean - b.mean,
+             t * std::sqrt(va + vb));
+}
+
+void compare(const std::string& file, const std::vector<std::string>& settings, int seeds) {
+  const dem::Study study = dem::read_study(file, settings);
+  const dem::ClumpShape grain = dem::build_grain(study.grain).shape;
+  const calibrate::StudyExport decks =
+      calibrate::export_study(study, grain, {}, {.target = calibrate::ExportTarget::liggghts});
+  dem::Model model = dem::model_for(study, dem::Experiment::heap);
+  model.grain = grain;
+  std::vector<double> ours, theirs;
+  fmt::print("{:<12}{:>9}{:>11}{:>13}\n", "heap", "angle/deg", "height/mm", "base r/mm");
+  for (int k = 0; k < seeds; ++k) {
+    const Heap our = our_heap(model, study.protocol<dem::HeapProtocol>(), k);
+    print_row("ours", our);
+    ours.push_back(our.angle_deg);
+    const Heap their = their_heap(decks, k);
+    print_row("LIGGGHTS", their);
+    theirs.push_back(their.angle_deg);
+  }
+  print_difference(ours, theirs);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Angles of heaps of the exported LIGGGHTS deck against our own"};
+  std::string study;
+  std::vector<std::string> settings = {"contact.rolling_model=\"relative_constant_torque\""};
+  int seeds = 10;
+  app.add_option("study", study, "a study with a heap, all coefficients with a value")->required();
+  app.add_option("--set", settings, "of the study, in place of LIGGGHTS's rolling model");
+  app.add_option("--seeds", seeds, "heaps of each engine")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  if (!testing::has_liggghts()) {
+    fmt::print("{}\n", testing::kNoLiggghts);
+    return 1;
+  }
+  try {
+    compare(study, settings, seeds);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "heap_agreement: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
