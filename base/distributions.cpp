@@ -20,6 +20,10 @@ double fisher_f_above(double f, double df1, double df2) {
   return cdf(complement(boost::math::fisher_f(df1, df2), f));
 }
 
+double fisher_f_exceeded(double probability, double df1, double df2) {
+  return quantile(complement(boost::math::fisher_f(df1, df2), probability));
+}
+
 double chi_square_above(double x, double df) {
   return cdf(complement(boost::math::chi_squared(df), x));
 }

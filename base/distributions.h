@@ -13,6 +13,9 @@ double student_t_above(double t, double df);
 /// The probability of a variable of `df1` and `df2` > 0 degrees of freedom above f >= 0.
 double fisher_f_above(double f, double df1, double df2);
 
+/// The f that such a variable exceeds with `probability` (above 0, at most 1).
+double fisher_f_exceeded(double probability, double df1, double df2);
+
 /// The probability of a sum of `df` > 0 squared standard normal variables above x >= 0.
 double chi_square_above(double x, double df);
 

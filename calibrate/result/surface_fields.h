@@ -64,10 +64,17 @@ void fields(Io& io, Held<Io, CanonicalAxis>& axis) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, StationaryRegion>& region) {
+  io("in_box", region.is_in_box);
+  by_name(io, "ranges", io.names().factors, region.ranges);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, CanonicalForm>& form) {
   io("shape", form.shape);
   io("stationary_point", form.stationary);
   io("inside_box", form.is_inside);
+  io("stationary_region", form.region);
   io("axes", form.axes);
 }
 

@@ -120,6 +120,26 @@ std::string point_text(const calibrate::Regression& fit, const calibrate::Surfac
                      levels_text(fit, point.natural));
 }
 
+/// Of an interval; empty where no run is beyond it.
+std::string end_text(const std::optional<double>& end) {
+  return end ? fmt::format("{:.4g}", *end) : "beyond the runs";
+}
+
+/// Where the surface may be level.
+void add_region(const calibrate::Regression& fit, const calibrate::StationaryRegion& region,
+                Table& table) {
+  if (!region.is_in_box) {
+    table.add_row({"stationary", "nowhere in the range of the runs (95 %)"});
+    return;
+  }
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < fit.factors.size(); ++i) {
+    const auto& [low, high] = region.ranges[i];
+    parts.push_back(fmt::format("{} {} … {}", fit.factors[i].name, end_text(low), end_text(high)));
+  }
+  table.add_row({"stationary", fmt::format("{} (95 %)", fmt::join(parts, ", "))});
+}
+
 void add_shape(const calibrate::SurfaceReport& report, Page& page) {
   const calibrate::Regression& fit = report.fit;
   Table table({{}, {}});
@@ -136,6 +156,7 @@ void add_shape(const calibrate::SurfaceReport& report, Page& page) {
                        report.form->is_inside ? "inside" : "outside")});
     }
   }
+  if (report.form && report.form->region) add_region(fit, *report.form->region, table);
   table.add_row({"lowest in box", point_text(fit, report.extremes.least)});
   table.add_row({"highest in box", point_text(fit, report.extremes.greatest)});
   page.add_gap();
@@ -151,11 +172,6 @@ std::string range_text(const calibrate::Factor& factor,
   }
   const bool is_all = ranges.size() == 1 && ranges.front() == box;
   return fmt::format("{}{}", fmt::join(parts, " and "), is_all ? ", all of the box" : "");
-}
-
-/// Of an interval; empty where no run is beyond it.
-std::string end_text(const std::optional<double>& end) {
-  return end ? fmt::format("{:.4g}", *end) : "beyond the runs";
 }
 
 void add_target(const calibrate::SurfaceReport& report, Page& page) {

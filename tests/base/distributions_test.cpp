@@ -14,6 +14,7 @@ TEST(Distributions, GiveWhatTheTablesGive) {
   EXPECT_NEAR(student_t_above(2.228, 10), .025, 1e-4);
   EXPECT_NEAR(fisher_f_above(4.96, 1, 10), .05, 1e-4);
   EXPECT_NEAR(fisher_f_above(3.33, 5, 10), .05, 1e-3);
+  EXPECT_NEAR(fisher_f_exceeded(.05, 5, 10), 3.33, 5e-3);
   EXPECT_NEAR(chi_square_above(9.488, 4), .05, 1e-4);
   EXPECT_NEAR(chi_square_exceeded(.05, 4), 9.488, 1e-3);
 }

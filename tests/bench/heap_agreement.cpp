@@ -13,9 +13,9 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/core.h>
 
+#include "base/distributions.h"
 #include "calibrate/experiment/position_angle.h"
 #include "calibrate/export/export.h"
 #include "calibrate/statistics/summary.h"
@@ -100,16 +100,17 @@ void print_row(const std::string& name, const Heap& heap) {
 /// Welch's interval of the difference of two means.
 void print_difference(const std::vector<double>& ours, const std::vector<double>& theirs) {
   const calibrate::Summary a = calibrate::summarise(ours), b = calibrate::summarise(theirs);
-  const double va = a.sd.value_or(0) * a.sd.value_or(0) / a.n;
-  const double vb = b.sd.value_or(0) * b.sd.value_or(0) / b.n;
+  const auto mean_variance = [](const calibrate::Summary& of) {
+    return repose::base::EstimatedVariance{of.sd.value_or(0) * of.sd.value_or(0) / of.n, of.n - 1.};
+  };
   fmt::print("ours {:.2f}, sd {:.2f}; LIGGGHTS {:.2f}, sd {:.2f}, deg\n", a.mean, a.sd.value_or(0),
              b.mean, b.sd.value_or(0));
-  if (!(va + vb > 0) || a.n < 2 || b.n < 2) return;
-  const double freedom = (va + vb) * (va + vb) / (va * va / (a.n - 1) + vb * vb / (b.n - 1));
+  if (!a.sd || !b.sd) return;
+  constexpr double kUpper95 = .975;
   const double t =
-      quantile(complement(boost::math::students_t_distribution<double>(freedom), .025));
+      repose::base::student_t_quantile(kUpper95, df_of_sum(mean_variance(a), mean_variance(b)));
   fmt::print("ours less theirs {:+.2f} ± {:.2f} deg (95 %)\n", a.mean - b.mean,
-             t * std::sqrt(va + vb));
+             t * std::sqrt(mean_variance(a).variance + mean_variance(b).variance));
 }
 
 void compare(const std::string& file, const std::vector<std::string>& settings, int seeds) {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/fit/random.h"
 #include "calibrate/statistics/design/design.h"
 #include "calibrate/statistics/regress/surface.h"
 #include "tests/calibrate/hazelnut_runs.h"
@@ -93,6 +94,77 @@ TEST(CanonicalForm, NamesMinimumAndMaximum) {
   EXPECT_NEAR(low->stationary->natural[1], -.1, .02);
   const auto hill = [&](const std::vector<double>& u) { return -bowl(u); };
   EXPECT_EQ(canonical_form(fit(runs_on(kTwo, hill, .01)))->shape, SurfaceShape::maximum);
+}
+
+/// One factor on 7 levels, y = (u - .3)^2 with scatter.
+RunTable parabola(double noise) {
+  RunTable table;
+  table.name = "parabola";
+  table.factors = {{"u", -1, 1}};
+  table.response_name = "y";
+  table.levels.resize(1);
+  constexpr int kRuns = 7;
+  for (int k = 0; k < kRuns; ++k) {
+    const double u = -1 + 2. * k / (kRuns - 1);
+    table.levels[0].push_back(u);
+    table.responses.push_back(std::pow(u - .3, 2) + (k % 2 == 0 ? noise : -noise));
+  }
+  return table;
+}
+
+TEST(StationaryRegion, OfOneFactorIsThatOfARatioOfTwoNormals) {
+  // -b1 / (2 b2): Fieller's interval, where (b1 + 2 b2 x)^2 = t^2 var(b1 + 2 b2 x).
+  const Regression regression = fit(parabola(.05));
+  const auto region = stationary_region(regression);
+  ASSERT_TRUE(region && region->is_in_box);
+  const double b1 = regression.coefficients[1].value, b2 = regression.coefficients[2].value;
+  const double v1 = std::pow(regression.coefficients[1].standard_error, 2);
+  const double v2 = std::pow(regression.coefficients[2].standard_error, 2);
+  const double t2 = std::pow(regression.student_t, 2);  // b1 and b2 are independent here
+  const double a = 4 * (b2 * b2 - t2 * v2), b = 4 * b1 * b2, c = b1 * b1 - t2 * v1;
+  const double root = std::sqrt(b * b - 4 * a * c);
+  EXPECT_NEAR(region->ranges[0][0].value(), (-b - root) / (2 * a), .0041);
+  EXPECT_NEAR(region->ranges[0][1].value(), (-b + root) / (2 * a), .0041);
+  EXPECT_LE(region->ranges[0][0].value(), (-b - root) / (2 * a)) << "outwards";
+}
+
+TEST(StationaryRegion, HoldsTheTruthNineteenTimesInTwenty) {
+  calibrate::Random random(5);
+  int held = 0;
+  constexpr int kTables = 400;
+  for (int k = 0; k < kTables; ++k) {
+    RunTable table = parabola(0);
+    for (double& response : table.responses) response += .05 * random.normal();
+    const auto region = stationary_region(fit(table));
+    ASSERT_TRUE(region);
+    if (!region->is_in_box) continue;
+    const auto& [low, high] = region->ranges.front();
+    held += (!low || *low <= .3) && (!high || *high >= .3) ? 1 : 0;
+  }
+  EXPECT_NEAR(held, .95 * kTables, 13) << "three standard deviations of chance";
+}
+
+TEST(StationaryRegion, OfARidgeReachesTheEndOfTheRuns) {
+  const auto ridge = [](const std::vector<double>& u) { return std::pow(u[1] - .2, 2); };
+  const auto region = stationary_region(fit(runs_on(kTwo, ridge, .05)));
+  ASSERT_TRUE(region && region->is_in_box);
+  EXPECT_FALSE(region->ranges[0][0] || region->ranges[0][1]);
+  EXPECT_NEAR(region->ranges[1][0].value(), .1, .1);
+  EXPECT_NEAR(region->ranges[1][1].value(), .3, .1);
+}
+
+TEST(StationaryRegion, OfASlopeIsNowhere) {
+  const auto slope = [](const std::vector<double>& u) { return 5 * u[0] + u[1]; };
+  const auto region = stationary_region(fit(runs_on(kTwo, slope, .05)));
+  ASSERT_TRUE(region);
+  EXPECT_FALSE(region->is_in_box);
+  EXPECT_THAT(region->ranges, IsEmpty());
+}
+
+TEST(StationaryRegion, IsNotToldOfExactFitsAndOtherModels) {
+  const auto bowl = [](const std::vector<double>& u) { return u[0] * u[0] + u[1] * u[1]; };
+  EXPECT_FALSE(stationary_region(fit(runs_on(kTwo, bowl, 0))));
+  EXPECT_FALSE(stationary_region(regress(hazelnut_runs(), SurfaceModel::linear)));
 }
 
 TEST(CanonicalForm, OnlyQuadraticModelsHaveOne) {

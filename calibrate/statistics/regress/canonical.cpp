@@ -68,6 +68,7 @@ std::optional<CanonicalForm> canonical_form(const Regression& regression) {
     form.stationary = point_at(regression, point);
     form.is_inside = is_in_box(regression.box, point);
   }
+  form.region = stationary_region(regression);
   return form;
 }
 

@@ -29,12 +29,28 @@ struct CanonicalAxis {
 
 enum class SurfaceShape { minimum, maximum, saddle };
 
+/// Where the surface may be level, of all points of the box that the runs span.
+struct StationaryRegion {
+  bool is_in_box = false;  ///< false: of no point of it can that be said
+  /// Natural levels of each factor in the region, from a grid, outwards to its next lines. An end
+  /// is empty where the box ends first: runs beyond would be needed to find it. None without a
+  /// region.
+  std::vector<std::array<std::optional<double>, 2>> ranges;
+};
+
+/// The 95 % confidence region of the stationary point: all x with d' V^-1 d <= k F(.95; k, df), d
+/// the slopes at x by each of the k factors, V their covariance, df that of the residual. Box and
+/// Hunter (1954), Biometrika 41, 190. Quadratic models of at most four factors; none for others and
+/// for an exact fit. Proved by StationaryRegion.* in tests/calibrate/regress_surface_test.cpp.
+std::optional<StationaryRegion> stationary_region(const Regression& regression);
+
 /// A quadratic surface in its own axes: y = y_s + sum of curvature_i w_i^2.
 struct CanonicalForm {
-  std::vector<CanonicalAxis> axes;            ///< curvatures rising
-  std::optional<SurfacePoint> stationary;     ///< none if the surface has no single one
-  bool is_inside = false;                     ///< of the box
-  SurfaceShape shape = SurfaceShape::saddle;  ///< by the signs alone
+  std::vector<CanonicalAxis> axes;              ///< curvatures rising
+  std::optional<SurfacePoint> stationary;       ///< none if the surface has no single one
+  bool is_inside = false;                       ///< of the box
+  std::optional<StationaryRegion> region = {};  ///< see stationary_region()
+  SurfaceShape shape = SurfaceShape::saddle;    ///< by the signs alone
 };
 
 /// Canonical analysis: Montgomery, sec. 11.3.2. The uncertainty of a curvature v'Bv takes its
