@@ -14,12 +14,6 @@ namespace {
 /// Grains times steps between two looks at the latest: some seconds of work.
 constexpr std::int64_t kClumpStepsBetweenLooks = 1'000'000;
 
-int count_present(const Simulation& simulation) {
-  int present = 0;
-  for (int k = 0; k < simulation.grain_count(); ++k) present += simulation.is_present(k) ? 1 : 0;
-  return present;
-}
-
 /// The first multiple of `every` after `step`: where looks are does not depend on where a run was
 /// taken up again.
 std::int64_t multiple_after(std::int64_t step, std::int64_t every) {
@@ -27,6 +21,12 @@ std::int64_t multiple_after(std::int64_t step, std::int64_t every) {
 }
 
 }  // namespace
+
+int count_present(const Simulation& simulation) {
+  int present = 0;
+  for (int k = 0; k < simulation.grain_count(); ++k) present += simulation.is_present(k) ? 1 : 0;
+  return present;
+}
 
 ExperimentRun::ExperimentRun(Simulation simulation, const Observers& observers,
                              HeapProgress progress)

@@ -8,6 +8,9 @@
 
 namespace repose::dem {
 
+/// Grains that are still in the simulation.
+int count_present(const Simulation& simulation);
+
 /// Who is told what on the way.
 struct Observers {
   const ProgressReport& report;

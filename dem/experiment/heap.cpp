@@ -92,12 +92,6 @@ void check(const Model& model, const HeapProtocol& protocol) {
   errors.throw_if_any();
 }
 
-int count_present(const Simulation& simulation) {
-  int present = 0;
-  for (int k = 0; k < simulation.grain_count(); ++k) present += simulation.is_present(k) ? 1 : 0;
-  return present;
-}
-
 /// Highest point of all grains, m; 0 without grains.
 double highest_point_m(const ExperimentRun& run) {
   double highest = 0;
