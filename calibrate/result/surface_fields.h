@@ -66,7 +66,9 @@ void fields(Io& io, Held<Io, CanonicalAxis>& axis) {
 template <typename Io>
 void fields(Io& io, Held<Io, StationaryRegion>& region) {
   io("in_box", region.is_in_box);
-  by_name(io, "ranges", io.names().factors, region.ranges);
+  if (io.has("ranges", region.is_in_box)) {
+    by_name(io, "ranges", io.names().factors, region.ranges);
+  }
 }
 
 template <typename Io>

@@ -53,6 +53,20 @@ TEST(Result, NumbersThatDoNotExistAreNull) {
   EXPECT_EQ(to_json(read), text);
 }
 
+TEST(Result, OfASurfaceThatIsNowhereLevelComesBack) {
+  StudyResult result = test::joint_result();
+  int changed = 0;
+  for (ObservableSurface& observable : joint_in(result).regressions) {
+    if (!observable.regression) continue;
+    observable.regression->canonical->region = StationaryRegion{};
+    ++changed;
+  }
+  ASSERT_GT(changed, 0);
+  const std::string text = to_json(result);
+  EXPECT_THAT(text, HasSubstr("\"in_box\": false"));
+  EXPECT_TRUE(result_from_json(text, kName) == result);
+}
+
 TEST(Result, NamesNeedNotBeUtf8) {
   StudyResult result = test::joint_result();
   result.provenance.study.file = "n\xFCsse.toml";

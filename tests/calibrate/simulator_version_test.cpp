@@ -56,6 +56,7 @@ places = 2
 [experiment.fill]
 tube_diameter_mm = 95
 tube_height_mm = 95
+taps = 1
 [experiment.pendulum]
 pairs = 2
 [experiment.draw_down]
