@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/support/heap_scene.h"
+#include "vision/picture/picture.h"
+
+/// Films of heaps that grow and come to rest, drawn with their angle known.
+namespace repose::testing {
+
+struct DrawnHeapFilm {
+  /// Of the heap at rest. Its own noise is left out: each frame has another.
+  HeapScene scene;
+  double frames_per_s = 25;
+  double grows_s = .8;     ///< from half of its size on, with grains falling
+  double rests_s = 1.2;    ///< behind that
+  double hand_s = 0;       ///< behind that a hand comes in from the right
+  double noise = 6;        ///< standard deviation of a grey level
+  double flicker = 0;      ///< of the light, by this part of it, in bands across the picture
+  bool has_timer = false;  ///< tenths of a second in a corner
+
+  int frames() const;
+  double time_s(int frame) const { return frame / frames_per_s; }
+  /// All frames; the angle is that of heap_truth(scene).
+  std::vector<vision::Picture> pictures() const;
+};
+
+/// A scene in which a film of few pixels can be measured.
+HeapScene small_heap(std::uint64_t seed = 1);
+
+}  // namespace repose::testing
