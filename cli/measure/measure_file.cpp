@@ -31,7 +31,7 @@ std::string title_of(const fs::path& file, const MeasuredPicture& measured) {
   if (measured.filmed->time_s) return fmt::format("{} at {:.2f} s", name, *measured.filmed->time_s);
   const auto& stretch = measured.filmed->stretch;
   if (!stretch) return name;
-  return fmt::format("{} from {:.2f} to {:.2f} s", name, stretch->from_s, stretch->to_s);
+  return fmt::format("{} at rest from {:.2f} to {:.2f} s", name, stretch->from_s, stretch->to_s);
 }
 
 vision::OverlayNotes notes_for(const fs::path& file, const MeasuredPicture& measured) {

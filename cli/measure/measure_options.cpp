@@ -70,8 +70,8 @@ void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
 
 /// Only films have frames.
 void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
-  plan.every_s = read_positive({"--every", arguments.every, plan.errors},
-                               "a time in seconds above 0", "--every 0.1");
+  plan.every_s =
+      read_positive({"--every", arguments.every, plan.errors}, "a time in seconds", "--every 0.1");
   if (!plan.every_s ||
       std::any_of(plan.pictures.begin(), plan.pictures.end(), vision::has_film_ending)) {
     return;

@@ -87,7 +87,7 @@ std::string film_text(const FilmedPicture& filmed) {
 void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
   const vision::ReposeAngle& angle = picture.angle;
   table.add_row(
-      {fmt::format("{}{:8.2f} s", kBelow, *picture.filmed->time_s),
+      {fmt::format("{:7.2f} s", *picture.filmed->time_s),
        angle_cell(angle.angle_rad, angle.uncertainty_rad), flank_cell(angle.left, angle.status),
        flank_cell(angle.right, angle.status),
        angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,

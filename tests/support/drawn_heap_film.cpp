@@ -45,7 +45,9 @@ Layers layers_of(HeapScene scene) {
 
 /// The heap reduced towards the middle of its foot.
 cv::Mat grown(const Layers& layers, double size) {
+  constexpr double kNothing = .05;
   if (size >= 1) return layers.full.clone();
+  if (size < kNothing) return layers.empty.clone();
   const cv::Matx23d shrink(size, 0, (1 - size) * layers.foot.x, 0, size,
                            (1 - size) * layers.foot.y);
   cv::Mat heap, part, frame = layers.empty.clone();
@@ -95,7 +97,8 @@ std::vector<vision::Picture> DrawnHeapFilm::pictures() const {
   std::vector<vision::Picture> frames_drawn;
   for (int number = 0; number < frames(); ++number) {
     const double now_s = time_s(number);
-    cv::Mat frame = grown(layers, grows_s > 0 ? .5 + .5 * now_s / grows_s : 1);
+    cv::Mat frame =
+        grown(layers, grows_s > 0 ? grows_from + (1 - grows_from) * now_s / grows_s : 1);
     if (now_s < grows_s) draw_stream(frame, layers.foot, number);
     if (has_timer) draw_timer(frame, now_s);
     const double hand = now_s - grows_s - rests_s;

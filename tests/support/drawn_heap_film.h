@@ -11,8 +11,9 @@ namespace repose::testing {
 struct DrawnHeapFilm {
   /// Of the heap at rest. Its own noise is left out: each frame has another.
   HeapScene scene;
-  double frames_per_s = 25;
-  double grows_s = .8;     ///< from half of its size on, with grains falling
+  double frames_per_s = 12;
+  double grows_s = .5;     ///< with grains falling
+  double grows_from = .5;  ///< of its size; 0: nothing is there at first
   double rests_s = 1.2;    ///< behind that
   double hand_s = 0;       ///< behind that a hand comes in from the right
   double noise = 6;        ///< standard deviation of a grey level

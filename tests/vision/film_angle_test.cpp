@@ -63,7 +63,7 @@ void expect_truth(const FilmAngle& film, const DrawnHeapFilm& drawn) {
 auto has_warning(const char* code) { return Contains(Field(&Warning::code, code)); }
 
 TEST_F(FilmAngleOf, AHeapThatCameToRestIsThatOfItsLastSecond) {
-  const DrawnHeapFilm drawn{.scene = small_heap()};
+  const DrawnHeapFilm drawn{.scene = small_heap(), .noise = 20};
   const std::vector<Picture> frames = drawn.pictures();
   const FilmAngle film = measure_film(write(frames, drawn.frames_per_s));
   expect_truth(film, drawn);
@@ -75,23 +75,22 @@ TEST_F(FilmAngleOf, AHeapThatCameToRestIsThatOfItsLastSecond) {
   EXPECT_EQ(film.film.frames, drawn.frames());
   EXPECT_NEAR(film.film.frames_per_s, drawn.frames_per_s, .01);
   const ReposeAngle single = measure_repose_angle(frames.back());
-  constexpr double kAsNear_deg = .02;
-  EXPECT_LT(error_deg(film.angle, drawn), error_deg(single, drawn) + kAsNear_deg)
-      << "the mean of many frames is at least as near as one of them";
+  EXPECT_LT(error_deg(film.angle, drawn), error_deg(single, drawn))
+      << "the mean of many frames is nearer than one of them";
 }
 
 TEST_F(FilmAngleOf, ASceneWithFlickerATimerAndAHandAtTheEndIsThatBeforeTheHand) {
   const DrawnHeapFilm drawn{
-      .scene = small_heap(2), .hand_s = .4, .flicker = .04, .has_timer = true};
+      .scene = small_heap(4), .hand_s = .4, .flicker = .04, .has_timer = true};
   const FilmAngle film = measured(drawn);
   expect_truth(film, drawn);
   ASSERT_TRUE(film.stretch);
-  EXPECT_NEAR(film.stretch->to_s, drawn.grows_s + drawn.rests_s, .15);
+  EXPECT_NEAR(film.stretch->to_s, drawn.grows_s + drawn.rests_s, .17);
   EXPECT_THAT(film.angle.warnings, AllOf(has_warning("moves_after"), has_warning("writing")));
 }
 
 TEST_F(FilmAngleOf, AHeapThatNeverRestsIsRefusedWithWhereItMoves) {
-  const FilmAngle film = measured({.scene = small_heap(), .grows_s = 1.5, .rests_s = 0});
+  const FilmAngle film = measured({.scene = small_heap(), .grows_s = 1, .rests_s = 0});
   EXPECT_FALSE(film.angle.angle_rad);
   EXPECT_FALSE(film.stretch);
   EXPECT_FALSE(film.picture.empty()) << "it is shown why";
@@ -107,15 +106,15 @@ TEST_F(FilmAngleOf, AHeapThatRestsAndThenGrowsOnIsRefused) {
   bigger.form.base *= 1.2;
   bigger.form.grains_high *= 1.2;
   for (const Picture& frame :
-       DrawnHeapFilm{.scene = bigger, .grows_s = 0, .rests_s = .3}.pictures()) {
+       DrawnHeapFilm{.scene = bigger, .grows_s = 0, .rests_s = .4}.pictures()) {
     frames.push_back(frame);
   }
-  const FilmAngle film = measure_film(write(frames, 25));
+  const FilmAngle film = measure_film(write(frames, 12));
   EXPECT_THAT(film.angle.reason, HasSubstr("the film's end still moves: after a rest until"));
 }
 
 TEST_F(FilmAngleOf, AShortFilmAtRestIsMeasuredAndFlagged) {
-  const DrawnHeapFilm drawn{.scene = small_heap(3), .grows_s = 0, .rests_s = .7};
+  const DrawnHeapFilm drawn{.scene = small_heap(4), .grows_s = 0, .rests_s = .75};
   const FilmAngle film = measured(drawn);
   expect_truth(film, drawn);
   EXPECT_EQ(film.angle.status, MeasureStatus::flagged);
@@ -130,7 +129,7 @@ TEST_F(FilmAngleOf, AFilmOfFewFramesOrFewASecondIsRefused) {
 }
 
 TEST_F(FilmAngleOf, NoiseIsRefused) {
-  std::vector<Picture> frames(20, Picture{.width = 160, .height = 120, .bgr = {}});
+  std::vector<Picture> frames(12, Picture{.width = 160, .height = 120, .bgr = {}});
   std::minstd_rand random(5);
   for (Picture& frame : frames) {
     for (int k = 0; k < 3 * frame.width * frame.height; ++k) {
@@ -143,7 +142,7 @@ TEST_F(FilmAngleOf, NoiseIsRefused) {
 }
 
 TEST_F(FilmAngleOf, WhatMovesInAnExcludedBoxIsNoMovement) {
-  DrawnHeapFilm drawn{.scene = small_heap(), .grows_s = 0, .rests_s = 0, .hand_s = .8};
+  DrawnHeapFilm drawn{.scene = small_heap(), .grows_s = 0, .rests_s = 0, .hand_s = .9};
   EXPECT_FALSE(measured(drawn).stretch);
   MeasureOptions options;
   options.excluded = {{.x = 250, .y = 90, .width = 230, .height = 110}};
@@ -152,7 +151,7 @@ TEST_F(FilmAngleOf, WhatMovesInAnExcludedBoxIsNoMovement) {
 
 TEST_F(FilmAngleOf, UnevenTimeStampsAreUsedAndSaid) {
   const DrawnHeapFilm drawn{
-      .scene = small_heap(), .frames_per_s = 20, .grows_s = 0, .rests_s = 1, .noise = 1};
+      .scene = small_heap(), .frames_per_s = 20, .grows_s = 0, .rests_s = .7, .noise = 1};
   const auto file = write(drawn.pictures(), drawn.frames_per_s, "heap.gif");
   std::string bytes = repose::testing::text_of(file);
   const std::string extension("\x21\xF9\x04", 3);
@@ -167,14 +166,14 @@ TEST_F(FilmAngleOf, UnevenTimeStampsAreUsedAndSaid) {
   const FilmAngle film = measure_film(file);
   EXPECT_THAT(film.angle.warnings, has_warning("variable_rate"));
   ASSERT_TRUE(film.stretch);
-  EXPECT_NEAR(film.film.length_s, 19 * .05, .03);
+  EXPECT_NEAR(film.film.length_s, 13 * .05, .03);
 }
 
 TEST_F(FilmAngleOf, AFileThatIsEmptyOrCutOffIsSaid) {
   folder_.write("empty.mp4", std::string());
   EXPECT_THAT(error_of([&] { measure_film(folder_.path() / "empty.mp4"); }),
               HasSubstr("empty.mp4: is empty or cannot be read. Fix: "));
-  const DrawnHeapFilm drawn{.scene = small_heap(), .grows_s = 0, .rests_s = .6};
+  const DrawnHeapFilm drawn{.scene = small_heap(), .grows_s = 0, .rests_s = .2};
   const auto file = write(drawn.pictures(), drawn.frames_per_s);
   const std::string bytes = repose::testing::text_of(file);
   folder_.write("cut.mp4", bytes.substr(0, bytes.size() / 2));

@@ -59,9 +59,9 @@ bool warn_of_rest(const FilmSurvey& survey, const FilmStretch& stretch, const cv
   if (rest_s < kShort * RestFinder::kWhole_s) {
     warnings.push_back(
         {.code = "short_rest",
-         .message = fmt::format("only {:.2f} s at rest are seen: whether the heap has stopped "
-                                "growing is not sure. Fix: film at least 1 s after the last grain "
-                                "has stopped",
+         .message = fmt::format("Only {:.2f} s at rest are seen: whether the heap has stopped "
+                                "growing is not sure. Film at least 1 s after the last grain "
+                                "has stopped.",
                                 rest_s)});
     is_doubtful = true;
   }
@@ -69,8 +69,8 @@ bool warn_of_rest(const FilmSurvey& survey, const FilmStretch& stretch, const cv
   if (after_s > kStill_s) {
     warnings.push_back(
         {.code = "moves_after",
-         .message = fmt::format("something comes into the picture {:.2f} s before the film's end: "
-                                "the heap before that was measured",
+         .message = fmt::format("Something comes into the picture {:.2f} s before the film's end: "
+                                "the heap before that was measured.",
                                 after_s)});
   }
   if (!writing.empty() && cv::countNonZero(writing) > 0) {
@@ -79,8 +79,8 @@ bool warn_of_rest(const FilmSurvey& survey, const FilmStretch& stretch, const cv
                           1. * box.width / writing.cols, 1. * box.height / writing.rows);
     warnings.push_back(
         {.code = "writing",
-         .message = fmt::format("what changes all through the film within {}, like a timer, was "
-                                "taken for writing and not for movement",
+         .message = fmt::format("What changes all through the film within {}, like a timer, was "
+                                "taken for writing and not for movement.",
                                 box_text(part, survey.size))});
   }
   return is_doubtful;

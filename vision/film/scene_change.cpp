@@ -11,6 +11,7 @@ namespace repose::vision {
 namespace {
 
 constexpr int kLookWidth_px = 160;
+constexpr double kBlur_px = .8;
 constexpr double kDark = 8;  ///< grey levels; of less, a ratio says nothing
 
 double median_of(std::vector<double>& values) {
@@ -143,11 +144,12 @@ cv::Mat reduced_look(const cv::Mat& frame) {
   cv::Mat small, look;
   cv::resize(frame, small, {}, scale, scale, cv::INTER_AREA);
   small.convertTo(look, CV_32FC3);
+  cv::GaussianBlur(look, look, {3, 3}, kBlur_px);
   return look;
 }
 
 cv::Mat changed_places(const cv::Mat& look, const cv::Mat& earlier) {
-  constexpr double kClearly = 6, kLeast = 6, kMost = 24;  // times the noise; grey levels
+  constexpr double kClearly = 6, kLeast = 6, kMost = 30;  // times the noise; grey levels
   constexpr double kShiver_px = .3;
   const cv::Mat difference = difference_of(look, earlier);
   const double allowed = std::clamp(kClearly * noise_in(difference), kLeast, kMost);
