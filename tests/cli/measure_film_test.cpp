@@ -35,6 +35,7 @@ struct MeasureFilms : CommandTest {
 TEST_F(MeasureFilms, AFilmIsMeasuredAtRestWhereverAPictureIs) {
   draw("heap.mp4");
   vision::write_picture(path("photo.png"), frames().back());
+  folder_.write("heap.mp4.repose.toml", std::string("exclude = [[0, 0, 60, 30]]\n"));
   const Finished done = run({"heap.mp4", "photo.png", "--overlay", "drawn", "--csv", "a.csv",
                              "--json", "a.json", "--report", "a.html"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -51,15 +52,8 @@ TEST_F(MeasureFilms, AFilmIsMeasuredAtRestWhereverAPictureIs) {
   EXPECT_NEAR(results[0]["stretch"]["from_s"].get<double>(), .6, .1);
   EXPECT_NEAR(results[0]["stretch"]["to_s"].get<double>(), 1.53, .1);
   EXPECT_GT(results[0]["stretch"]["frames"].get<int>(), 9);
+  EXPECT_EQ(results[0]["hints"]["file"], "heap.mp4.repose.toml");
   for (const char* key : {"film", "stretch", "time_s"}) EXPECT_EQ(results[1][key], nullptr) << key;
-}
-
-TEST_F(MeasureFilms, HintsBesideAFilmAreOfItsPictures) {
-  draw("heap.mp4");
-  ASSERT_EQ(run({"heap.mp4", "--exclude", "0,0,60,30", "--save-hints"}).exit_code, 0);
-  const json again = result({"heap.mp4"})[0];
-  EXPECT_EQ(again["hints"]["file"], "heap.mp4.repose.toml");
-  EXPECT_EQ(again["excluded"], json::array({{0, 0, 60, 30}}));
 }
 
 TEST_F(MeasureFilms, EveryGivesTheAngleOverTimeAtAnyNumberOfThreads) {
@@ -85,7 +79,7 @@ TEST_F(MeasureFilms, EveryGivesTheAngleOverTimeAtAnyNumberOfThreads) {
 }
 
 TEST_F(MeasureFilms, EveryNeedsAFilmAndAStepThatFitsIt) {
-  draw("heap.mp4", frames().size() - 12);
+  draw("heap.mp4", frames().size() - 8);
   vision::write_picture(path("photo.png"), frames().back());
   const Finished pictures = run({"photo.png", "--every", "0.1"});
   EXPECT_EQ(pictures.exit_code, 2);

@@ -110,11 +110,11 @@ std::vector<vision::Picture> DrawnHeapFilm::pictures() const {
   return frames_drawn;
 }
 
-HeapScene small_heap(std::uint64_t seed) {
+HeapScene small_heap(std::uint64_t seed, int width) {
   HeapScene scene;
   scene.seed = seed;
-  scene.width = 480;
-  scene.height = 320;
+  scene.width = width;
+  scene.height = width / 3 * 2;
   return scene;
 }
 

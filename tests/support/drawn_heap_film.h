@@ -16,7 +16,7 @@ struct DrawnHeapFilm {
   double grows_from = .5;  ///< of its size; 0: nothing is there at first
   double rests_s = 1.2;    ///< behind that
   double hand_s = 0;       ///< behind that a hand comes in from the right
-  double noise = 6;        ///< standard deviation of a grey level
+  double noise = 3;        ///< standard deviation of a grey level
   double flicker = 0;      ///< of the light, by this part of it, in bands across the picture
   bool has_timer = false;  ///< tenths of a second in a corner
 
@@ -26,7 +26,7 @@ struct DrawnHeapFilm {
   std::vector<vision::Picture> pictures() const;
 };
 
-/// A scene in which a film of few pixels can be measured.
-HeapScene small_heap(std::uint64_t seed = 1);
+/// A scene whose film has few pixels, by default as many as an angle needs.
+HeapScene small_heap(std::uint64_t seed = 1, int width = 480);
 
 }  // namespace repose::testing

@@ -90,7 +90,7 @@ TEST_F(FilmAngleOf, ASceneWithFlickerATimerAndAHandAtTheEndIsThatBeforeTheHand) 
 }
 
 TEST_F(FilmAngleOf, AHeapThatNeverRestsIsRefusedWithWhereItMoves) {
-  const FilmAngle film = measured({.scene = small_heap(), .grows_s = 1, .rests_s = 0});
+  const FilmAngle film = measured({.scene = small_heap(1, 240), .grows_s = 1, .rests_s = 0});
   EXPECT_FALSE(film.angle.angle_rad);
   EXPECT_FALSE(film.stretch);
   EXPECT_FALSE(film.picture.empty()) << "it is shown why";
@@ -101,8 +101,8 @@ TEST_F(FilmAngleOf, AHeapThatNeverRestsIsRefusedWithWhereItMoves) {
 
 TEST_F(FilmAngleOf, AHeapThatRestsAndThenGrowsOnIsRefused) {
   std::vector<Picture> frames =
-      DrawnHeapFilm{.scene = small_heap(), .grows_s = 0, .rests_s = 1}.pictures();
-  auto bigger = small_heap();
+      DrawnHeapFilm{.scene = small_heap(1, 240), .grows_s = 0, .rests_s = 1}.pictures();
+  auto bigger = small_heap(1, 240);
   bigger.form.base *= 1.2;
   bigger.form.grains_high *= 1.2;
   for (const Picture& frame :
@@ -122,7 +122,7 @@ TEST_F(FilmAngleOf, AShortFilmAtRestIsMeasuredAndFlagged) {
 }
 
 TEST_F(FilmAngleOf, AFilmOfFewFramesOrFewASecondIsRefused) {
-  const Picture heap = draw_heap(small_heap()).picture;
+  const Picture heap = draw_heap(small_heap(1, 240)).picture;
   EXPECT_THAT(measure_film(write({heap}, 25)).angle.reason, HasSubstr("Rule: 8 or more"));
   EXPECT_THAT(measure_film(write(std::vector(9, heap), 2)).angle.reason,
               HasSubstr("the film has 2 frames per second. Rule: 4 or more. Fix: "));
@@ -142,16 +142,16 @@ TEST_F(FilmAngleOf, NoiseIsRefused) {
 }
 
 TEST_F(FilmAngleOf, WhatMovesInAnExcludedBoxIsNoMovement) {
-  DrawnHeapFilm drawn{.scene = small_heap(), .grows_s = 0, .rests_s = 0, .hand_s = .9};
+  const DrawnHeapFilm drawn{.scene = small_heap(1, 240), .grows_s = 0, .rests_s = 0, .hand_s = .9};
   EXPECT_FALSE(measured(drawn).stretch);
   MeasureOptions options;
-  options.excluded = {{.x = 250, .y = 90, .width = 230, .height = 110}};
+  options.excluded = {{.x = 125, .y = 45, .width = 115, .height = 55}};
   EXPECT_TRUE(measured(drawn, options).stretch);
 }
 
 TEST_F(FilmAngleOf, UnevenTimeStampsAreUsedAndSaid) {
   const DrawnHeapFilm drawn{
-      .scene = small_heap(), .frames_per_s = 20, .grows_s = 0, .rests_s = .7, .noise = 1};
+      .scene = small_heap(1, 240), .frames_per_s = 20, .grows_s = 0, .rests_s = .7, .noise = 1};
   const auto file = write(drawn.pictures(), drawn.frames_per_s, "heap.gif");
   std::string bytes = repose::testing::text_of(file);
   const std::string extension("\x21\xF9\x04", 3);
@@ -173,7 +173,7 @@ TEST_F(FilmAngleOf, AFileThatIsEmptyOrCutOffIsSaid) {
   folder_.write("empty.mp4", std::string());
   EXPECT_THAT(error_of([&] { measure_film(folder_.path() / "empty.mp4"); }),
               HasSubstr("empty.mp4: is empty or cannot be read. Fix: "));
-  const DrawnHeapFilm drawn{.scene = small_heap(), .grows_s = 0, .rests_s = .2};
+  const DrawnHeapFilm drawn{.scene = small_heap(1, 240), .grows_s = 0, .rests_s = .2};
   const auto file = write(drawn.pictures(), drawn.frames_per_s);
   const std::string bytes = repose::testing::text_of(file);
   folder_.write("cut.mp4", bytes.substr(0, bytes.size() / 2));
