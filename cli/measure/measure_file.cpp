@@ -133,10 +133,10 @@ struct Frame {
 MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
                               const MeasuredPicture& rest, const vision::TimedPicture& timed) {
   const vision::FilmStretch stretch{.from_s = timed.time_s, .to_s = timed.time_s, .frames = 1};
-  MeasuredPicture measured{
-      .file = rest.file,
-      .filmed =
-          FilmedPicture{.film = rest.filmed->film, .stretch = stretch, .time_s = timed.time_s}};
+  MeasuredPicture measured;
+  measured.file = rest.file;
+  measured.filmed =
+      FilmedPicture{.film = rest.filmed->film, .stretch = stretch, .time_s = timed.time_s};
   attempt(measured, [&] {
     measured.used = rest.used;
     measured.angle = vision::measure_repose_angle(timed.picture, measured.used);
