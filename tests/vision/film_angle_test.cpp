@@ -1,6 +1,8 @@
 #include "vision/film/film_angle.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -119,6 +121,26 @@ TEST_F(FilmAngleOf, AShortFilmAtRestIsMeasuredAndFlagged) {
   expect_truth(film, drawn);
   EXPECT_EQ(film.angle.status, MeasureStatus::flagged);
   EXPECT_THAT(film.angle.warnings, has_warning("short_rest"));
+}
+
+/// What a camera of the picture's size sees so far to the left.
+Picture moved(const Picture& picture, int left_px) {
+  Picture seen = picture;
+  const auto from = static_cast<std::ptrdiff_t>(3 * left_px);
+  std::rotate(seen.bgr.begin(), seen.bgr.begin() + from, seen.bgr.end());
+  return seen;
+}
+
+TEST_F(FilmAngleOf, ACutAndACameraThatMovesAreNamed) {
+  const Picture heap = draw_heap(small_heap(1, 240)).picture;
+  std::vector<Picture> shaken, cut(8, heap);
+  for (int frame = 0; frame < 12; ++frame) shaken.push_back(moved(heap, 2 * frame));
+  EXPECT_THAT(measure_film(write(shaken, 12)).angle.reason, HasSubstr("the camera moves"));
+  Picture other = heap;
+  for (std::uint8_t& byte : other.bgr) byte = static_cast<std::uint8_t>(255 - byte);
+  cut.insert(cut.end(), 8, other);
+  EXPECT_THAT(measure_film(write(cut, 12)).angle.reason,
+              HasSubstr("another scene begins with frame 9. Rule: one shot."));
 }
 
 TEST_F(FilmAngleOf, AFilmOfFewFramesOrFewASecondIsRefused) {
