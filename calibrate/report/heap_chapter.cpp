@@ -20,6 +20,7 @@
 #include "vision/compare/heap_comparison.h"
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/drawing/overlay.h"
+#include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
 
 namespace repose::calibrate::report {
@@ -30,7 +31,7 @@ constexpr std::array kViews_deg = {0.0, 60.0, 120.0};
 constexpr double kNothing_deg = 360;        // farther off than any angle
 constexpr std::size_t kFewPhotographs = 6;  // that fit on half a page
 
-/// A picture and what was measured in it.
+/// A picture, or a film's heap at rest, and what was measured in it.
 struct MeasuredHeap {
   std::string title;
   vision::Picture picture;
@@ -73,9 +74,16 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
                                                 std::vector<std::string>& remarks) {
   const std::string name = shortened(picture.file.filename().string());
   try {
-    MeasuredHeap heap{.title = name, .picture = vision::read_picture(picture.file), .angle = {}};
-    heap.angle =
-        vision::measure_repose_angle(heap.picture, vision::with_saved_hints({}, picture.file));
+    MeasuredHeap heap{.title = name, .picture = {}, .angle = {}};
+    const vision::MeasureOptions options = vision::with_saved_hints({}, picture.file);
+    if (vision::has_film_ending(picture.file)) {
+      vision::FilmAngle film = vision::measure_film(picture.file, options);
+      heap.picture = std::move(film.picture);
+      heap.angle = std::move(film.angle);
+    } else {
+      heap.picture = vision::read_picture(picture.file);
+      heap.angle = vision::measure_repose_angle(heap.picture, options);
+    }
     constexpr double kSame_deg = 0.01;
     const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;
     if (picture.angle_deg && std::abs(now_deg - *picture.angle_deg) > kSame_deg) {

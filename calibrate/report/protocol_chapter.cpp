@@ -113,7 +113,8 @@ std::string measured_text(const StudyRecord& record, const dem::ExperimentEntry&
                           const dem::Measured& measured) {
   const std::size_t pictures = entry.is_pictured ? record.pictures.size() : 0;
   if (pictures > 0) {
-    return fmt::format("{} photograph{} of heaps", pictures, pictures == 1 ? "" : "s");
+    const char* kind = measured.videos.empty() ? "photograph" : "film";
+    return fmt::format("{} {}{} of heaps", pictures, kind, pictures == 1 ? "" : "s");
   }
   if (!measured.videos.empty()) return films_text(record, entry.name);
   if (!measured.values.empty()) {

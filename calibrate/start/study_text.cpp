@@ -140,7 +140,8 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
   }
   if (entry.is_pictured) {
     text += toml_comment(fmt::format(
-        "To use photographs instead of a sheet, put them into a folder and name it here:\n"
+        "To use photographs or films instead of a sheet, put them into a folder and name it "
+        "here:\n"
         "measured = {{ pictures = [{}] }}",
         toml_text(folder + "/photos")));
   }

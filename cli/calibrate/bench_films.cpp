@@ -111,8 +111,10 @@ void read_films_of(const dem::ExperimentEntry& entry, const dem::StudyExperiment
 
 void read_films(CalibratePlan& plan) {
   for (const auto& [experiment, described] : plan.record.study.experiments) {
-    if (described.measured.videos.empty()) continue;
-    read_films_of(dem::entry_of(experiment), described, plan);
+    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    // Those of heaps are measured as pictures are.
+    if (described.measured.videos.empty() || entry.is_pictured) continue;
+    read_films_of(entry, described, plan);
   }
 }
 

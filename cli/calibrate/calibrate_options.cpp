@@ -17,6 +17,7 @@
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
+#include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/measure/status_name.h"
@@ -42,8 +43,11 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
 }
 
 calibrate::PictureReading reading_of(const std::filesystem::path& file) {
+  const vision::MeasureOptions options = vision::with_saved_hints({}, file);
   const vision::ReposeAngle angle =
-      vision::measure_repose_angle(vision::read_picture(file), vision::with_saved_hints({}, file));
+      vision::has_film_ending(file)
+          ? vision::measure_film(file, options).angle
+          : vision::measure_repose_angle(vision::read_picture(file), options);
   calibrate::PictureReading reading{.file = std::filesystem::absolute(file),
                                     .status = name_of(angle.status),
                                     .angle_deg = {},
@@ -60,12 +64,19 @@ std::string note_on(const calibrate::PictureReading& picture) {
              : fmt::format("{}: refused, left out: {}", picture.file.string(), picture.reason);
 }
 
-/// Photographs of the bench's heaps: each gives a reading, or it is said why it gives none.
-void measure_pictures(const std::vector<std::filesystem::path>& pictures, CalibratePlan& plan) {
-  if (pictures.empty()) return;
+std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> names;
-  for (const std::filesystem::path& picture : pictures) names.push_back(picture.string());
-  const FileList list = list_pictures(names);
+  for (const std::filesystem::path& file : files) names.push_back(file.string());
+  return names;
+}
+
+/// Photographs and films of the bench's heaps: each gives a reading, or it is said why it gives
+/// none.
+void measure_heaps(const dem::Measured& measured, CalibratePlan& plan) {
+  if (measured.pictures.empty() && measured.videos.empty()) return;
+  const FileList list = measured.videos.empty()
+                            ? list_pictures_and_films(names_of(measured.pictures))
+                            : list_films(names_of(measured.videos));
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
   bool any = false;
@@ -78,10 +89,11 @@ void measure_pictures(const std::vector<std::filesystem::path>& pictures, Calibr
     });
   }
   if (plan.errors.empty() && !any) {
-    plan.errors.push_back(fmt::format(
-        "{}: none of the {} pictures of the heap could be measured. Fix: check them with repose "
-        "measure --overlay, or give the angles as values.",
-        plan.record.study.file.string(), list.files.size()));
+    plan.errors.push_back(
+        fmt::format("{}: none of the {} pictures and films of the heap could be measured. Fix: "
+                    "check them with repose "
+                    "measure --overlay, or give the angles as values.",
+                    plan.record.study.file.string(), list.files.size()));
   }
 }
 
@@ -153,7 +165,7 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   check_places(plan);
   attempt(plan.errors,
           [&] { plan.record.sheets = calibrate::read_sheets(plan.record.study, no_rows); });
-  measure_pictures(dem::measured_in(plan.record.study, dem::Experiment::heap).pictures, plan);
+  measure_heaps(dem::measured_in(plan.record.study, dem::Experiment::heap), plan);
   read_films(plan);
   if (!plan.errors.empty()) return plan;
   plan.study = plan.record.study;

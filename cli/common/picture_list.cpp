@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/file_pattern.h"
+#include "vision/film/film_angle.h"
 #include "vision/picture/made_here.h"
 
 namespace repose::cli {
@@ -18,12 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pictures or films.
+/// Pictures, or films, or both.
 struct FileKind {
-  std::string_view name;                      ///< "pictures"
-  std::string_view done;                      ///< to one: "measured"
-  std::string_view usual;                     ///< ".jpg, .png, .tif, .bmp or .webp"
-  std::span<const std::string_view> endings;  ///< all, small
+  std::string_view name;                        ///< "pictures"
+  std::string_view done;                        ///< to one: "measured"
+  std::string_view usual;                       ///< ".jpg, .png, .tif, .bmp or .webp"
+  std::span<const std::string_view> endings;    ///< all, small
+  std::span<const std::string_view> more = {};  ///< likewise
 };
 
 constexpr std::array<std::string_view, 8> kPictureEndings{".jpg",  ".jpeg", ".png",  ".tif",
@@ -32,18 +34,25 @@ constexpr FileKind kPictures{.name = "pictures",
                              .done = "measured",
                              .usual = ".jpg, .png, .tif, .bmp or .webp",
                              .endings = kPictureEndings};
-constexpr std::array<std::string_view, 7> kFilmEndings{".mp4", ".m4v",  ".mov", ".avi",
-                                                       ".mkv", ".webm", ".gif"};
 constexpr FileKind kFilms{.name = "films",
                           .done = "tracked",
                           .usual = ".mp4, .mov, .avi, .mkv, .webm or .gif",
-                          .endings = kFilmEndings};
+                          .endings = vision::kFilmEndings};
+
+constexpr FileKind kBoth{.name = "pictures or films",
+                         .done = "measured",
+                         .usual = ".jpg, .png, .tif, .bmp, .webp, .mp4, .mov or .avi",
+                         .endings = kPictureEndings,
+                         .more = vision::kFilmEndings};
 
 bool has_ending(const fs::path& file, const FileKind& kind) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return std::find(kind.endings.begin(), kind.endings.end(), ending) != kind.endings.end();
+  const auto has = [&](const auto& endings) {
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  };
+  return has(kind.endings) || has(kind.more);
 }
 
 /// Adds the files of a folder whose names are as wanted, sorted.
@@ -70,7 +79,26 @@ void add_files(const fs::path& named, const fs::path& folder, const Wanted& is_w
   list.files.insert(list.files.end(), found.begin(), found.end());
 }
 
+/// Of what a folder has given, from `first` on.
+void drop_films_of_pictures(std::size_t first, FileList& list) {
+  const auto begin = list.files.begin() + static_cast<std::ptrdiff_t>(first);
+  std::set<fs::path> pictures;
+  for (auto file = begin; file != list.files.end(); ++file) {
+    if (has_ending(*file, kPictures)) pictures.insert(file->stem());
+  }
+  const auto is_taken_along = [&](const fs::path& file) {
+    if (!vision::has_film_ending(file) || !pictures.contains(file.stem())) return false;
+    list.notes.push_back(
+        fmt::format("{}: left out, since a picture has its name, as where a telephone takes both "
+                    "at once; name it to have it measured too",
+                    file.string()));
+    return true;
+  };
+  list.files.erase(std::remove_if(begin, list.files.end(), is_taken_along), list.files.end());
+}
+
 void add_folder(const fs::path& folder, const FileKind& kind, FileList& list) {
+  const std::size_t first = list.files.size();
   const auto is_wanted = [&](const fs::path& file) {
     return !file.filename().string().starts_with('.') && has_ending(file, kind);
   };
@@ -79,6 +107,7 @@ void add_folder(const fs::path& folder, const FileKind& kind, FileList& list) {
                         "with {} files in it.",
                         kind.name, kind.usual),
             list);
+  if (!kind.more.empty()) drop_films_of_pictures(first, list);
 }
 
 void add_matching(const fs::path& pattern, FileList& list) {
@@ -127,6 +156,10 @@ FileList list_pictures(const std::vector<std::string>& names) {
 }
 
 FileList list_films(const std::vector<std::string>& names) { return list_files(names, kFilms); }
+
+FileList list_pictures_and_films(const std::vector<std::string>& names) {
+  return list_files(names, kBoth);
+}
 
 std::string naming_file(const std::string& file, const std::string& error) {
   return error.starts_with(file + ": ") ? error : file + ": " + error;

@@ -28,6 +28,9 @@ struct FileList {
 FileList list_pictures(const std::vector<std::string>& names);
 /// The same with films.
 FileList list_films(const std::vector<std::string>& names);
+/// The same with both. Of a folder's films those are left out that a camera took along with a
+/// picture of that name: they would count the same heap twice.
+FileList list_pictures_and_films(const std::vector<std::string>& names);
 
 /// Where the overlay of each picture goes.
 struct OverlayFiles {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -62,6 +63,18 @@ void Progress::advance() {
   ++done_;
   line_.report(fmt::format("{} {} of {}", done_word_, done_, total_),
                static_cast<double>(done_) / static_cast<double>(total_));
+}
+
+PartsProgress::PartsProgress(std::size_t parts, const char* done_word)
+    : done_word_(done_word), done_(parts) {}
+
+void PartsProgress::report(std::size_t part, double fraction) {
+  if (!line_.is_shown()) return;
+  const std::lock_guard lock(mutex_);
+  done_[part] = fraction;
+  const double whole =
+      std::accumulate(done_.begin(), done_.end(), 0.0) / static_cast<double>(done_.size());
+  line_.report(fmt::format("{} {:.0f} %", done_word_, 100 * whole), whole);
 }
 
 }  // namespace repose::cli

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace repose::cli {
 
@@ -54,6 +55,21 @@ class Progress {
   const char* const done_word_;
   std::mutex mutex_;
   std::size_t done_ = 0;
+  ProgressLine line_;
+};
+
+/// A progress line for pieces of work that each tell how far they are, such as films.
+class PartsProgress {
+ public:
+  explicit PartsProgress(std::size_t parts, const char* done_word);
+
+  /// @param fraction  of this part, from 0 to 1
+  void report(std::size_t part, double fraction);
+
+ private:
+  const char* const done_word_;
+  std::mutex mutex_;
+  std::vector<double> done_;
   ProgressLine line_;
 };
 

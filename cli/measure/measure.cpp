@@ -35,13 +35,16 @@ std::string human_text(const std::vector<MeasuredPicture>& pictures,
                          .has_colour = wants_colour(stdout),
                          .shows_definitions = arguments.shows_definitions};
   std::string text = measure_table(pictures, style);
-  if (pictures.size() > 1) text += '\n' + summary_text(summarise(pictures)) + '\n';
+  const auto repeats = std::count_if(pictures.begin(), pictures.end(),
+                                     [](const auto& picture) { return !is_of_series(picture); });
+  if (repeats > 1) text += '\n' + summary_text(summarise(pictures)) + '\n';
   return text;
 }
 
 std::string report_page(const std::vector<MeasuredPicture>& pictures) {
   std::vector<calibrate::report::MeasuredPhotograph> shown;
   for (const MeasuredPicture& picture : pictures) {
+    if (is_of_series(picture)) continue;
     shown.push_back({.file = picture.file,
                      .error = picture.outcome == Outcome::measured ? "" : picture.error,
                      .angle = picture.angle,

@@ -9,7 +9,7 @@ namespace repose::cli {
 
 /// What `repose measure` is asked to do, as typed.
 struct MeasureArguments {
-  std::vector<std::string> pictures;  ///< files and folders
+  std::vector<std::string> pictures;  ///< and films: files and folders
   std::string method;
   std::string window;
   std::vector<std::string> exclude;
@@ -19,6 +19,7 @@ struct MeasureArguments {
   std::vector<std::string> drop;
   std::string mask_file;
   std::string pitch_deg;
+  std::string every;
   std::string threads;
   std::string overlay_folder;
   std::string json_file;

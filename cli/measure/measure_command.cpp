@@ -8,8 +8,16 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kNotes = R"(
-PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP. A folder stands for
-all pictures in it. FILE may be - for standard output.
+PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP; or a film of one by
+a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A folder stands for
+all pictures and films in it, but for films with a picture's name, as telephones
+save both at once. FILE may be - for standard output.
+
+Films: the heap at rest is measured in the mean of the frames of the last second
+in which nothing moves. A heap that still moves when the film ends is refused:
+film on until 1 s after the last grain has stopped. --every 0.1 also measures
+the frame nearest to each tenth of a second, for the angle over time; means and
+the report are of heaps at rest alone.
 
 Methods:
   auto   Segments the heap in several ways and takes the most convincing
@@ -44,8 +52,8 @@ Command measure_command() {
   const auto given = std::make_shared<MeasureArguments>();
   return {
       .name = "measure",
-      .summary = "Measure heaps in pictures",
-      .options = {{"pictures", "PICTURE|FOLDER ...", "Pictures, or folders of pictures",
+      .summary = "Measure heaps in pictures and films",
+      .options = {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
                    &given->pictures, true},
                   {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
                   {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
@@ -61,9 +69,10 @@ Command measure_command() {
                   {"--overlay", "FOLDER", "Folder for pictures with the measurement",
                    &given->overlay_folder},
                   {"--json", "FILE|-", "Full results, for programs", &given->json_file},
-                  {"--csv", "FILE|-", "One row per picture", &given->csv_file},
+                  {"--csv", "FILE|-", "One row per picture or frame", &given->csv_file},
                   {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
                   {"--report", "FILE.html", "Report as a web page", &given->report_file},
+                  {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
                   {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
                   {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
       .notes = kNotes,

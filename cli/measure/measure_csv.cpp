@@ -18,7 +18,8 @@ constexpr const char* kHeader =
     "left_status,left_deg,left_uncertainty_deg,left_r2,left_points,"
     "right_status,right_deg,right_uncertainty_deg,right_r2,right_points,"
     "ground_tilt_deg,window_from,window_to,method,segmentation,confidence,"
-    "strays,grain_px,height_px,base_px,hints,warnings,reason\n";
+    "strays,grain_px,height_px,base_px,hints,warnings,reason,"
+    "time_s,film_from_s,film_to_s,film_frames,frames_per_s\n";
 
 /// One row, field by field.
 class Row {
@@ -52,6 +53,21 @@ std::string warning_codes(const std::vector<vision::Warning>& warnings) {
   return fmt::format("{}", fmt::join(codes, ";"));
 }
 
+/// Of pictures empty.
+void add_film(Row& row, const std::optional<FilmedPicture>& filmed) {
+  constexpr int kFields = 5;
+  if (!filmed) {
+    for (int field = 0; field < kFields; ++field) row.add_text("");
+    return;
+  }
+  const auto& stretch = filmed->stretch;
+  row.add_number(filmed->time_s);
+  row.add_number(stretch ? std::optional(stretch->from_s) : std::nullopt);
+  row.add_number(stretch ? std::optional(stretch->to_s) : std::nullopt);
+  row.add_text(stretch ? fmt::format("{}", stretch->frames) : "");
+  row.add_number(filmed->film.frames_per_s);
+}
+
 std::string measured_line(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Row row;
@@ -74,6 +90,7 @@ std::string measured_line(const MeasuredPicture& picture) {
   row.add_text(picture.used.hints.text());
   row.add_text(warning_codes(angle.warnings));
   row.add_text(angle.reason);
+  add_film(row, picture.filmed);
   return row.line();
 }
 
@@ -85,6 +102,7 @@ std::string unread_line(const MeasuredPicture& picture) {
   row.add_text(name_of(vision::MeasureStatus::refused));
   for (int field = 0; field < kUnknownFields; ++field) row.add_text("");
   row.add_text(picture.error);
+  add_film(row, picture.filmed);
   return row.line();
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
+#include "cli/common/film_json.h"
 #include "cli/common/json_text.h"
 #include "vision/measure/status_name.h"
 
@@ -100,6 +101,18 @@ Json proposal_json(const std::optional<vision::Proposal>& proposal) {
           {"uncertainty_deg", degrees(proposal->uncertainty_rad)}};
 }
 
+/// What part of a film it is; all null of a picture.
+void add_film(const std::optional<FilmedPicture>& filmed, Json& json) {
+  json["film"] = filmed ? film_json(filmed->film) : Json();
+  json["stretch"] = nullptr;
+  if (filmed && filmed->stretch) {
+    const vision::FilmStretch& stretch = *filmed->stretch;
+    json["stretch"] = {
+        {"from_s", stretch.from_s}, {"to_s", stretch.to_s}, {"frames", stretch.frames}};
+  }
+  json["time_s"] = filmed ? number(filmed->time_s) : Json();
+}
+
 Json picture_json(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Json json{{"file", picture.file},
@@ -123,6 +136,7 @@ Json picture_json(const MeasuredPicture& picture) {
             {"height_px", number(angle.height_px)},
             {"base_px", number(angle.base_px)},
             {"definitions", definitions_json(angle.definitions)}};
+  add_film(picture.filmed, json);
   if (picture.outcome != Outcome::measured) {
     json["reason"] = picture.error;
     for (const char* unknown : {"window", "method", "confidence", "segmentation", "strays"}) {

@@ -11,6 +11,7 @@
 #include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
+#include "vision/film/film_angle.h"
 #include "vision/picture/picture.h"
 
 namespace repose::cli {
@@ -67,6 +68,20 @@ void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
   }
 }
 
+/// Only films have frames.
+void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
+  plan.every_s =
+      read_positive({"--every", arguments.every, plan.errors}, "a time in seconds", "--every 0.1");
+  if (!plan.every_s ||
+      std::any_of(plan.pictures.begin(), plan.pictures.end(), vision::has_film_ending)) {
+    return;
+  }
+  plan.errors.push_back(
+      fmt::format("--every {}: there are pictures only. Rule: it is for films, whose frames are "
+                  "measured one by one. Fix: leave it out, or name a film.",
+                  arguments.every));
+}
+
 }  // namespace
 
 MeasurePlan plan_measure(const MeasureArguments& arguments) {
@@ -83,10 +98,11 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
     plan.errors.emplace_back("--report -: a page cannot be shown on a terminal. Fix: name a file.");
   }
 
-  FileList list = list_pictures(arguments.pictures);
+  FileList list = list_pictures_and_films(arguments.pictures);
   plan.pictures = std::move(list.files);
   plan.notes = std::move(list.notes);
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
+  read_step(arguments, plan);
   const std::vector<OutputPlace> places = {{"--json", arguments.json_file},
                                            {"--csv", arguments.csv_file},
                                            {"--summary", arguments.summary_file},

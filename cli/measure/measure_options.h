@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,11 @@ namespace repose::cli {
 
 /// A `repose measure` that can be carried out.
 struct MeasurePlan {
-  std::vector<std::filesystem::path> pictures;
+  std::vector<std::filesystem::path> pictures;  ///< and films
   std::vector<std::filesystem::path> overlays;  ///< one a picture, or none
   bool keeps_overlays = false;                  ///< in memory, for a report
   vision::MeasureOptions options;
+  std::optional<double> every_s;  ///< also frames of each film, so far apart
   bool saves_hints = false;
   int threads = 1;
 

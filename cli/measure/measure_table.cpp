@@ -73,7 +73,30 @@ std::string proposal_text(const std::string& file, const vision::Proposal& propo
                      angle_cell(proposal.angle_rad, proposal.uncertainty_rad));
 }
 
+/// What of the film was measured.
+std::string film_text(const FilmedPicture& filmed) {
+  const std::string film = fmt::format("{:.4g} frames per second, {:.3g} s",
+                                       filmed.film.frames_per_s, filmed.film.length_s);
+  if (!filmed.stretch) return "film of " + film;
+  return fmt::format("at rest from {:.2f} to {:.2f} s: mean of {} frames of the film ({})",
+                     filmed.stretch->from_s, filmed.stretch->to_s, filmed.stretch->frames, film);
+}
+
+/// Its file is in the row of the heap at rest; what is to be known of it is in the files alone, for
+/// there may be hundreds.
+void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
+  const vision::ReposeAngle& angle = picture.angle;
+  table.add_row(
+      {fmt::format("{:7.2f} s", *picture.filmed->time_s),
+       angle_cell(angle.angle_rad, angle.uncertainty_rad), flank_cell(angle.left, angle.status),
+       flank_cell(angle.right, angle.status),
+       angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
+       fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
+      colour_of(picture, style.has_colour));
+}
+
 void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
+  if (is_of_series(picture)) return add_frame(table, picture, style);
   const vision::ReposeAngle& angle = picture.angle;
   const Colour colour = colour_of(picture, style.has_colour);
   if (picture.outcome != Outcome::measured) {
@@ -87,6 +110,7 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
        angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
       colour);
+  if (picture.filmed) table.add_note(kBelow, film_text(*picture.filmed));
   if (angle.status == vision::MeasureStatus::refused) {
     table.add_note(fmt::format("{}refused: ", kBelow), angle.reason);
     if (picture.proposal) {

@@ -13,7 +13,8 @@ struct TableStyle {
   bool shows_definitions = false;
 };
 
-/// A row for each picture for people to read; below it its warnings, or why it was refused.
+/// A row for each picture, film and frame of a series for people to read; below it its warnings, or
+/// why it was refused.
 std::string measure_table(const std::vector<MeasuredPicture>& pictures, const TableStyle& style);
 
 }  // namespace repose::cli

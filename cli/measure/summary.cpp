@@ -34,6 +34,7 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
   Summary summary;
   std::vector<calibrate::PictureAngle> angles;
   for (const MeasuredPicture& picture : pictures) {
+    if (is_of_series(picture)) continue;
     if (picture.outcome == Outcome::measured) {
       angles.push_back({picture.angle.status, picture.angle.angle_rad});
     } else {

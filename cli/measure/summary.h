@@ -8,7 +8,7 @@
 
 namespace repose::cli {
 
-/// Pictures taken as repeats of one experiment.
+/// Pictures and films taken as repeats of one experiment: of a film its heap at rest alone.
 struct Summary {
   calibrate::PictureMean pictures;
   int not_read = 0;

@@ -1,11 +1,8 @@
 #include "cli/track/track_batch.h"
 
 #include <exception>
-#include <mutex>
-#include <numeric>
 #include <stdexcept>
 
-#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -22,26 +19,6 @@ namespace {
 
 /// Thrown from where progress is reported.
 struct Interrupted {};
-
-/// How far all films are.
-class FilmsProgress {
- public:
-  explicit FilmsProgress(std::size_t films) : done_(films) {}
-
-  void report(std::size_t film, double fraction) {
-    if (!line_.is_shown()) return;
-    const std::lock_guard lock(mutex_);
-    done_[film] = fraction;
-    const double films = std::accumulate(done_.begin(), done_.end(), 0.0);
-    const double part = films / static_cast<double>(done_.size());
-    line_.report(fmt::format("tracked {:.0f} %", 100 * part), part);
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<double> done_;
-  ProgressLine line_;
-};
 
 /// What is read of the track of the experiment that was filmed.
 template <typename Read>
@@ -152,7 +129,7 @@ bool has_reading(const TrackedFilm& film) {
 std::vector<TrackedFilm> track_batch(const TrackPlan& plan,
                                      const std::atomic<bool>& is_interrupted) {
   std::vector<TrackedFilm> results(plan.videos.size());
-  FilmsProgress progress(results.size());
+  PartsProgress progress(results.size(), "tracked");
   const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(plan.threads));
   tbb::task_arena arena(plan.threads);

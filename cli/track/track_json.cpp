@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
+#include "cli/common/film_json.h"
 #include "cli/common/json_text.h"
 #include "vision/measure/status_name.h"
 
@@ -56,12 +57,6 @@ Json warnings_json(const std::vector<vision::Warning>& warnings) {
     json.push_back({{"code", warning.code}, {"message", warning.message}});
   }
   return json;
-}
-
-Json film_json(const vision::FilmFacts& film) {
-  return {{"width", film.width},       {"height", film.height},
-          {"frames", film.frames},     {"frames_per_s", film.frames_per_s},
-          {"length_s", film.length_s}, {"dropped_frames", film.dropped_frames}};
 }
 
 /// What is known of the path that has bounces.

@@ -55,7 +55,7 @@ struct ExperimentEntry {
   bool is_stochastic = true;  ///< false: the seed changes nothing
   bool is_usual = true;       ///< part of a new study that names no experiments
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
-  bool is_filmed = false;     ///< a film of it on the bench gives a row of its sheet
+  bool is_filmed = false;     ///< a film of it on the bench gives a row of its sheet, or a picture
   std::vector<FilmedSetting> filmed_settings = {};
   /// How many readings of a bench a run's number is the mean of; null: one.
   int (*readings_per_run)(const Protocol& protocol) = nullptr;

@@ -60,6 +60,7 @@ ExperimentEntry heap_entry() {
                            kGrainSliding, kGrainRolling},
           .sheet = {.test = "heap", .value = "angle_deg"},
           .is_pictured = true,
+          .is_filmed = true,
           .usual = HeapProtocol{},
           .keys = keys_of,
           .run =

@@ -18,9 +18,8 @@ namespace {
 
 constexpr const char* kMeasured =
     "measured = { values = [9.1, 9.6] }, { mean = 9.42, sd = 0.5, n = 10 }, { readings = "
-    "\"drops.csv\" } or, for a heap, { pictures = [\"photos\"] }, or, for a drop or roll, { videos "
-    "= "
-    "[\"drops/*.mp4\"] }";
+    "\"drops.csv\" } or, for a heap, { pictures = [\"photos\"] }, or, for a drop, roll, tilt or "
+    "heap, { videos = [\"films/*.mp4\"] }";
 
 /// One way of saying it, and only one.
 void check_ways(Section& measured) {

@@ -8,6 +8,7 @@
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_heap_film.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/drawn_tilt.h"
 
@@ -187,6 +188,26 @@ TEST_F(CalibrateFilms, AreTakenFromFoldersToo) {
            "experiment.drop.measured = { videos = [\"drops\", \"drops/a.mp4\"] }"});
   EXPECT_EQ(told.exit_code, 0) << told.err;
   EXPECT_THAT(told.err, HasSubstr("a.mp4: named twice, tracked once"));
+}
+
+TEST_F(CalibrateFilms, OfHeapsCountAtRestAndOthersAreLeftOut) {
+  const std::vector<vision::Picture> frames =
+      DrawnHeapFilm{.scene = small_heap(), .grows_s = .5, .rests_s = .8}.pictures();
+  const auto write = [&](const char* name, std::size_t count) {
+    render::Film film(path(name), DrawnHeapFilm{}.frames_per_s);
+    for (std::size_t k = 0; k < count; ++k) film.add(frames[count == 9 ? k % 5 : k]);
+    film.close();
+  };
+  write("falls.mp4", 9);
+  write("heap.mp4", frames.size());
+  const Finished both = run(
+      {"study.toml", "--dry-run", "--set", "experiment.drop.measured = { values = [90] }", "--set",
+       "experiment.heap = { tube_diameter_mm = 60, tube_height_mm = 150, grains = 12, "
+       "measured = { videos = [\"falls.mp4\", \"heap.mp4\"] } }"});
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_THAT(both.err, AllOf(HasSubstr("falls.mp4: refused, left out: nothing in the film is at "
+                                        "rest"),
+                              HasSubstr("heap.mp4: flagged, but counted")));
 }
 
 }  // namespace

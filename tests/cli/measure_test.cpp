@@ -254,7 +254,7 @@ TEST_F(Measure, CsvHasARowForEachPicture) {
   EXPECT_EQ(fields(heap).size(), fields(header).size());
   EXPECT_THAT(heap, StartsWith("heap.png,"));
   EXPECT_THAT(comma, StartsWith("\"with, comma.png\",refused,"));
-  EXPECT_EQ(fields(missing.substr(0, missing.find("missing.png:"))).size(), fields(header).size());
+  EXPECT_EQ(fields(missing).size(), fields(header).size());
 }
 
 TEST_F(Measure, OnlyTheOutputAskedForGoesToStandardOutput) {

@@ -379,8 +379,8 @@ TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
               AllOf(HasSubstr("measured.sd = -1"), HasSubstr("measured.n = 0")));
   EXPECT_THAT(errors(kStudy, {key + "{ pictures = [\"study.toml\"] }"}),
               HasSubstr("only this is measured in pictures: heap, and not drop"));
-  EXPECT_THAT(errors(kStudy, {"experiment.heap.measured = { videos = [\"study.toml\"] }"}),
-              HasSubstr("only this is read off films: drop, tilt, roll, and not heap"));
+  EXPECT_THAT(errors(kStudy, {"experiment.fill.measured = { videos = [\"study.toml\"] }"}),
+              HasSubstr("only this is read off films: drop, tilt, roll, heap, and not fill"));
   EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"study.toml\"], values = [9] }"}),
               HasSubstr("more than one kind"));
   EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"none.mp4\"] }"}),

@@ -160,6 +160,22 @@ def grain_avi(place, frames_per_s, width=160, height=120, frames=60):
     return avi(frame, frames_per_s, width, height, frames)
 
 
+def grown_heap_avi(frames_per_s=10, width=320, height=200, slope=0.45):
+    """A black heap on white that grows in four frames and then rests."""
+    foot = height - 40
+
+    def frame(k):
+        top = foot - int(0.4 * width * slope * min(1.0, 0.4 + 0.15 * k))
+        rows = []
+        for y in range(height):
+            half = int((y - top) / slope) if top <= y < foot else 0
+            white = b"\xff" * (3 * (width // 2 - half))
+            rows.append(white + b"\0" * (6 * half) + white)
+        return b"".join(reversed(rows))
+
+    return avi(frame, frames_per_s, width, height, frames=18)
+
+
 def avi(frame, frames_per_s, width, height, frames):
     """A film without compression; `frame` has the rows from below, blue, green and red."""
     def chunk(kind, data):
@@ -219,6 +235,7 @@ def prepare(folder, root, repose):
         (folder / name).write_text(study, encoding="utf-8")
     (folder / "nut.stl").write_text(stl_of(ellipsoid((11.2, 9.1, 8.7))), encoding="utf-8")
     (folder / "render.png").write_bytes(silhouette_png())
+    (folder / "heap.avi").write_bytes(grown_heap_avi())
     (folder / "drop_01.avi").write_bytes(dropped_grain_avi(0.6))
     (folder / "drop_02.avi").write_bytes(dropped_grain_avi(0.5))
     (folder / "roll_01.avi").write_bytes(rolled_grain_avi())

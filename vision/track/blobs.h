@@ -4,8 +4,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/film/scene_shift.h"
 #include "vision/track/background.h"
-#include "vision/track/scene_shift.h"
 
 namespace repose::vision {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "vision/track/film_reader.h"
+#include "vision/film/film_reader.h"
 
 namespace repose::vision {
 namespace {
@@ -32,9 +32,9 @@ double farthest_shift_px(const FilmGrains& film) {
   return moved_px;
 }
 
-FilmGrains grains_in_film(const std::filesystem::path& file, const TrackProgress& progress) {
+FilmGrains grains_in_film(const std::filesystem::path& file, const FilmProgress& progress) {
   constexpr double kSurveyPart = .4;
-  const auto part = [&](double from, double length) -> TrackProgress {
+  const auto part = [&](double from, double length) -> FilmProgress {
     return [=, &progress](double done) {
       if (progress) progress(from + length * done);
     };
@@ -42,7 +42,7 @@ FilmGrains grains_in_film(const std::filesystem::path& file, const TrackProgress
   FilmGrains grains{.survey = survey_film(file, part(0, kSurveyPart))};
   if (grains.survey.cut || grains.survey.times_s.size() < kFewestFrames) return grains;
   const BlobFinder finder(background_of(std::exchange(grains.survey.samples, {})));
-  const TrackProgress report = part(kSurveyPart, 1 - kSurveyPart);
+  const FilmProgress report = part(kSurveyPart, 1 - kSurveyPart);
   FilmReader film(file);
   PathFinder paths(grains.survey.interval_s);
   const std::size_t count = grains.survey.times_s.size();

@@ -7,11 +7,11 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/film/film_reader.h"
+#include "vision/film/scene_shift.h"
 #include "vision/track/background.h"
 #include "vision/track/blobs.h"
-#include "vision/track/film_reader.h"
 #include "vision/track/grain_template.h"
-#include "vision/track/scene_shift.h"
 #include "vision/track/standing_things.h"
 
 namespace repose::vision {
@@ -137,7 +137,7 @@ double OnPlateTrack::slid_px() const {
 }
 
 PlateGrains grains_on_plate(const std::filesystem::path& file, const FilmSurvey& survey,
-                            const PlateMotion& motion, const TrackProgress& progress) {
+                            const PlateMotion& motion, const FilmProgress& progress) {
   const cv::Size size = survey.size / motion.reduction;
   PlateGrains grains{.strip = strip_above(motion, size)};
   const cv::Mat first = first_strip(file, motion, grains.strip);

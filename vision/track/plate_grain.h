@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "vision/track/film_survey.h"
+#include "vision/film/film_survey.h"
 #include "vision/track/plate_strip.h"
 
 namespace repose::vision {
@@ -50,6 +50,6 @@ struct PlateGrains {
 /// All that stands on the plate when the film begins, followed along it. Looks through the film
 /// twice, the first time at some frames only.
 PlateGrains grains_on_plate(const std::filesystem::path& file, const FilmSurvey& survey,
-                            const PlateMotion& motion, const TrackProgress& progress);
+                            const PlateMotion& motion, const FilmProgress& progress);
 
 }  // namespace repose::vision

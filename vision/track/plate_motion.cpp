@@ -6,8 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/film/film_reader.h"
 #include "vision/track/blobs.h"
-#include "vision/track/film_reader.h"
 
 namespace repose::vision {
 namespace {
@@ -184,7 +184,7 @@ std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
 }  // namespace
 
 std::optional<PlateMotion> plate_in_film(const std::filesystem::path& file,
-                                         const FilmSurvey& survey, const TrackProgress& progress) {
+                                         const FilmSurvey& survey, const FilmProgress& progress) {
   const int reduction = reduction_for(survey.size);
   const cv::Mat moves = moves_in(survey.samples, reduction);
   FilmReader film(file);

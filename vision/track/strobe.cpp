@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "vision/film/film_reader.h"
 #include "vision/picture/mat_of_picture.h"
-#include "vision/track/film_reader.h"
 
 namespace repose::vision {
 namespace {

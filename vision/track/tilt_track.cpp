@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "vision/film/film_reader.h"
 #include "vision/picture/mat_of_picture.h"
 #include "vision/track/film_grains.h"
-#include "vision/track/film_reader.h"
 #include "vision/track/film_verdict.h"
 #include "vision/track/tilt_verdict.h"
 
@@ -162,8 +162,8 @@ Picture frame_at(const std::filesystem::path& file, double time_s) {
 }
 
 std::string read(const std::filesystem::path& file, FilmSurvey& survey,
-                 const TrackProgress& progress, TiltTrack& track) {
-  const auto part = [&](double from, double length) -> TrackProgress {
+                 const FilmProgress& progress, TiltTrack& track) {
+  const auto part = [&](double from, double length) -> FilmProgress {
     return [=, &progress](double done) {
       if (progress) progress(from + length * done);
     };

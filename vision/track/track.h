@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/film/film_facts.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
@@ -31,15 +32,6 @@ struct TrackOptions {
   bool draws_strobe = false;
   /// Told which fraction of the work is done, from 0 to 1; may throw to stop it.
   std::function<void(double)> progress = {};
-};
-
-struct FilmFacts {
-  int width = 0;
-  int height = 0;
-  int frames = 0;
-  double frames_per_s = 0;
-  double length_s = 0;
-  int dropped_frames = 0;
 };
 
 /// The centre of the grain in one frame.

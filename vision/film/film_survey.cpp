@@ -1,11 +1,11 @@
-#include "vision/track/film_survey.h"
+#include "vision/film/film_survey.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/track/film_reader.h"
+#include "vision/film/film_reader.h"
 
 namespace repose::vision {
 namespace {
@@ -88,7 +88,7 @@ void read_rate(FilmSurvey& survey) {
 
 }  // namespace
 
-FilmSurvey survey_film(const std::filesystem::path& file, const TrackProgress& progress) {
+FilmSurvey survey_film(const std::filesystem::path& file, const FilmProgress& progress) {
   FilmReader film(file);
   FilmSurvey survey;
   survey.claimed_frames = film.claimed_frames();

@@ -1,4 +1,4 @@
-#include "vision/track/film_reader.h"
+#include "vision/film/film_reader.h"
 
 #include <array>
 #include <cmath>

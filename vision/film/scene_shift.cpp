@@ -1,4 +1,4 @@
-#include "vision/track/scene_shift.h"
+#include "vision/film/scene_shift.h"
 
 #include <algorithm>
 #include <cmath>

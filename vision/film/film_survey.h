@@ -10,7 +10,10 @@
 namespace repose::vision {
 
 /// Told which fraction of the work is done, from 0 to 1.
-using TrackProgress = std::function<void(double)>;
+using FilmProgress = std::function<void(double)>;
+
+/// Fewer frames show no movement.
+inline constexpr int kFewestFrames = 8;
 
 /// What one look through a film tells.
 struct FilmSurvey {
@@ -25,6 +28,6 @@ struct FilmSurvey {
 };
 
 /// @throws std::invalid_argument  see FilmReader.
-FilmSurvey survey_film(const std::filesystem::path& file, const TrackProgress& progress);
+FilmSurvey survey_film(const std::filesystem::path& file, const FilmProgress& progress);
 
 }  // namespace repose::vision

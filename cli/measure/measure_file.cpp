@@ -1,0 +1,240 @@
+#include "cli/measure/measure_file.h"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+
+#include "cli/common/memory.h"
+#include "cli/common/picture_list.h"
+#include "cli/common/picture_options.h"
+#include "vision/drawing/overlay.h"
+#include "vision/film/frame_series.h"
+#include "vision/hints/hint_file.h"
+#include "vision/picture/made_here.h"
+#include "vision/picture/picture.h"
+
+namespace repose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "heap.mp4 at 1.20 s".
+std::string title_of(const fs::path& file, const MeasuredPicture& measured) {
+  const std::string name = file.filename().string();
+  if (!measured.filmed) return name;
+  if (measured.filmed->time_s) return fmt::format("{} at {:.2f} s", name, *measured.filmed->time_s);
+  const auto& stretch = measured.filmed->stretch;
+  if (!stretch) return name;
+  return fmt::format("{} at rest from {:.2f} to {:.2f} s", name, stretch->from_s, stretch->to_s);
+}
+
+vision::OverlayNotes notes_for(const fs::path& file, const MeasuredPicture& measured) {
+  return {.title = title_of(file, measured),
+          .excluded = measured.used.excluded,
+          .hints = measured.used.hints};
+}
+
+void draw(const vision::Picture& picture, const fs::path& file, const fs::path& overlay,
+          MeasuredPicture& measured) {
+  try {
+    vision::write_picture(overlay,
+                          vision::draw_overlay(picture, measured.angle, notes_for(file, measured)));
+  } catch (const std::invalid_argument& error) {
+    measured.overlay_error = error.what();
+  }
+}
+
+const std::vector<OptionName> kNames = [] {
+  const auto common = measuring_names("--exclude X,Y,W,H");
+  std::vector<OptionName> names(common.begin(), common.end());
+  names.push_back({.value = "heap box", .option = "--heap"});
+  names.push_back({.value = "ground points", .option = "--ground"});
+  names.push_back({.value = "place to keep", .option = "--keep"});
+  names.push_back({.value = "place to drop", .option = "--drop"});
+  return names;
+}();
+
+/// Does `work`; what it throws becomes the picture's error.
+template <typename Work>
+void attempt(MeasuredPicture& measured, const Work& work) {
+  try {
+    work();
+  } catch (const std::invalid_argument& error) {
+    measured.outcome = Outcome::bad_input;
+    measured.error = naming_options(naming_file(measured.file, error.what()), kNames);
+  } catch (const std::exception& error) {
+    const bool is_too_large = is_out_of_memory(error);
+    measured.outcome = is_too_large ? Outcome::bad_input : Outcome::internal_error;
+    measured.error = is_too_large ? no_memory(measured.file,
+                                              "a smaller picture (800 pixels a side are as good), "
+                                              "or fewer --threads")
+                                  : naming_file(measured.file, error.what());
+  }
+}
+
+/// What many pictures have no room for.
+void drop_large_parts(MeasuredPicture& measured) {
+  measured.used.hints.mask.bgr = {};
+  measured.angle.outline = {};
+  measured.angle.upper_edge = {};
+  measured.angle.left.edge = {};
+  measured.angle.right.edge = {};
+}
+
+/// All that follows from the angle of a picture, or of a film's heap at rest.
+void finish(const MeasurePlan& plan, std::size_t index, const vision::Picture& picture,
+            MeasuredPicture& measured) {
+  const fs::path& file = plan.pictures[index];
+  const bool shows_heap = !measured.filmed || measured.filmed->stretch;
+  if (measured.angle.status == vision::MeasureStatus::refused && shows_heap) {
+    measured.proposal = vision::propose_hint(picture, measured.used);
+  }
+  name_options(measured.angle, kNames);
+  if (plan.saves_hints) vision::save_hints(measured.used, file);
+  if (!plan.overlays.empty() && !picture.empty()) {
+    draw(picture, file, plan.overlays[index], measured);
+  }
+  if (plan.keeps_overlays && !picture.empty()) {
+    measured.overlay = calibrate::report::overlay_for_page(
+        picture, measured.angle, notes_for(file, measured), plan.pictures.size());
+  }
+}
+
+/// OVERLAYS/heap_at_01.200s.png for the overlay OVERLAYS/heap.png, or where the user has such a
+/// picture, another name.
+fs::path overlay_of_frame(const MeasurePlan& plan, std::size_t index, double time_s,
+                          double length_s) {
+  const fs::path& whole = plan.overlays[index];
+  const int digits = static_cast<int>(fmt::format("{:.3f}", length_s).size());
+  const std::string name = fmt::format("{}_at_{:0{}.3f}s", whole.stem().string(), time_s, digits);
+  fs::path file = whole.parent_path() / (name + ".png");
+  const auto is_taken = [&] {
+    return !vision::is_made_here(file) ||
+           std::find(plan.overlays.begin(), plan.overlays.end(), file) != plan.overlays.end();
+  };
+  for (int number = 2; is_taken(); ++number) {
+    file = whole.parent_path() / fmt::format("{}-{}.png", name, number);
+  }
+  return file;
+}
+
+/// A frame on its way through the pipeline.
+struct Frame {
+  std::size_t place = 0;
+  vision::TimedPicture timed;
+};
+
+MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
+                              const MeasuredPicture& rest, const vision::TimedPicture& timed) {
+  const vision::FilmStretch stretch{.from_s = timed.time_s, .to_s = timed.time_s, .frames = 1};
+  MeasuredPicture measured;
+  measured.file = rest.file;
+  measured.filmed =
+      FilmedPicture{.film = rest.filmed->film, .stretch = stretch, .time_s = timed.time_s};
+  attempt(measured, [&] {
+    measured.used = rest.used;
+    measured.angle = vision::measure_repose_angle(timed.picture, measured.used);
+    name_options(measured.angle, kNames);
+    if (!plan.overlays.empty()) {
+      const double length_s = rest.filmed->film.length_s;
+      draw(timed.picture, plan.pictures[index],
+           overlay_of_frame(plan, index, timed.time_s, length_s), measured);
+    }
+  });
+  drop_large_parts(measured);
+  return measured;
+}
+
+/// Decodes frames one after the other and measures several at a time.
+void measure_series(const MeasurePlan& plan, std::size_t index, vision::FrameSeries& series,
+                    const std::function<void(double)>& progress,
+                    std::vector<MeasuredPicture>& measured) {
+  const std::size_t count = series.times_s().size();
+  std::vector<MeasuredPicture> frames(count);
+  std::size_t read = 0;
+  const auto next = [&](tbb::flow_control& flow) -> std::shared_ptr<Frame> {
+    auto timed = read < count ? series.next() : std::nullopt;
+    if (!timed) {
+      flow.stop();
+      return nullptr;
+    }
+    progress(static_cast<double>(read) / static_cast<double>(count));
+    return std::make_shared<Frame>(Frame{.place = read++, .timed = std::move(*timed)});
+  };
+  const auto measure = [&](const std::shared_ptr<Frame>& frame) {
+    frames[frame->place] = measure_frame(plan, index, measured.front(), frame->timed);
+  };
+  using Filter = tbb::filter_mode;
+  tbb::parallel_pipeline(
+      static_cast<std::size_t>(plan.threads),
+      tbb::make_filter<void, std::shared_ptr<Frame>>(Filter::serial_in_order, next) &
+          tbb::make_filter<std::shared_ptr<Frame>, void>(Filter::parallel, measure));
+  frames.resize(read);
+  std::move(frames.begin(), frames.end(), std::back_inserter(measured));
+}
+
+void check_step(double step_s, const vision::FilmAngle& film) {
+  if (step_s <= film.film.length_s || film.film.frames < 2) return;
+  throw std::invalid_argument(
+      fmt::format("--every {:g} is longer than the film, which lasts {:.3g} s. Fix: take a smaller "
+                  "step.",
+                  step_s, film.film.length_s));
+}
+
+std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size_t index,
+                                              const std::function<void(double)>& progress) {
+  const fs::path& file = plan.pictures[index];
+  const double rest_part = plan.every_s ? .3 : 1;
+  std::vector<MeasuredPicture> measured(1);
+  measured.front().file = file.string();
+  attempt(measured.front(), [&] {
+    MeasuredPicture& rest = measured.front();
+    rest.used = vision::with_saved_hints(plan.options, file);
+    vision::FilmAngle film =
+        vision::measure_film(file, rest.used, [&](double done) { progress(rest_part * done); });
+    if (plan.every_s) check_step(*plan.every_s, film);
+    rest.angle = std::move(film.angle);
+    rest.filmed = FilmedPicture{.film = film.film, .stretch = film.stretch, .time_s = {}};
+    finish(plan, index, film.picture, rest);
+    if (!plan.every_s) return;
+    vision::FrameSeries series(file, film.times_s, *plan.every_s);
+    measure_series(
+        plan, index, series, [&](double done) { progress(rest_part + (1 - rest_part) * done); },
+        measured);
+  });
+  drop_large_parts(measured.front());
+  return measured;
+}
+
+std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::size_t index) {
+  const fs::path& file = plan.pictures[index];
+  std::vector<MeasuredPicture> measured(1);
+  measured.front().file = file.string();
+  attempt(measured.front(), [&] {
+    const vision::Picture picture = vision::read_picture(file);
+    measured.front().used = vision::with_saved_hints(plan.options, file);
+    measured.front().angle = vision::measure_repose_angle(picture, measured.front().used);
+    finish(plan, index, picture, measured.front());
+  });
+  drop_large_parts(measured.front());
+  return measured;
+}
+
+}  // namespace
+
+std::vector<MeasuredPicture> measure_file(const MeasurePlan& plan, std::size_t index,
+                                          const std::function<void(double)>& progress) {
+  std::vector<MeasuredPicture> measured = vision::has_film_ending(plan.pictures[index])
+                                              ? measure_one_film(plan, index, progress)
+                                              : measure_one_picture(plan, index);
+  progress(1);
+  return measured;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "calibrate/report/measure_report.h"
+#include "vision/film/film_angle.h"
+#include "vision/hints/proposal.h"
+#include "vision/measure/repose_angle.h"
+
+namespace repose::cli {
+
+enum class Outcome {
+  measured,        ///< or refused: `angle` says
+  bad_input,       ///< not read, or a box outside it: `error` says
+  internal_error,  ///< our own error
+};
+
+/// Where a picture comes from that was taken out of a film.
+struct FilmedPicture {
+  vision::FilmFacts film;
+  std::optional<vision::FilmStretch> stretch;  ///< none: the film has no rest
+  std::optional<double> time_s;                ///< of a single frame; none: the heap at rest
+};
+
+struct MeasuredPicture {
+  std::string file;
+  std::optional<FilmedPicture> filmed;  ///< none: the file is a picture
+  Outcome outcome = Outcome::measured;
+  std::string error;
+  vision::ReposeAngle angle;    ///< without the outline and edge points, which are large
+  vision::MeasureOptions used;  ///< with the picture's own hints, without the mask's pixels
+  std::optional<vision::Proposal> proposal;  ///< what would help, when it is refused
+  std::string overlay_error;                 ///< why there is no overlay
+  calibrate::report::PageJpeg overlay;       ///< where the plan keeps them
+};
+
+/// A frame of a film's series, which is no repeat of anything.
+inline bool is_of_series(const MeasuredPicture& picture) {
+  return picture.filmed && picture.filmed->time_s;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,49 @@
+#include "vision/film/film_angle.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <utility>
+
+#include "vision/film/resting_picture.h"
+
+namespace repose::vision {
+namespace {
+
+ReposeAngle refusal(const MeasureOptions& options, std::string reason) {
+  ReposeAngle angle;
+  angle.reason = std::move(reason);
+  angle.window = {options.window_from, options.window_to};
+  angle.method = options.method;
+  angle.camera_pitch_rad = options.camera_pitch_rad;
+  return angle;
+}
+
+}  // namespace
+
+bool has_film_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return std::find(kFilmEndings.begin(), kFilmEndings.end(), ending) != kFilmEndings.end();
+}
+
+FilmAngle measure_film(const std::filesystem::path& file, const MeasureOptions& options,
+                       const std::function<void(double)>& progress) {
+  RestingPicture rest = resting_picture(file, options, progress);
+  FilmAngle result{.angle = refusal(options, std::move(rest.reason)),
+                   .picture = std::move(rest.picture),
+                   .stretch = rest.stretch,
+                   .film = rest.film,
+                   .times_s = std::move(rest.times_s)};
+  if (!result.stretch) return result;
+  result.angle = measure_repose_angle(result.picture, options);
+  std::vector<Warning>& warnings = result.angle.warnings;
+  warnings.insert(warnings.end(), rest.warnings.begin(), rest.warnings.end());
+  if (rest.is_doubtful && result.angle.status == MeasureStatus::ok) {
+    result.angle.status = MeasureStatus::flagged;
+  }
+  return result;
+}
+
+}  // namespace repose::vision

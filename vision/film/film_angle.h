@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "vision/film/film_facts.h"
+#include "vision/measure/repose_angle.h"
+#include "vision/picture/picture.h"
+
+/// The angle of repose of a heap that was filmed while it came to rest.
+namespace repose::vision {
+
+/// Of names of films, in small letters.
+inline constexpr std::array<std::string_view, 7> kFilmEndings{".mp4", ".m4v",  ".mov", ".avi",
+                                                              ".mkv", ".webm", ".gif"};
+
+/// Whether a file is taken for a film: by its name.
+bool has_film_ending(const std::filesystem::path& file);
+
+/// The part of a film that one picture was made of.
+struct FilmStretch {
+  double from_s = 0;  ///< by the film's own time stamps, from its first frame on
+  double to_s = 0;
+  int frames = 0;  ///< in the picture
+};
+
+struct FilmAngle {
+  ReposeAngle angle;  ///< of the picture; or why the film has none, and what is to be known of it
+  Picture picture;    ///< the heap at rest; a late frame where nothing in it is
+  std::optional<FilmStretch> stretch = {};  ///< what the picture is the mean of; none: no rest
+  FilmFacts film = {};
+  std::vector<double> times_s = {};  ///< of each frame
+};
+
+/// Finds the last second in which nothing moves, and measures the mean of its frames as any other
+/// picture. What sensors, lamps and codecs change, and small things that change all through the
+/// film above or below the scene (a timer), are no movement; nor is what lies in the options'
+/// excluded boxes or outside their box around the heap. A hand that comes in from the left, the
+/// right or below afterwards does no harm; a heap that then goes on growing is refused.
+///
+/// Looks through the film three times, and keeps no frames: memory does not grow with its length.
+/// @param progress  told which fraction of the work is done, from 0 to 1; may throw to stop it
+/// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read; or as
+///   measure_repose_angle().
+FilmAngle measure_film(const std::filesystem::path& file, const MeasureOptions& options = {},
+                       const std::function<void(double)>& progress = {});
+
+}  // namespace repose::vision

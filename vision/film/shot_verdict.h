@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vision/film/film_facts.h"
+#include "vision/film/film_survey.h"
+#include "vision/measure/repose_angle.h"
+
+/// What is wrong with a film, whatever it shows.
+namespace repose::vision {
+
+FilmFacts facts_of(const FilmSurvey& survey);
+
+/// Why nothing can be read off it, whatever moves in it; empty: something may.
+/// @param moved_px  how far the camera moves
+std::string fault_of_shot(const FilmSurvey& survey, double moved_px);
+
+/// Adds what is to be known of it.
+/// @returns whether a person must look at something first
+bool warn_of_film(const FilmSurvey& survey, double moved_px, std::vector<Warning>& warnings);
+
+}  // namespace repose::vision
