@@ -66,8 +66,8 @@ void fields(Io& io, Held<Io, CanonicalAxis>& axis) {
 template <typename Io>
 void fields(Io& io, Held<Io, StationaryRegion>& region) {
   io("in_box", region.is_in_box);
-  if (io.has("ranges", region.is_in_box)) {
-    by_name(io, "ranges", io.names().factors, region.ranges);
+  if (io.has("extent", region.is_in_box)) {
+    by_name(io, "extent", io.names().factors, region.ranges);
   }
 }
 

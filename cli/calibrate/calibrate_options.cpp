@@ -90,10 +90,10 @@ void measure_heaps(const dem::Measured& measured, CalibratePlan& plan) {
   }
   if (plan.errors.empty() && !any) {
     plan.errors.push_back(
-        fmt::format("{}: none of the {} pictures and films of the heap could be measured. Fix: "
-                    "check them with repose "
-                    "measure --overlay, or give the angles as values.",
-                    plan.record.study.file.string(), list.files.size()));
+        fmt::format("{}: none of the {} {} of the heap could be measured. Fix: check them with "
+                    "repose measure --overlay, or give the angles as values.",
+                    plan.record.study.file.string(), list.files.size(),
+                    measured.videos.empty() ? "pictures" : "films"));
   }
 }
 
