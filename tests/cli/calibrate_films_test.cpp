@@ -200,10 +200,11 @@ TEST_F(CalibrateFilms, OfHeapsCountAtRestAndOthersAreLeftOut) {
   };
   write("falls.mp4", 9);
   write("heap.mp4", frames.size());
-  const Finished both = run(
-      {"study.toml", "--dry-run", "--set", "experiment.drop.measured = { values = [90] }", "--set",
-       "experiment.heap = { tube_diameter_mm = 60, tube_height_mm = 150, grains = 12, "
-       "measured = { videos = [\"falls.mp4\", \"heap.mp4\"] } }"});
+  const std::string heap =
+      "experiment.heap = { tube_diameter_mm = 60, tube_height_mm = 150, grains = 12, "
+      "measured = { videos = [\"falls.mp4\", \"heap.mp4\"] } }";
+  const Finished both = run({"study.toml", "--dry-run", "--set",
+                             "experiment.drop.measured = { values = [90] }", "--set", heap});
   EXPECT_EQ(both.exit_code, 0) << both.err;
   EXPECT_THAT(both.err, AllOf(HasSubstr("falls.mp4: refused, left out: nothing in the film is at "
                                         "rest"),

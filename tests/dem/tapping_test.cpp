@@ -10,7 +10,8 @@
 namespace repose::dem {
 namespace {
 
-constexpr HeapProtocol kTube{.tube_diameter_m = .1, .tube_height_m = .1, .plate_m = .12};
+constexpr HeapProtocol kTube{
+    .tube_diameter_m = .1, .tube_height_m = .1, .plate_m = .12, .grains = {}};
 constexpr double kTap_m = .01, kRestitution = .7;
 
 /// One ball that lies in the tube.

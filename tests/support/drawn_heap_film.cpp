@@ -32,7 +32,8 @@ Layers layers_of(HeapScene scene) {
   DrawnHeap full = draw_heap(scene);
   scene.form.shape = Shape::nothing;
   DrawnHeap empty = draw_heap(scene);
-  Layers layers{.empty = floating(empty.picture), .full = floating(full.picture)};
+  Layers layers{
+      .empty = floating(empty.picture), .full = floating(full.picture), .heap = {}, .foot = {}};
   layers.heap = cv::Mat::zeros(layers.full.size(), CV_32F);
   layers.foot = {(full.ground.from.x + full.ground.to.x) / 2,
                  (full.ground.from.y + full.ground.to.y) / 2};

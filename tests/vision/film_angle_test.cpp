@@ -30,7 +30,6 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::Field;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -126,7 +125,7 @@ TEST_F(FilmAngleOf, AShortFilmAtRestIsMeasuredAndFlagged) {
 /// What a camera of the picture's size sees so far to the left.
 Picture moved(const Picture& picture, int left_px) {
   Picture seen = picture;
-  const auto from = static_cast<std::ptrdiff_t>(3 * left_px);
+  const std::ptrdiff_t from = std::ptrdiff_t{3} * left_px;
   std::rotate(seen.bgr.begin(), seen.bgr.begin() + from, seen.bgr.end());
   return seen;
 }
