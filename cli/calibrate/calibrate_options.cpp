@@ -1,9 +1,7 @@
 #include "cli/calibrate/calibrate_options.h"
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
-#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +9,7 @@
 #include "calibrate/experiment/picture_angles.h"
 #include "calibrate/study/study_folder.h"
 #include "cli/calibrate/bench_films.h"
+#include "cli/common/cores.h"
 #include "cli/common/degrees.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
@@ -98,8 +97,7 @@ void measure_heaps(const dem::Measured& measured, CalibratePlan& plan) {
 }
 
 void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
-  plan.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  if (plan.record.study.threads) plan.jobs = *plan.record.study.threads;
+  plan.jobs = plan.record.study.threads.value_or(available_cores());
   if (arguments.jobs.empty()) return;
   const auto jobs = number_in<int>(arguments.jobs);
   if (!jobs || *jobs < 1 || *jobs > kMaxJobs) {

@@ -5,12 +5,12 @@
 #include <numbers>
 #include <set>
 #include <string_view>
-#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/closest_word.h"
+#include "cli/common/cores.h"
 #include "cli/common/number.h"
 
 namespace repose::cli {
@@ -87,8 +87,8 @@ std::optional<std::uint64_t> read_seed(const Typed& typed) {
 }
 
 int read_threads(const Typed& typed) {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return read_whole_number(typed, 1, kMaxThreads, "leave it out to use all cores").value_or(cores);
+  return read_whole_number(typed, 1, kMaxThreads, "leave it out to use all cores")
+      .value_or(available_cores());
 }
 
 std::optional<double> read_angle(const Typed& typed, std::string_view fix) {

@@ -1,11 +1,9 @@
 #include "cli/simulate/simulate_options.h"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
-#include <thread>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -13,6 +11,7 @@
 #include "calibrate/experiment/heap_views.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/study/bench_sheets.h"
+#include "cli/common/cores.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/output.h"
@@ -48,10 +47,9 @@ void read_numbers(const SimulateArguments& arguments, SimulatePlan& plan) {
   const int repeats = number_of("--repeats", arguments.repeats, 1, kMaxRepeats, "--repeats 5", plan)
                           .value_or(plan.study.replicates);
   for (int k = 0; k < repeats; ++k) plan.seeds.push_back(seed + static_cast<std::uint64_t>(k));
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   plan.threads = number_of("--threads", arguments.threads, 1, kMaxThreads,
                            "leave it out to use all cores", plan)
-                     .value_or(plan.study.threads.value_or(cores));
+                     .value_or(plan.study.threads.value_or(available_cores()));
   constexpr double kShortest_s = 1e-9, kLongest_s = 1e6;
   plan.trajectory_s = number_of("--trajectory-s", arguments.trajectory_s, kShortest_s, kLongest_s,
                                 "--trajectory-s 0.1", plan);

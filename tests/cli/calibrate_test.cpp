@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sched.h>
 #include <sys/wait.h>
 
 #include "tests/calibrate/sphere_study.h"
@@ -146,6 +147,35 @@ TEST_F(CalibrateKilled, AgainAndAgainEndsWithTheSameBytes) {
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("simulations were taken from killed/runs"));
   EXPECT_EQ(text("killed/result.json"), text("whole/result.json"));
+}
+
+/// As a cluster gives a job one core of many; programs that are started have no more.
+class OneCore {
+ public:
+  OneCore() {
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    sched_getaffinity(0, sizeof all_, &all_);
+    int core = 0;
+    while (!CPU_ISSET(core, &all_)) ++core;
+    CPU_SET(core, &one);
+    sched_setaffinity(0, sizeof one, &one);
+  }
+  ~OneCore() { sched_setaffinity(0, sizeof all_, &all_); }
+  OneCore(const OneCore&) = delete;
+  OneCore& operator=(const OneCore&) = delete;
+  OneCore(OneCore&&) = delete;
+  OneCore& operator=(OneCore&&) = delete;
+
+ private:
+  cpu_set_t all_ = {};
+};
+
+TEST_F(Calibrate, TakesTheCoresThatItMayUse) {
+  const OneCore one_core;
+  const Finished done = run({"study.toml", "--dry-run"});
+  EXPECT_THAT(done.out, HasSubstr("time at most, 1 core "));
+  EXPECT_THAT(done.err, IsEmpty());
 }
 
 TEST_F(Calibrate, AnotherStudyFindsTheRunsThatItShares) {
