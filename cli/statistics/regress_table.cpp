@@ -1,6 +1,7 @@
 #include "cli/statistics/regress_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -125,6 +126,14 @@ std::string end_text(const std::optional<double>& end) {
   return end ? fmt::format("{:.4g}", *end) : "beyond the runs";
 }
 
+/// What a factor may be; an end is empty where the runs end first.
+std::string range_text(const std::array<std::optional<double>, 2>& range) {
+  const auto& [low, high] = range;
+  if (low && high) return fmt::format("{:.4g} … {:.4g}", *low, *high);
+  if (low) return fmt::format("from {:.4g} on", *low);
+  return high ? fmt::format("up to {:.4g}", *high) : "anywhere";
+}
+
 /// Where the surface may be level.
 void add_region(const calibrate::Regression& fit, const calibrate::StationaryRegion& region,
                 Table& table) {
@@ -134,8 +143,7 @@ void add_region(const calibrate::Regression& fit, const calibrate::StationaryReg
   }
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < fit.factors.size(); ++i) {
-    const auto& [low, high] = region.ranges[i];
-    parts.push_back(fmt::format("{} {} … {}", fit.factors[i].name, end_text(low), end_text(high)));
+    parts.push_back(fmt::format("{} {}", fit.factors[i].name, range_text(region.ranges[i])));
   }
   table.add_row({"stationary", fmt::format("{} (95 %)", fmt::join(parts, ", "))});
 }
