@@ -1,6 +1,8 @@
 #include "vision/measure/profile.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
@@ -50,6 +52,37 @@ double height_at(const Profile& profile, double along) {
     if (std::abs(profile.along[i] - along) < 0.51) return profile.height[i];
   }
   return -1;
+}
+
+/// The heap on a thin layer, which reaches from one x to another.
+Profile with_layer(double height, double from, double to) {
+  return Scene([=](double x) {
+           return x < from || x > to ? heap_y(x) : std::min(heap_y(x), kGround - height);
+         })
+      .profile();
+}
+
+TEST(UpperProfile, EndsWhereAStripOfThePlateBegins) {
+  const double foot = 100 / std::tan(30 * kDegree);
+  for (const auto& [from, to] : {std::pair{0., 200.}, {200., 400.}, {0., 400.}}) {
+    const Profile profile = with_layer(1.6, from, to);
+    EXPECT_NEAR(profile.along.front(), 200 - foot, 5);
+    EXPECT_NEAR(profile.along.back(), 200 + foot, 5);
+    EXPECT_FALSE(profile.leaves_frame_left || profile.leaves_frame_right) << "its feet are seen";
+    EXPECT_NEAR(profile.crest_height, 100, 3);
+    EXPECT_NEAR(profile.along[profile.crest], 200, 1.5);
+  }
+}
+
+TEST(UpperProfile, KeepsLayersOfGrainsAndToes) {
+  EXPECT_NEAR(with_layer(4, 0, 200).along.front(), 0, 1) << "as high as a grain";
+  EXPECT_TRUE(with_layer(4, 0, 200).leaves_frame_left);
+  EXPECT_NEAR(with_layer(1.6, 22, 200).along.front(), 22, 1) << "as long as a toe";
+}
+
+TEST(UpperProfile, OfAStripAloneIsLeftAsItIs) {
+  const Profile profile = Scene([](double) { return kGround - 1.6; }).profile();
+  EXPECT_THAT(profile.along, SizeIs(kCols));
 }
 
 TEST(UpperProfile, HasTheEdgesHeightInEveryColumn) {

@@ -184,6 +184,15 @@ TEST(ReposeAngle, SeedMovesTheIntervalALittleAndTheAngleNotAtAll) {
   EXPECT_NEAR(*two.uncertainty_rad / *one.uncertainty_rad, 1, 0.2);  // 300 resamples: 4 % a side
 }
 
+TEST(ReposeAngle, TheBaseEndsWithTheHeapAndNotWithThePlate) {
+  for (const char* condition : {"uneven_light", "roll"}) {  // which showed strips of the plate
+    const auto heap = testing::draw_heap(testing::condition_named(condition).scene(3));
+    const ReposeAngle result = measure_repose_angle(heap.picture);
+    const double base_px = heap.ground.to.x - heap.ground.from.x;
+    EXPECT_NEAR(result.base_px.value_or(0), base_px, .03 * base_px) << condition;
+  }
+}
+
 TEST(ReposeAngle, TellsWhatItSaw) {
   const auto heap = drawn("clean", 2, kWidth);
   const ReposeAngle result = measure_repose_angle(heap.picture);

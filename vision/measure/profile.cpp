@@ -1,6 +1,8 @@
 #include "vision/measure/profile.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 #include "vision/measure/line_fit.h"
 
@@ -78,6 +80,33 @@ std::vector<bool> tower_columns(const std::vector<Column>& columns) {
   return tower;
 }
 
+/// How many of the first points are a strip of the plate that segmentation took with the heap: long
+/// and lower than any toe of grains can be. `at` gives the points from the profile's end on.
+template <typename At>
+std::size_t strip_length(const Profile& profile, const At& at) {
+  constexpr double kHighest_px = 2, kShortest_px = 10;
+  std::size_t count = 0;
+  while (count < profile.size() && profile.height[at(count)] < kHighest_px) ++count;
+  if (count == 0 || count == profile.size()) return 0;
+  const double length_px = std::abs(profile.along[at(count)] - profile.along[at(0)]);
+  return length_px < kShortest_px ? 0 : count;
+}
+
+/// The foot behind such a strip is seen, wherever the strip ends.
+void cut_strips(Profile& profile) {
+  const std::size_t last = profile.size() - 1;
+  const std::size_t left = strip_length(profile, [](std::size_t i) { return i; });
+  const std::size_t right = strip_length(profile, [last](std::size_t i) { return last - i; });
+  const auto cut = [&](std::vector<double>& values) {
+    values.resize(values.size() - right);
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(left));
+  };
+  cut(profile.along);
+  cut(profile.height);
+  profile.leaves_frame_left = profile.leaves_frame_left && left == 0;
+  profile.leaves_frame_right = profile.leaves_frame_right && right == 0;
+}
+
 }  // namespace
 
 std::vector<double> moving_average(const std::vector<double>& values, std::size_t width) {
@@ -122,7 +151,9 @@ Profile upper_profile(const Body& body, const Segmentation& segmentation,
     profile.height.push_back(columns[i].height);
     if (columns[i].at_top) profile.leaves_frame_top = true;
   }
-  if (profile.size() > 0) set_crest(profile);
+  if (profile.size() == 0) return profile;
+  cut_strips(profile);
+  set_crest(profile);
   return profile;
 }
 
