@@ -17,7 +17,7 @@ endfunction()
 # Suites that run much of the code hundreds of times, to count how often or see how nearly it is right:
 # they have the label `statistics` too, and are left out where each run takes ten times as long.
 set(statistics "^(vision/Conditions/.*|vision/ComparePictures|calibrate/JointFit(OfTheBench)?|\
-calibrate/Propose|dem/FillAccuracy)$")
+calibrate/Propose|dem/(FillAccuracy|FilledTubes|DrawDowns))$")
 # Suites that start, kill and restart whole programs, each of which other suites run as well: they have
 # the label `processes`, and are left out there too.
 set(processes "^cli/(CalibrateKilled|CalibrateRanks|Folders|OutputsOf|SimulateRestart)$")

@@ -115,7 +115,7 @@ double beverloo_g_s(const Repeat& repeat, const DrawDownProtocol& boxes, double 
          std::pow(boxes.slot_m - kGap_m, 1.5);
 }
 
-TEST(DrawDown, RunsOutAsFastAsBeverloosLawSays) {
+TEST(DrawDowns, RunOutAsFastAsBeverloosLawSays) {
   Model model = balls({.1, .3, .2});
   model.grain_wall = {.1, .05, .2};  // the law leaves friction at the panes out
   std::vector<double> of_the_law;

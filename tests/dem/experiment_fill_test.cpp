@@ -19,7 +19,7 @@ Model balls() {
 
 constexpr FillProtocol kTube{.tube_diameter_m = .15, .tube_height_m = .15};
 
-TEST(Fill, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
+TEST(FilledTube, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
   const Repeat repeat = run_fill(balls(), kTube, 1);
   const double grain_kg = 1000 * 4.0 / 3 * std::numbers::pi * 1e-6;
   const double tube_m3 = std::numbers::pi / 4 * .15 * .15 * .15;
@@ -32,7 +32,7 @@ TEST(Fill, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
   }
 }
 
-TEST(Fill, BallsPackAsPouredBallsDo) {
+TEST(FilledTubes, BallsPackAsPouredBallsDo) {
   Model model = balls();
   model.grain_material.young_modulus_pa = 1e7;
   // Poured loosely into a tube of 7.5 diameters balls fill .568 of it (Zou and Yu 1995, Chemical
@@ -40,14 +40,14 @@ TEST(Fill, BallsPackAsPouredBallsDo) {
   EXPECT_NEAR(run_fill(model, kTube, 1).readings.at("solid_fraction"), .568 * (1 - .01 / .15), .03);
 }
 
-TEST(Fill, FrictionMakesLooserPackings) {
+TEST(FilledTubes, FrictionMakesLooserPackings) {
   Model smooth = balls(), rough = balls();
   smooth.grain_grain = {.3, .05, .01};
   rough.grain_grain = {.3, .8, .3};
   EXPECT_LT(run_fill(rough, kTube, 1).value, run_fill(smooth, kTube, 1).value - 20);
 }
 
-TEST(Fill, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
+TEST(FilledTubes, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
   FillProtocol tube = kTube;
   tube.tap_m = .01;
   const Repeat poured = run_fill(balls(), tube, 1);
@@ -64,14 +64,14 @@ TEST(Fill, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
   EXPECT_LT(often.readings.at("solid_fraction"), .637);
 }
 
-TEST(Fill, IsTheSameAtAnyNumberOfThreads) {
+TEST(FilledTube, IsTheSameAtAnyNumberOfThreads) {
   Model two = balls();
   two.threads = 2;
   const Repeat one = run_fill(balls(), kTube, 3);
   EXPECT_TRUE(test::same_state(*one.state, *run_fill(two, kTube, 3).state));
 }
 
-TEST(Fill, TellsEveryErrorAtOnce) {
+TEST(FilledTube, TellsEveryErrorAtOnce) {
   EXPECT_THAT(error_of([] {
                 run_fill(balls(), {.tube_diameter_m = .03, .tube_height_m = .02, .pour_m = 0}, 1);
               }),
@@ -89,7 +89,7 @@ TEST(Fill, TellsEveryErrorAtOnce) {
               HasSubstr("Rule: at most 100000. Fix: a smaller tube"));
 }
 
-TEST(Fill, GrainsThatAreTooSoftStopTheRun) {
+TEST(FilledTube, GrainsThatAreTooSoftStopTheRun) {
   Model soft = balls();
   soft.grain_material.young_modulus_pa = 1e3;
   EXPECT_THROW(run_fill(soft, kTube, 1), UnstableRun);

@@ -32,7 +32,7 @@ OUTPUTS = {
     "bench": ["bench sliding --set angle_deg=22.1,22.9 --json -"],
     "regress": ["regress runs.csv --response angle_deg --target 23 --json -"],
     "export": ["export hazelnut --to edem --json -"],
-    "plan": ["plan study.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
+    "plan": ["plan drops.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
     "calibrate": ["calibrate study.toml --out hazelnut --json -"],
 }
 SECTIONS = ["study", "particle", "wall", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
@@ -126,6 +126,8 @@ def main(repose):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         workplace.prepare(folder, root, repose)
+        study = (folder / "study.toml").read_text(encoding="utf-8")
+        (folder / "drops.toml").write_text(study.partition("[experiment.tilt]")[0], encoding="utf-8")
         subprocess.run([repose, *"simulate heap study.toml --views 0 --out state".split()],
                        cwd=folder, check=True, stdout=subprocess.DEVNULL)
         errors = [*errors_of_outputs(texts["docs/json.md"], folder, repose),
