@@ -158,11 +158,23 @@ std::string Advisor::unmeasured_advice(std::size_t parameter) const {
                      best.unmeasured->experiment, worth_of_ten(best.fraction));
 }
 
-std::string Advisor::offer_advice(std::size_t parameter) const {
+Advice Advisor::addition_advice(std::size_t parameter) const {
   const Best best = best_of(offered_, parameter);
-  if (best.unmeasured == nullptr) return "";
-  return fmt::format("add [experiment.{}] and its readings to the study: {}",
-                     best.unmeasured->experiment, worth_of_ten(best.fraction));
+  if (best.unmeasured != nullptr) {
+    return {fmt::format("add [experiment.{}] and its readings to the study: {}",
+                        best.unmeasured->experiment, worth_of_ten(best.fraction)),
+            {best.unmeasured->experiment}};
+  }
+  const std::vector<std::string>& tellers = problem_.parameters[parameter].told_by;
+  const bool is_told = std::ranges::any_of(tellers, [&](const std::string& experiment) {
+    return std::ranges::any_of(problem_.experiments,
+                               [&](const Experiment& e) { return e.name == experiment; });
+  });
+  if (is_told || tellers.empty()) return {};
+  return {fmt::format("do an experiment that tells it from the others: add [experiment.{}] and its "
+                      "readings to the study (repose plan tells what each would give)",
+                      fmt::join(tellers, "] or [experiment.")),
+          tellers};
 }
 
 std::string Advisor::more_readings_advice(std::size_t parameter) const {
@@ -187,35 +199,24 @@ std::string Advisor::unmade_advice(std::size_t parameter) const {
     if (is_measured(problem_, experiment.name) || !depends(experiment, parameter)) continue;
     parts.push_back(fmt::format("do the {} experiment, which depends on it", experiment.name));
   }
-  const std::vector<std::string>& tellers = problem_.parameters[parameter].told_by;
-  const bool is_told = std::ranges::any_of(tellers, [&](const std::string& experiment) {
-    return std::ranges::any_of(problem_.experiments,
-                               [&](const Experiment& e) { return e.name == experiment; });
-  });
-  const std::string offer = offer_advice(parameter);
-  if (!offer.empty()) {
-    parts.push_back(offer);
-  } else if (!is_told && !tellers.empty()) {
-    parts.push_back(
-        fmt::format("do an experiment that tells it from the others: add [experiment.{}] and its "
-                    "readings to the study (repose plan tells what each would give)",
-                    fmt::join(tellers, "] or [experiment.")));
-  }
   return fmt::format("{}", fmt::join(parts, "; or "));
 }
 
-std::string Advisor::advice(std::size_t parameter) const {
+Advice Advisor::advice(std::size_t parameter) const {
+  Advice advice = addition_advice(parameter);
   std::vector<std::string> parts = {unmeasured_advice(parameter), more_readings_advice(parameter),
-                                    unmade_advice(parameter)};
+                                    unmade_advice(parameter), advice.text};
   if (more_runs_would_help(parameter)) {
     parts.emplace_back("simulate more: the surrogates are less certain than the measurements");
   }
   std::erase(parts, "");
+  advice.text = fmt::format("{}", fmt::join(parts, "; or "));
   if (parts.empty()) {
-    return "not identifiable from these experiments: fix it to a literature value, which will "
-           "hardly affect them";
+    advice.text =
+        "not identifiable from these experiments: fix it to a literature value, which will hardly "
+        "affect them";
   }
-  return fmt::format("{}", fmt::join(parts, "; or "));
+  return advice;
 }
 
 }  // namespace repose::calibrate

@@ -8,14 +8,19 @@
 
 namespace repose::calibrate {
 
+/// What would determine a parameter.
+struct Advice {
+  std::string text;                      ///< one sentence or two
+  std::vector<std::string> experiments;  ///< that it would add to the study
+};
+
 /// What would determine each parameter that the data leave open; in the problem's order.
 class Advisor {
  public:
   /// Learns the readings that a bench could have given and that were not measured.
   Advisor(const Problem& problem, const std::vector<Run>& runs, const Solution& solution);
 
-  /// One sentence or two about one parameter.
-  std::string advice(std::size_t parameter) const;
+  Advice advice(std::size_t parameter) const;
 
  private:
   /// What a bench could measure: what it would read at every plausible set, and how well.
@@ -46,7 +51,9 @@ class Advisor {
   std::string unmeasured_advice(std::size_t parameter) const;
   std::string more_readings_advice(std::size_t parameter) const;
   std::string unmade_advice(std::size_t parameter) const;
-  std::string offer_advice(std::size_t parameter) const;
+
+  /// Experiments to add: the best of those that were simulated, or else those that tell it.
+  Advice addition_advice(std::size_t parameter) const;
 
   /// Some observable depends on it visibly, and its surrogate is the weakest link.
   bool more_runs_would_help(std::size_t parameter) const;

@@ -26,8 +26,7 @@ Verdict verdict_of(const Profile& profile) {
   return low || high ? Verdict::one_sided : Verdict::determined;
 }
 
-FittedParameter parameter_of(const Problem& problem, const Solution& solution,
-                             const Advisor& advisor, std::size_t j) {
+FittedParameter parameter_of(const Problem& problem, const Solution& solution, std::size_t j) {
   const Parameter& parameter = problem.parameters[j];
   const Profile& profile = solution.profiles[j];
   const auto value_at = [&](double x) {
@@ -38,12 +37,32 @@ FittedParameter parameter_of(const Problem& problem, const Solution& solution,
   fitted.value = value_at(solution.best.point[j]);
   fitted.interval = {value_at(profile.low), value_at(profile.high)};
   fitted.verdict = verdict_of(profile);
-  if (fitted.verdict != Verdict::determined) fitted.advice = advisor.advice(j);
   for (const Minimum& minimum : profile.minima) {
     fitted.profile.push_back(
         {value_at(minimum.point[j]), std::max(0., minimum.chi2 - solution.best.chi2)});
   }
   return fitted;
+}
+
+/// Adds the lines of those of the experiments that are not among the additions yet.
+void add_lines(const Problem& problem, const std::vector<std::string>& experiments,
+               std::vector<StudyAddition>& additions) {
+  for (const std::string& name : experiments) {
+    const auto offer = std::ranges::find(problem.offers, name,
+                                         [](const Offer& one) { return one.experiment.name; });
+    if (offer == problem.offers.end()) continue;
+    if (std::ranges::find(additions, name, &StudyAddition::experiment) != additions.end()) continue;
+    additions.push_back({.experiment = name, .lines = offer->study_lines});
+  }
+}
+
+void advise(const Problem& problem, const Advisor& advisor, JointFit& fit) {
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+    if (fit.parameters[j].verdict == Verdict::determined) continue;
+    const Advice advice = advisor.advice(j);
+    fit.parameters[j].advice = advice.text;
+    add_lines(problem, advice.experiments, fit.additions);
+  }
 }
 
 FittedObservable observable_of(const Problem& problem, const Solution& solution, std::size_t i) {
@@ -124,12 +143,12 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   require_sound(problem);
   const std::vector<Run> sorted = in_order(problem, runs);
   const Solution solution = solve(problem, sorted);
-  const Advisor advisor(problem, sorted, solution);
   JointFit fit;
   fit.chi2 = solution.best.chi2;
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
-    fit.parameters.push_back(parameter_of(problem, solution, advisor, j));
+    fit.parameters.push_back(parameter_of(problem, solution, j));
   }
+  advise(problem, Advisor(problem, sorted, solution), fit);
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     fit.observables.push_back(observable_of(problem, solution, i));
     fit.surrogates.push_back(

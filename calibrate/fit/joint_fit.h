@@ -100,6 +100,12 @@ struct RoundSummary {
   std::vector<double> sd;      ///< their scatter
 };
 
+/// An experiment that the advice names and the study does not have.
+struct StudyAddition {
+  std::string experiment;
+  std::string lines;  ///< its section of the study file
+};
+
 struct JointFit {
   std::vector<FittedParameter> parameters;       ///< in Problem's order
   std::vector<FittedObservable> observables;     ///< in Problem's order
@@ -108,6 +114,7 @@ struct JointFit {
   std::vector<std::vector<double>> reading_correlation;
   std::vector<ParameterSet> equivalence_family;  ///< the best fit not included
   std::vector<PredictedSet> asked;               ///< in the order of the question
+  std::vector<StudyAddition> additions;          ///< each once
   std::vector<SurrogateQuality> surrogates;      ///< in order of the observables
   std::vector<ResponseCurve> curves;
   std::vector<ResponseSurface> surfaces;

@@ -93,11 +93,12 @@ struct Run {
   std::string failure;  ///< why there is no reading ("the grains stay in the tube"); else empty
 };
 
-/// An experiment that the study does not have and that was simulated all the same: the advice says
+/// An experiment that the study does not have. Where it was simulated all the same, the advice says
 /// what readings of it would be worth.
 struct Offer {
   Experiment experiment;
-  std::vector<Run> runs;  ///< all over the bounds, each once, in a fixed order
+  std::string study_lines;  ///< its section of the study file
+  std::vector<Run> runs;    ///< all over the bounds, each once, in a fixed order; or none
 };
 
 /// Parameters to be found, what was measured, and what can be simulated.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "calibrate/plan/plan.h"
+#include "calibrate/start/usual_experiment.h"
 #include "calibrate/study/study_simulator.h"
 #include "dem/study/experiment_table.h"
 
@@ -20,9 +21,11 @@ std::vector<Offer> offers_in(const RunFolder& folder, const dem::Study& study,
   const StudySimulator simulator(offered.study, grain, offered.problem.parameters);
   std::vector<Offer> offers;
   for (const Experiment& experiment : offered.problem.experiments) {
-    if (offered.added.contains(dem::experiment_named(experiment.name).experiment)) {
-      offers.push_back({experiment, {}});
-    }
+    const dem::ExperimentEntry& entry = dem::experiment_named(experiment.name);
+    const auto added = offered.added.find(entry.experiment);
+    if (added == offered.added.end()) continue;
+    offers.push_back(
+        {.experiment = experiment, .study_lines = study_section(entry, added->second), .runs = {}});
   }
   for (const Job& job : plan_jobs(offered)) {
     const auto offer = std::ranges::find(offers, job.experiment,
@@ -32,7 +35,6 @@ std::vector<Offer> offers_in(const RunFolder& folder, const dem::Study& study,
       offer->runs.push_back(run_of({job, *run}));
     }
   }
-  std::erase_if(offers, [](const Offer& offer) { return offer.runs.empty(); });
   return offers;
 }
 

@@ -94,6 +94,10 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   if (!advice.empty()) {
     chapter.blocks.push_back(Heading{"How to determine the others"});
     for (const std::string& text : advice) chapter.blocks.push_back(Remark{text});
+    for (const StudyAddition& addition : joint.additions) {
+      chapter.blocks.push_back(
+          CodeText{fmt::format("For the study file: {}", addition.experiment), addition.lines});
+    }
   }
   return chapter;
 }

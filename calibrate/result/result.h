@@ -101,6 +101,7 @@ struct JointResult {
   std::vector<std::vector<double>> correlation;
   std::vector<std::vector<double>> reading_correlation;
   std::vector<EquivalentSet> equivalence_family;
+  std::vector<StudyAddition> additions;  ///< what the advice would have in the study file
   std::vector<std::string> warnings;
   std::vector<SurrogateQuality> surrogates;  ///< without warp and length scales
   std::vector<RoundSummary> rounds;

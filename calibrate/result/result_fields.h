@@ -135,6 +135,12 @@ void fields(Io& io, Held<Io, EquivalentSet>& set) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, StudyAddition>& addition) {
+  io("experiment", addition.experiment);
+  io("lines", addition.lines);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, SurrogateQuality>& surrogate) {
   io("observable", surrogate.observable);
   io("runs", surrogate.runs);
@@ -206,6 +212,7 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   io("correlation", joint.correlation);
   io("reading_correlation", joint.reading_correlation);
   io("equivalence_family", joint.equivalence_family);
+  if (io.has("additions", !joint.additions.empty())) io("additions", joint.additions);
   io("warnings", joint.warnings);
   io("surrogates", joint.surrogates);
   io("rounds", joint.rounds);

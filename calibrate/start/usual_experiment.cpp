@@ -5,8 +5,10 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "calibrate/start/toml_text.h"
+#include "calibrate/statistics/bench/sheet.h"
 
 namespace repose::calibrate {
 namespace {
@@ -81,9 +83,15 @@ std::string protocol_lines(const dem::ExperimentEntry& entry, dem::Protocol prot
   return text;
 }
 
-std::string stiffness_line(const dem::StudyExperiment& described) {
-  if (described.stiffness_factor == 1) return "";
-  return fmt::format("stiffness_factor = {}\n", toml_number(described.stiffness_factor));
+std::string study_section(const dem::ExperimentEntry& entry,
+                          const dem::StudyExperiment& described) {
+  std::string text = protocol_lines(entry, described.protocol);
+  if (described.stiffness_factor != 1) {
+    text += fmt::format("stiffness_factor = {}\n", toml_number(described.stiffness_factor));
+  }
+  const auto columns = column_names(bench_test_named(entry.sheet.test));
+  return text + fmt::format("measured = {{ readings = \"{}.csv\" }}  # columns: {}\n", entry.name,
+                            fmt::join(columns, ","));
 }
 
 }  // namespace repose::calibrate

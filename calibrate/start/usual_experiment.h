@@ -27,7 +27,8 @@ dem::StudyExperiment usual_experiment(const dem::ExperimentEntry& entry, const U
 /// Its section of a study file: the heading and the keys of its protocol, a line each.
 std::string protocol_lines(const dem::ExperimentEntry& entry, dem::Protocol protocol);
 
-/// The line that says how soft its grains are; empty where they are as stiff as the real ones.
-std::string stiffness_line(const dem::StudyExperiment& described);
+/// The whole section: those lines, how soft its grains are unless they are as stiff as the real
+/// ones, and the sheet of its readings with the columns that it needs.
+std::string study_section(const dem::ExperimentEntry& entry, const dem::StudyExperiment& described);
 
 }  // namespace repose::calibrate

@@ -106,6 +106,16 @@ void add_advice(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
+void add_additions(const calibrate::JointResult& joint, Page& page) {
+  if (joint.additions.empty()) return;
+  page.add_gap();
+  page.add("For the study file:");
+  for (const calibrate::StudyAddition& addition : joint.additions) {
+    page.add_gap();
+    page.add_lines(addition.lines);
+  }
+}
+
 std::string belongs_to_text(const calibrate::Provenance& of) {
   std::string stiffness;
   for (const auto& [experiment, factor] : of.stiffness_factor) {
@@ -132,6 +142,7 @@ std::string joint_table(const calibrate::JointResult& joint,
   add_agreement(joint, page);
   add_family(joint, page);
   add_advice(joint, page);
+  add_additions(joint, page);
   page.add_gap();
   page.add(belongs_to_text(provenance));
   return page.text();

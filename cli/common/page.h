@@ -15,6 +15,8 @@ class Page {
   void add_gap() { text_ += '\n'; }
   void add(const Table& table) { text_ += table.text(columns_); }
   void add(std::string_view text) { add("", text); }
+  /// To be copied: as they are, each with its end.
+  void add_lines(std::string_view lines) { text_ += lines; }
   void add(std::string_view mark, std::string_view text) {
     text_ += paragraph(mark, text, columns_);
   }

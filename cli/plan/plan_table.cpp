@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "calibrate/start/usual_experiment.h"
-#include "calibrate/statistics/bench/sheet.h"
 #include "cli/common/page.h"
 #include "dem/study/experiment_table.h"
 
@@ -114,22 +113,12 @@ std::string conclusion(const calibrate::Plan& plan) {
 void add_section(const dem::ExperimentEntry& entry, const calibrate::OfferedStudy& offered,
                  Page& page) {
   page.add_gap();
-  const std::string columns = fmt::format(
-      "{}", fmt::join(calibrate::column_names(calibrate::bench_test_named(entry.sheet.test)), ","));
   const auto added = offered.added.find(entry.experiment);
   if (added == offered.added.end()) {
     page.add(fmt::format("[experiment.{}] is in the study: measure it.", entry.name));
-    return;
+  } else {
+    page.add_lines(calibrate::study_section(entry, added->second));
   }
-  const std::string section = calibrate::protocol_lines(entry, added->second.protocol) +
-                              calibrate::stiffness_line(added->second);
-  std::size_t begin = 0;
-  for (std::size_t end = section.find('\n'); end != std::string::npos;
-       begin = end + 1, end = section.find('\n', begin)) {
-    page.add(section.substr(begin, end - begin));
-  }
-  page.add(
-      fmt::format("measured = {{ readings = \"{}.csv\" }}  # columns: {}", entry.name, columns));
 }
 
 }  // namespace

@@ -294,7 +294,8 @@ TEST(JointFit, AnExperimentThatTellsAnOpenParameterIsAdvisedUnlessTheStudyHasIt)
 TEST(JointFit, AnExperimentThatAPlanSimulatedIsAdvisedWithWhatItWouldGive) {
   Problem problem = plate(20, .9, 10);
   problem.parameters.push_back({"bounce", 0, 1, {}, {"drop"}});
-  Offer& offer = problem.offers.emplace_back(Offer{{"pendulum", {1}, 1, true, {"value"}}, {}});
+  Offer& offer = problem.offers.emplace_back(
+      Offer{{"pendulum", {1}, 1, true, {"value"}}, "[experiment.pendulum]\nstring_mm = 300\n", {}});
   constexpr int kRuns = 20;
   for (int k = 0; k < kRuns; ++k) {
     const double bounce = (k + .5) / kRuns;
@@ -302,9 +303,13 @@ TEST(JointFit, AnExperimentThatAPlanSimulatedIsAdvisedWithWhatItWouldGive) {
                           .readings = {{"value", 10 + 20 * bounce + (k % 2 == 0 ? .1 : -.1)}},
                           .failure = {}});
   }
-  EXPECT_THAT(plate_fit(problem).parameters[1].advice,
+  const JointFit fit = plate_fit(problem);
+  EXPECT_THAT(fit.parameters[1].advice,
               AllOf(HasSubstr("add [experiment.pendulum]"), HasSubstr("would reduce"),
                     Not(HasSubstr("[experiment.drop]"))));
+  ASSERT_EQ(fit.additions.size(), 1U) << "the lines to add are given";
+  EXPECT_EQ(fit.additions[0].experiment, "pendulum");
+  EXPECT_EQ(fit.additions[0].lines, "[experiment.pendulum]\nstring_mm = 300\n");
   for (std::size_t k = 0; k < 11; ++k) {
     offer.runs[k].readings.clear();
     offer.runs[k].failure = "they miss each other";

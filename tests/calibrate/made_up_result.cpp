@@ -148,6 +148,7 @@ StudyResult joint_result() {
       .reading_correlation = {{1}},
       .equivalence_family = {{{{.41, .5}, 1.5}, AgreementVerdict::disagrees, {26}},
                              {{{.39, .7}, 2.5}, {}, {}}},
+      .additions = {{.experiment = "pendulum", .lines = "[experiment.pendulum]\n"}},
       .warnings = {"a <b>bold</b> warning"},
       .surrogates = {{.observable = "drop",
                       .runs = 12,

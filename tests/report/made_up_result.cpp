@@ -184,6 +184,7 @@ JointResult joint() {
   }
   joint.correlation.assign(kNames.size(), std::vector<double>(kNames.size(), .2));
   joint.reading_correlation = {{1, 0, 0}, {0, 1, -.7}, {0, -.7, 1}};
+  joint.additions.push_back({.experiment = kHostile, .lines = "[experiment]\n" + kHostile});
   for (const double value : {.3, .6, .8}) {
     EquivalentSet& set = joint.equivalence_family.emplace_back();
     set.values.assign(kNames.size(), value);
