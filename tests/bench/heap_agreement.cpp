@@ -1,5 +1,5 @@
-// Do heaps of the exported LIGGGHTS deck stand at the angle of our own? Same clump, contact law,
-// coefficients, stiffness and time step; each engine fills its tube in its own way.
+// Do heaps of the exported decks for LIGGGHTS or YADE stand at the angle of our own? Same clump,
+// contact law, coefficients, stiffness and time step; each engine fills its tube in its own way.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@
 #include "calibrate/statistics/summary.h"
 #include "dem/experiment/heap_envelope.h"
 #include "dem/study/grain_source.h"
-#include "tests/peers/liggghts.h"
+#include "tests/peers/exported.h"
 
 namespace {
 
@@ -55,36 +55,46 @@ int prime_from(int number) {
   return number;
 }
 
-/// Rows of id, type, x, y, z and radius below a head of nine lines.
-std::vector<dem::ClumpSphere> spheres_in(const std::filesystem::path& dump) {
-  std::ifstream in(dump);
+/// Rows of x, y, z and radius, below a head and after columns that are something else.
+std::vector<dem::ClumpSphere> spheres_in(const std::filesystem::path& file, int head, int before) {
+  std::ifstream in(file);
   std::string line;
-  for (int k = 0; k < 9; ++k) std::getline(in, line);
+  for (int k = 0; k < head; ++k) std::getline(in, line);
   std::vector<dem::ClumpSphere> spheres;
   while (std::getline(in, line)) {
     std::istringstream words(line);
-    double id = 0, type = 0;
+    std::string skipped;
+    for (int k = 0; k < before; ++k) words >> skipped;
     dem::ClumpSphere sphere;
-    words >> id >> type >> sphere.centre.x() >> sphere.centre.y() >> sphere.centre.z() >>
-        sphere.radius;
+    words >> sphere.centre.x() >> sphere.centre.y() >> sphere.centre.z() >> sphere.radius;
     if (sphere.centre.z() > 0) spheres.push_back(sphere);
   }
   return spheres;
 }
 
-Heap their_heap(const calibrate::StudyExport& decks, int number) {
-  constexpr int kSmallestSeed = 20000, kApart = 1000;
+void run(const std::string& program, const testing::TemporaryFolder& folder,
+         const std::vector<std::string>& words) {
+  const testing::Finished done = testing::run_program(program, folder, words);
+  if (done.exit_code == 0) return;
+  constexpr std::size_t kShown = 600;
+  const std::size_t from = done.out.size() - std::min(done.out.size(), kShown);
+  throw std::runtime_error(program + " failed: " + done.out.substr(from));
+}
+
+Heap their_heap(const calibrate::StudyExport& decks, calibrate::ExportTarget target, int number) {
   const testing::TemporaryFolder folder;
   for (const calibrate::ExportedFile& file : decks.files) folder.write(file.name, file.text);
-  const std::string seed = std::to_string(prime_from(kSmallestSeed + kApart * number));
-  const testing::Finished done = testing::run_program(
-      "liggghts", folder, {"-in", "heap.lig", "-log", "none", "-var", "seed", seed});
-  if (done.exit_code != 0) {
-    constexpr std::size_t kShown = 600;
-    const std::size_t from = done.out.size() - std::min(done.out.size(), kShown);
-    throw std::runtime_error("heap.lig failed: " + done.out.substr(from));
+  std::vector<dem::ClumpSphere> spheres;
+  if (target == calibrate::ExportTarget::yade) {
+    run("yade", folder, {"-n", "-x", "-j", "1", "heap.py", std::to_string(number + 1)});
+    spheres = spheres_in(folder.path() / "heap.txt", 0, 0);
+  } else {
+    constexpr int kSmallestSeed = 20000, kApart = 1000, kHead = 9, kIdAndType = 2;
+    const std::string seed = std::to_string(prime_from(kSmallestSeed + kApart * number));
+    run("liggghts", folder, {"-in", "heap.lig", "-log", "none", "-var", "seed", seed});
+    spheres = spheres_in(folder.path() / "heap.dump", kHead, kIdAndType);
   }
-  return heap_of(dem::heap_envelopes(spheres_in(folder.path() / "heap.dump"), kViews));
+  return heap_of(dem::heap_envelopes(spheres, kViews));
 }
 
 Heap our_heap(const dem::Model& model, const dem::HeapProtocol& protocol, int number) {
@@ -98,13 +108,14 @@ void print_row(const std::string& name, const Heap& heap) {
 }
 
 /// Welch's interval of the difference of two means.
-void print_difference(const std::vector<double>& ours, const std::vector<double>& theirs) {
+void print_difference(const std::vector<double>& ours, const std::vector<double>& theirs,
+                      const std::string& program) {
   const calibrate::Summary a = calibrate::summarise(ours), b = calibrate::summarise(theirs);
   const auto mean_variance = [](const calibrate::Summary& of) {
     return repose::base::EstimatedVariance{of.sd.value_or(0) * of.sd.value_or(0) / of.n, of.n - 1.};
   };
-  fmt::print("ours {:.2f}, sd {:.2f}; LIGGGHTS {:.2f}, sd {:.2f}, deg\n", a.mean, a.sd.value_or(0),
-             b.mean, b.sd.value_or(0));
+  fmt::print("ours {:.2f}, sd {:.2f}; {} {:.2f}, sd {:.2f}, deg\n", a.mean, a.sd.value_or(0),
+             program, b.mean, b.sd.value_or(0));
   if (!a.sd || !b.sd) return;
   constexpr double kUpper95 = .975;
   const double t =
@@ -113,11 +124,13 @@ void print_difference(const std::vector<double>& ours, const std::vector<double>
              t * std::sqrt(mean_variance(a).variance + mean_variance(b).variance));
 }
 
-void compare(const std::string& file, const std::vector<std::string>& settings, int seeds) {
+void compare(const std::string& file, const std::vector<std::string>& settings,
+             const std::string& program, int seeds) {
   const dem::Study study = dem::read_study(file, settings);
   const dem::ClumpShape grain = dem::build_grain(study.grain).shape;
+  const calibrate::ExportTarget target = *calibrate::export_target_named(program);
   const calibrate::StudyExport decks =
-      calibrate::export_study(study, grain, {}, {.target = calibrate::ExportTarget::liggghts});
+      calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true});
   dem::Model model = dem::model_for(study, dem::Experiment::heap);
   model.grain = grain;
   std::vector<double> ours, theirs;
@@ -126,30 +139,32 @@ void compare(const std::string& file, const std::vector<std::string>& settings, 
     const Heap our = our_heap(model, study.protocol<dem::HeapProtocol>(), k);
     print_row("ours", our);
     ours.push_back(our.angle_deg);
-    const Heap their = their_heap(decks, k);
-    print_row("LIGGGHTS", their);
+    const Heap their = their_heap(decks, target, k);
+    print_row(program, their);
     theirs.push_back(their.angle_deg);
   }
-  print_difference(ours, theirs);
+  print_difference(ours, theirs, program);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Angles of heaps of the exported LIGGGHTS deck against our own"};
+  CLI::App app{"Angles of heaps of an exported deck against our own"};
   std::string study;
   std::vector<std::string> settings = {"contact.rolling_model=\"relative_constant_torque\""};
   int seeds = 10;
   app.add_option("study", study, "a study with a heap, all coefficients with a value")->required();
-  app.add_option("--set", settings, "of the study, in place of LIGGGHTS's rolling model");
+  app.add_option("--set", settings, "of the study, in place of a rolling model that both have");
+  std::string program = "liggghts";
+  app.add_option("--program", program)->check(CLI::IsMember({"liggghts", "yade"}));
   app.add_option("--seeds", seeds, "heaps of each engine")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
-  if (!testing::has_liggghts()) {
-    fmt::print("{}\n", testing::kNoLiggghts);
+  if (!testing::has_program_for(*calibrate::export_target_named(program))) {
+    fmt::print("{0} is not installed. Fix: apt-get install {0}\n", program);
     return 1;
   }
   try {
-    compare(study, settings, seeds);
+    compare(study, settings, program, seeds);
   } catch (const std::exception& error) {
     fmt::print(stderr, "heap_agreement: {}\n", error.what());
     return 1;

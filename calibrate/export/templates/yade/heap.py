@@ -1,11 +1,12 @@
 # {{GRAINS}} grains in a tube that is lifted off a plate at {{LIFT_MM_S}} mm/s: the heap that stays.
 #   yade -n -x heap.py
+# Another heap: yade -n -x heap.py SEED.
 # heap.txt holds the spheres at the end (x y z radius, m): draw or measure them from the side.
 exec(open('grain.py').read())
-import random
+import random, sys
 from yade import geom
 STIFFNESS = {{STIFFNESS}}
-random.seed(1)
+random.seed(int(sys.argv[1]) if len(sys.argv) > 1 else 1)
 add_materials(STIFFNESS, GRAIN)
 half = .5 * {{PLATE}}
 corners = [(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0)]
