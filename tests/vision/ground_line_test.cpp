@@ -190,5 +190,41 @@ TEST(BestGround, UnderABowedBaseTheSearchDoesNotTurnTheLine) {
   EXPECT_LT(best.y(300), kGround + 10) << "but shifts it";
 }
 
+/// A heap of yellow grains on a grey plate, seen from a little above: the plate ends behind the
+/// heap at kGround, and the heap's foot, which lies in a shade, is 12 px lower.
+WorkingPicture heap_before_an_edge(const cv::Vec3b& foot) {
+  cv::Mat3b picture(220, 400, cv::Vec3b(200, 200, 200));
+  picture.rowRange(static_cast<int>(kGround), 220) = cv::Vec3b(120, 120, 120);
+  const std::vector<cv::Point> heap = {{100, 150}, {200, 90}, {300, 150}};
+  cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{heap}, cv::Scalar(90, 170, 200));
+  cv::rectangle(picture, cv::Rect(105, 150, 190, 12), cv::Scalar(foot), cv::FILLED);
+  return work_of(picture);
+}
+
+/// The outline of heap and plate, taken for one.
+Spans spans_with_plate() {
+  Spans spans{.top = std::vector<int>(400), .bottom = std::vector<int>(400, 219)};
+  for (int x = 0; x < 400; ++x) {
+    const double top = std::min(150.0, 90 + .6 * std::abs(x - 200));
+    spans.top[static_cast<std::size_t>(x)] = static_cast<int>(top);
+  }
+  return spans;
+}
+
+TEST(FindGround, AnEdgeBehindTheHeapIsOneEvenIfTheGrainsBelowItLieInAShade) {
+  for (const cv::Vec3b& foot : {cv::Vec3b(90, 170, 200), cv::Vec3b(60, 135, 160)}) {
+    const auto ground = find_ground(spans_with_plate(), heap_before_an_edge(foot));
+    ASSERT_TRUE(ground);
+    EXPECT_NEAR(ground->y(200), kGround, 2);
+    EXPECT_TRUE(ground->behind) << "foot " << foot;
+  }
+}
+
+TEST(FindGround, AHeapsShadowOnThePlateIsNoFoot) {
+  const auto ground = find_ground(spans_with_plate(), heap_before_an_edge(cv::Vec3b(80, 80, 80)));
+  ASSERT_TRUE(ground);
+  EXPECT_FALSE(ground->behind);
+}
+
 }  // namespace
 }  // namespace repose::vision

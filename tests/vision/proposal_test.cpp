@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/places.h"
 #include "tests/vision/pictures.h"
 
 namespace repose::vision {
@@ -28,6 +29,21 @@ TEST(Proposal, ATimerBeforeTheHeapMayBeLeftOut) {
   if (proposal->excluded) options.excluded.push_back(*proposal->excluded);
   options.hints.heap = proposal->heap;
   EXPECT_EQ(measure_repose_angle(covered, options).angle_rad, proposal->angle_rad);
+}
+
+TEST(Proposal, ABoxAroundAHeapReachesOverItsCrestEvenIfThatLiesInAShadow) {
+  // A rendered heap; its silhouette has this crest and this angle.
+  const Picture picture =
+      read_picture(testing::source_folder() / "tests/vision/rendered/crest_in_shadow.jpg");
+  constexpr int kCrest_y = 158;
+  constexpr double kSilhouette_deg = 26.8;
+  ASSERT_EQ(measure_repose_angle(picture).status, MeasureStatus::refused);
+  const auto proposal = propose_hint(picture, {});
+  ASSERT_TRUE(proposal);
+  ASSERT_TRUE(proposal->heap);
+  EXPECT_LT(proposal->heap->y, kCrest_y);
+  ASSERT_TRUE(proposal->angle_rad);
+  EXPECT_NEAR(*proposal->angle_rad / kDegree, kSilhouette_deg, 2);
 }
 
 TEST(Proposal, NothingIsProposedWhereNothingIsSeen) {

@@ -97,6 +97,19 @@ Box in_picture(const cv::Rect& box, const WorkingPicture& work, const Picture& p
           .height = std::min(picture.height, static_cast<int>(to.y)) - top};
 }
 
+bool is_crest_cut(const ReposeAngle& result) {
+  return std::ranges::any_of(result.warnings,
+                             [](const Warning& warning) { return warning.code == "crest_cut"; });
+}
+
+/// Upwards, as far as the picture goes.
+Box twice_as_high(Box box) {
+  const int grown = std::min(box.y, box.height);
+  box.y -= grown;
+  box.height += grown;
+  return box;
+}
+
 /// Tries proposals until one gives an angle that needs no second look.
 class Trials {
  public:
@@ -108,10 +121,12 @@ class Trials {
 
   void attempt(Proposal proposal) {
     if (is_settled()) return;
-    MeasureOptions changed = options_;
-    if (proposal.excluded) changed.excluded.push_back(*proposal.excluded);
-    if (proposal.heap) changed.hints.heap = proposal.heap;
-    const ReposeAngle result = measure_repose_angle(picture_, changed);
+    ReposeAngle result = measured(proposal);
+    while (proposal.heap && proposal.heap->y > 0 && is_crest_cut(result)) {
+      // What was seen is the lower part of a heap whose top looks otherwise, as in a shadow.
+      proposal.heap = twice_as_high(*proposal.heap);
+      result = measured(proposal);
+    }
     const bool is_better =
         result.status == MeasureStatus::ok || (result.status == MeasureStatus::flagged && !best_);
     if (!is_better) return;
@@ -122,6 +137,13 @@ class Trials {
   }
 
  private:
+  ReposeAngle measured(const Proposal& proposal) const {
+    MeasureOptions changed = options_;
+    if (proposal.excluded) changed.excluded.push_back(*proposal.excluded);
+    if (proposal.heap) changed.hints.heap = proposal.heap;
+    return measure_repose_angle(picture_, changed);
+  }
+
   const Picture& picture_;
   const MeasureOptions& options_;
   std::optional<Proposal> best_;

@@ -13,6 +13,7 @@ constexpr double kTailFraction = 0.12;  // of the frame's width that must be bar
 constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron of grains is not
 constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
+constexpr double kMuchNearer = .4;      // a distance, over another: grains in a shade are grains
 constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a fraction of its width
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
@@ -93,8 +94,9 @@ bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPic
     for (int row = first; !is_tail && row < level - 2; ++row) above.add(work, row, col);
   }
   if (tail.count == 0 || above.count == 0 || below.count == 0) return false;
-  return cv::norm(above.mean() - below.mean()) < kSameMaterial &&
-         cv::norm(tail.mean() - below.mean()) >= kSameMaterial;
+  const double from_heap = cv::norm(above.mean() - below.mean());
+  const double from_tail = cv::norm(tail.mean() - below.mean());
+  return from_tail >= kSameMaterial && from_heap < std::max(kSameMaterial, kMuchNearer * from_tail);
 }
 
 /// Bare ground left or right of the heap, when the segmentation took the ground for heap: a smooth
