@@ -226,5 +226,18 @@ TEST(FindGround, AHeapsShadowOnThePlateIsNoFoot) {
   EXPECT_FALSE(ground->behind);
 }
 
+TEST(BestGround, IsTheFootWhereTheHeapGoesOnBelowAPlainerEdge) {
+  const WorkingPicture work = heap_before_an_edge(cv::Vec3b(60, 135, 160));
+  constexpr double kFoot = kGround + 12;
+  Ground behind = level(kGround, 0);
+  behind.behind = true;
+  const Ground best = best_ground({behind, level(kFoot, 0), level(kFoot + 8, 0)}, kBase, work);
+  EXPECT_FALSE(best.behind);
+  EXPECT_EQ(best.y(200), kFoot);
+  EXPECT_TRUE(best_ground({behind}, kBase, work).behind) << "no other is known";
+  EXPECT_TRUE(best_ground({behind, level(kGround - 8, 0)}, kBase, work).behind)
+      << "what is higher is no foot";
+}
+
 }  // namespace
 }  // namespace repose::vision

@@ -13,7 +13,7 @@ constexpr double kTailFraction = 0.12;  // of the frame's width that must be bar
 constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron of grains is not
 constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
-constexpr double kMuchNearer = .4;      // a distance, over another: grains in a shade are grains
+constexpr double kOtherColour = 6;      // distance in a*b* alone, which a shade leaves alone
 constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a fraction of its width
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
@@ -72,6 +72,9 @@ bool tails_are_grains(const Spans& spans, const PictureLine& line, const Working
   return tail.count > 0 && heap.count > 0 && cv::norm(tail.mean() - heap.mean()) < kSameMaterial;
 }
 
+/// Of a difference of two materials, without lightness and roughness.
+double colour_of(const cv::Vec4d& difference) { return std::hypot(difference[1], difference[2]); }
+
 /// Whether the heap's material goes on below a line through the outline's tails, which is another
 /// one there: then the line is an edge behind the heap (where the table ends, seen from a little
 /// above), and the heap's foot is lower.
@@ -94,9 +97,13 @@ bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPic
     for (int row = first; !is_tail && row < level - 2; ++row) above.add(work, row, col);
   }
   if (tail.count == 0 || above.count == 0 || below.count == 0) return false;
-  const double from_heap = cv::norm(above.mean() - below.mean());
-  const double from_tail = cv::norm(tail.mean() - below.mean());
-  return from_tail >= kSameMaterial && from_heap < std::max(kSameMaterial, kMuchNearer * from_tail);
+  const cv::Vec4d from_heap = above.mean() - below.mean();
+  const cv::Vec4d from_tail = tail.mean() - below.mean();
+  if (cv::norm(from_tail) < kSameMaterial) return false;
+  // Grains in a shade are of the heap's colour, if not as light.
+  const bool is_shaded =
+      colour_of(from_tail) >= kOtherColour && 2 * colour_of(from_heap) < colour_of(from_tail);
+  return cv::norm(from_heap) < kSameMaterial || is_shaded;
 }
 
 /// Bare ground left or right of the heap, when the segmentation took the ground for heap: a smooth
@@ -235,14 +242,30 @@ Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& 
   return best;
 }
 
+/// The candidate with the best evidence; but where the heap goes on below that, the best of those
+/// that are its foot, if any is.
+std::size_t best_of(const std::vector<Ground>& candidates, const std::vector<double>& evidence,
+                    const Base& base) {
+  const auto best = static_cast<std::size_t>(std::max_element(evidence.begin(), evidence.end()) -
+                                             evidence.begin());
+  if (!candidates.at(best).behind) return best;
+  const double middle = (base.from + base.to) / 2;
+  std::size_t foot = best;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].behind || candidates[i].mirrored) continue;
+    if (candidates[i].y(middle) < candidates[best].y(middle) + kBaseTolerance) continue;
+    if (foot == best || evidence[i] > evidence[foot]) foot = i;
+  }
+  return foot;
+}
+
 }  // namespace
 
 Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
                    const WorkingPicture& work) {
   std::vector<double> valid_mask;
   for (const Ground& ground : candidates) valid_mask.push_back(ground_evidence(ground, base, work));
-  const auto chosen = static_cast<std::size_t>(
-      std::max_element(valid_mask.begin(), valid_mask.end()) - valid_mask.begin());
+  const std::size_t chosen = best_of(candidates, valid_mask, base);
   Ground best = candidates.at(chosen);
   double squares = 0;
   int rivals = 0;
@@ -254,6 +277,8 @@ Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
   }
   best.deviation_rad = std::hypot(best.deviation_rad, std::sqrt(squares / std::max(1, rivals)));
   if (valid_mask[chosen] >= kPlainEdge || best.mirrored) return best;
+  // A search would find the edge behind the heap again.
+  if (std::ranges::any_of(candidates, &Ground::behind)) return best;
   const Edge edge =
       edge_near({static_cast<const PictureLine&>(best), valid_mask[chosen]}, best.bow, base, work);
   if (edge.valid_mask < kBetterEdge * valid_mask[chosen]) return best;

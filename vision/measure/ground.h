@@ -28,7 +28,8 @@ inline constexpr double kFlatBase = 0.006;
 std::optional<Ground> find_ground(const Spans& region, const WorkingPicture& work);
 
 /// The ground that the picture itself shows best along the base, of all that segmentations have
-/// found there: one that sees the flanks sharply may still bleed into the plate. Where none of them
+/// found there: one that sees the flanks sharply may still bleed into the plate. Where that is an
+/// edge behind the heap it is the best of those that are its foot. Where none of them
 /// lies on a plain edge, the edge is searched for nearby. What equally good lines disagree about,
 /// and half of what the search changes, is added to the tilt's uncertainty. Needs a candidate.
 Ground best_ground(const std::vector<Ground>& candidates, const Base& base,
