@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "calibrate/export/conversions.h"
+#include "calibrate/export/liggghts_decks.h"
 #include "calibrate/export/stl.h"
 #include "calibrate/export/targets.h"
 
@@ -25,11 +27,6 @@ std::string spheres_text(const dem::ClumpShape& shape) {
     text += fmt::format("{} {} {} {}\n", at.x(), at.y(), at.z(), sphere.radius);
   }
   return text;
-}
-
-/// Marks what is there for spheres, and what for clumps.
-void mark_shape(bool is_sphere, DeckFields& fields) {
-  fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
 }
 
 void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
@@ -74,9 +71,9 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
                                     {"SLIDING", "sliding_friction"},
                                     {"ROLLING", "rolling_friction"}}) {
     const double wall = exported(conversions, fmt::format("contact.particle_wall.{}", name));
-    // Without a heap grains never touch each other.
+    // Where grains never touch each other, they have no coefficients.
     const double grain =
-        facts.has(dem::Experiment::heap)
+        facts.has_grain_contacts()
             ? exported(conversions, fmt::format("contact.particle_particle.{}", name))
             : wall;
     fields.set(fmt::format("WALL_{}", field), wall);
@@ -87,21 +84,27 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
   return {.name = "material.lig", .text = filled("liggghts/material.lig", fields)};
 }
 
+/// With which LIGGGHTS gives a sphere its mass; a clump has a mass of its own.
+double density_kg_m3(const ExportFacts& facts, bool is_sphere) {
+  return is_sphere ? facts.ball_density_kg_m3() : facts.study().model.grain_material.density_kg_m3;
+}
+
+/// The kind of grain that is poured, or put down twice.
+ExportedFile grain_file(const ExportFacts& facts) {
+  DeckFields fields = common_fields(facts);
+  mark_shape(facts.is_sphere(), fields);
+  set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
+  fields.set("RADIUS", facts.grain().spheres.front().radius);
+  fields.set("DENSITY", density_kg_m3(facts, facts.is_sphere()));
+  return {.name = "grain.lig", .text = filled("liggghts/grain.lig", fields)};
+}
+
 ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphere) {
   DeckFields fields = common_fields(facts);
   mark_shape(is_sphere, fields);
   fields.set("DIAMETER", 2 * facts.grain().spheres.front().radius);
-  fields.set("DENSITY", is_sphere ? facts.ball_density_kg_m3()
-                                  : facts.study().model.grain_material.density_kg_m3);
+  fields.set("DENSITY", density_kg_m3(facts, is_sphere));
   return {.name = name, .text = filled("liggghts/place.lig", fields)};
-}
-
-DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
-  DeckFields fields = common_fields(facts);
-  fields.set("STIFFNESS", facts.stiffness(experiment));
-  fields.set("TIMESTEP", facts.timestep_s(experiment));
-  fields.set("REACH", 2 * facts.grain().reach_m());
-  return fields;
 }
 
 ExportedFile drop_file(const ExportFacts& facts) {
@@ -181,10 +184,6 @@ ExportedFile heap_file(const ExportFacts& facts) {
       grains * facts.grain().volume_m3 / (kLoose * tube_m3) * protocol.tube_height_m;
   DeckFields fields = deck_fields(facts, Experiment::heap);
   mark_shape(facts.is_sphere(), fields);
-  set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
-  fields.set("RADIUS", facts.grain().spheres.front().radius);
-  fields.set("DENSITY", facts.is_sphere() ? facts.ball_density_kg_m3()
-                                          : facts.study().model.grain_material.density_kg_m3);
   fields.set("GRAINS", grains);
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
@@ -201,8 +200,21 @@ ExportedFile heap_file(const ExportFacts& facts) {
 
 }  // namespace
 
+void mark_shape(bool is_sphere, DeckFields& fields) {
+  fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
+}
+
+DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
+  DeckFields fields = common_fields(facts);
+  fields.set("STIFFNESS", facts.stiffness(experiment));
+  fields.set("TIMESTEP", facts.timestep_s(experiment));
+  fields.set("REACH", 2 * facts.grain().reach_m());
+  return fields;
+}
+
 std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {material_file(facts, conversions),
+                                     grain_file(facts),
                                      place_file(facts, "place.lig", facts.is_sphere()),
                                      {.name = "clump.txt", .text = spheres_text(facts.grain())}};
   if (facts.has(Experiment::drop)) files.push_back(drop_file(facts));
@@ -226,6 +238,7 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
     files.push_back(
         {.name = "plate.stl", .text = plate_stl(facts.study().protocol<dem::HeapProtocol>())});
   }
+  for (ExportedFile& file : liggghts_files_between_grains(facts)) files.push_back(std::move(file));
   return files;
 }
 

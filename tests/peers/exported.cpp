@@ -91,6 +91,15 @@ double mean_rise_mm(const TemporaryFolder& folder, int grains) {
   return 1e3 * sum_m / grains;
 }
 
+/// Writes the export into the folder.
+void write_decks(const TemporaryFolder& folder, const dem::Study& study,
+                 const dem::ClumpShape& grain, ExportTarget target) {
+  calibrate::write_export(
+      folder.path(),
+      calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true})
+          .files);
+}
+
 }  // namespace
 
 dem::Study short_study(dem::RollingModel rolling, double restitution) {
@@ -120,10 +129,7 @@ Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain) {
 
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target) {
   const TemporaryFolder folder;
-  calibrate::write_export(
-      folder.path(),
-      calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true})
-          .files);
+  write_decks(folder, study, grain, target);
   Readings readings;
   const std::string dropped = run_deck(folder, target, "drop");
   readings.drop_mm = target == ExportTarget::yade
@@ -132,6 +138,13 @@ Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, Expo
   readings.tilt_deg = reading_in(run_deck(folder, target, "tilt"), "half_mm_slip_deg");
   readings.roll_mm = reading_in(run_deck(folder, target, "roll"), "roll_mm");
   return readings;
+}
+
+double reading_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target,
+                  const std::string& deck, const std::string& name) {
+  const TemporaryFolder folder;
+  write_decks(folder, study, grain, target);
+  return reading_in(run_deck(folder, target, deck), name);
 }
 
 bool has_program_for(ExportTarget target) {

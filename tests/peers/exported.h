@@ -27,6 +27,10 @@ Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain);
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain,
                      calibrate::ExportTarget target);
 
+/// The export's deck of one experiment, run: the reading that it prints. Throws as above.
+double reading_of(const dem::Study& study, const dem::ClumpShape& grain,
+                  calibrate::ExportTarget target, const std::string& deck, const std::string& name);
+
 /// Whether the program starts.
 bool has_program_for(calibrate::ExportTarget target);
 

@@ -1,0 +1,69 @@
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/export/facts.h"
+#include "dem/experiment/hanging_pair.h"
+#include "dem/experiment/model_setup.h"
+#include "dem/experiment/placing.h"
+
+namespace repose::calibrate {
+namespace {
+
+using dem::Experiment;
+
+/// Other programs do not average the first and last step of an impact as ours does.
+constexpr double kTimestepFraction = .5;
+
+/// That gives the speed of the fastest impact that an experiment may see.
+double fall_m(const ExportFacts& facts, Experiment experiment) {
+  const dem::Study& study = facts.study();
+  const double reach = facts.grain().reach_m();
+  switch (experiment) {
+    case Experiment::drop:
+      return study.protocol<dem::DropProtocol>().height_m;
+    case Experiment::tilt:
+      return .01 * reach;
+    case Experiment::roll: {
+      const dem::RollProtocol& roll = study.protocol<dem::RollProtocol>();
+      return reach + roll.release_m * std::sin(roll.incline_deg * std::numbers::pi / 180);
+    }
+    case Experiment::drop_on_grains:
+      return study.protocol<dem::GrainDropProtocol>().height_m;
+    case Experiment::tilt_on_grains:
+    case Experiment::roll_on_grains:
+      return dem::diameter_m(facts.grain());
+    case Experiment::fill: {
+      const dem::FillProtocol& fill = study.protocol<dem::FillProtocol>();
+      return fill.tube_height_m + fill.pour_m;
+    }
+    case Experiment::pendulum:
+      return dem::release_height_m(study.protocol<dem::PendulumProtocol>());
+    case Experiment::draw_down: {
+      const dem::DrawDownProtocol& boxes = study.protocol<dem::DrawDownProtocol>();
+      return boxes.fill_m + boxes.drop_m;
+    }
+    case Experiment::heap:
+      break;
+  }
+  return 8 * reach;  // grains that rain into a tube
+}
+
+double speed_m_s(const ExportFacts& facts, Experiment experiment) {
+  return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m(facts, experiment));
+}
+
+}  // namespace
+
+double ExportFacts::drop_speed_m_s() const { return speed_m_s(*this, Experiment::drop); }
+
+double ExportFacts::timestep_s(Experiment experiment) const {
+  dem::Model model = dem::model_for(study_, experiment);
+  model.timestep_fraction = kTimestepFraction;
+  model.timestep_s = {};
+  const dem::ClumpShape shape = experiment == Experiment::tilt ? tilt_body() : grain();
+  std::vector<dem::Wall> walls;
+  if (experiment != Experiment::pendulum) walls.push_back(dem::study_wall(dem::Plane{}));
+  return dem::model_setup(model, shape, walls, speed_m_s(*this, experiment)).timestep_s;
+}
+
+}  // namespace repose::calibrate
