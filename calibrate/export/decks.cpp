@@ -1,5 +1,7 @@
 #include "calibrate/export/decks.h"
 
+#include <variant>
+
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
@@ -16,12 +18,13 @@ bool has_decks(ExportTarget target, const dem::Protocol& protocol) {
       return true;
     case Experiment::heap:
       return target != ExportTarget::lammps;
-    case Experiment::pendulum:
-      return is_liggghts || is_edem;
     case Experiment::fill:
+      return is_edem || (is_liggghts && !std::get<dem::FillProtocol>(protocol).taps);
+    case Experiment::pendulum:
     case Experiment::drop_on_grains:
     case Experiment::tilt_on_grains:
     case Experiment::roll_on_grains:
+      return is_liggghts || is_edem;
     case Experiment::draw_down:
       break;
   }

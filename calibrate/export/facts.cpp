@@ -115,8 +115,8 @@ std::vector<TouchingPose> ExportFacts::drop_poses() const {
   return poses;
 }
 
-double ExportFacts::longest_drop_s() const {
-  return 2 * drop_speed_m_s() / dem::kStandardGravity_m_s2 +
+double ExportFacts::longest_drop_s(Experiment drop) const {
+  return 2 * speed_m_s(drop) / dem::kStandardGravity_m_s2 +
          4 * std::sqrt(2 * grain().reach_m() / dem::kStandardGravity_m_s2);
 }
 

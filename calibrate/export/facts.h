@@ -48,11 +48,11 @@ class ExportFacts {
 
   /// Poses of the drop, as simulated with the study's first seed.
   std::vector<TouchingPose> drop_poses() const;
-  /// Speed after the fall, m/s.
-  double drop_speed_m_s() const;
-  /// Until each grain has had its first flight: as long as the fall took, there and back, and the
-  /// time to topple.
-  double longest_drop_s() const;
+  /// Of the fastest impact that an experiment may see, m/s; of a drop, after the fall.
+  double speed_m_s(dem::Experiment experiment) const;
+  /// Until each dropped grain has had its first flight: as long as the fall took, there and back,
+  /// and the time to topple.
+  double longest_drop_s(dem::Experiment drop) const;
   /// Bonded grains of the tilt, and how they lie.
   dem::ClumpShape tilt_body() const;
   TouchingPose tilt_pose() const;

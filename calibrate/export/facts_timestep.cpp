@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "calibrate/export/facts.h"
+#include "dem/experiment/bonded.h"
 #include "dem/experiment/hanging_pair.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
@@ -48,22 +49,24 @@ double fall_m(const ExportFacts& facts, Experiment experiment) {
   return 8 * reach;  // grains that rain into a tube
 }
 
-double speed_m_s(const ExportFacts& facts, Experiment experiment) {
-  return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m(facts, experiment));
-}
-
 }  // namespace
 
-double ExportFacts::drop_speed_m_s() const { return speed_m_s(*this, Experiment::drop); }
+double ExportFacts::speed_m_s(Experiment experiment) const {
+  return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m(*this, experiment));
+}
 
 double ExportFacts::timestep_s(Experiment experiment) const {
   dem::Model model = dem::model_for(study_, experiment);
   model.timestep_fraction = kTimestepFraction;
   model.timestep_s = {};
-  const dem::ClumpShape shape = experiment == Experiment::tilt ? tilt_body() : grain();
+  dem::ClumpShape shape = grain();
+  if (experiment == Experiment::tilt) shape = tilt_body();
+  if (experiment == Experiment::tilt_on_grains) {
+    shape = dem::bonded_shape(shape, study_.protocol<dem::GrainTiltProtocol>().bonded);
+  }
   std::vector<dem::Wall> walls;
   if (experiment != Experiment::pendulum) walls.push_back(dem::study_wall(dem::Plane{}));
-  return dem::model_setup(model, shape, walls, speed_m_s(*this, experiment)).timestep_s;
+  return dem::model_setup(model, shape, walls, speed_m_s(experiment)).timestep_s;
 }
 
 }  // namespace repose::calibrate

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,16 +17,6 @@ using dem::Experiment;
 constexpr double kHard_pa = 1e9;
 constexpr double kSoft_pa = 5e6;
 constexpr int kTubeSides = 96;
-
-/// Spheres of a body, a line each: x, y, z, radius.
-std::string spheres_text(const dem::ClumpShape& shape) {
-  std::string text;
-  for (const dem::ClumpSphere& sphere : shape.spheres) {
-    const dem::Vector& at = sphere.centre;
-    text += fmt::format("{} {} {} {}\n", at.x(), at.y(), at.z(), sphere.radius);
-  }
-  return text;
-}
 
 void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
   const dem::Study& study = facts.study();
@@ -84,11 +73,6 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
   return {.name = "material.lig", .text = filled("liggghts/material.lig", fields)};
 }
 
-/// With which LIGGGHTS gives a sphere its mass; a clump has a mass of its own.
-double density_kg_m3(const ExportFacts& facts, bool is_sphere) {
-  return is_sphere ? facts.ball_density_kg_m3() : facts.study().model.grain_material.density_kg_m3;
-}
-
 /// The kind of grain that is poured, or put down twice.
 ExportedFile grain_file(const ExportFacts& facts) {
   DeckFields fields = common_fields(facts);
@@ -99,35 +83,13 @@ ExportedFile grain_file(const ExportFacts& facts) {
   return {.name = "grain.lig", .text = filled("liggghts/grain.lig", fields)};
 }
 
-ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphere) {
-  DeckFields fields = common_fields(facts);
-  mark_shape(is_sphere, fields);
-  fields.set("DIAMETER", 2 * facts.grain().spheres.front().radius);
-  fields.set("DENSITY", density_kg_m3(facts, is_sphere));
-  return {.name = name, .text = filled("liggghts/place.lig", fields)};
-}
-
-ExportedFile drop_file(const ExportFacts& facts) {
+ExportedFile drop_on_wall_file(const ExportFacts& facts) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
-  const double timestep = facts.timestep_s(Experiment::drop);
-  const double speed = facts.drop_speed_m_s();
-  DeckFields fields = deck_fields(facts, Experiment::drop);
-  set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
-  fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
-  fields.set("GRAINS", protocol.grains);
-  fields.set("SPEED", speed);
-  fields.set("ROOM", protocol.height_m + 10 * facts.grain().reach_m());
-  fields.set("TOP", protocol.height_m + 10 * facts.grain().reach_m());
-  fields.set("STEPS", steps(facts.longest_drop_s(), timestep));
-  fields.set("EVERY", 5);
-  int number = 0;
-  for (const TouchingPose& pose : facts.drop_poses()) {
-    DeckFields& own = fields.add_section("POSE");
-    own.set("NUMBER", ++number);
-    own.set("HEIGHT", pose.height_m);
-    set_pose(pose.orientation, own);
-  }
-  return {.name = "drop.lig", .text = filled("liggghts/drop.lig", fields)};
+  return drop_file(facts, {.experiment = Experiment::drop,
+                           .ground = "a wall",
+                           .section = "WALL",
+                           .height_m = protocol.height_m,
+                           .poses = facts.drop_poses()});
 }
 
 ExportedFile tilt_file(const ExportFacts& facts) {
@@ -200,24 +162,12 @@ ExportedFile heap_file(const ExportFacts& facts) {
 
 }  // namespace
 
-void mark_shape(bool is_sphere, DeckFields& fields) {
-  fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
-}
-
-DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
-  DeckFields fields = common_fields(facts);
-  fields.set("STIFFNESS", facts.stiffness(experiment));
-  fields.set("TIMESTEP", facts.timestep_s(experiment));
-  fields.set("REACH", 2 * facts.grain().reach_m());
-  return fields;
-}
-
 std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {material_file(facts, conversions),
                                      grain_file(facts),
                                      place_file(facts, "place.lig", facts.is_sphere()),
                                      {.name = "clump.txt", .text = spheres_text(facts.grain())}};
-  if (facts.has(Experiment::drop)) files.push_back(drop_file(facts));
+  if (facts.has(Experiment::drop)) files.push_back(drop_on_wall_file(facts));
   if (facts.has(Experiment::tilt)) {
     const bool is_sphere =
         facts.is_sphere() && facts.study().protocol<dem::TiltProtocol>().bonded == 1;
@@ -238,7 +188,9 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
     files.push_back(
         {.name = "plate.stl", .text = plate_stl(facts.study().protocol<dem::HeapProtocol>())});
   }
-  for (ExportedFile& file : liggghts_files_between_grains(facts)) files.push_back(std::move(file));
+  for (auto& more : {liggghts_files_between_grains(facts), liggghts_files_on_grains(facts)}) {
+    files.insert(files.end(), more.begin(), more.end());
+  }
   return files;
 }
 

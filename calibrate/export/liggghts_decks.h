@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "calibrate/export/export.h"
@@ -14,7 +15,28 @@ DeckFields deck_fields(const ExportFacts& facts, dem::Experiment experiment);
 /// Marks what is there for spheres, and what for clumps.
 void mark_shape(bool is_sphere, DeckFields& fields);
 
+/// With which LIGGGHTS gives a sphere its mass; a clump has a mass of its own.
+double density_kg_m3(const ExportFacts& facts, bool is_sphere);
+
+/// Spheres of a body, a line each: x, y, z, radius.
+std::string spheres_text(const dem::ClumpShape& shape);
+
+/// What puts one body in: a sphere, or the clump that a deck names.
+ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphere);
+
+/// Grains that fall, one after the other.
+struct DropDeck {
+  dem::Experiment experiment = dem::Experiment::drop;
+  std::string ground;   ///< what they fall on, for people
+  std::string section;  ///< of the template that makes it
+  double height_m = 0;
+  std::vector<TouchingPose> poses;
+};
+ExportedFile drop_file(const ExportFacts& facts, const DropDeck& deck);
+
 /// Decks of the experiments between grains that the study has, and what these read.
 std::vector<ExportedFile> liggghts_files_between_grains(const ExportFacts& facts);
+/// And of those on a board of glued grains.
+std::vector<ExportedFile> liggghts_files_on_grains(const ExportFacts& facts);
 
 }  // namespace repose::calibrate

@@ -105,6 +105,28 @@ TEST(ExportStudy, WhatHasNoDeckIsNamed) {
   EXPECT_EQ(left_out(ExportTarget::edem), "") << "it has tables for all of them";
 }
 
+TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
+  dem::Study study = hazelnuts();
+  for (const dem::Protocol& protocol :
+       {dem::Protocol(dem::GrainDropProtocol{.grains = 2}),
+        dem::Protocol(dem::GrainTiltProtocol{.places = 1}),
+        dem::Protocol(dem::GrainRollProtocol{.places = 1}), dem::Protocol(dem::FillProtocol{})}) {
+    study.experiments[static_cast<dem::Experiment>(protocol.index())].protocol = protocol;
+  }
+  const StudyExport made = exported(study, ExportTarget::liggghts);
+  for (const char* name :
+       {"drop_on_grains.lig", "drop_on_grains_bed_2.lig", "tilt_on_grains.lig",
+        "tilt_on_grains_bed_1.lig", "place_row.lig", "row.txt", "roll_on_grains.lig",
+        "roll_on_grains_bed_1.lig", "fill.lig", "grain.lig"}) {
+    EXPECT_THAT(names_of(made), Contains(name));
+    EXPECT_THAT(text_of(made, name), AllOf(Not(HasSubstr("{{")), Not(HasSubstr("nan"))));
+  }
+  study.experiments[dem::Experiment::fill].protocol = dem::FillProtocol{.taps = 30};
+  const StudyExport tapped = exported(study, ExportTarget::liggghts);
+  EXPECT_THAT(names_of(tapped), Not(Contains("fill.lig")));
+  EXPECT_THAT(text_of(tapped, "README.txt"), HasSubstr("without a deck: fill."));
+}
+
 TEST(ExportStudy, AStudyWithoutAnyDeckIsRefused) {
   dem::Study study = hazelnuts();
   study.experiments.clear();

@@ -83,10 +83,10 @@ double rise_in(const std::filesystem::path& file) {
   throw std::runtime_error(file.filename().string() + ": the grain never rose");
 }
 
-double mean_rise_mm(const TemporaryFolder& folder, int grains) {
+double mean_rise_mm(const TemporaryFolder& folder, const std::string& deck, int grains) {
   double sum_m = 0;
   for (int k = 1; k <= grains; ++k) {
-    sum_m += rise_in(folder.path() / ("drop_" + std::to_string(k) + ".txt"));
+    sum_m += rise_in(folder.path() / (deck + "_" + std::to_string(k) + ".txt"));
   }
   return 1e3 * sum_m / grains;
 }
@@ -134,7 +134,7 @@ Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, Expo
   const std::string dropped = run_deck(folder, target, "drop");
   readings.drop_mm = target == ExportTarget::yade
                          ? reading_in(dropped, "drop_mm")
-                         : mean_rise_mm(folder, study.protocol<dem::DropProtocol>().grains);
+                         : mean_rise_mm(folder, "drop", study.protocol<dem::DropProtocol>().grains);
   readings.tilt_deg = reading_in(run_deck(folder, target, "tilt"), "half_mm_slip_deg");
   readings.roll_mm = reading_in(run_deck(folder, target, "roll"), "roll_mm");
   return readings;
@@ -145,6 +145,14 @@ double reading_of(const dem::Study& study, const dem::ClumpShape& grain, ExportT
   const TemporaryFolder folder;
   write_decks(folder, study, grain, target);
   return reading_in(run_deck(folder, target, deck), name);
+}
+
+double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target,
+                     const std::string& deck, int grains) {
+  const TemporaryFolder folder;
+  write_decks(folder, study, grain, target);
+  run_deck(folder, target, deck);
+  return mean_rise_mm(folder, deck, grains);
 }
 
 bool has_program_for(ExportTarget target) {
