@@ -75,7 +75,7 @@ std::string name_of(Fidelity fidelity) {
 
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<FittedValue>& fitted, const ExportRequest& request) {
-  const ExportFacts facts(study, grain, fitted);
+  const ExportFacts facts(study, grain, fitted, request.target);
   StudyExport made{.conversions = conversions_of(facts, request.target)};
   base::ErrorList errors;
   for (const std::string& line : refusals(facts, request, made.conversions)) errors.add(line);

@@ -9,8 +9,8 @@
 
 #include "base/error_list.h"
 #include "base/version.h"
+#include "calibrate/export/decks.h"
 #include "calibrate/study/coefficients.h"
-#include "dem/engine/time_step.h"
 #include "dem/experiment/bonded.h"
 #include "dem/experiment/incline.h"
 #include "dem/experiment/model_setup.h"
@@ -23,8 +23,6 @@ namespace {
 
 using dem::Experiment;
 
-/// Other programs do not average the first and last step of an impact as ours does.
-constexpr double kTimestepFraction = .5;
 /// How far short of sliding the plate begins to turn, degrees.
 constexpr double kTiltLead_deg = 3;
 constexpr double kDegree = std::numbers::pi / 180;
@@ -36,24 +34,11 @@ TouchingPose touching(const dem::ClumpShape& shape, const dem::Quaternion& orien
           .height_m = dem::reach_towards(shape, orientation, -dem::Vector::UnitZ())};
 }
 
-/// Of the fastest impact that an experiment may see.
-double speed_m_s(const ExportFacts& facts, Experiment experiment) {
-  const double reach = facts.grain().reach_m();
-  double fall_m = 8 * reach;  // grains that rain into a tube
-  if (experiment == Experiment::drop) fall_m = facts.study().protocol<dem::DropProtocol>().height_m;
-  if (experiment == Experiment::tilt) fall_m = .01 * reach;
-  if (experiment == Experiment::roll) {
-    fall_m =
-        reach + facts.study().protocol<dem::RollProtocol>().release_m *
-                    std::sin(facts.study().protocol<dem::RollProtocol>().incline_deg * kDegree);
-  }
-  return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m);
-}
-
 }  // namespace
 
-ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted)
-    : study_(std::move(study)), fitted_(std::move(fitted)) {
+ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted,
+                         ExportTarget target)
+    : study_(std::move(study)), fitted_(std::move(fitted)), target_(target) {
   study_.model.grain = std::move(grain);
   for (const NamedCoefficient& named : coefficients_of(study_)) {
     if (named.coefficient.is_sought()) {
@@ -72,8 +57,9 @@ ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<Fi
                                named.name));
   }
   errors.require(!experiments().empty(),
-                 "the study has no experiment that decks are written for. Rule: one of drop, tilt, "
-                 "roll and heap at least. Fix: add a section for one, such as [experiment.drop].");
+                 fmt::format("the study has no experiment that {} has a deck for. Rule: one of {} "
+                             "at least. Fix: add a section for one, such as [experiment.drop].",
+                             name_of(target), names_with_decks(target)));
   errors.throw_if_any();
 }
 
@@ -88,9 +74,22 @@ double ExportFacts::ball_density_kg_m3() const {
 std::vector<Experiment> ExportFacts::experiments() const {
   std::vector<Experiment> there;
   for (const auto& [experiment, described] : study_.experiments) {
-    if (dem::entry_of(experiment).is_usual) there.push_back(experiment);
+    if (has_deck(experiment)) there.push_back(experiment);
   }
   return there;
+}
+
+std::vector<Experiment> ExportFacts::left_out() const {
+  std::vector<Experiment> others;
+  for (const auto& [experiment, described] : study_.experiments) {
+    if (!has_deck(experiment)) others.push_back(experiment);
+  }
+  return others;
+}
+
+bool ExportFacts::has_deck(Experiment experiment) const {
+  const auto found = study_.experiments.find(experiment);
+  return found != study_.experiments.end() && has_decks(target_, found->second.protocol);
 }
 
 bool ExportFacts::has_grain_contacts() const {
@@ -107,15 +106,6 @@ dem::ContactTable ExportFacts::contacts(Experiment experiment) const {
   return dem::model_setup(model, grain(), {dem::study_wall(dem::Plane{})}, 1).contacts;
 }
 
-double ExportFacts::timestep_s(Experiment experiment) const {
-  dem::Model model = dem::model_for(study_, experiment);
-  model.timestep_fraction = kTimestepFraction;
-  model.timestep_s = {};
-  const dem::ClumpShape shape = experiment == Experiment::tilt ? tilt_body() : grain();
-  const dem::Wall wall = dem::study_wall(dem::Plane{});
-  return dem::model_setup(model, shape, {wall}, speed_m_s(*this, experiment)).timestep_s;
-}
-
 std::vector<TouchingPose> ExportFacts::drop_poses() const {
   dem::Random random(study_.seed);
   std::vector<TouchingPose> poses;
@@ -125,10 +115,8 @@ std::vector<TouchingPose> ExportFacts::drop_poses() const {
   return poses;
 }
 
-double ExportFacts::drop_speed_m_s() const { return speed_m_s(*this, Experiment::drop); }
-
-double ExportFacts::longest_drop_s() const {
-  return 2 * drop_speed_m_s() / dem::kStandardGravity_m_s2 +
+double ExportFacts::longest_drop_s(Experiment drop) const {
+  return 2 * speed_m_s(drop) / dem::kStandardGravity_m_s2 +
          4 * std::sqrt(2 * grain().reach_m() / dem::kStandardGravity_m_s2);
 }
 

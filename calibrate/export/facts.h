@@ -20,7 +20,8 @@ struct TouchingPose {
 class ExportFacts {
  public:
   /// @throws std::invalid_argument  coefficients have no value: all of them.
-  ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted);
+  ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted,
+              ExportTarget target);
 
   const dem::Study& study() const { return study_; }
   const dem::ClumpShape& grain() const { return study_.model.grain; }
@@ -31,8 +32,11 @@ class ExportFacts {
   /// With which the first sphere alone has the grain's mass.
   double ball_density_kg_m3() const;
   bool has(dem::Experiment experiment) const { return dem::has_protocol(study_, experiment); }
-  /// Of those that the study has the ones with decks, in the order drop, tilt, roll, heap.
+  /// Of those that the study has the ones that the target has a deck for; for EDEM, which has none,
+  /// all of them. In the order of dem::Experiment, as the others.
   std::vector<dem::Experiment> experiments() const;
+  std::vector<dem::Experiment> left_out() const;
+  bool has_deck(dem::Experiment experiment) const;
   /// Grains touch each other in one of the study's experiments, with a deck or not.
   bool has_grain_contacts() const;
 
@@ -44,11 +48,11 @@ class ExportFacts {
 
   /// Poses of the drop, as simulated with the study's first seed.
   std::vector<TouchingPose> drop_poses() const;
-  /// Speed after the fall, m/s.
-  double drop_speed_m_s() const;
-  /// Until each grain has had its first flight: as long as the fall took, there and back, and the
-  /// time to topple.
-  double longest_drop_s() const;
+  /// Of the fastest impact that an experiment may see, m/s; of a drop, after the fall.
+  double speed_m_s(dem::Experiment experiment) const;
+  /// Until each dropped grain has had its first flight: as long as the fall took, there and back,
+  /// and the time to topple.
+  double longest_drop_s(dem::Experiment drop) const;
   /// Bonded grains of the tilt, and how they lie.
   dem::ClumpShape tilt_body() const;
   TouchingPose tilt_pose() const;
@@ -62,6 +66,7 @@ class ExportFacts {
  private:
   dem::Study study_;
   std::vector<FittedValue> fitted_;
+  ExportTarget target_;
 };
 
 /// Young's modulus and Poisson's ratio of which two equal bodies have the E* and G* of a pair.

@@ -93,13 +93,14 @@ void add_body(const std::string& name, const dem::ClumpShape& shape, double mass
 void add_drop(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
   const double reach = facts.grain().reach_m();
-  const double speed = facts.drop_speed_m_s();
+  const double speed = facts.speed_m_s(Experiment::drop);
   DeckFields fields = deck_fields(facts, Experiment::drop, facts.is_sphere());
   fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
   fields.set("GRAINS", protocol.grains);
   fields.set("ROOM", protocol.height_m + 10 * reach);
   fields.set("TOP", protocol.height_m + 10 * reach);
-  fields.set("STEPS", steps(facts.longest_drop_s(), facts.timestep_s(Experiment::drop)));
+  fields.set("STEPS",
+             steps(facts.longest_drop_s(Experiment::drop), facts.timestep_s(Experiment::drop)));
   int number = 0;
   for (const TouchingPose& pose : facts.drop_poses()) {
     fields.add_section("POSE").set("NUMBER", ++number);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/export/conversions.h"
+#include "calibrate/export/liggghts_decks.h"
 #include "calibrate/export/stl.h"
 #include "calibrate/export/targets.h"
 
@@ -16,21 +17,6 @@ using dem::Experiment;
 constexpr double kHard_pa = 1e9;
 constexpr double kSoft_pa = 5e6;
 constexpr int kTubeSides = 96;
-
-/// Spheres of a body, a line each: x, y, z, radius.
-std::string spheres_text(const dem::ClumpShape& shape) {
-  std::string text;
-  for (const dem::ClumpSphere& sphere : shape.spheres) {
-    const dem::Vector& at = sphere.centre;
-    text += fmt::format("{} {} {} {}\n", at.x(), at.y(), at.z(), sphere.radius);
-  }
-  return text;
-}
-
-/// Marks what is there for spheres, and what for clumps.
-void mark_shape(bool is_sphere, DeckFields& fields) {
-  fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
-}
 
 void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
   const dem::Study& study = facts.study();
@@ -74,9 +60,9 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
                                     {"SLIDING", "sliding_friction"},
                                     {"ROLLING", "rolling_friction"}}) {
     const double wall = exported(conversions, fmt::format("contact.particle_wall.{}", name));
-    // Without a heap grains never touch each other.
+    // Where grains never touch each other, they have no coefficients.
     const double grain =
-        facts.has(dem::Experiment::heap)
+        facts.has_grain_contacts()
             ? exported(conversions, fmt::format("contact.particle_particle.{}", name))
             : wall;
     fields.set(fmt::format("WALL_{}", field), wall);
@@ -87,44 +73,23 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
   return {.name = "material.lig", .text = filled("liggghts/material.lig", fields)};
 }
 
-ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphere) {
+/// The kind of grain that is poured, or put down twice.
+ExportedFile grain_file(const ExportFacts& facts) {
   DeckFields fields = common_fields(facts);
-  mark_shape(is_sphere, fields);
-  fields.set("DIAMETER", 2 * facts.grain().spheres.front().radius);
-  fields.set("DENSITY", is_sphere ? facts.ball_density_kg_m3()
-                                  : facts.study().model.grain_material.density_kg_m3);
-  return {.name = name, .text = filled("liggghts/place.lig", fields)};
-}
-
-DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
-  DeckFields fields = common_fields(facts);
-  fields.set("STIFFNESS", facts.stiffness(experiment));
-  fields.set("TIMESTEP", facts.timestep_s(experiment));
-  fields.set("REACH", 2 * facts.grain().reach_m());
-  return fields;
-}
-
-ExportedFile drop_file(const ExportFacts& facts) {
-  const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
-  const double timestep = facts.timestep_s(Experiment::drop);
-  const double speed = facts.drop_speed_m_s();
-  DeckFields fields = deck_fields(facts, Experiment::drop);
+  mark_shape(facts.is_sphere(), fields);
   set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
-  fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
-  fields.set("GRAINS", protocol.grains);
-  fields.set("SPEED", speed);
-  fields.set("ROOM", protocol.height_m + 10 * facts.grain().reach_m());
-  fields.set("TOP", protocol.height_m + 10 * facts.grain().reach_m());
-  fields.set("STEPS", steps(facts.longest_drop_s(), timestep));
-  fields.set("EVERY", 5);
-  int number = 0;
-  for (const TouchingPose& pose : facts.drop_poses()) {
-    DeckFields& own = fields.add_section("POSE");
-    own.set("NUMBER", ++number);
-    own.set("HEIGHT", pose.height_m);
-    set_pose(pose.orientation, own);
-  }
-  return {.name = "drop.lig", .text = filled("liggghts/drop.lig", fields)};
+  fields.set("RADIUS", facts.grain().spheres.front().radius);
+  fields.set("DENSITY", density_kg_m3(facts, facts.is_sphere()));
+  return {.name = "grain.lig", .text = filled("liggghts/grain.lig", fields)};
+}
+
+ExportedFile drop_on_wall_file(const ExportFacts& facts) {
+  const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
+  return drop_file(facts, {.experiment = Experiment::drop,
+                           .ground = "a wall",
+                           .section = "WALL",
+                           .height_m = protocol.height_m,
+                           .poses = facts.drop_poses()});
 }
 
 ExportedFile tilt_file(const ExportFacts& facts) {
@@ -181,10 +146,6 @@ ExportedFile heap_file(const ExportFacts& facts) {
       grains * facts.grain().volume_m3 / (kLoose * tube_m3) * protocol.tube_height_m;
   DeckFields fields = deck_fields(facts, Experiment::heap);
   mark_shape(facts.is_sphere(), fields);
-  set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
-  fields.set("RADIUS", facts.grain().spheres.front().radius);
-  fields.set("DENSITY", facts.is_sphere() ? facts.ball_density_kg_m3()
-                                          : facts.study().model.grain_material.density_kg_m3);
   fields.set("GRAINS", grains);
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
@@ -203,9 +164,10 @@ ExportedFile heap_file(const ExportFacts& facts) {
 
 std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {material_file(facts, conversions),
+                                     grain_file(facts),
                                      place_file(facts, "place.lig", facts.is_sphere()),
                                      {.name = "clump.txt", .text = spheres_text(facts.grain())}};
-  if (facts.has(Experiment::drop)) files.push_back(drop_file(facts));
+  if (facts.has(Experiment::drop)) files.push_back(drop_on_wall_file(facts));
   if (facts.has(Experiment::tilt)) {
     const bool is_sphere =
         facts.is_sphere() && facts.study().protocol<dem::TiltProtocol>().bonded == 1;
@@ -225,6 +187,9 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
                      .text = tube_stl(facts.study().protocol<dem::HeapProtocol>(), kTubeSides)});
     files.push_back(
         {.name = "plate.stl", .text = plate_stl(facts.study().protocol<dem::HeapProtocol>())});
+  }
+  for (auto& more : {liggghts_files_between_grains(facts), liggghts_files_on_grains(facts)}) {
+    files.insert(files.end(), more.begin(), more.end());
   }
   return files;
 }

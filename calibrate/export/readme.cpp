@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "dem/contact/rolling_name.h"
+#include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
@@ -50,6 +51,14 @@ void add_conversion(const Conversion& conversion, DeckFields& fields) {
   if (!conversion.limits.empty()) one.add_section("BUT").set("LIMITS", conversion.limits);
 }
 
+void add_left_out(const ExportFacts& facts, DeckFields& fields) {
+  std::string names;
+  for (const dem::Experiment experiment : facts.left_out()) {
+    names += (names.empty() ? "" : ", ") + name_of(experiment);
+  }
+  if (!names.empty()) fields.add_section("LEFT_OUT").set("NAMES", names);
+}
+
 /// Only heaps are softened by a budget.
 std::string heap_stiffness_text(const ExportFacts& facts) {
   if (!facts.has(dem::Experiment::heap)) return "The study has no heaps.";
@@ -68,6 +77,7 @@ ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
   fields.set("HEAP_STIFFNESS", heap_stiffness_text(facts));
   fields.set_lines("RUNNING", text_of(target, "running.txt"));
   fields.set_lines("LIMITS", text_of(target, "limits.txt"));
+  add_left_out(facts, fields);
   for (const Conversion& conversion : conversions) add_conversion(conversion, fields);
   return {.name = "README.txt", .text = filled("readme.txt", fields)};
 }

@@ -75,7 +75,7 @@ DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
 
 ExportedFile drop_file(const ExportFacts& facts) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
-  const double speed = facts.drop_speed_m_s();
+  const double speed = facts.speed_m_s(Experiment::drop);
   const double reach = facts.grain().reach_m();
   DeckFields fields = deck_fields(facts, Experiment::drop);
   fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
@@ -83,7 +83,8 @@ ExportedFile drop_file(const ExportFacts& facts) {
   fields.set("SPEED", speed);
   fields.set("SPACING", 8 * (protocol.height_m + reach));
   fields.set("EVERY", 5);
-  fields.set("STEPS", steps(facts.longest_drop_s(), facts.timestep_s(Experiment::drop)));
+  fields.set("STEPS",
+             steps(facts.longest_drop_s(Experiment::drop), facts.timestep_s(Experiment::drop)));
   for (const TouchingPose& pose : facts.drop_poses()) {
     DeckFields& own = fields.add_section("POSE");
     own.set("HEIGHT", pose.height_m);

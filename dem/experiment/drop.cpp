@@ -13,6 +13,7 @@
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
+#include "dem/experiment/spacing.h"
 
 namespace repose::dem {
 namespace {
@@ -91,7 +92,7 @@ void follow(Bounce& bounce, const Simulation& simulation, double top_m, int numb
 std::vector<Bounce> drop_grains(Simulation& simulation, const Dropping& dropping, double speed_m_s,
                                 Random& random) {
   const ClumpShape& shape = simulation.setup().kinds.front().shape;
-  const double spacing = 8 * (dropping.height_m + shape.reach_m());
+  const double spacing = drop_spacing_m(dropping.height_m, shape.reach_m());
   std::vector<Bounce> bounces;
   for (int k = 0; k < dropping.grains; ++k) {
     Grain grain{.orientation = random.orientation(), .velocity = {0, 0, -speed_m_s}};

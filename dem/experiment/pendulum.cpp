@@ -7,21 +7,14 @@
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/grain_limit.h"
+#include "dem/experiment/hanging_pair.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/experiment/placing.h"
-#include "dem/experiment/random.h"
 #include "dem/experiment/tilting_plate.h"
 
 namespace repose::dem {
 namespace {
 
 constexpr double kLongestString_m = 100;
-/// Ways of the swinging grain, as fractions of its reach: from where it starts until both touch,
-/// and between two looks whether all have parted.
-constexpr double kGap = .001;
-constexpr double kBetweenLooks = .05;
-/// Pairs that still touch after so many reaches go on together.
-constexpr double kLongest = 20;
 /// From pair to pair, in reaches of a grain.
 constexpr double kSpacing = 20;
 
@@ -44,20 +37,6 @@ void check(const Model& model, const PendulumProtocol& protocol) {
   errors.throw_if_any();
 }
 
-/// How far apart along x the centres of two turned grains are that just touch.
-double touching_distance_m(const ClumpShape& shape, const Quaternion& a, const Quaternion& b) {
-  double distance = 0;
-  for (const ClumpSphere& one : shape.spheres) {
-    for (const ClumpSphere& other : shape.spheres) {
-      const Vector apart = a * one.centre - b * other.centre;
-      const double reach = one.radius + other.radius;
-      const double chord2 = reach * reach - apart.y() * apart.y() - apart.z() * apart.z();
-      if (chord2 > 0) distance = std::max(distance, apart.x() + std::sqrt(chord2));
-    }
-  }
-  return distance;
-}
-
 /// Pairs whose strings hang upright at this moment: one grain at rest, one about to touch it.
 ///
 /// An impact takes a fraction of a millisecond, in which the strings only carry the weight: both
@@ -69,23 +48,23 @@ void hang_pairs(Simulation& simulation, const PendulumProtocol& protocol, double
   const double reach = shape.reach_m();
   for (int k = 0; k < protocol.pairs; ++k) {
     const double aside = kSpacing * reach * k;
-    const Quaternion swinging = random.orientation();
-    const Quaternion hanging = random.orientation();
-    const double apart = touching_distance_m(shape, swinging, hanging) + kGap * reach;
-    simulation.add(
-        {.position = {-apart, aside, 0}, .orientation = swinging, .velocity = {speed_m_s, 0, 0}});
-    simulation.add({.position = {0, aside, 0}, .orientation = hanging});
+    const HangingPair pair = hanging_pair(shape, random);
+    simulation.add({.position = {-pair.apart_m, aside, 0},
+                    .orientation = pair.swinging,
+                    .velocity = {speed_m_s, 0, 0}});
+    simulation.add({.position = {0, aside, 0}, .orientation = pair.hanging});
   }
 }
 
 /// Until all pairs have met and parted.
 void collide(ExperimentRun& run, double speed_m_s) {
   const double reach_s = run.shape().reach_m() / speed_m_s;
-  const std::int64_t steps = run.steps_of(kBetweenLooks * reach_s);
-  run.advance(run.steps_of(2 * kGap * reach_s));
-  while (!run.simulation().contacts().empty() && run.simulation().time_s() < kLongest * reach_s) {
+  const std::int64_t steps = run.steps_of(kPendulumLook * reach_s);
+  run.advance(run.steps_of(2 * kPendulumGap * reach_s));
+  while (!run.simulation().contacts().empty() &&
+         run.simulation().time_s() < kPendulumLongest * reach_s) {
     run.advance(steps);
-    run.report_progress(run.simulation().time_s() / (kLongest * reach_s));
+    run.report_progress(run.simulation().time_s() / (kPendulumLongest * reach_s));
   }
 }
 
@@ -94,9 +73,8 @@ void collide(ExperimentRun& run, double speed_m_s) {
 Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::uint64_t seed,
                     const ProgressReport& report, const RunRecord& record) {
   check(model, protocol);
-  const double release = protocol.release_deg * kDegree;
-  const double height_m = protocol.string_m * (1 - std::cos(release));
-  const double speed = std::sqrt(2 * kStandardGravity_m_s2 * height_m);
+  const double speed = swing_speed_m_s(protocol);
+  const double height_m = release_height_m(protocol);
   SimulationSetup setup = model_setup(model, model.grain, {}, speed);
   setup.gravity = Vector::Zero();
   ExperimentRun run(Simulation(std::move(setup)), {report, record});

@@ -14,6 +14,7 @@
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
+#include "dem/experiment/spacing.h"
 #include "dem/experiment/tilting_plate.h"
 
 namespace repose::dem {
@@ -30,8 +31,6 @@ constexpr double kShift = .1;
 constexpr double kSetOff = 1;
 /// Slower than this, as a fraction of sqrt(g d), a body stands still.
 constexpr double kStill = .01;
-/// From body to body across the slope, in lengths of a body: they never meet.
-constexpr double kLane = 20;
 
 /// What both experiments are: a tilt of bodies, a roll of single grains.
 struct Tilting {
@@ -109,7 +108,7 @@ class TiltRun {
     const double height = top_m(bed) + reach_towards(body, lying, -Vector::UnitZ());
     for (int k = 0; k < tilting.places; ++k) {
       const double down = random.between(0, bed.tile);
-      const double across = random.between(0, bed.tile) + kLane * body.reach_m() * k;
+      const double across = random.between(0, bed.tile) + lane_m(body.reach_m()) * k;
       run.simulation().add({.position = {down, across, height}, .orientation = lying});
     }
     return run;

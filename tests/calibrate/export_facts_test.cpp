@@ -25,14 +25,15 @@ dem::Study hazelnuts() {
 }
 
 std::string errors_of(const dem::Study& study, const std::vector<FittedValue>& fitted) {
-  return error_of([&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted); });
+  return error_of(
+      [&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted, ExportTarget::liggghts); });
 }
 
 constexpr const char* kRestitution = "contact.particle_wall.restitution";
 
 TEST(ExportFacts, TakeTheFittedValues) {
   const ExportFacts facts(hazelnuts(), dem::test::spheroid_clump(3),
-                          {{.name = kRestitution, .value = .42}});
+                          {{.name = kRestitution, .value = .42}}, ExportTarget::liggghts);
   EXPECT_EQ(facts.study().model.grain_wall.restitution, .42);
   EXPECT_EQ(facts.study().model.grain_wall.sliding_friction, .39);
 }

@@ -88,6 +88,66 @@ TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
               HasSubstr("Young's moduli times 0.01."));
 }
 
+TEST(ExportStudy, WhatHasNoDeckIsNamed) {
+  dem::Study study = hazelnuts();
+  study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
+  study.experiments[dem::Experiment::draw_down].protocol = dem::DrawDownProtocol{};
+  const auto left_out = [&](ExportTarget target) {
+    const std::string readme = text_of(exported(study, target), "README.txt");
+    const std::string before = "Experiments of the study without a deck: ";
+    const std::size_t place = readme.find(before);
+    if (place == std::string::npos) return std::string();
+    return readme.substr(place + before.size(), readme.find('.', place) - place - before.size());
+  };
+  EXPECT_EQ(left_out(ExportTarget::liggghts), "draw_down");
+  EXPECT_EQ(left_out(ExportTarget::lammps), "heap, pendulum, draw_down");
+  EXPECT_EQ(left_out(ExportTarget::yade), "pendulum, draw_down");
+  EXPECT_EQ(left_out(ExportTarget::edem), "") << "it has tables for all of them";
+}
+
+TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
+  dem::Study study = hazelnuts();
+  for (const dem::Protocol& protocol :
+       {dem::Protocol(dem::GrainDropProtocol{.grains = 2}),
+        dem::Protocol(dem::GrainTiltProtocol{.places = 1}),
+        dem::Protocol(dem::GrainRollProtocol{.places = 1}), dem::Protocol(dem::FillProtocol{})}) {
+    study.experiments[static_cast<dem::Experiment>(protocol.index())].protocol = protocol;
+  }
+  const StudyExport made = exported(study, ExportTarget::liggghts);
+  for (const char* name :
+       {"drop_on_grains.lig", "drop_on_grains_bed_2.lig", "tilt_on_grains.lig",
+        "tilt_on_grains_bed_1.lig", "place_row.lig", "row.txt", "roll_on_grains.lig",
+        "roll_on_grains_bed_1.lig", "fill.lig", "grain.lig"}) {
+    EXPECT_THAT(names_of(made), Contains(name));
+    EXPECT_THAT(text_of(made, name), AllOf(Not(HasSubstr("{{")), Not(HasSubstr("nan"))));
+  }
+  study.experiments[dem::Experiment::fill].protocol = dem::FillProtocol{.taps = 30};
+  const StudyExport tapped = exported(study, ExportTarget::liggghts);
+  EXPECT_THAT(names_of(tapped), Not(Contains("fill.lig")));
+  EXPECT_THAT(text_of(tapped, "README.txt"), HasSubstr("without a deck: fill."));
+}
+
+TEST(ExportStudy, AStudyWithoutAnyDeckIsRefused) {
+  dem::Study study = hazelnuts();
+  study.experiments.clear();
+  study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
+  EXPECT_THAT(names_of(exported(study, ExportTarget::liggghts)), Contains("pendulum.lig"));
+  EXPECT_THAT(error_of([&] { exported(study, ExportTarget::yade); }),
+              AllOf(HasSubstr("no experiment that yade has a deck for"),
+                    HasSubstr("drop, tilt, roll, heap at least")));
+}
+
+// A deck whose grains touch each other has their coefficients, heap or not.
+TEST(ExportStudy, CoefficientsBetweenGrainsAreThoseOfTheStudy) {
+  dem::Study study = hazelnuts();
+  study.experiments.clear();
+  study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
+  study.model.grain_grain.restitution = .77;
+  study.model.grain_wall.restitution = .33;
+  EXPECT_THAT(text_of(exported(study, ExportTarget::liggghts), "material.lig"),
+              HasSubstr("coefficientRestitution peratomtypepair 2 0.77 0.33 0.33 0.33"));
+}
+
 TEST(ExportStudy, AnotherLawIsRefusedUnlessApproximateIsAskedFor) {
   const dem::Study study = hazelnuts(dem::RollingModel::constant_torque);
   const std::string refused = error_of([&] { exported(study, ExportTarget::liggghts, false); });

@@ -83,12 +83,21 @@ double rise_in(const std::filesystem::path& file) {
   throw std::runtime_error(file.filename().string() + ": the grain never rose");
 }
 
-double mean_rise_mm(const TemporaryFolder& folder, int grains) {
+double mean_rise_mm(const TemporaryFolder& folder, const std::string& deck, int grains) {
   double sum_m = 0;
   for (int k = 1; k <= grains; ++k) {
-    sum_m += rise_in(folder.path() / ("drop_" + std::to_string(k) + ".txt"));
+    sum_m += rise_in(folder.path() / (deck + "_" + std::to_string(k) + ".txt"));
   }
   return 1e3 * sum_m / grains;
+}
+
+/// Writes the export into the folder.
+void write_decks(const TemporaryFolder& folder, const dem::Study& study,
+                 const dem::ClumpShape& grain, ExportTarget target) {
+  calibrate::write_export(
+      folder.path(),
+      calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true})
+          .files);
 }
 
 }  // namespace
@@ -120,18 +129,30 @@ Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain) {
 
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target) {
   const TemporaryFolder folder;
-  calibrate::write_export(
-      folder.path(),
-      calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true})
-          .files);
+  write_decks(folder, study, grain, target);
   Readings readings;
   const std::string dropped = run_deck(folder, target, "drop");
   readings.drop_mm = target == ExportTarget::yade
                          ? reading_in(dropped, "drop_mm")
-                         : mean_rise_mm(folder, study.protocol<dem::DropProtocol>().grains);
+                         : mean_rise_mm(folder, "drop", study.protocol<dem::DropProtocol>().grains);
   readings.tilt_deg = reading_in(run_deck(folder, target, "tilt"), "half_mm_slip_deg");
   readings.roll_mm = reading_in(run_deck(folder, target, "roll"), "roll_mm");
   return readings;
+}
+
+double reading_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target,
+                  const std::string& deck, const std::string& name) {
+  const TemporaryFolder folder;
+  write_decks(folder, study, grain, target);
+  return reading_in(run_deck(folder, target, deck), name);
+}
+
+double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target,
+                     const std::string& deck, int grains) {
+  const TemporaryFolder folder;
+  write_decks(folder, study, grain, target);
+  run_deck(folder, target, deck);
+  return mean_rise_mm(folder, deck, grains);
 }
 
 bool has_program_for(ExportTarget target) {

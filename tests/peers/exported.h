@@ -27,6 +27,14 @@ Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain);
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain,
                      calibrate::ExportTarget target);
 
+/// The export's deck of one experiment, run: the reading that it prints. Throws as above.
+double reading_of(const dem::Study& study, const dem::ClumpShape& grain,
+                  calibrate::ExportTarget target, const std::string& deck, const std::string& name);
+
+/// Mean rebound of the export's drop or drop_on_grains, run. Throws as above.
+double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain,
+                     calibrate::ExportTarget target, const std::string& deck, int grains);
+
 /// Whether the program starts.
 bool has_program_for(calibrate::ExportTarget target);
 

@@ -1,0 +1,43 @@
+#include "calibrate/export/decks.h"
+
+#include <variant>
+
+#include "dem/study/experiment_table.h"
+
+namespace repose::calibrate {
+
+using dem::Experiment;
+
+bool has_decks(ExportTarget target, const dem::Protocol& protocol) {
+  const bool is_edem = target == ExportTarget::edem;
+  const bool is_liggghts = target == ExportTarget::liggghts;
+  switch (dem::entry_of(protocol).experiment) {
+    case Experiment::drop:
+    case Experiment::tilt:
+    case Experiment::roll:
+      return true;
+    case Experiment::heap:
+      return target != ExportTarget::lammps;
+    case Experiment::fill:
+      return is_edem || (is_liggghts && !std::get<dem::FillProtocol>(protocol).taps);
+    case Experiment::pendulum:
+    case Experiment::drop_on_grains:
+    case Experiment::tilt_on_grains:
+    case Experiment::roll_on_grains:
+      return is_liggghts || is_edem;
+    case Experiment::draw_down:
+      break;
+  }
+  return is_edem;
+}
+
+std::string names_with_decks(ExportTarget target) {
+  std::string names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (!has_decks(target, entry.usual)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return names;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/export/export.h"
+#include "calibrate/export/facts.h"
+
+/// What the decks of LIGGGHTS share; each is a file of templates/liggghts filled in.
+namespace repose::calibrate {
+
+/// What all decks name: stiffness, time step, the reach of the grain.
+DeckFields deck_fields(const ExportFacts& facts, dem::Experiment experiment);
+
+/// Marks what is there for spheres, and what for clumps.
+void mark_shape(bool is_sphere, DeckFields& fields);
+
+/// With which LIGGGHTS gives a sphere its mass; a clump has a mass of its own.
+double density_kg_m3(const ExportFacts& facts, bool is_sphere);
+
+/// Spheres of a body, a line each: x, y, z, radius.
+std::string spheres_text(const dem::ClumpShape& shape);
+
+/// What puts one body in: a sphere, or the clump that a deck names.
+ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphere);
+
+/// Grains that fall, one after the other.
+struct DropDeck {
+  dem::Experiment experiment = dem::Experiment::drop;
+  std::string ground;   ///< what they fall on, for people
+  std::string section;  ///< of the template that makes it
+  double height_m = 0;
+  std::vector<TouchingPose> poses;
+};
+ExportedFile drop_file(const ExportFacts& facts, const DropDeck& deck);
+
+/// Decks of the experiments between grains that the study has, and what these read.
+std::vector<ExportedFile> liggghts_files_between_grains(const ExportFacts& facts);
+/// And of those on a board of glued grains.
+std::vector<ExportedFile> liggghts_files_on_grains(const ExportFacts& facts);
+
+}  // namespace repose::calibrate
