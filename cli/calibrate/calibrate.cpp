@@ -194,12 +194,13 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
   if (arguments.is_dry_run) return run_dry(plan);
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const calibrate::RunFolder folder(plan.out_folder);
   const base::FolderLock lock(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
   enter_folder(plan);
   const calibrate::StudySimulator simulator = simulator_of(plan, folder);
   calibrate::ThreadExecutor executor(simulator, plan.jobs);
-  return run_study_with(plan, {simulator, folder, executor, watch_for_interrupt()});
+  return run_study_with(plan, {simulator, folder, executor, is_interrupted});
 }
 
 }  // namespace repose::cli

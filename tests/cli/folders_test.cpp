@@ -53,11 +53,15 @@ class Folders : public CommandTest {
     study.replace(study.find("density_kg_m3 = 1000"), 20, "density_kg_m3 = 1500");
     folder_.write(name, study);
   }
-  /// Ends a program when a file is there.
-  void interrupt_when_there(pid_t program, const std::string& name) const {
-    for (int k = 0; k < 2000 && !exists(name); ++k) {
+  /// For a minute at most, since the machine may be busy.
+  void wait_until_there(const std::string& name) const {
+    for (int k = 0; k < 12'000 && !exists(name); ++k) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
+  }
+  /// Ends a program when a file is there.
+  void interrupt_when_there(pid_t program, const std::string& name) const {
+    wait_until_there(name);
     ::kill(program, SIGKILL);
     int status = 0;
     ::waitpid(program, &status, 0);
@@ -143,7 +147,7 @@ TEST_F(Folders, AStudyThatWasChangedAndInterruptedHasNoResult) {
   const std::string runs = text("d/study.json");
   write_long_study("study.toml");
   const pid_t program = start_repose(folder_, {"calibrate", "study.toml", "--out", "d"});
-  for (int k = 0; k < 2000 && text("d/study.json") == runs; ++k) {
+  for (int k = 0; k < 12'000 && text("d/study.json") == runs; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   ::kill(program, SIGKILL);
@@ -217,9 +221,7 @@ TEST_F(Folders, StatesThatWereChangedAreNamedAndSimulatedAnew) {
 TEST_F(Folders, TwoAtOnceInOneFolderAreToldApart) {
   write_long_study("long.toml");
   const pid_t first = start_repose(folder_, {"calibrate", "long.toml", "--out", "d"});
-  for (int k = 0; k < 2000 && !exists("d/study.json"); ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  wait_until_there("d/study.json");
   for (const Words& words :
        {Words{"calibrate", "study.toml", "--out", "d"}, with(kDrop, {"--out", "d"})}) {
     const Finished second = run(words);
@@ -237,10 +239,8 @@ TEST_F(Folders, SignalsEndAStudyInGoodOrder) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     std::filesystem::remove_all(path("d"));
     const pid_t program = start_repose(folder_, {"calibrate", "long.toml", "--out", "d"});
-    for (int k = 0; k < 2000 && !exists("d/study.json"); ++k) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it is simulating now
+    wait_until_there("d/study.json");  // it watches for signals before it writes that,
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // and is simulating by now
     ::kill(program, signal);
     int status = 0;
     ::waitpid(program, &status, 0);
