@@ -24,11 +24,10 @@ bool has_decks(ExportTarget target, const dem::Protocol& protocol) {
     case Experiment::drop_on_grains:
     case Experiment::tilt_on_grains:
     case Experiment::roll_on_grains:
-      return is_liggghts || is_edem;
     case Experiment::draw_down:
       break;
   }
-  return is_edem;
+  return is_liggghts || is_edem;
 }
 
 std::string names_with_decks(ExportTarget target) {

@@ -188,7 +188,8 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
     files.push_back(
         {.name = "plate.stl", .text = plate_stl(facts.study().protocol<dem::HeapProtocol>())});
   }
-  for (auto& more : {liggghts_files_between_grains(facts), liggghts_files_on_grains(facts)}) {
+  for (const auto& more : {liggghts_files_of_pairs(facts), liggghts_files_of_poured_grains(facts),
+                           liggghts_files_on_grains(facts)}) {
     files.insert(files.end(), more.begin(), more.end());
   }
   return files;

@@ -34,9 +34,11 @@ struct DropDeck {
 };
 ExportedFile drop_file(const ExportFacts& facts, const DropDeck& deck);
 
-/// Decks of the experiments between grains that the study has, and what these read.
-std::vector<ExportedFile> liggghts_files_between_grains(const ExportFacts& facts);
-/// And of those on a board of glued grains.
+/// Decks of pairs of grains, where the study has that experiment, and what these read.
+std::vector<ExportedFile> liggghts_files_of_pairs(const ExportFacts& facts);
+/// Of grains that are poured into a vessel; heaps have a deck of their own.
+std::vector<ExportedFile> liggghts_files_of_poured_grains(const ExportFacts& facts);
+/// And of grains on a board of glued ones.
 std::vector<ExportedFile> liggghts_files_on_grains(const ExportFacts& facts);
 
 }  // namespace repose::calibrate

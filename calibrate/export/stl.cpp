@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "dem/experiment/draw_down_boxes.h"
 #include "dem/experiment/incline.h"
 
 namespace repose::calibrate {
@@ -36,6 +37,13 @@ class Stl {
  private:
   std::string text_;
 };
+
+/// From pane to pane, between two places along the upper box.
+void add_sheet(const dem::DrawDownProtocol& protocol, double from_x, double to_x, Stl& stl) {
+  const double side = .5 * protocol.depth_m, height = dem::upper_floor_m(protocol);
+  stl.add({from_x, -side, height}, {to_x, -side, height}, {to_x, side, height},
+          {from_x, side, height});
+}
 
 }  // namespace
 
@@ -80,6 +88,21 @@ std::string plate_stl(const dem::HeapProtocol& protocol) {
     stl.add(from, from + down, to + down, to);
   }
   return stl.text("plate");
+}
+
+std::string slotted_floor_stl(const dem::DrawDownProtocol& protocol) {
+  const double end = .5 * protocol.length_m, lip = .5 * protocol.slot_m;
+  Stl stl;
+  add_sheet(protocol, -end, -lip, stl);
+  add_sheet(protocol, lip, end, stl);
+  return stl.text("floor");
+}
+
+std::string gate_stl(const dem::DrawDownProtocol& protocol) {
+  const double lip = .5 * protocol.slot_m;
+  Stl stl;
+  add_sheet(protocol, -lip, lip, stl);
+  return stl.text("gate");
 }
 
 }  // namespace repose::calibrate

@@ -15,4 +15,9 @@ std::string incline_stl(const dem::RollProtocol& protocol, double reach_m);
 std::string tube_stl(const dem::HeapProtocol& protocol, int sides);
 std::string plate_stl(const dem::HeapProtocol& protocol);
 
+/// What the grains in the upper box of a draw-down lie on, and the gate that shuts its slot: sheets
+/// as high as its upper side.
+std::string slotted_floor_stl(const dem::DrawDownProtocol& protocol);
+std::string gate_stl(const dem::DrawDownProtocol& protocol);
+
 }  // namespace repose::calibrate

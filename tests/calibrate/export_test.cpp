@@ -99,7 +99,7 @@ TEST(ExportStudy, WhatHasNoDeckIsNamed) {
     if (place == std::string::npos) return std::string();
     return readme.substr(place + before.size(), readme.find('.', place) - place - before.size());
   };
-  EXPECT_EQ(left_out(ExportTarget::liggghts), "draw_down");
+  EXPECT_EQ(left_out(ExportTarget::liggghts), "");
   EXPECT_EQ(left_out(ExportTarget::lammps), "heap, pendulum, draw_down");
   EXPECT_EQ(left_out(ExportTarget::yade), "pendulum, draw_down");
   EXPECT_EQ(left_out(ExportTarget::edem), "") << "it has tables for all of them";
@@ -110,14 +110,16 @@ TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
   for (const dem::Protocol& protocol :
        {dem::Protocol(dem::GrainDropProtocol{.grains = 2}),
         dem::Protocol(dem::GrainTiltProtocol{.places = 1}),
-        dem::Protocol(dem::GrainRollProtocol{.places = 1}), dem::Protocol(dem::FillProtocol{})}) {
+        dem::Protocol(dem::GrainRollProtocol{.places = 1}), dem::Protocol(dem::FillProtocol{}),
+        dem::Protocol(dem::DrawDownProtocol{})}) {
     study.experiments[static_cast<dem::Experiment>(protocol.index())].protocol = protocol;
   }
   const StudyExport made = exported(study, ExportTarget::liggghts);
   for (const char* name :
        {"drop_on_grains.lig", "drop_on_grains_bed_2.lig", "tilt_on_grains.lig",
         "tilt_on_grains_bed_1.lig", "place_row.lig", "row.txt", "roll_on_grains.lig",
-        "roll_on_grains_bed_1.lig", "fill.lig", "grain.lig"}) {
+        "roll_on_grains_bed_1.lig", "fill.lig", "grain.lig", "pour.lig", "draw_down.lig",
+        "slotted_floor.stl", "gate.stl"}) {
     EXPECT_THAT(names_of(made), Contains(name));
     EXPECT_THAT(text_of(made, name), AllOf(Not(HasSubstr("{{")), Not(HasSubstr("nan"))));
   }

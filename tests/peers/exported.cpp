@@ -40,12 +40,14 @@ std::string last_of(const std::string& text) {
 }
 
 /// All that the deck prints.
-std::string run_deck(const TemporaryFolder& folder, ExportTarget target, const std::string& deck) {
+std::string run_deck(const TemporaryFolder& folder, ExportTarget target, const std::string& deck,
+                     const std::vector<std::string>& more = {}) {
   const Program program = program_of(target);
   const std::string file = deck + program.ending;
-  const Finished done = target == ExportTarget::yade
-                            ? run_program(program.name, folder, {"-n", "-x", file})
-                            : run_program(program.name, folder, {"-in", file, "-log", "none"});
+  std::vector<std::string> arguments = {"-in", file, "-log", "none"};
+  if (target == ExportTarget::yade) arguments = {"-n", "-x", file};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Finished done = run_program(program.name, folder, arguments);
   if (done.exit_code != 0) {
     throw std::runtime_error(file + " failed: " + last_of(done.out) + last_of(done.err));
   }
@@ -141,10 +143,11 @@ Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, Expo
 }
 
 double reading_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target,
-                  const std::string& deck, const std::string& name) {
+                  const std::string& deck, const std::string& name,
+                  const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   write_decks(folder, study, grain, target);
-  return reading_in(run_deck(folder, target, deck), name);
+  return reading_in(run_deck(folder, target, deck, arguments), name);
 }
 
 double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "calibrate/export/export.h"
 #include "dem/study/study.h"
@@ -27,9 +28,11 @@ Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain);
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain,
                      calibrate::ExportTarget target);
 
-/// The export's deck of one experiment, run: the reading that it prints. Throws as above.
+/// The export's deck of one experiment, run with further arguments of its program: the reading that
+/// it prints. Throws as above.
 double reading_of(const dem::Study& study, const dem::ClumpShape& grain,
-                  calibrate::ExportTarget target, const std::string& deck, const std::string& name);
+                  calibrate::ExportTarget target, const std::string& deck, const std::string& name,
+                  const std::vector<std::string>& arguments = {});
 
 /// Mean rebound of the export's drop or drop_on_grains, run. Throws as above.
 double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain,
