@@ -65,6 +65,15 @@ std::vector<std::string> advice_of(const JointResult& joint) {
   return advice;
 }
 
+/// Below each other, a blank line between them.
+std::string lines_of(const std::vector<StudyAddition>& additions) {
+  std::string lines;
+  for (const StudyAddition& addition : additions) {
+    lines += (lines.empty() ? "" : "\n") + addition.lines;
+  }
+  return lines;
+}
+
 }  // namespace
 
 PictureRow heaps_side_by_side(const HeapPictures& pictures) {
@@ -94,9 +103,8 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   if (!advice.empty()) {
     chapter.blocks.push_back(Heading{"How to determine the others"});
     for (const std::string& text : advice) chapter.blocks.push_back(Remark{text});
-    for (const StudyAddition& addition : joint.additions) {
-      chapter.blocks.push_back(
-          CodeText{fmt::format("For the study file: {}", addition.experiment), addition.lines});
+    if (!joint.additions.empty()) {
+      chapter.blocks.push_back(CodeText{"For the study file", lines_of(joint.additions)});
     }
   }
   return chapter;
