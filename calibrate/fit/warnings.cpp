@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "base/distributions.h"
 #include "calibrate/fit/reach.h"
 
 namespace repose::calibrate {
@@ -13,6 +14,7 @@ constexpr double kBeyond = 2;             // sigma, of a target out of reach
 constexpr double kDoubtful = 1.5;         // inflation
 constexpr double kHardlyNarrower = .9;    // than the prior's interval
 constexpr double kSurrogateFraction = 1;  // of the measured variance
+constexpr double kRare = .025;            // probability of a scatter as small
 
 std::string limits_text(const Problem& problem, const Extreme& extreme) {
   std::string text;
@@ -63,6 +65,23 @@ void warn_of_scatter(const Observable& observable, const FittedObservable& fitte
                         fitted.name, assumed));
 }
 
+/// Says so when readings are more alike than chance in the simulation lets them be: their mean may
+/// be off by more than their own scatter tells. F test of two variances, one-sided.
+/// Proved by JointFit.ReadingsThatAreMoreAlikeThanChanceAllowsAreNamed.
+void warn_of_likeness(const Observable& observable, const FittedObservable& fitted, int runs,
+                      std::vector<std::string>& warnings) {
+  if (fitted.sd_assumed || !(fitted.predicted_sd > 0) || observable.n < 2 || runs < 2) return;
+  const double ratio = fitted.measured_sd / fitted.predicted_sd;
+  if (1 - base::fisher_f_above(ratio * ratio, observable.n - 1, runs - 1) > kRare) return;
+  warnings.push_back(fmt::format(
+      "{}: its {} readings have an sd of {:.3g} {}, single ones in the simulation {:.3g}: so "
+      "little "
+      "is rare by chance, and intervals may be too narrow. Fix: take more readings, each of other "
+      "grains, and leave none out. Readings that are means, and simulated grains that scatter too "
+      "much, look the same",
+      fitted.name, observable.n, fitted.measured_sd, fitted.unit, fitted.predicted_sd));
+}
+
 /// Says so when an interval is not from the measurements.
 void warn_of_prior(const Parameter& parameter, const FittedParameter& fitted,
                    std::vector<std::string>& warnings) {
@@ -83,6 +102,7 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
     const SurrogateQuality& quality = fit.surrogates[i];
     warn_of_reach(problem, solution, i, fitted, warnings);
     warn_of_scatter(problem.observables[i], fitted, warnings);
+    warn_of_likeness(problem.observables[i], fitted, quality.runs, warnings);
     if (quality.inflation > kDoubtful) {
       warnings.push_back(fmt::format(
           "{}: the surrogate's errors were {:.1f} times its uncertainty, which was increased "

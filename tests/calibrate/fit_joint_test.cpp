@@ -230,6 +230,23 @@ TEST(JointFit, WithinReachNothingIsSaidOfIt) {
   EXPECT_THAT(plate_fit(plate(20, .9, 10)).warnings, IsEmpty());
 }
 
+TEST(JointFit, ReadingsThatAreMoreAlikeThanChanceAllowsAreNamed) {
+  const auto warnings_of = [](double sd, int n) {
+    Problem problem = plate(20, sd, n);
+    problem.experiments[0].is_stochastic = true;
+    fake::Runs runs = plate_runs(problem);
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      runs[k].readings["value"] += k % 2 == 0 ? 2 : -2;  // single readings scatter by 2
+    }
+    return fit_jointly(problem, runs).warnings;
+  };
+  const auto names_it = Contains(HasSubstr("so little is rare by chance"));
+  EXPECT_THAT(warnings_of(.6, 10), names_it);
+  EXPECT_THAT(warnings_of(2, 10), Not(names_it));
+  EXPECT_THAT(warnings_of(6, 10), Not(names_it)) << "benches scatter for more reasons";
+  EXPECT_THAT(warnings_of(.6, 2), Not(names_it)) << "two are alike now and then";
+}
+
 TEST(JointFit, KnowledgeBeforehandCounts) {
   // The measurement says .4 +- .1, before it was .3 +- .1: the two meet half-way.
   Problem problem = plate(20, 0, 1);
