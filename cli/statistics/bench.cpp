@@ -13,8 +13,9 @@ ExitCode run_bench(const BenchArguments& arguments) {
   if (!plan.errors.empty()) return ExitCode::bad_input;
 
   Outputs outputs;
-  outputs.add(plan.json_file, bench_json(arguments.test, plan.result));
-  outputs.show(bench_table(arguments.test, plan.result, columns_of(stdout)));
+  const std::string test(calibrate::kBenchTestNames.at(static_cast<std::size_t>(plan.test)));
+  outputs.add(plan.json_file, bench_json(test, plan.result));
+  outputs.show(bench_table(test, plan.result, columns_of(stdout)));
   outputs.write();
   return ExitCode::done;
 }

@@ -16,6 +16,7 @@
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
+#include "dem/study/experiment_table.h"
 
 namespace repose::cli {
 namespace {
@@ -121,14 +122,22 @@ void evaluate(BenchPlan& plan) {
   }
 }
 
+/// An experiment's name stands for the test of its sheet: "drop" for "restitution".
+std::string test_called(const std::string& name) {
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (entry.name == name) return std::string(entry.sheet.test);
+  }
+  return name;
+}
+
 }  // namespace
 
 BenchPlan plan_bench(const BenchArguments& arguments) {
   BenchPlan plan;
   plan.json_file = arguments.json_file;
   const auto& tests = calibrate::kBenchTestNames;
-  if (const auto test =
-          read_word({"bench", arguments.test, plan.errors}, {tests.begin(), tests.end()})) {
+  if (const auto test = read_word({"bench", test_called(arguments.test), plan.errors},
+                                  {tests.begin(), tests.end()})) {
     plan.test = static_cast<calibrate::BenchTest>(*test);
     const std::vector<std::string> names = calibrate::column_names(plan.test);
     const Settings settings = read_settings(arguments, names, plan);

@@ -11,14 +11,22 @@ namespace {
 
 constexpr const char* kBenchNotes = R"(
 READINGS are CSV tables with a row for each repeat and these columns:
-  restitution  drop_mm, rebound_mm
-  sliding      angle_deg
-  rolling      incline_deg, released_mm (up it), stopped_mm (on the flat)
-  density      mass_g, before_ml, after_ml
-  young        force_n, spot_mm, height_mm, compression_mm
-  poisson      height_mm, shortening_mm, width_mm, widening_mm
-  size         length_mm, width_mm, thickness_mm
-  heap         angle_deg
+  restitution     drop_mm, rebound_mm
+  sliding         angle_deg
+  rolling         incline_deg, released_mm (up it), stopped_mm (on the flat)
+  density         mass_g, before_ml, after_ml
+  young           force_n, spot_mm, height_mm, compression_mm
+  poisson         height_mm, shortening_mm, width_mm, widening_mm
+  size            length_mm, width_mm, thickness_mm
+  heap            angle_deg
+  drop_on_grains  drop_mm, rebound_mm
+  tilt_on_grains  angle_deg
+  roll_on_grains  angle_deg
+  fill            bulk_density_kg_m3
+  pendulum        release_deg, swing_deg
+  draw_down       discharged_percent
+drop, tilt and roll stand for restitution, sliding and rolling.
+
 A column "sample" names the grain: repeats on one grain are averaged first. A
 reading that is the same in all rows, or a short list, can be given with --set.
 

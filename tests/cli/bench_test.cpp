@@ -33,6 +33,14 @@ TEST_F(BenchCommand, ATableOfReadingsGivesMeanScatterAndInterval) {
   EXPECT_EQ(quantity["values"].size(), 5U);
 }
 
+TEST_F(BenchCommand, AnExperimentsNameStandsForTheTestOfItsSheet) {
+  folder_.write("tilts.csv", std::string("angle_deg\n22.1\n22.9\n"));
+  const Finished by_experiment = run({"tilt", "tilts.csv", "--json", "-"});
+  ASSERT_EQ(by_experiment.exit_code, 0) << by_experiment.err;
+  EXPECT_EQ(by_experiment.out, run({"sliding", "tilts.csv", "--json", "-"}).out);
+  EXPECT_THAT(run({"tilting", "tilts.csv"}).err, HasSubstr("Fix: "));
+}
+
 TEST_F(BenchCommand, ShortListsCanBeTyped) {
   const Finished done =
       run({"restitution", "--set", "drop_mm=500", "--set", "rebound_mm=9.42,9.42", "--json", "-"});
