@@ -1,10 +1,7 @@
 #include "calibrate/experiment/position_angle.h"
 
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,18 +16,6 @@ vision::Outline outline_of(const dem::HeapEnvelope& envelope) {
     outline.along.push_back(static_cast<double>(k) * envelope.column_m);
   }
   return outline;
-}
-
-vision::OutlineAngle angle_of(const dem::HeapEnvelope& envelope) {
-  if (envelope.height_m.empty()) return {};
-  return vision::measure_outline(outline_of(envelope));
-}
-
-/// Of the sides that have one, in degrees; NaN without any.
-double mean_deg(const std::optional<vision::OutlineFlank>& left,
-                const std::optional<vision::OutlineFlank>& right) {
-  const auto angle_rad = vision::OutlineAngle{.left = left, .right = right}.angle_rad();
-  return angle_rad.value_or(std::numeric_limits<double>::quiet_NaN()) * 180 / std::numbers::pi;
 }
 
 }  // namespace
@@ -73,14 +58,6 @@ void add_position_angle(dem::Repeat& heap) {
   heap.readings["between_views_deg"] = usual.between_views_deg;
   heap.readings["angle_xz_deg"] = usual.first_view_deg;
   heap.readings["inner_window_deg"] = inner.angle_deg;
-}
-
-void add_draw_down_angles(dem::Repeat& draw_down) {
-  const dem::DrawDownOutlines outlines = *std::exchange(draw_down.draw_down, {});
-  const vision::OutlineAngle lower = angle_of(outlines.lower);
-  draw_down.readings["lower_angle_deg"] = mean_deg(lower.left, lower.right);
-  draw_down.readings["upper_angle_deg"] =
-      mean_deg(angle_of(outlines.upper_right).left, angle_of(outlines.upper_left).right);
 }
 
 }  // namespace repose::calibrate

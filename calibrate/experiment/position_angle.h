@@ -34,10 +34,4 @@ PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
 /// if it has none.
 void add_position_angle(dem::Repeat& heap);
 
-/// Completes what run_draw_down() returned: takes its outlines and adds the readings
-/// "lower_angle_deg", that of the heap below, the mean of its flanks, and "upper_angle_deg", the
-/// mean of the slopes that fall towards the slot, each measured as one flank of a heap whose crest
-/// is at the side wall. Where a heap or both slopes have no flank, the reading is NaN.
-void add_draw_down_angles(dem::Repeat& draw_down);
-
 }  // namespace repose::calibrate

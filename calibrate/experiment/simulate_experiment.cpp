@@ -5,7 +5,9 @@
 #include <memory>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
+#include "calibrate/experiment/draw_down_front.h"
 #include "calibrate/experiment/position_angle.h"
 #include "dem/engine/unstable_run.h"
 #include "dem/state/state_file.h"
@@ -67,13 +69,15 @@ class ExperimentRunner {
     try {
       dem::Repeat repeat = repeated(restart, spent_s);
       if (!repeat.envelopes.empty()) add_position_angle(repeat);
-      if (repeat.draw_down) add_draw_down_angles(repeat);
       run.value = repeat.value;
       run.readings = repeat.readings;
       run.steps = repeat.steps;
       run.timestep_s = repeat.timestep_s;
       run.clump_steps = repeat.clump_steps;
       state_ = repeat.state;
+      if (const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol)) {
+        measure_front(*boxes, run);
+      }
     } catch (const dem::NoReading& error) {
       run.failure = error.what();
     } catch (const dem::UnstableRun& error) {
@@ -129,6 +133,12 @@ class ExperimentRunner {
   }
 
   bool goes_on(double fraction) const { return !options_.report || options_.report(fraction); }
+
+  void measure_front(const dem::DrawDownProtocol& boxes, SimulatedRun& run) const {
+    const DrawDownFront front = draw_down_front(scene(), boxes);
+    run.readings["upper_angle_deg"] = front.upper_angle_deg;
+    run.readings["lower_angle_deg"] = front.lower_angle_deg;
+  }
 
   /// The state first: a run is there only when all of it is.
   void save(const SimulatedRun& run) const {

@@ -29,10 +29,12 @@ struct SimulateOptions {
 /// way in which all commands do it: the same spec and seed give the same bytes.
 ///
 /// An experiment in which nothing can be read, or that becomes unstable, is a run with a failure.
-/// A machine that cannot draw gives runs without views and with a picture_error.
+/// A machine that cannot draw gives heaps without views and with a picture_error.
 /// @throws dem::Interrupted  `report` asked for it.
 /// @throws std::invalid_argument  the protocol cannot be run, a file cannot be written, or a
 /// restart file is damaged.
+/// @throws std::runtime_error  this machine cannot draw a draw-down, which has readings in its
+/// picture alone.
 SimulatedRun simulate_experiment(const RunSpec& spec, std::uint64_t seed,
                                  const SimulateOptions& options = {});
 

@@ -86,7 +86,6 @@ void add_pictures(const Run& run, Json& json) {
   json["angle_from_pictures_deg"] = seen ? number(seen->mean) : Json(nullptr);
   json["sd_between_views_deg"] = seen ? optional_number(seen->sd) : Json(nullptr);
   json["angle_from_positions_deg"] = number(result.value);
-  json["overlay"] = run.overlay_file.empty() ? Json(nullptr) : Json(run.overlay_file);
   json["views"] = Json::array();
   for (const calibrate::HeapView& view : result.views) {
     const auto& angle = view.picture.angle_rad;
@@ -123,6 +122,7 @@ Json run_json(const Run& run) {
             {"clump_steps_per_s", number(result.clump_steps / result.wall_s)},
             {"timestep_s", result.timestep_s},
             {"state", run.state_file.empty() ? Json(nullptr) : Json(run.state_file)},
+            {"overlay", run.overlay_file.empty() ? Json(nullptr) : Json(run.overlay_file)},
             {"readings", readings}};
   if (!result.views.empty()) add_pictures(run, json);
   return json;

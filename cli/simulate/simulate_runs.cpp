@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "calibrate/experiment/draw_down_front.h"
 #include "calibrate/experiment/simulate_experiment.h"
 #include "cli/simulate/simulate_folder.h"
 #include "cli/simulate/simulate_progress.h"
@@ -32,6 +33,15 @@ void draw_overlay(const Run& run, int views) {
                                            views);
   render::Renderer renderer;
   session.measure(renderer, 0, run.overlay_file);
+}
+
+/// The front of a draw-down with the slopes that were measured drawn in.
+void draw_front(const Run& run, const dem::DrawDownProtocol& boxes) {
+  const calibrate::DrawDownFront front =
+      calibrate::draw_down_front(render::scene_of(dem::read_state(run.state_file)), boxes);
+  const std::string title = std::filesystem::path(run.overlay_file).filename().string();
+  vision::write_picture(run.overlay_file,
+                        vision::draw_slopes_overlay(front.picture, front.slopes, title));
 }
 
 class Batch {
@@ -103,9 +113,10 @@ class Batch {
           folder_->runs().string()));
     }
     run.state_file = state;
-    if (run.result.views.empty()) return;
+    const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol);
+    if (run.result.views.empty() && boxes == nullptr) return;
     run.overlay_file = place + ".overlay.png";
-    draw_overlay(run, spec_.views);
+    boxes != nullptr ? draw_front(run, *boxes) : draw_overlay(run, spec_.views);
   }
 
   const SimulatePlan& plan_;

@@ -22,7 +22,7 @@ struct Run {
   RunOutcome outcome = RunOutcome::not_run;
   calibrate::SimulatedRun result;  ///< counts when done
   std::string state_file;          ///< empty: none was asked for
-  std::string overlay_file;        ///< of a heap's first view; empty: none was asked for
+  std::string overlay_file;        ///< of a heap's first view or a draw-down; else empty
   std::string error;               ///< why it is not done
 };
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -131,27 +130,6 @@ double rate_s(const Flow& flow) {
   return steady_s > 0 ? grains / steady_s : 0;
 }
 
-/// The outline of a part of the grains over its floor, seen along y; empty without grains.
-HeapEnvelope outline_of(const std::vector<ClumpSphere>& spheres) {
-  return spheres.empty() ? HeapEnvelope{} : heap_envelopes(spheres, 1).front();
-}
-
-DrawDownOutlines outlines_of(const Simulation& simulation, const DrawDownProtocol& protocol) {
-  const double floor_m = upper_floor_m(protocol);
-  std::vector<ClumpSphere> lower, left, right;
-  for (ClumpSphere sphere : placed_spheres(simulation)) {
-    if (sphere.centre.z() < protocol.drop_m) {
-      lower.push_back(sphere);
-      continue;
-    }
-    sphere.centre.z() -= floor_m;
-    if (sphere.centre.z() + sphere.radius <= 0) continue;
-    (sphere.centre.x() < 0 ? left : right).push_back(sphere);
-  }
-  return {
-      .lower = outline_of(lower), .upper_left = outline_of(left), .upper_right = outline_of(right)};
-}
-
 }  // namespace
 
 Repeat run_draw_down(const Model& model, const DrawDownProtocol& protocol, std::uint64_t seed,
@@ -162,18 +140,15 @@ Repeat run_draw_down(const Model& model, const DrawDownProtocol& protocol, std::
   const int grains = counts_of(run.simulation(), protocol).all();
   const auto out = static_cast<double>(flow.passed_s.size());
   const double grain_g = 1e3 * model.grain_material.density_kg_m3 * model.grain.volume_m3;
-  DrawDownOutlines outlines = outlines_of(run.simulation(), protocol);
   constexpr double kPercent = 100;
-  Repeat repeat = run.finish(kPercent * out / grains, seed,
-                             {{"grains", grains},
-                              {"grains_out", out},
-                              {"filled_g", grain_g * grains},
-                              {"discharged_g", grain_g * out},
-                              {"time_s", time_of(flow, kThrough)},
-                              {"rate_g_s", grain_g * rate_s(flow)},
-                              {"at_rest", flow.is_at_rest ? 1 : 0}});
-  repeat.draw_down = std::move(outlines);
-  return repeat;
+  return run.finish(kPercent * out / grains, seed,
+                    {{"grains", grains},
+                     {"grains_out", out},
+                     {"filled_g", grain_g * grains},
+                     {"discharged_g", grain_g * out},
+                     {"time_s", time_of(flow, kThrough)},
+                     {"rate_g_s", grain_g * rate_s(flow)},
+                     {"at_rest", flow.is_at_rest ? 1 : 0}});
 }
 
 }  // namespace repose::dem

@@ -10,9 +10,6 @@ namespace repose::dem {
 /// The wall that is taken away to open the slot.
 inline constexpr int kDrawDownGate = 7;
 
-/// What the grains in the upper box lie on, m above the lower box's floor.
-double upper_floor_m(const DrawDownProtocol& protocol);
-
 /// Both boxes, the upper one filled and struck level, the gate shut. Throws std::invalid_argument
 /// for a protocol that cannot be run (every error at once).
 ExperimentRun filled_boxes(const Model& model, const DrawDownProtocol& protocol, std::uint64_t seed,

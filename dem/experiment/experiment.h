@@ -36,14 +36,6 @@ struct Model {
   int threads = 1;
 };
 
-/// A draw-down at rest, seen along y. Heights are above the floor of each box; an outline of a side
-/// where nothing lies is empty.
-struct DrawDownOutlines {
-  HeapEnvelope lower;        ///< the heap below
-  HeapEnvelope upper_left;   ///< what stays on the left of the slot, and falls towards it
-  HeapEnvelope upper_right;  ///< the same on its right
-};
-
 /// One repeat of an experiment.
 struct Repeat {
   double value = 0;  ///< in the unit of the experiment; NaN for a heap
@@ -53,8 +45,7 @@ struct Repeat {
   double clump_steps = 0;  ///< grains times steps, summed
   /// Other readings, named with their unit: "lowest_point_rise_mm", "grains_off_plate".
   std::map<std::string, double> readings;
-  std::vector<HeapEnvelope> envelopes = {};        ///< of a heap, from 18 sides; else empty
-  std::optional<DrawDownOutlines> draw_down = {};  ///< of a draw-down alone
+  std::vector<HeapEnvelope> envelopes = {};  ///< of a heap, from 18 sides; else empty
   /// The end of the run, to look at; shared because a simulation cannot be copied.
   std::shared_ptr<const Simulation> state;
 };

@@ -8,9 +8,11 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
+#include "dem/experiment/filling_height.h"
 #include "dem/experiment/grain_limit.h"
 #include "dem/experiment/heap_fill.h"
 #include "dem/experiment/model_setup.h"
+#include "dem/experiment/placing.h"
 #include "dem/experiment/rain.h"
 #include "dem/experiment/tapping.h"
 
@@ -120,7 +122,10 @@ Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t 
   const double grains = count_below(run.simulation(), protocol.tube_height_m);
   const double mass_kg = grains * model.grain_material.density_kg_m3 * model.grain.volume_m3;
   const double density = mass_kg / volume_m3(protocol);
-  readings.insert({{"grains", grains},
+  const double level_m =
+      filling_height_m(placed_spheres(run.simulation()), protocol.tube_diameter_m);
+  readings.insert({{"filling_height_mm", 1e3 * level_m},
+                   {"grains", grains},
                    {"mass_g", 1e3 * mass_kg},
                    {"solid_fraction", density / model.grain_material.density_kg_m3}});
   return run.finish(density, seed, std::move(readings));

@@ -111,7 +111,9 @@ struct GrainDropProtocol {
 /// The grains fall from a spout at `pour_m` above the rim, at random places over the tube and in
 /// random poses, until they heap over the rim and rest. Those whose centres of mass lie above the
 /// rim are struck off; all others stay whole. Value: bulk density, kg/m^3: the mass of those that
-/// stay by the tube's volume. Readings: "grains", "mass_g", "solid_fraction".
+/// stay by the tube's volume. Readings: "grains", "mass_g", "solid_fraction",
+/// "filling_height_mm" (mean height of the upper surface of what stays, over the tube's whole
+/// width).
 ///
 /// To be tapped, the tube has a collar of a third of its height, as Carr (1965, Chemical
 /// Engineering 72 (2), 163) has it: it is filled over the collar's rim, dropped `taps` times
@@ -150,7 +152,7 @@ struct PendulumProtocol {
 /// "discharged_g", "time_s" (from the opening until 95 % of what runs out is below the slot: the
 /// last grains trickle), "rate_g_s" (mean from 10 to 50 % of it, while the flow is steady),
 /// "grains", "grains_out", "at_rest" (0: still creeping 5 s after the last grain ran out). The
-/// angles of the two slopes that stay and of the heap below are those of `Repeat::draw_down`.
+/// angles of the two slopes that stay and of the heap below are measured in pictures of its state.
 /// Throws NoReading when no grains run out, when so many do that no slope stays (nothing, or a
 /// single layer), when they arch over the slot, or when the lower heap reaches it.
 struct DrawDownProtocol {
@@ -160,6 +162,9 @@ struct DrawDownProtocol {
   double fill_m = .15;  ///< height of the grains in the upper box
   double drop_m = .25;  ///< from the slot's lower edge to the floor of the lower box
 };
+
+/// What the grains in the upper box lie on, m above the lower box's floor.
+double upper_floor_m(const DrawDownProtocol& protocol);
 
 /// Every experiment there is, in the order in which they are listed.
 enum class Experiment {

@@ -13,13 +13,12 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
 }
 
 double cost_s(const Model& model, const Protocol& protocol) {
-  // Filling, flow and coming to rest. There are walls on all sides.
-  constexpr double kPacked = .6, kStep_s = 4e-8, kSimulated_s = 3.5, kFallSpeed_m_s = 2;
+  // Filling, flow and coming to rest.
+  constexpr double kPacked = .6, kSimulated_s = 4, kFallSpeed_m_s = 2;
   const auto& draw_down = std::get<DrawDownProtocol>(protocol);
   const double box_m3 = draw_down.length_m * draw_down.depth_m * draw_down.fill_m;
   const double grains = kPacked * box_m3 / model.grain.volume_m3;
-  return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains * kSimulated_s /
-         course_timestep_s(model, kFallSpeed_m_s);
+  return bulk_step_s(model) * grains * kSimulated_s / course_timestep_s(model, kFallSpeed_m_s);
 }
 
 }  // namespace

@@ -76,6 +76,14 @@ double impact_timestep_s(const Model& model, double speed_m_s) {
       .timestep_s;
 }
 
+double bulk_step_s(const Model& model) {
+  return 1.5e-7 + 9e-9 * static_cast<double>(model.grain.spheres.size());
+}
+
+double step_on_grains_s(const Model& model, int bonded) {
+  return 4.5e-7 + 8e-8 * static_cast<double>(model.grain.spheres.size()) * bonded;
+}
+
 double course_timestep_s(const Model& model, double speed_m_s) {
   return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, kCourseFraction)
       .timestep_s;

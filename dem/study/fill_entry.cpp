@@ -17,15 +17,13 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
 }
 
 double cost_s(const Model& model, const Protocol& protocol) {
-  constexpr double kPacked = .6, kStep_s = 2.4e-8, kSettling_s = 1, kFallSpeed_m_s = 2;
-  constexpr double kTap_s = .1;
+  constexpr double kPacked = .6, kRises_m_s = .13, kFallSpeed_m_s = 2, kTap_s = .1;
   const auto& fill = std::get<FillProtocol>(protocol);
   const double radius = fill.tube_diameter_m / 2;
   const double tube_m3 = std::numbers::pi * radius * radius * fill.tube_height_m;
   const double grains = kPacked * tube_m3 / model.grain.volume_m3;
-  const double simulated_s = kSettling_s + kTap_s * fill.taps.value_or(0);
-  return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains * simulated_s /
-         course_timestep_s(model, kFallSpeed_m_s);
+  const double simulated_s = fill.tube_height_m / kRises_m_s + kTap_s * fill.taps.value_or(0);
+  return bulk_step_s(model) * grains * simulated_s / course_timestep_s(model, kFallSpeed_m_s);
 }
 
 }  // namespace
@@ -39,6 +37,7 @@ ExperimentEntry fill_entry() {
               "Grains are poured into a tube that stands on a plate until they heap over its rim. "
               "They are struck level, if wanted after taps, and what is in the tube is weighed.",
           .readings = {{"hausner_ratio", "", true, "taps"},
+                       {"filling_height_mm", "mm", true},
                        {"grains", ""},
                        {"mass_g", "g"},
                        {"solid_fraction", ""}},

@@ -27,13 +27,12 @@ double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {
 }
 
 double cost_s(const Model& model, const Protocol& protocol) {
-  constexpr double kStep_s = 2.4e-8;  // per grain, per sphere of it
   // Once the tube is a diameter up, what is left in it falls out.
   constexpr double kFillAndSettle_s = 1.5, kFallSpeed_m_s = 2;
   const auto& heap = std::get<HeapProtocol>(protocol);
   const double simulated_s = heap.tube_diameter_m / heap.lift_speed_m_s + kFillAndSettle_s;
-  return kStep_s * static_cast<double>(model.grain.spheres.size()) * grains_in(heap, model.grain) *
-         simulated_s / course_timestep_s(model, kFallSpeed_m_s);
+  return bulk_step_s(model) * grains_in(heap, model.grain) * simulated_s /
+         course_timestep_s(model, kFallSpeed_m_s);
 }
 
 }  // namespace

@@ -42,19 +42,17 @@ Range possible_angle(const Model& /*model*/, const Protocol& /*protocol*/) {
 }
 
 double drop_cost_s(const Model& model, const Protocol& protocol) {
-  constexpr double kSpeed_m_s = 2, kBounce_s = .1;
-  return kAloneStep_s * std::get<GrainDropProtocol>(protocol).grains * kBounce_s /
+  constexpr double kSpeed_m_s = 2, kBounce_s = .02;
+  return step_on_grains_s(model, 1) * std::get<GrainDropProtocol>(protocol).grains * kBounce_s /
          impact_timestep_s(model, kSpeed_m_s);
 }
 
 /// Of bodies that lie still until the plate is at some 45 degrees.
-double tilt_cost_s(const Model& model, double rate_deg_s, double spheres) {
-  constexpr double kSpeed_m_s = .3, kSettling_s = 1, kLeaves_deg = 45, kSphereStep_s = 1.2e-7;
-  return kSphereStep_s * spheres * (kSettling_s + kLeaves_deg / rate_deg_s) /
+double tilt_cost_s(const Model& model, double rate_deg_s, int bonded, int places) {
+  constexpr double kSpeed_m_s = .3, kSettling_s = 1, kLeaves_deg = 45;
+  return step_on_grains_s(model, bonded) * places * (kSettling_s + kLeaves_deg / rate_deg_s) /
          course_timestep_s(model, kSpeed_m_s);
 }
-
-double spheres_of(const Model& model) { return static_cast<double>(model.grain.spheres.size()); }
 
 }  // namespace
 
@@ -121,8 +119,7 @@ ExperimentEntry tilt_on_grains_entry() {
           .cost_s =
               [](const Model& model, const Protocol& protocol) {
                 const auto& tilt = std::get<GrainTiltProtocol>(protocol);
-                return tilt_cost_s(model, tilt.rate_deg_s,
-                                   spheres_of(model) * tilt.bonded * tilt.places);
+                return tilt_cost_s(model, tilt.rate_deg_s, tilt.bonded, tilt.places);
               }};
 }
 
@@ -155,7 +152,7 @@ ExperimentEntry roll_on_grains_entry() {
           .cost_s =
               [](const Model& model, const Protocol& protocol) {
                 const auto& roll = std::get<GrainRollProtocol>(protocol);
-                return tilt_cost_s(model, roll.rate_deg_s, spheres_of(model) * roll.places);
+                return tilt_cost_s(model, roll.rate_deg_s, 1, roll.places);
               }};
 }
 

@@ -74,9 +74,13 @@ std::string rounded(double value) {
 
 std::string line_of(const SimulatedRun& run) {
   std::string line = "value " + rounded(run.value);
-  for (const auto& [name, value] : run.readings) line += ' ' + name + ' ' + rounded(value);
   // Drawing and measuring differ in edge pixels from one kind of processor to the next.
-  if (!run.views.empty()) line += fmt::format(" seen {:.2f}", value_of(run));
+  const auto seen = [](double value) { return fmt::format("{:.2f}", value); };
+  for (const auto& [name, value] : run.readings) {
+    const bool is_seen = name == "upper_angle_deg" || name == "lower_angle_deg";
+    line += ' ' + name + ' ' + (is_seen ? seen(value) : rounded(value));
+  }
+  if (!run.views.empty()) line += " seen " + seen(value_of(run));
   return line;
 }
 

@@ -85,6 +85,29 @@ TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
   EXPECT_EQ(timeless({"--views", "4", "--threads", "3"}), heap) << "threads do not change it";
 }
 
+/// Two boxes of the same grains.
+class SimulateDrawDown : public CommandTest {
+ protected:
+  SimulateDrawDown() : CommandTest({"simulate", "draw_down", "study.toml", "--out", "runs"}) {
+    folder_.write("study.toml", std::string(kStudy) + R"([experiment.draw_down]
+length_mm = 350
+depth_mm = 92
+slot_mm = 160
+fill_mm = 92
+drop_mm = 175
+)");
+  }
+};
+
+TEST_F(SimulateDrawDown, LeavesThePictureInWhichItsAnglesAreMeasured) {
+  const json repeat = result({})["repeats"][0];
+  EXPECT_GT(repeat["readings"]["upper_angle_deg"].get<double>(), 20);
+  EXPECT_GT(repeat["readings"]["lower_angle_deg"].get<double>(), 10);
+  EXPECT_EQ(repeat["overlay"], "runs/draw_down_seed_1.overlay.png");
+  EXPECT_GT(vision::read_picture(path("runs/draw_down_seed_1.overlay.png")).width, 350);
+  EXPECT_EQ(result({})["repeats"][0]["readings"], repeat["readings"]) << "from the folder";
+}
+
 TEST_F(SimulatePictures, NoPicturesLeaveTheAngleOfThePositions) {
   const json none = timeless({"--views", "0"});
   EXPECT_FALSE(none.contains("source"));

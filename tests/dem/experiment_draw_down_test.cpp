@@ -75,22 +75,6 @@ TEST(DrawDown, GrainsStayBetweenThePanes) {
   }
 }
 
-TEST(DrawDown, OutlinesAreThoseOfTheHeapAndOfBothSlopes) {
-  ASSERT_TRUE(usual().draw_down);
-  const auto& [lower, left, right] = *usual().draw_down;
-  const auto width_m = [](const HeapEnvelope& outline) {
-    return outline.column_m * static_cast<double>(outline.height_m.size());
-  };
-  const double side_m = .5 * (kBoxes.length_m - kBoxes.slot_m);
-  // A slope ends at the slot, give or take a grain on its lip.
-  EXPECT_NEAR(width_m(left), side_m, kBall_m);
-  EXPECT_NEAR(width_m(right), side_m, kBall_m);
-  EXPECT_GT(left.height_m.front(), left.height_m.back());
-  EXPECT_LT(right.height_m.front(), right.height_m.back());
-  EXPECT_GT(height_m({lower}), 2 * kBall_m);
-  EXPECT_LT(height_m({lower}), kBoxes.drop_m);
-}
-
 TEST(DrawDown, FrictionKeepsGrainsAboveTheSlot) {
   EXPECT_GT(run_draw_down(balls({.1, .2, .05}), kBoxes, 1).value, usual().value + 2);
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/engine/unstable_run.h"
+#include "dem/experiment/filling_height.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -62,6 +63,30 @@ TEST(FilledTubes, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
       << "below the collar it is poured as without";
   // Random close packing (Scott and Kilgour 1969, J. Phys. D 2, 863).
   EXPECT_LT(often.readings.at("solid_fraction"), .637);
+}
+
+TEST(FilledTube, ItsLevelIsAtTheRimGiveOrTakeAGrain) {
+  const double level_mm = run_fill(balls(), kTube, 1).readings.at("filling_height_mm");
+  EXPECT_GT(level_mm, 130);
+  EXPECT_LT(level_mm, 155);
+}
+
+TEST(FillingHeight, IsTheMeanOverTheTube) {
+  EXPECT_EQ(filling_height_m({}, .1), 0);
+  // A sphere of the tube's width whose middle is at 0.2 m: a dome of mean height 2/3 r.
+  const std::vector<ClumpSphere> dome = {{.centre = {0, 0, .2}, .radius = .05}};
+  EXPECT_NEAR(filling_height_m(dome, .1), .2 + .05 * 2 / 3, 1e-4);
+  // One that covers a quarter of the tube, and one below it that does not show.
+  const std::vector<ClumpSphere> ball = {{.centre = {.01, .02, .2}, .radius = .025},
+                                         {.centre = {.01, .02, .1}, .radius = .02}};
+  EXPECT_NEAR(filling_height_m(ball, .1), (.2 + .025 * 2 / 3) / 4, 5e-4);
+}
+
+TEST(FillingHeight, SpheresBeyondTheTubeCountAsFarAsTheyReachIn) {
+  const std::vector<ClumpSphere> outside = {{.centre = {.2, 0, .2}, .radius = .05}};
+  EXPECT_EQ(filling_height_m(outside, .1), 0);
+  const std::vector<ClumpSphere> wide = {{.centre = {0, 0, -1}, .radius = 1.1}};
+  EXPECT_NEAR(filling_height_m(wide, .1), .1 - .05 * .05 / 4 / 1.1, 1e-5);
 }
 
 TEST(FilledTube, IsTheSameAtAnyNumberOfThreads) {

@@ -80,7 +80,13 @@ std::optional<OutlineFlank> flank_of(const Profile& profile, Side side, double s
   const double end = side == Side::left ? profile.along.front() : profile.along.back();
   const double reach = std::abs(end - profile.along[profile.crest]);
   const double foot = std::min(-line.intercept / line.slope, kFarthestFoot * reach);
-  return OutlineFlank{.angle_rad = fit.angle_rad, .foot = foot * spacing};
+  const auto place = [&](double out) {
+    const double along = profile.along[profile.crest] + (side == Side::left ? -out : out);
+    return Point{.x = along * spacing, .y = line.y(out) * spacing};
+  };
+  return OutlineFlank{.angle_rad = fit.angle_rad,
+                      .foot = foot * spacing,
+                      .line = {place(fit.along.front()), place(fit.along.back())}};
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "vision/picture/picture.h"
+
 namespace repose::vision {
 
 /// A heap's upper edge that is known, seen from the side: nothing needs to be found in a picture.
@@ -25,6 +27,7 @@ struct OutlineFlank {
   double angle_rad = 0;
   double foot = 0;  ///< from below the crest to where the line meets the ground; at most twice as
                     ///< far as the outline reaches
+  Segment line;     ///< over its window, in the outline's unit: x along, y the height
 };
 
 struct OutlineAngle {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "dem/experiment/protocol.h"
+#include "render/scene/scene.h"
+#include "vision/drawing/slopes_overlay.h"
+#include "vision/picture/picture.h"
+
+/// The front of a draw-down's two boxes at rest, as a camera sees it that is level and far away,
+/// and what is measured in that picture.
+namespace repose::calibrate {
+
+struct DrawDownFront {
+  vision::Picture picture;            ///< silhouette of the grains
+  std::vector<vision::Slope> slopes;  ///< those that there are, where they are in the picture
+  /// Mean of the slopes that fall towards the slot, each measured as one flank of a heap whose
+  /// crest is at the side wall; NaN when neither can be.
+  double upper_angle_deg = 0;
+  /// Of the heap below, mean of its flanks; NaN without any.
+  double lower_angle_deg = 0;
+};
+
+/// Draws and measures it: binarised, the upper edge of each slope and of the heap, and the line
+/// through it that photographs are measured with, but without their verdict, so that steep and
+/// round slopes have their number too. Proved by DrawDownFront.* in
+/// tests/calibrate/draw_down_front_test.cpp.
+/// @throws std::invalid_argument  the scene has no grains.
+/// @throws std::runtime_error  this machine cannot draw.
+DrawDownFront draw_down_front(render::Scene scene, const dem::DrawDownProtocol& boxes);
+
+}  // namespace repose::calibrate

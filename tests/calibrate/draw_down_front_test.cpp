@@ -1,0 +1,180 @@
+#include "calibrate/experiment/draw_down_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/experiment/heap_views.h"
+#include "tests/dem/experiment_model.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Balls of 4 mm whose tops lie on a line over a floor.
+void add_under(render::Scene& scene, double floor_m, double from_m, double to_m,
+               const std::function<double(double)>& height_m) {
+  constexpr double kRadius = .002;
+  for (int k = static_cast<int>(std::ceil(from_m / kRadius)); k * kRadius <= to_m; ++k) {
+    const double top = height_m(k * kRadius);
+    if (top < kRadius) continue;
+    scene.grains.push_back(
+        {.shape = 0,
+         .number = static_cast<int>(scene.grains.size()),
+         .pose = {.position = {k * kRadius, 0, floor_m + top - kRadius}, .orientation = {}}});
+  }
+}
+
+constexpr dem::DrawDownProtocol kDrawn{
+    .length_m = .3, .depth_m = .05, .slot_m = .04, .fill_m = .12, .drop_m = .15};
+
+struct Degrees {
+  double lower_left, lower_right;
+  std::optional<double> upper_left, upper_right;
+};
+
+render::Scene scene_of(const Degrees& angles) {
+  render::Scene scene;
+  scene.shapes = {dem::sphere_shape(.002)};
+  const auto slope = [](double degrees) { return std::tan(degrees * kDegree); };
+  const double floor_m = dem::upper_floor_m(kDrawn);
+  add_under(scene, 0, -.148, .148, [&](double x) {
+    return .06 - std::abs(x) * slope(x < 0 ? angles.lower_left : angles.lower_right);
+  });
+  if (angles.upper_left) {
+    add_under(scene, floor_m, -.148, -.02,
+              [&](double x) { return (-x - .02) * slope(*angles.upper_left); });
+  }
+  if (angles.upper_right) {
+    add_under(scene, floor_m, .02, .148,
+              [&](double x) { return (x - .02) * slope(*angles.upper_right); });
+  }
+  return scene;
+}
+
+DrawDownFront front_of(const Degrees& angles) { return draw_down_front(scene_of(angles), kDrawn); }
+
+TEST(DrawDownFront, ShowsTheAnglesOfKnownSlopes) {
+  const DrawDownFront front = front_of({25, 25, 35, 35});
+  EXPECT_NEAR(front.lower_angle_deg, 25, .3);
+  EXPECT_NEAR(front.upper_angle_deg, 35, .3);
+}
+
+TEST(DrawDownFront, ItsLinesLieOnTheSlopesInThePicture) {
+  const DrawDownFront front = front_of({22, 28, 30, 40});
+  const std::vector<std::string> names = {"upper left", "upper right", "lower left", "lower right"};
+  const std::vector<double> angles_deg = {30, 40, 22, 28};
+  ASSERT_EQ(front.slopes.size(), names.size());
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const vision::Slope& slope = front.slopes[k];
+    EXPECT_EQ(slope.name, names[k]);
+    EXPECT_NEAR(slope.angle_rad / kDegree, angles_deg[k], .4) << names[k];
+    const auto& [from, to] = slope.line;
+    const double drawn_deg = std::atan(std::abs((to.y - from.y) / (to.x - from.x))) / kDegree;
+    EXPECT_NEAR(drawn_deg, angles_deg[k], .4) << names[k];
+    // The edge is where the picture turns dark below the line.
+    const double x = (from.x + to.x) / 2, y = (from.y + to.y) / 2;
+    const auto grey = [&](double row) {
+      const auto at =
+          std::lround(std::floor(row)) * front.picture.width + std::lround(std::floor(x));
+      return static_cast<int>(front.picture.bgr[static_cast<std::size_t>(3 * at)]);
+    };
+    EXPECT_GT(grey(y - 10), 128) << names[k];
+    EXPECT_LT(grey(y + 10), 128) << names[k];
+  }
+}
+
+TEST(DrawDownFront, IsTheSameMirrored) {
+  const DrawDownFront one = front_of({22, 28, 30, 40});
+  const DrawDownFront mirrored = front_of({28, 22, 40, 30});
+  EXPECT_NEAR(one.lower_angle_deg, 25, .4);
+  EXPECT_NEAR(one.upper_angle_deg, 35, .4);
+  EXPECT_NEAR(mirrored.lower_angle_deg, one.lower_angle_deg, .1);
+  EXPECT_NEAR(mirrored.upper_angle_deg, one.upper_angle_deg, .1);
+}
+
+TEST(DrawDownFront, ASideWithoutASlopeIsLeftOut) {
+  EXPECT_NEAR(front_of({25, 25, 33, {}}).upper_angle_deg, 33, .3);
+  EXPECT_TRUE(std::isnan(front_of({25, 25, {}, {}}).upper_angle_deg));
+  render::Scene empty;
+  empty.shapes = {dem::sphere_shape(.002)};
+  EXPECT_THROW(draw_down_front(empty, kDrawn), std::invalid_argument);
+  EXPECT_THROW(draw_down_front({}, kDrawn), std::invalid_argument);
+}
+
+TEST(DrawDownFront, SteepSlopesHaveAnAngleToo) {
+  EXPECT_NEAR(front_of({25, 25, 70, 70}).upper_angle_deg, 70, 1);
+}
+
+constexpr dem::DrawDownProtocol kBoxes{
+    .length_m = .44, .depth_m = .08, .slot_m = .11, .fill_m = .08, .drop_m = .14};
+
+/// About as many lie side by side on a side of the slot.
+constexpr int kSlopeGrains = 7;
+
+/// Balls of 20 mm, soft so that the run is short.
+dem::Repeat simulated() {
+  dem::Model model = dem::test::sphere_bench();
+  model.grain = dem::sphere_shape(.01);
+  model.grain_material = {"ball", 1000, 1e6, .3};
+  model.grain_grain = {.3, .4, .03};
+  // (steeper slopes of so few grains are round, and refused in pictures)
+  return dem::run_draw_down(model, kBoxes, 1);
+}
+
+/// A silhouette of some of the grains.
+vision::Picture drawn(const dem::Simulation& simulation,
+                      const std::function<bool(const dem::Vector&)>& is_shown) {
+  render::Scene scene = render::scene_of(simulation);
+  std::erase_if(scene.grains,
+                [&](const render::PlacedGrain& grain) { return !is_shown(grain.pose.position); });
+  render::Renderer renderer;
+  return HeapViewSession(std::move(scene), 1).take(renderer, 0).picture;
+}
+
+/// The part of a slope's picture that ends a grain before its side wall, so that the wall is no
+/// flank.
+vision::Picture up_to_the_wall(const vision::Picture& picture, bool is_left) {
+  int first = picture.width, last = 0;
+  for (std::size_t k = 0; k < picture.bgr.size(); k += 3) {
+    if (picture.bgr[k] > 127) continue;
+    const int column = static_cast<int>(k / 3) % picture.width;
+    first = std::min(first, column);
+    last = std::max(last, column);
+  }
+  const int grain_px = (last - first) / kSlopeGrains;
+  const int from = is_left ? first + grain_px : 0;
+  const int to = is_left ? picture.width : last - grain_px;
+  return vision::part_of(picture,
+                         {.x = from, .y = 0, .width = to - from, .height = picture.height});
+}
+
+TEST(DrawDownFront, PhotographsOfTheHeapAndTheSlopesShowTheSame) {
+  const dem::Repeat repeat = simulated();
+  const DrawDownFront front = draw_down_front(render::scene_of(*repeat.state), kBoxes);
+  const auto lower = vision::measure_repose_angle(
+      drawn(*repeat.state, [](const dem::Vector& place) { return place.z() < kBoxes.drop_m; }));
+  ASSERT_TRUE(lower.angle_rad) << lower.reason;
+  EXPECT_NEAR(*lower.angle_rad / kDegree, front.lower_angle_deg, .5);
+  double sum = 0;
+  for (const bool is_left : {true, false}) {
+    const vision::Picture picture = drawn(*repeat.state, [is_left](const dem::Vector& place) {
+      return place.z() > kBoxes.drop_m && (place.x() < 0) == is_left;
+    });
+    const auto slope = vision::measure_repose_angle(up_to_the_wall(picture, is_left));
+    ASSERT_TRUE(slope.angle_rad) << slope.reason;
+    sum += *slope.angle_rad / kDegree;
+  }
+  EXPECT_NEAR(sum / 2, front.upper_angle_deg, .5);
+}
+
+}  // namespace
+}  // namespace repose::calibrate

@@ -1,0 +1,34 @@
+#include "vision/drawing/slopes_overlay.h"
+
+#include <stdexcept>
+
+#include <opencv2/core.hpp>
+
+#include "vision/drawing/drawn_size.h"
+#include "vision/drawing/track_drawing.h"
+
+namespace repose::vision {
+
+Picture draw_slopes_overlay(const Picture& picture, const std::vector<Slope>& slopes,
+                            const std::string& title) {
+  if (picture.empty()) {
+    throw std::invalid_argument(title + ": the picture has no pixels. Fix: give one that has.");
+  }
+  const Lettering lettering;
+  const double scale = drawing_scale(picture);
+  cv::Mat image = scaled(picture, scale);
+  const Canvas canvas(image, scale);
+  std::vector<TextRow> rows = {{title, kDark}};
+  std::vector<cv::Rect> labels;
+  for (const Slope& slope : slopes) {
+    const std::string angle = angle_text(slope.angle_rad, {});
+    canvas.draw(canvas.path_of({slope.line.from, slope.line.to}), kVermilion, 1.2);
+    const Point middle{.x = (slope.line.from.x + slope.line.to.x) / 2,
+                       .y = (slope.line.from.y + slope.line.to.y) / 2};
+    draw_label(canvas, middle, angle, lettering, labels);
+    rows.push_back({slope.name + ": " + angle, kDark});
+  }
+  return with_caption(image, rows, lettering);
+}
+
+}  // namespace repose::vision
