@@ -62,13 +62,14 @@ class Front {
   }
 
   /// A line of the part that was measured last.
-  vision::Slope slope_of(const vision::OutlineFlank& flank, std::string name) const {
+  vision::Slope slope_of(const std::optional<vision::OutlineFlank>& flank, std::string name) const {
+    if (!flank) return {.name = std::move(name), .angle_rad = {}, .line = {}};
     const auto place = [&](const vision::Point& point) {
       return vision::Point{.x = point.x, .y = floor_y_ - point.y};
     };
     return {.name = std::move(name),
-            .angle_rad = flank.angle_rad,
-            .line = {place(flank.line.from), place(flank.line.to)}};
+            .angle_rad = flank->angle_rad,
+            .line = {place(flank->line.from), place(flank->line.to)}};
   }
 
  private:
@@ -102,7 +103,7 @@ DrawDownFront draw_down_front(render::Scene scene, const dem::DrawDownProtocol& 
   const double end_m = boxes.length_m / 2 + kMargin_m;
   const double above_m = dem::upper_floor_m(boxes);
   const auto add = [&](const std::optional<vision::OutlineFlank>& flank, const char* name) {
-    if (flank) result.slopes.push_back(front.slope_of(*flank, name));
+    result.slopes.push_back(front.slope_of(flank, name));
   };
   constexpr double kNoEnd = std::numeric_limits<double>::infinity();
   const vision::OutlineAngle left = front.angle_between(-end_m, 0, above_m, kNoEnd);

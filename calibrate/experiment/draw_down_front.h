@@ -12,10 +12,12 @@
 namespace repose::calibrate {
 
 struct DrawDownFront {
-  vision::Picture picture;            ///< silhouette of the grains
-  std::vector<vision::Slope> slopes;  ///< those that there are, where they are in the picture
+  vision::Picture picture;  ///< silhouette of the grains
+  /// Where they are in the picture: above on the left and on the right, below on the left and
+  /// right.
+  std::vector<vision::Slope> slopes;
   /// Mean of the slopes that fall towards the slot, each measured as one flank of a heap whose
-  /// crest is at the side wall; NaN when neither can be.
+  /// crest is at the side wall; NaN when neither can be, as where they stand nearly upright.
   double upper_angle_deg = 0;
   /// Of the heap below, mean of its flanks; NaN without any.
   double lower_angle_deg = 0;

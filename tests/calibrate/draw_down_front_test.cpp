@@ -76,7 +76,8 @@ TEST(DrawDownFront, ItsLinesLieOnTheSlopesInThePicture) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     const vision::Slope& slope = front.slopes[k];
     EXPECT_EQ(slope.name, names[k]);
-    EXPECT_NEAR(slope.angle_rad / kDegree, angles_deg[k], .4) << names[k];
+    ASSERT_TRUE(slope.angle_rad) << names[k];
+    EXPECT_NEAR(*slope.angle_rad / kDegree, angles_deg[k], .4) << names[k];
     const auto& [from, to] = slope.line;
     const double drawn_deg = std::atan(std::abs((to.y - from.y) / (to.x - from.x))) / kDegree;
     EXPECT_NEAR(drawn_deg, angles_deg[k], .4) << names[k];
@@ -103,7 +104,10 @@ TEST(DrawDownFront, IsTheSameMirrored) {
 
 TEST(DrawDownFront, ASideWithoutASlopeIsLeftOut) {
   EXPECT_NEAR(front_of({25, 25, 33, {}}).upper_angle_deg, 33, .3);
-  EXPECT_TRUE(std::isnan(front_of({25, 25, {}, {}}).upper_angle_deg));
+  const DrawDownFront bare = front_of({25, 25, {}, {}});
+  EXPECT_TRUE(std::isnan(bare.upper_angle_deg));
+  EXPECT_FALSE(bare.slopes.front().angle_rad);
+  EXPECT_TRUE(bare.slopes.back().angle_rad);
   render::Scene empty;
   empty.shapes = {dem::sphere_shape(.002)};
   EXPECT_THROW(draw_down_front(empty, kDrawn), std::invalid_argument);

@@ -34,6 +34,14 @@ TEST(SlopesOverlay, DrawsEachLineAndARowForItBelowThePicture) {
   EXPECT_EQ(beside, cv::Vec3b(255, 255, 255));
 }
 
+TEST(SlopesOverlay, SaysWhereThereIsNoSlope) {
+  const Picture picture = white(900, 900);
+  const Slope missing{.name = "upper right", .angle_rad = {}, .line = {}};
+  const Picture drawn = draw_slopes_overlay(picture, {missing}, "front");
+  EXPECT_GT(drawn.height, draw_slopes_overlay(picture, {}, "front").height);
+  EXPECT_EQ(mat_of(drawn).at<cv::Vec3b>(0, 0), cv::Vec3b(255, 255, 255)) << "no line";
+}
+
 TEST(SlopesOverlay, NoPictureIsRefused) {
   EXPECT_THROW(draw_slopes_overlay({}, {steep()}, "front"), std::invalid_argument);
 }

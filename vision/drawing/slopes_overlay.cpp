@@ -21,7 +21,11 @@ Picture draw_slopes_overlay(const Picture& picture, const std::vector<Slope>& sl
   std::vector<TextRow> rows = {{title, kDark}};
   std::vector<cv::Rect> labels;
   for (const Slope& slope : slopes) {
-    const std::string angle = angle_text(slope.angle_rad, {});
+    if (!slope.angle_rad) {
+      rows.push_back({slope.name + ": no slope to measure", kVermilion});
+      continue;
+    }
+    const std::string angle = angle_text(*slope.angle_rad, {});
     canvas.draw(canvas.path_of({slope.line.from, slope.line.to}), kVermilion, 1.2);
     const Point middle{.x = (slope.line.from.x + slope.line.to.x) / 2,
                        .y = (slope.line.from.y + slope.line.to.y) / 2};

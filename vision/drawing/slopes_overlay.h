@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,11 +8,11 @@
 
 namespace repose::vision {
 
-/// A line that was fitted to a slope.
+/// A place where a slope was looked for.
 struct Slope {
   std::string name;
-  double angle_rad = 0;
-  Segment line;  ///< [px of the picture]
+  std::optional<double> angle_rad;  ///< none: there is nothing that slopes
+  Segment line;                     ///< that was fitted to it [px of the picture]
 };
 
 /// The picture with the lines of its slopes and their angles drawn into it.
