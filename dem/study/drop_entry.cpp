@@ -16,10 +16,8 @@ Range possible(const Model& model, const Protocol& protocol) {
   return from_to(0, 1e3 * (height_m + 2 * model.grain.reach_m()));
 }
 
-double cost_s(const Model& model, const Protocol& protocol) {
-  constexpr double kSpeed_m_s = 3, kBounce_s = .005;
-  return kAloneStep_s * std::get<DropProtocol>(protocol).grains * kBounce_s /
-         impact_timestep_s(model, kSpeed_m_s);
+double cost_s(const Model& /*model*/, const Protocol& protocol) {
+  return kImpact_s * std::get<DropProtocol>(protocol).grains;
 }
 
 }  // namespace

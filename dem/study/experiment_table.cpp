@@ -11,6 +11,11 @@
 #include "dem/study/entries.h"
 
 namespace repose::dem {
+namespace {
+
+double spheres_of(const Model& model) { return static_cast<double>(model.grain.spheres.size()); }
+
+}  // namespace
 
 std::span<const ExperimentEntry> all_experiments() {
   static const std::array<ExperimentEntry, std::variant_size_v<Protocol>> kEntries = {
@@ -71,17 +76,14 @@ bool has_grain_contacts(Experiment experiment) {
       [](std::string_view name) { return name.starts_with("contact.particle_particle."); });
 }
 
-double impact_timestep_s(const Model& model, double speed_m_s) {
-  return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, kImpactFraction)
-      .timestep_s;
-}
+double bulk_step_s(const Model& model) { return 1.5e-7 + 9e-9 * spheres_of(model); }
 
-double bulk_step_s(const Model& model) {
-  return 1.5e-7 + 9e-9 * static_cast<double>(model.grain.spheres.size());
+double step_on_wall_s(const Model& model, int bonded) {
+  return 4e-7 + 5.5e-8 * spheres_of(model) * bonded;
 }
 
 double step_on_grains_s(const Model& model, int bonded) {
-  return 4.5e-7 + 8e-8 * static_cast<double>(model.grain.spheres.size()) * bonded;
+  return 4.5e-7 + 8e-8 * spheres_of(model) * bonded;
 }
 
 double course_timestep_s(const Model& model, double speed_m_s) {

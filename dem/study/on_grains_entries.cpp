@@ -41,10 +41,11 @@ Range possible_angle(const Model& /*model*/, const Protocol& /*protocol*/) {
   return from_to(0, 90);
 }
 
+/// A grain touches several others, again and again, before it is thrown up.
 double drop_cost_s(const Model& model, const Protocol& protocol) {
-  constexpr double kSpeed_m_s = 2, kBounce_s = .02;
-  return step_on_grains_s(model, 1) * std::get<GrainDropProtocol>(protocol).grains * kBounce_s /
-         impact_timestep_s(model, kSpeed_m_s);
+  constexpr double kSteps = 1e4;
+  const int grains = std::get<GrainDropProtocol>(protocol).grains;
+  return grains * (kImpact_s + kSteps * step_on_grains_s(model, 1));
 }
 
 /// Of bodies that lie still until the plate is at some 45 degrees.

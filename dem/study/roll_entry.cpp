@@ -18,8 +18,8 @@ Range possible(const Model& model, const Protocol& protocol) {
 }
 
 double cost_s(const Model& model, const Protocol& /*protocol*/) {
-  constexpr double kSpeed_m_s = 1, kRun_s = 3;
-  return kAloneStep_s * kRun_s / course_timestep_s(model, kSpeed_m_s);
+  constexpr double kSpeed_m_s = 1, kRun_s = 2;
+  return step_on_wall_s(model, 1) * kRun_s / course_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace

@@ -11,9 +11,10 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
           number_key("start_deg", "0", from_to_below(0, 90), tilt.start_deg)};
 }
 
-double cost_s(const Model& model, const Protocol& /*protocol*/) {
-  constexpr double kSpeed_m_s = 1, kRun_s = .4;
-  return kAloneStep_s * kRun_s / course_timestep_s(model, kSpeed_m_s);
+double cost_s(const Model& model, const Protocol& protocol) {
+  constexpr double kSpeed_m_s = 1, kRun_s = .7;
+  const int bonded = std::get<TiltProtocol>(protocol).bonded;
+  return step_on_wall_s(model, bonded) * kRun_s / course_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace
