@@ -37,7 +37,8 @@ constexpr dem::DrawDownProtocol kDrawn{
     .length_m = .3, .depth_m = .05, .slot_m = .04, .fill_m = .12, .drop_m = .15};
 
 struct Degrees {
-  double lower_left, lower_right;
+  double lower_left = 0;
+  double lower_right = 0;
   std::optional<double> upper_left, upper_right;
 };
 
