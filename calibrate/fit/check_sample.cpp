@@ -27,6 +27,7 @@ CheckSample check_sample(const Problem& problem, const std::vector<double>& valu
   CheckSample sample;
   for (const Run& run : runs) {
     if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
+    if (run.job.relative_stiffness != 1) continue;
     if (experiment.is_stochastic && run.job.seed < kFirstCheckSeed) continue;
     const auto found = run.readings.find(observable.reading);
     if (run.failure.empty() && found != run.readings.end() && std::isfinite(found->second)) {

@@ -30,6 +30,12 @@ struct LeaveOneOut {
   double sd = 0;
 };
 
+/// What shifts one of a process's values by its `shifts`, in these: 0 +- 1 before any value.
+struct SharedShift {
+  double mean = 0;
+  double sd = 1;
+};
+
 /// A function of several coordinates, learned from noisy values. Immutable, cheap to copy.
 ///
 /// Formulae: THEORY.md, "Surrogate". Rasmussen and Williams (2006), Gaussian Processes for Machine
@@ -37,14 +43,18 @@ struct LeaveOneOut {
 /// covariance 4.17; leave-one-out 5.12. Proved by GaussianProcess.* in tests/calibrate.
 class GaussianProcess {
  public:
-  /// Fits the hyperparameters to `y` at `x` (at least two, not all alike). `chance`: values at one
-  /// point differ. `start` is where the search begins besides its own starts.
+  /// Fits the hyperparameters to `y` at `x` (at least two, not all alike). `is_stochastic`: values
+  /// at one point differ. `start` is where the search begins besides its own starts. `shifts`, one
+  /// a value or none: each y is the function plus its shift times one unknown number, 0 +- 1. What
+  /// is expected has no shift.
   GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y, bool is_stochastic,
-                  const std::optional<Hyperparameters>& start, int starts);
+                  const std::optional<Hyperparameters>& start, int starts,
+                  const std::vector<double>& shifts = {});
 
   Expectation at(const Point& x, bool with_gradients) const;
-  /// Covariances of what is expected at some points, row by row.
-  std::vector<double> covariance(const std::vector<Point>& points) const;
+  /// Covariances of what is expected at some points, row by row, of values with that shift.
+  std::vector<double> covariance(const std::vector<Point>& points, double shift = 0) const;
+  SharedShift shared_shift() const;
   double noise_sd() const;
   double log_posterior() const;
   const Hyperparameters& hyperparameters() const;

@@ -84,6 +84,7 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
       std::sqrt(experiment_named(problem, observable.experiment).readings_per_run) *
       fitted.simulated_sd;
   fitted.difference_sigma = solution.misfit.difference(i, best);
+  fitted.softening_shift = surrogate.softening_shift(best);
   const auto readable = [&](double reading) {
     return std::clamp(reading, observable.least, observable.most);
   };

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibrate/fit/problem.h"
+#include "calibrate/fit/softening_shift.h"
 
 namespace repose::calibrate {
 
@@ -45,6 +47,7 @@ struct FittedObservable {
   double simulated_sd = 0;      ///< scatter from seed to seed
   double predicted_sd = 0;      ///< scatter that it expects of single bench readings
   double difference_sigma = 0;  ///< (simulated - measured) / sigma of the fit
+  std::optional<SofteningShift> softening_shift = {};  ///< none: no run was softer than the study
   Interval reachable;  ///< of the simulated mean within the bounds, as far as a bench can read it
 };
 

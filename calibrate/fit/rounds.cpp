@@ -26,7 +26,8 @@ constexpr double kSettledScatter = .2;  // relative change
 
 struct JobLess {
   bool operator()(const Job& a, const Job& b) const {
-    return std::tie(a.experiment, a.values, a.seed) < std::tie(b.experiment, b.values, b.seed);
+    return std::tie(a.experiment, a.values, a.seed, a.relative_stiffness) <
+           std::tie(b.experiment, b.values, b.seed, b.relative_stiffness);
   }
 };
 

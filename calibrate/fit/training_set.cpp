@@ -13,7 +13,8 @@ namespace repose::calibrate {
 namespace {
 
 auto order_of(const Run& run) {
-  return std::tie(run.job.experiment, run.job.values, run.job.seed, run.failure, run.readings);
+  return std::tie(run.job.experiment, run.job.values, run.job.seed, run.job.relative_stiffness,
+                  run.failure, run.readings);
 }
 
 void require_of(const Problem& problem, const Run& run) {
@@ -41,6 +42,9 @@ void require_of(const Problem& problem, const Run& run) {
   }
 }
 
+/// Decades below the study's stiffness.
+double softness_of(double relative_stiffness) { return -std::log10(relative_stiffness); }
+
 }  // namespace
 
 std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) {
@@ -55,7 +59,11 @@ std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) 
 
 TrainingSet training_set_of(const Problem& problem, const Experiment& experiment,
                             const std::string& reading, const std::vector<Run>& runs) {
-  TrainingSet training_set{experiment.parameters, experiment.is_stochastic, {}, {}};
+  TrainingSet training_set{.parameters = experiment.parameters,
+                           .is_stochastic = experiment.is_stochastic,
+                           .places = {},
+                           .readings = {},
+                           .round_softness = softness_of(experiment.relative_stiffness)};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Run& run = runs[k];
     if (run.job.experiment != experiment.name || !run.failure.empty()) continue;
@@ -64,6 +72,7 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
     training_set.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
     training_set.readings.push_back(found->second);
     training_set.runs.push_back(k);
+    training_set.softness.push_back(softness_of(run.job.relative_stiffness));
   }
   return training_set;
 }

@@ -43,8 +43,14 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
            std::uint64_t seed) {
   Point canonical(problem.parameters.size(), .5);
   for (const std::size_t i : experiment.parameters) canonical[i] = point[i];
-  return {experiment.name, to_values(problem, canonical),
-          experiment.is_stochastic ? seed : problem.settings.seed};
+  return {.experiment = experiment.name,
+          .values = to_values(problem, canonical),
+          .seed = experiment.is_stochastic ? seed : problem.settings.seed,
+          .relative_stiffness = experiment.relative_stiffness};
+}
+
+double run_s_of(const Experiment& experiment, double relative_stiffness) {
+  return experiment.run_s * std::sqrt(relative_stiffness / experiment.relative_stiffness);
 }
 
 const Experiment& experiment_named(const Problem& problem, const std::string& name) {

@@ -19,9 +19,13 @@ double rounded(const Parameter& parameter, double value);
 /// Those coordinates of a point that an experiment depends on.
 Point seen_by(const Experiment& experiment, const Point& point);
 
-/// A job at a point; coordinates without effect are moved to the middle.
+/// A job of a round at a point; coordinates without effect are moved to the middle.
 Job job_at(const Problem& problem, const Experiment& experiment, const Point& point,
            std::uint64_t seed);
+
+/// About how long a run with that part of the study's stiffness takes, s: the stable time step goes
+/// with the root of one over the stiffness.
+double run_s_of(const Experiment& experiment, double relative_stiffness);
 
 /// By name; the problem is sound.
 const Experiment& experiment_named(const Problem& problem, const std::string& name);

@@ -38,9 +38,9 @@ struct Verification {
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
 };
 
-/// Jobs at one set of parameters with seeds that propose() never uses: `repeats` of the measured
-/// experiment that costs most, more of cheap ones, one of those without chance. `set` tells sets
-/// apart.
+/// Jobs at one set of parameters with seeds that propose() never uses, all as stiff as the study:
+/// `repeats` of the measured experiment that costs most, more of cheap ones, one of those without
+/// chance. `set` tells sets apart.
 std::vector<Job> verification_jobs(const Problem& problem, const std::vector<double>& values,
                                    int repeats, int set);
 

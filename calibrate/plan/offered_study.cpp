@@ -97,9 +97,8 @@ OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
     if (study.experiments.contains(entry.experiment) || !possible.contains(entry.experiment)) {
       continue;
     }
-    dem::StudyExperiment usual = usual_experiment(entry, bench);
+    const dem::StudyExperiment usual = usual_experiment(entry, bench);
     offered.added.emplace(entry.experiment, usual);
-    if (entry.is_pictured) usual.stiffness_factor *= budget.heap_softening;
     offered.study.experiments.emplace(entry.experiment, usual);
   }
   offered.problem = with_all(offered.study, grain, budget);

@@ -25,7 +25,7 @@ struct OfferedStudy {
 /// Adds the experiments that a study lacks, done in the usual way with its grains; but not those,
 /// the dearest first, of which the fewest runs would take longer than the budget has.
 /// @param possible  those that could be done beside the study's
-/// @param study  as simulated (as_simulated), what was measured included
+/// @param study  as measured (as_measured), what was measured included
 /// @param budget  of the runs; heaps are as soft as it says
 /// @throws std::invalid_argument  nothing is sought, or the problem is not sound: every error.
 OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,

@@ -12,7 +12,7 @@ namespace repose::calibrate {
 
 /// Every experiment that the study does not have, done in the usual way, with the runs that
 /// plan_jobs() of any budget have left in the folder: nothing is simulated.
-/// @param study  as simulated (as_simulated), sound for a fit
+/// @param study  as measured (as_measured), sound for a fit
 std::vector<Offer> offers_in(const RunFolder& folder, const dem::Study& study,
                              const dem::ClumpFile& grain);
 

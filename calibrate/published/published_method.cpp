@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/unit_box.h"
 #include "calibrate/statistics/design/design.h"
 #include "calibrate/study/job_runner.h"
 
@@ -226,7 +227,8 @@ class PublishedMethod {
   Job job(const std::string& experiment, std::uint64_t number) const {
     return {.experiment = experiment,
             .values = values_for(problem_, experiment, set_),
-            .seed = problem_.settings.seed + number};
+            .seed = problem_.settings.seed + number,
+            .relative_stiffness = experiment_named(problem_, experiment).relative_stiffness};
   }
 
   const Problem& problem_;

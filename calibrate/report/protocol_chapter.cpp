@@ -193,9 +193,7 @@ Chapter protocol_chapter(const ReportedStudy& study) {
   }
   chapter.blocks.push_back(std::move(table));
   add_films(*study.record, chapter);
-  chapter.blocks.push_back(
-      Paragraph{"Each experiment was simulated as it was done on the bench. The fraction of the "
-                "real stiffness is that of the simulations, including softening by the budget."});
+  chapter.blocks.push_back(Paragraph{"Each experiment was simulated as it was done on the bench."});
   return chapter;
 }
 

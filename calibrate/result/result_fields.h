@@ -101,6 +101,12 @@ void fields(Io& io, Held<Io, OverallAgreement>& agreement) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, SofteningShift>& shift) {
+  io("mean", shift.mean);
+  io("uncertainty", shift.uncertainty);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("name", observable.name);
   io("unit", observable.unit);
@@ -113,6 +119,9 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("simulated_sd", observable.simulated_sd);
   io("predicted_sd", observable.predicted_sd);
   io("difference_sigma", observable.difference_sigma);
+  if (io.has("softening_shift", observable.softening_shift.has_value())) {
+    io("softening_shift", observable.softening_shift);
+  }
   io("reachable", observable.reachable);
   io("verification", observable.verification);
   io("surrogate_check", observable.surrogate);
@@ -189,6 +198,7 @@ template <typename Io>
 void fields(Io& io, Held<Io, Run>& run) {
   io("experiment", run.job.experiment);
   io("seed", run.job.seed);
+  io("relative_stiffness", run.job.relative_stiffness);
   by_name(io, "values", io.names().parameters, run.job.values);
   io("readings", run.readings);
   io.text_or_null("failure", run.failure);

@@ -10,12 +10,17 @@ namespace {
 using Json = nlohmann::json;
 
 Json json_of(const Job& job) {
-  return {{"experiment", job.experiment}, {"values", job.values}, {"seed", job.seed}};
+  return {{"experiment", job.experiment},
+          {"values", job.values},
+          {"seed", job.seed},
+          {"relative_stiffness", job.relative_stiffness}};
 }
 
 Job job_in(const Json& json) {
-  return {
-      .experiment = json.at("experiment"), .values = json.at("values"), .seed = json.at("seed")};
+  return {.experiment = json.at("experiment"),
+          .values = json.at("values"),
+          .seed = json.at("seed"),
+          .relative_stiffness = json.at("relative_stiffness")};
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
                        budget.family_sets * check_runs(problem, name, kFamilyRepeats);
     estimates.push_back({.experiment = name,
                          .run_s = experiments[e].run_s,
+                         .check_run_s = run_s_of(experiments[e], 1),
                          .fit_runs = runs[e],
                          .check_runs = checks});
   }
@@ -77,7 +78,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
 double check_s(const Problem& problem, int repeats) {
   double seconds = 0;
   for (const Experiment& experiment : measured_experiments(problem)) {
-    seconds += experiment.run_s * check_runs(problem, experiment.name, repeats);
+    seconds += run_s_of(experiment, 1) * check_runs(problem, experiment.name, repeats);
   }
   return seconds;
 }

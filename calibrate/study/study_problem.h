@@ -15,7 +15,7 @@ struct Budget {
   std::string cost;   ///< of the fit: "13 minutes of one core for the fit"
   std::string heaps;  ///< what it gives up in heaps: "heaps ten times softer than the study says"
   FitSettings settings;
-  double heap_softening = 1;     ///< heaps have the study's stiffness times this
+  double heap_softening = 1;     ///< heaps of rounds have the study's stiffness times this
   int verification_repeats = 3;  ///< fresh seeds at the best fit
   int family_sets = 2;           ///< sets of the equivalence family that are checked
 };

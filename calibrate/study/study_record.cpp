@@ -142,14 +142,12 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .budget_description = description_of(record.budget, record.study)};
 }
 
-dem::Study as_simulated(dem::Study study, const Budget& budget,
-                        const std::vector<PictureReading>& pictures,
-                        const std::vector<SheetReadings>& sheets,
-                        const std::vector<FilmReading>& films) {
+dem::Study as_measured(dem::Study study, const std::vector<PictureReading>& pictures,
+                       const std::vector<SheetReadings>& sheets,
+                       const std::vector<FilmReading>& films) {
   study = with_films(with_readings(std::move(study), sheets), films);
   const auto heap = study.experiments.find(dem::Experiment::heap);
   if (heap == study.experiments.end()) return study;
-  heap->second.stiffness_factor *= budget.heap_softening;
   for (const PictureReading& picture : pictures) {
     if (!picture.angle_deg || !counts_in_mean(picture.status)) continue;
     heap->second.measured.values.push_back(*picture.angle_deg);
@@ -224,8 +222,8 @@ StudyRecord read_study_record(const fs::path& folder) {
   record.sheets = notes->sheets;
   record.films = notes->films;
   record.study =
-      as_simulated(dem::read_study_copy(kept(folder, kStudyCopy, *notes), record.settings),
-                   record.budget, record.pictures, record.sheets, record.films);
+      as_measured(dem::read_study_copy(kept(folder, kStudyCopy, *notes), record.settings),
+                  record.pictures, record.sheets, record.films);
   record.study.file = notes->study.file;
   record.study.hash = notes->study.hash;
   record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));

@@ -49,7 +49,7 @@ struct StudyNotes {
 /// What a study folder is about: enough to know, from the folder alone, what was sought, of what,
 /// and how.
 struct StudyRecord {
-  /// As simulated: heaps softened as the budget says, sheets read, pictures and films measured.
+  /// As measured: sheets read, pictures and films measured.
   dem::Study study;
   dem::ClumpFile grain;
   std::vector<std::string> settings;  ///< laid over the study file
@@ -62,12 +62,11 @@ struct StudyRecord {
 
 StudyIdentity identity_of(const StudyRecord& record);
 
-/// The study as simulated, from the study as read: readings of its sheets and films and angles of
-/// its pictures are its measured values, and its heaps as soft as the budget says.
-dem::Study as_simulated(dem::Study study, const Budget& budget,
-                        const std::vector<PictureReading>& pictures,
-                        const std::vector<SheetReadings>& sheets,
-                        const std::vector<FilmReading>& films);
+/// The study as measured, from the study as read: readings of its sheets and films and angles of
+/// its pictures are its measured values.
+dem::Study as_measured(dem::Study study, const std::vector<PictureReading>& pictures,
+                       const std::vector<SheetReadings>& sheets,
+                       const std::vector<FilmReading>& films);
 
 /// Writes FOLDER/study.toml (a copy), clump.json and study.json. The study's file must be there.
 /// @throws std::invalid_argument  they cannot be written.

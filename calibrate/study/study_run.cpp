@@ -10,6 +10,7 @@
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/profile.h"
 #include "calibrate/fit/propose.h"
+#include "calibrate/fit/unit_box.h"
 #include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_estimate.h"
 
@@ -47,7 +48,7 @@ bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
   double left_s = 0, checks_s = 0;
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
     left_s += estimate.fit_runs * estimate.run_s;
-    checks_s += estimate.check_runs * estimate.run_s;
+    checks_s += estimate.check_runs * estimate.check_run_s;
   }
   for (int round = 1;; ++round) {
     const std::vector<Job> jobs = propose(problem, runs);
@@ -145,8 +146,26 @@ void judge_family(const Problem& problem, StudyOutcome& outcome) {
                   ruled_out, outcome.fit.asked.size() - 1));
 }
 
+constexpr double kNormal95 = 1.96;
+
+/// What softening did to the readings, where rounds softened.
+void note_softening(const Problem& problem, StudyOutcome& outcome) {
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    const FittedObservable& fitted = outcome.fit.observables[i];
+    if (!fitted.softening_shift) continue;
+    const double part =
+        experiment_named(problem, problem.observables[i].experiment).relative_stiffness;
+    const double decades = -std::log10(part);
+    outcome.notes.push_back(fmt::format(
+        "{}: most runs of the fit had {:g} of the study's stiffness, those of the checks had all "
+        "of "
+        "it. Softness changed the reading by {:+.2g} ± {:.2g} {} (95 %), which the fit takes out.",
+        fitted.name, part, decades * fitted.softening_shift->mean,
+        kNormal95 * decades * fitted.softening_shift->uncertainty, fitted.unit));
+  }
+}
+
 void note_checks(const Problem& problem, StudyOutcome& outcome) {
-  constexpr double kNormal95 = 1.96;
   for (const SurrogateCheck& check : outcome.surrogates) {
     if (!check.misses) continue;
     outcome.notes.push_back(fmt::format(
@@ -189,6 +208,7 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
     return std::nullopt;
   }
   note_checks(problem, outcome);
+  note_softening(problem, outcome);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();
   outcome.reused = runner.reused();

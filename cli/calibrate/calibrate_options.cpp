@@ -166,9 +166,8 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   measure_heaps(dem::measured_in(plan.record.study, dem::Experiment::heap), plan);
   read_films(plan);
   if (!plan.errors.empty()) return plan;
-  plan.study = plan.record.study;
-  plan.record.study = calibrate::as_simulated(plan.study, plan.record.budget, plan.record.pictures,
-                                              plan.record.sheets, plan.record.films);
+  plan.record.study = calibrate::as_measured(std::move(plan.record.study), plan.record.pictures,
+                                             plan.record.sheets, plan.record.films);
   attempt(plan.errors, [&] { plan.record.grain = dem::build_grain(plan.record.study.grain); });
   for (const std::string& repair : plan.record.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.record.grain.source, repair));

@@ -13,7 +13,6 @@ namespace repose::cli {
 
 /// What `repose calibrate` will do.
 struct CalibratePlan {
-  dem::Study study;  ///< as read; that of the record is as simulated
   calibrate::StudyRecord record;
   calibrate::StudyProblem problem;
   int jobs = 1;

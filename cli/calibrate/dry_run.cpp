@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/unit_box.h"
 #include "calibrate/study/study_estimate.h"
 #include "calibrate/study/study_simulator.h"
 #include "cli/common/interrupt.h"
@@ -31,9 +32,7 @@ struct BudgetPlan {
 
 BudgetPlan plan_of(const CalibratePlan& plan, const std::string& name) {
   BudgetPlan made{.budget = calibrate::budget_named(name), .problem = {}, .estimates = {}};
-  const dem::Study study = calibrate::as_simulated(plan.study, made.budget, plan.record.pictures,
-                                                   plan.record.sheets, plan.record.films);
-  made.problem = problem_of(study, plan.record.grain, made.budget).problem;
+  made.problem = problem_of(plan.record.study, plan.record.grain, made.budget).problem;
   made.estimates = estimate_of(made.problem, made.budget);
   return made;
 }
@@ -53,6 +52,7 @@ Pace timed_pace(const CalibratePlan& plan, const std::vector<calibrate::Experime
   Progress progress(runs.size(), "timed");
   for (const calibrate::ExperimentEstimate& run : runs) {
     job.experiment = run.experiment;
+    job.relative_stiffness = experiment_named(problem, run.experiment).relative_stiffness;
     const double run_s =
         calibrate::timed_run_s(simulator.spec(job), job.seed, kLongest_s, is_interrupted);
     pace[run.experiment] = run_s / run.run_s;
@@ -81,7 +81,7 @@ BudgetColumn budget_column(const BudgetPlan& budget, const Pace& pace, int jobs)
   for (const calibrate::ExperimentEstimate& estimate : budget.estimates) {
     const double run_s = estimate.run_s * pace.at(estimate.experiment);
     fit_s += estimate.fit_runs * run_s;
-    checks_s += estimate.check_runs * run_s;
+    checks_s += estimate.check_runs * estimate.check_run_s * pace.at(estimate.experiment);
     column.runs.push_back(fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs));
   }
   column.time = duration((fit_s + checks_s) / jobs);
@@ -134,7 +134,7 @@ std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
   page.add_gap();
   for (const BudgetPlan& budget : budgets) {
     page.add(fmt::format("{}: {}.", budget.budget.name,
-                         calibrate::description_of(budget.budget, plan.study)));
+                         calibrate::description_of(budget.budget, plan.record.study)));
   }
   page.add("one more hour: additional runs within one hour, for comparison.");
   page.add_gap();

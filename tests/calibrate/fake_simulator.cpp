@@ -86,7 +86,10 @@ Run run(const Job& job, bool jams) {
   for (const Experiment& experiment : experiments()) {
     if (experiment.name != job.experiment) continue;
     for (const std::string& reading : experiment.measurable) {
-      const double mean = expected(job.experiment, reading, job.values);
+      double mean = expected(job.experiment, reading, job.values);
+      if (experiment.name == "heap" && reading == "value") {
+        mean -= kSofteningShift * std::log10(job.relative_stiffness);
+      }
       run.readings[reading] = scattered(job.experiment, reading, mean, false, random);
     }
   }

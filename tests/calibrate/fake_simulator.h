@@ -23,7 +23,11 @@ double expected(const std::string& experiment, const std::string& reading,
 /// Run names something else inside of a gtest test.
 using Runs = std::vector<Run>;
 
-/// One run with its scatter. Heaps of much friction stay in the tube when `jams`.
+/// What a tenth of the stiffness adds to the angle of a heap, degrees.
+inline constexpr double kSofteningShift = 2.5;
+
+/// One run with its scatter, softer ones with what that adds. Heaps of much friction stay in the
+/// tube when `jams`.
 Run run(const Job& job, bool jams = false);
 
 Runs run_all(const std::vector<Job>& jobs, bool jams = false);

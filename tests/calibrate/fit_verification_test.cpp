@@ -97,6 +97,25 @@ TEST(Verification, OnlyFreshRunsAtTheSetCount) {
   EXPECT_EQ(verify(problem, kTruth, runs).observables[0].runs, 30);
 }
 
+TEST(Verification, RunsAreAsStiffAsTheStudyAndSofterOnesDoNotCount) {
+  Problem problem = quick();
+  problem.experiments.back().relative_stiffness = .01;
+  fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 3, 0));
+  for (const auto& run : runs) EXPECT_EQ(run.job.relative_stiffness, 1);
+  const auto drops =
+      std::ranges::count(runs, "drop", [](const auto& run) { return run.job.experiment; });
+  EXPECT_EQ(drops, 30) << "a stiff heap costs ten times as much, a drop next to nothing still";
+  const Verification check = verify(problem, kTruth, runs);
+  const fake::Runs stiff = runs;
+  for (auto run : stiff) {
+    run.job.relative_stiffness = .01;
+    run.readings["value"] = 1e6;
+    runs.push_back(run);
+  }
+  EXPECT_EQ(verify(problem, kTruth, runs).observables[3].simulated, check.observables[3].simulated);
+  EXPECT_EQ(verify(problem, kTruth, runs).observables[3].runs, 3);
+}
+
 TEST(Verification, ASetThatGivesNoReadingDisagrees) {
   const Problem problem = quick();
   fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 3, 0));

@@ -6,7 +6,10 @@ namespace repose::calibrate {
 namespace {
 
 TEST(JobText, KeepsEveryBit) {
-  const Job job{.experiment = "heap", .values = {.1, 1. / 3, 5e-324, -0.}, .seed = ~0ULL};
+  const Job job{.experiment = "heap",
+                .values = {.1, 1. / 3, 5e-324, -0.},
+                .seed = ~0ULL,
+                .relative_stiffness = .1};
   EXPECT_EQ(job_in(text_of(job)), job);
   SimulatedJob done{.job = job, .run = {}};
   done.run.value = 23.4000000000000021;

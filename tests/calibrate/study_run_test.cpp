@@ -162,6 +162,24 @@ TEST_F(StudyRun, KeysNameWhatIsSimulatedAndNotWhatForWhichStudy) {
   EXPECT_NE(key_in(study, other), key);
 }
 
+TEST_F(StudyRun, ABudgetSoftensHeapsOfRoundsAndNothingElse) {
+  const dem::Study study = read({"experiment.heap.stiffness_factor = 0.5",
+                                 "experiment.heap.measured = { mean = 20, sd = 1, n = 3 }"});
+  const Problem quick = problem_of(study, grain_of(study), budget_named("quick")).problem;
+  const Problem standard = problem_of(study, grain_of(study), budget_named("standard")).problem;
+  for (std::size_t e = 0; e < quick.experiments.size(); ++e) {
+    const bool is_heap = quick.experiments[e].name == "heap";
+    EXPECT_EQ(quick.experiments[e].relative_stiffness, is_heap ? .1 : 1);
+    EXPECT_EQ(standard.experiments[e].relative_stiffness, 1);
+    EXPECT_LE(quick.experiments[e].run_s, (is_heap ? .5 : 1) * standard.experiments[e].run_s);
+  }
+  Job job{.experiment = "heap", .values = {.5, .4}, .seed = 3};
+  const StudySimulator simulator(study, grain_of(study), quick.parameters, 0);
+  EXPECT_EQ(simulator.spec(job).model.stiffness_factor, .5);
+  job.relative_stiffness = .1;
+  EXPECT_EQ(simulator.spec(job).model.stiffness_factor, .5 * .1);
+}
+
 TEST_F(StudyRun, AStudyAsksForTheRunsThatASingleExperimentMakes) {
   const dem::Study single = read(
       {"contact.particle_wall.restitution = 0.5", "contact.particle_wall.sliding_friction = 0.4"});
