@@ -66,8 +66,23 @@ class Renderer::Studio {
     const Stage stage = hand_.set(scene, view, photo.shown, photo.seed);
     // Most users never take a photo: its shaders are compiled when one is asked for.
     if (!photo_) photo_ = std::make_unique<PhotoPainter>(gl_);
-    return {.picture = tone_mapped(photo_->paint(scene, view, stage, photo), photo),
+    return {.picture = tone_mapped(photo_->paint(scene, view, {stage}, photo), photo),
             .grain_mask = mask_.paint(view, stage, true)};
+  }
+
+  vision::Picture expose(const std::vector<Scene>& moments, const Camera& camera,
+                         const PictureSize& size, const PhotoStyle& style) {
+    if (moments.empty()) throw std::invalid_argument("photo: nothing is exposed. Fix: a scene.");
+    const View view = view_of(moments.front(), camera, size);
+    const InUse in_use(context_);
+    check(style);
+    std::vector<Stage> stages;
+    stages.reserve(moments.size());
+    for (const Scene& moment : moments) {
+      stages.push_back(hand_.set(moment, view, style.shown, style.seed));
+    }
+    if (!photo_) photo_ = std::make_unique<PhotoPainter>(gl_);
+    return tone_mapped(photo_->paint(moments.front(), view, stages, style), style);
   }
 
  private:
@@ -111,6 +126,11 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Rendered Renderer::draw(const Scene& scene, const Camera& camera, const PictureSize& size,
                         const Style& style) {
   return studio_->draw(scene, camera, size, style);
+}
+
+vision::Picture Renderer::expose(const std::vector<Scene>& moments, const Camera& camera,
+                                 const PictureSize& size, const PhotoStyle& style) {
+  return studio_->expose(moments, camera, size, style);
 }
 
 }  // namespace repose::render

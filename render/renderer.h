@@ -37,6 +37,13 @@ class Renderer {
   Rendered draw(const Scene& scene, const Camera& camera, const PictureSize& size,
                 const Style& style);
 
+  /// A photo of grains that move while it is exposed.
+  /// @param moments  of one scene, evenly spread over the exposure, with one setting; at least one,
+  ///   and no more than the style's passes are seen
+  /// @throws std::invalid_argument  as draw(), or without moments.
+  vision::Picture expose(const std::vector<Scene>& moments, const Camera& camera,
+                         const PictureSize& size, const PhotoStyle& style);
+
  private:
   class Studio;
   std::unique_ptr<Studio> studio_;

@@ -1,6 +1,5 @@
 #include "cli/render/render.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <numbers>
 #include <vector>
@@ -11,8 +10,8 @@
 #include "cli/common/progress.h"
 #include "cli/render/render_json.h"
 #include "cli/render/render_options.h"
+#include "cli/render/render_run.h"
 #include "dem/state/state_file.h"
-#include "dem/state/trajectory.h"
 #include "render/film/film.h"
 #include "render/model_file.h"
 #include "render/renderer.h"
@@ -24,15 +23,6 @@ namespace {
 
 constexpr double kFramesPerSecond = 24;
 constexpr const char* kDrawn = "drew";
-
-render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene) {
-  if (!plan.lens) return plan.level;
-  render::PerspectiveCamera camera = render::camera_on(plan.lens->stand, scene, plan.size);
-  camera.roll_rad = plan.lens->roll_rad;
-  camera.k1 = plan.lens->k1;
-  camera.k2 = plan.lens->k2;
-  return camera;
-}
 
 render::Shown shown_in(const render::Style& style) {
   return std::visit([](const auto& any) { return any.shown; }, style);
@@ -80,35 +70,6 @@ void render_turntable(const RenderArguments& arguments, const RenderPlan& plan,
   film.close();
 }
 
-/// As fast as it went.
-double frames_per_s(const std::vector<dem::TrajectoryFrame>& frames) {
-  constexpr double kSlowest = 1, kFastest = 60;
-  const double lasted_s = frames.back().time_s - frames.front().time_s;
-  const double intervals = static_cast<double>(frames.size() - 1);
-  return lasted_s > 0 ? std::clamp(intervals / lasted_s, kSlowest, kFastest) : kSlowest;
-}
-
-void render_series(const RenderArguments& arguments, const RenderPlan& plan) {
-  const auto frames = dem::read_trajectory(arguments.state);
-  // The camera stands still: the first and the last state must fit into the picture.
-  render::Scene both = render::scene_of(dem::read_state(frames.front().file));
-  const render::Scene last = render::scene_of(dem::read_state(frames.back().file));
-  both.grains.insert(both.grains.end(), last.grains.begin(), last.grains.end());
-  if (both.shapes.empty()) both.shapes = last.shapes;
-  RenderPlan steady = plan;
-  steady.level = render::fitted_all_around(plan.level, both, plan.size);
-  const render::Camera camera = camera_of(steady, both);
-  render::Renderer renderer;
-  render::Film film(arguments.out_file, frames_per_s(frames));
-  Progress progress(frames.size(), kDrawn);
-  for (const dem::TrajectoryFrame& frame : frames) {
-    const render::Scene scene = render::scene_of(dem::read_state(frame.file));
-    film.add(renderer.draw(scene, camera, plan.size, plan.style).picture);
-    progress.advance();
-  }
-  film.close();
-}
-
 }  // namespace
 
 ExitCode run_render(const RenderArguments& arguments) {
@@ -116,7 +77,7 @@ ExitCode run_render(const RenderArguments& arguments) {
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
   if (plan.is_series) {
-    render_series(arguments, plan);
+    render_run_film(arguments, plan);
     return ExitCode::done;
   }
   const render::Scene scene = render::scene_of(dem::read_state(arguments.state));

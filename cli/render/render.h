@@ -19,6 +19,10 @@ struct RenderArguments {
   std::string passes;
   std::string study;
   std::string turntable;  ///< frames
+  std::string fps;        ///< of a trajectory's film
+  std::string exposure_ms;
+  std::string hold_s;
+  std::string noise;
   std::string mask_file;
   std::string truth_file;
   std::string out_file;

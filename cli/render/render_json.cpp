@@ -12,6 +12,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 constexpr double kMmPerM = 1e3;
+constexpr double kMsPerS = 1e3;
 
 Json vector_mm(const dem::Vector& vector_m) {
   return {kMmPerM * vector_m.x(), kMmPerM * vector_m.y(), kMmPerM * vector_m.z()};
@@ -45,6 +46,28 @@ std::string truth_json(const render::Truth& truth) {
   const Json json{{"width_px", truth.size.width},        {"height_px", truth.size.height},
                   {"camera", camera_json(truth.camera)}, {"mm_per_px", truth.mm_per_px},
                   {"ground_px", ends(truth.ground)},     {"outline_px", outline}};
+  return json.dump() + '\n';
+}
+
+std::string film_truth_json(const render::FilmTruth& truth) {
+  Json frames = Json::array();
+  for (const render::FilmTruth::Frame& frame : truth.frames) {
+    Json places_mm = Json::array(), places_px = Json::array();
+    for (const render::GrainPlace& grain : frame.grains) {
+      places_mm.push_back(vector_mm(grain.position_m));
+      places_px.push_back({grain.picture.x, grain.picture.y});
+    }
+    frames.push_back({{"time_s", frame.run_s}, {"grains_mm", places_mm}, {"grains_px", places_px}});
+  }
+  const vision::Segment& scale = truth.scale;
+  const Json json{{"width_px", truth.size.width},
+                  {"height_px", truth.size.height},
+                  {"camera", camera_json(truth.camera)},
+                  {"frames_per_s", truth.frames_per_s},
+                  {"exposure_ms", kMsPerS * truth.exposure_s},
+                  {"mm_per_px", truth.mm_per_px},
+                  {"scale", {scale.from.x, scale.from.y, scale.to.x, scale.to.y, truth.scale_mm}},
+                  {"frames", frames}};
   return json.dump() + '\n';
 }
 

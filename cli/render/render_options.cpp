@@ -44,6 +44,9 @@ void read_photo(const RenderArguments& arguments, render::PhotoStyle& photo, Ren
   photo.passes = read_whole_number({"--passes", arguments.passes, plan.errors}, 1,
                                    render::kMaxPasses, fmt::format("{} is usual", photo.passes))
                      .value_or(photo.passes);
+  photo.noise = read_number_within({"--noise", arguments.noise, plan.errors}, 0, 1,
+                                   fmt::format("{:g} is usual", photo.noise))
+                    .value_or(photo.noise);
 }
 
 void read_style(const RenderArguments& arguments, RenderPlan& plan) {
@@ -65,7 +68,8 @@ void read_style(const RenderArguments& arguments, RenderPlan& plan) {
   plan.style = render::SilhouetteStyle{.shown = shown};
   for (const auto& [option, text] :
        {std::pair{"--seed", &arguments.seed}, std::pair{"--passes", &arguments.passes},
-        std::pair{"--study", &arguments.study}}) {
+        std::pair{"--study", &arguments.study}, std::pair{"--noise", &arguments.noise},
+        std::pair{"--exposure-ms", &arguments.exposure_ms}}) {
     if (text->empty() || (!kind && !arguments.style.empty())) continue;
     plan.errors.push_back(
         fmt::format("{}: a silhouette has neither noise nor shadows nor colours. Fix: --style "
@@ -137,6 +141,43 @@ void read_turntable(const RenderArguments& arguments, RenderPlan& plan) {
   }
 }
 
+/// How a trajectory is filmed in real time.
+void read_shutter(const RenderArguments& arguments, RenderPlan& plan) {
+  constexpr double kMostPerS = 10'000, kLongest_s = 60, kMsPerS = 1e3;
+  const auto fps =
+      read_positive({"--fps", arguments.fps, plan.errors}, "a number of frames per second", "60");
+  const auto exposure_ms = read_number_within({"--exposure-ms", arguments.exposure_ms, plan.errors},
+                                              0, kMsPerS, "--exposure-ms 4");
+  const auto hold_s = read_number_within({"--hold-s", arguments.hold_s, plan.errors}, 0, kLongest_s,
+                                         "--hold-s 0.5");
+  if (fps && *fps > kMostPerS) {
+    plan.errors.push_back(
+        fmt::format("--fps {}: must be at most {:g}. Fix: --fps 60.", arguments.fps, kMostPerS));
+  }
+  for (const auto& [option, text] :
+       {std::pair{"--fps", &arguments.fps}, std::pair{"--exposure-ms", &arguments.exposure_ms},
+        std::pair{"--hold-s", &arguments.hold_s}}) {
+    if (text->empty()) continue;
+    if (!plan.is_series) {
+      plan.errors.push_back(fmt::format(
+          "{}: is for a film of a run. Fix: leave it out, or name a trajectory.pvd.", option));
+    } else if (arguments.fps.empty()) {
+      plan.errors.push_back(fmt::format(
+          "{}: is for a film in real time. Fix: leave it out, or add --fps 60.", option));
+    }
+  }
+  if (!fps) return;
+  plan.shutter = render::Shutter{.frames_per_s = *fps,
+                                 .exposure_s = exposure_ms.value_or(0) / kMsPerS,
+                                 .hold_s = hold_s.value_or(0)};
+  if (plan.shutter->exposure_s * *fps > 1 + 1e-9) {
+    plan.errors.push_back(fmt::format(
+        "--exposure-ms {}: frames follow {:.4g} ms after each other. Rule: no longer than that. "
+        "Fix: --exposure-ms {:.2g}.",
+        arguments.exposure_ms, kMsPerS / *fps, .3 * kMsPerS / *fps));
+  }
+}
+
 void read_output(const RenderArguments& arguments, RenderPlan& plan) {
   const std::string& file = arguments.out_file;
   if (file.empty()) {
@@ -165,6 +206,15 @@ void read_output(const RenderArguments& arguments, RenderPlan& plan) {
 
 }  // namespace
 
+render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene) {
+  if (!plan.lens) return plan.level;
+  render::PerspectiveCamera camera = render::camera_on(plan.lens->stand, scene, plan.size);
+  camera.roll_rad = plan.lens->roll_rad;
+  camera.k1 = plan.lens->k1;
+  camera.k2 = plan.lens->k2;
+  return camera;
+}
+
 RenderPlan plan_render(const RenderArguments& arguments) {
   RenderPlan plan;
   plan.is_series = arguments.state.ends_with(".pvd");
@@ -181,13 +231,15 @@ RenderPlan plan_render(const RenderArguments& arguments) {
   read_style(arguments, plan);
   read_camera(arguments, plan);
   read_turntable(arguments, plan);
+  read_shutter(arguments, plan);
   read_output(arguments, plan);
   if (plan.output != RenderOutput::picture) {
     for (const auto& [option, file] :
          {std::pair{"--mask", &arguments.mask_file}, std::pair{"--truth", &arguments.truth_file}}) {
-      if (file->empty()) continue;
-      plan.errors.push_back(fmt::format(
-          "{}: is for a single picture. Fix: leave it out, or --out heap.png.", option));
+      if (file->empty() || (plan.shutter && file == &arguments.truth_file)) continue;
+      plan.errors.push_back(
+          fmt::format("{}: is for a single picture{}. Fix: leave it out, or --out heap.png.",
+                      option, file == &arguments.truth_file ? ", or a film with --fps" : ""));
     }
   }
   if (!arguments.mask_file.empty() && !arguments.mask_file.ends_with(".png")) {

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "cli/render/render.h"
+#include "render/run/filmed_run.h"
 #include "render/scene/camera.h"
+#include "render/scene/scene.h"
 #include "render/scene/style.h"
 
 namespace repose::cli {
@@ -29,8 +31,13 @@ struct RenderPlan {
   render::PictureSize size;
   render::Style style;
   int turntable_frames = 0;
-  std::vector<std::string> errors;  ///< all of them; empty when it can be carried out
+  std::optional<render::Shutter> shutter;  ///< none: a frame for each state of a trajectory
+  std::vector<std::string> errors;         ///< all of them; empty when it can be carried out
 };
+
+/// The camera of the plan before a scene.
+/// @throws std::invalid_argument  see render::camera_on().
+render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene);
 
 RenderPlan plan_render(const RenderArguments& arguments);
 

@@ -13,6 +13,7 @@
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/random.h"
+#include "dem/experiment/rest_test.h"
 #include "dem/experiment/spacing.h"
 
 namespace repose::dem {
@@ -47,7 +48,6 @@ struct Bounce {
   double lowest_m = 0;       ///< lowest height of the centroid so far
   bool is_rising = false;
   bool is_over = false;
-  double top_s = 0;  ///< when it is at the top
   double rise_m = 0;
   double above_first_touch_m = 0;
   double lowest_point_m = 0;
@@ -65,7 +65,6 @@ void read_top(Bounce& bounce, const Simulation& simulation, const Grain& grain) 
   const double flight_s = std::max(0.0, grain.velocity.z()) / kStandardGravity_m_s2;
   const Grain top = after_flight(grain, shape, setup.gravity, flight_s);
   bounce.is_over = true;
-  bounce.top_s = simulation.time_s() + flight_s;
   bounce.rise_m = top.position.z() - bounce.lowest_m;
   bounce.above_first_touch_m = top.position.z() - bounce.first_touch_m;
   bounce.lowest_point_m = lowest_m(shape, top);
@@ -87,18 +86,24 @@ void follow(Bounce& bounce, const Simulation& simulation, double top_m, int numb
   if (touches_nothing(simulation, number)) read_top(bounce, simulation, grain);
 }
 
-/// The grains just above the ground, as fast as the fall made them: sqrt(2 g h) from rest, and far
-/// enough from each other not to meet.
-std::vector<Bounce> drop_grains(Simulation& simulation, const Dropping& dropping, double speed_m_s,
-                                Random& random) {
+/// Where in their fall grains are put: just above the ground, as fast as the fall made them,
+/// sqrt(2 g h) from rest; or at rest where they are let go.
+struct FallStart {
+  double above_m = 0;
+  double speed_m_s = 0;
+};
+
+/// The grains above the ground, far enough from each other not to meet.
+std::vector<Bounce> drop_grains(Simulation& simulation, const Dropping& dropping,
+                                const FallStart& start, Random& random) {
   const ClumpShape& shape = simulation.setup().kinds.front().shape;
   const double spacing = drop_spacing_m(dropping.height_m, shape.reach_m());
   std::vector<Bounce> bounces;
   for (int k = 0; k < dropping.grains; ++k) {
-    Grain grain{.orientation = random.orientation(), .velocity = {0, 0, -speed_m_s}};
+    Grain grain{.orientation = random.orientation(), .velocity = {0, 0, -start.speed_m_s}};
     const double height =
         dropping.top_m + reach_towards(shape, grain.orientation, -Vector::UnitZ());
-    grain.position = {k * spacing, 0, height};
+    grain.position = {k * spacing, 0, height + start.above_m};
     if (dropping.tile_m > 0) {
       grain.position.x() += random.between(0, dropping.tile_m);
       grain.position.y() += random.between(0, dropping.tile_m);
@@ -130,11 +135,33 @@ std::map<std::string, double> readings_of(const std::vector<Bounce>& bounces) {
           {"never_rose", never_rose}};
 }
 
-Repeat dropped(const Model& model, const Dropping& dropping, Random random, std::uint64_t seed,
+/// The same grains as a camera sees them: held at their height at first, until all lie still or,
+/// where they bounce or roll on and on, for many times as long as they fall.
+void show_drop(const Model& model, const Dropping& dropping, Random random,
                const Observers& observers) {
+  constexpr double kMostFalls = 30;
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * dropping.height_m);
   ExperimentRun run(Simulation(model_setup(model, model.grain, dropping.ground, speed)), observers);
-  std::vector<Bounce> bounces = drop_grains(run.simulation(), dropping, speed, random);
+  drop_grains(run.simulation(), dropping, {.above_m = dropping.height_m}, random);
+  RestTest rest(run.simulation().setup());
+  const std::int64_t steps = run.steps_of(rest.interval_s());
+  const double longest_s = kMostFalls * speed / kStandardGravity_m_s2;
+  while (run.simulation().time_s() < longest_s && !rest.is_at_rest(run.simulation())) {
+    run.advance(steps);
+    run.report_progress(run.simulation().time_s() / longest_s);
+  }
+}
+
+/// One that is filmed is done a second time for that.
+Repeat dropped(const Model& model, const Dropping& dropping, Random random, std::uint64_t seed,
+               const Observers& observers) {
+  if (observers.record.frame) show_drop(model, dropping, random, observers);
+  const double speed = std::sqrt(2 * kStandardGravity_m_s2 * dropping.height_m);
+  const RunRecord unseen;
+  ExperimentRun run(Simulation(model_setup(model, model.grain, dropping.ground, speed)),
+                    {observers.report, unseen});
+  std::vector<Bounce> bounces =
+      drop_grains(run.simulation(), dropping, {.speed_m_s = speed}, random);
   // No flight takes longer than the fall did; a grain that has not left the wall within as long
   // again and the time to topple lies still.
   const double longest_s = 2 * speed / kStandardGravity_m_s2 +
@@ -146,9 +173,7 @@ Repeat dropped(const Model& model, const Dropping& dropping, Random random, std:
     for (int k = 0; k < dropping.grains; ++k) {
       Bounce& bounce = bounces[static_cast<std::size_t>(k)];
       if (!bounce.is_over) follow(bounce, run.simulation(), dropping.top_m, k);
-      // Frames show the whole flight.
-      const double end_s = observers.record.frame ? bounce.top_s : 0;
-      are_over = are_over && bounce.is_over && run.simulation().time_s() >= end_s;
+      are_over = are_over && bounce.is_over;
     }
     if (step % kStepsBetweenReports == 0)
       run.report_progress(run.simulation().time_s() / longest_s);

@@ -63,6 +63,7 @@ std::array<double, 3> array_of(const Vector& v) { return {v.x(), v.y(), v.z()}; 
 
 /// Top of the table that everything stands on.
 double floor_of(const Scene& scene, const Stage& stage) {
+  if (scene.setting) return scene.setting->floor_m;
   const double lowest = grain_bounds(scene, Eigen::Matrix3d::Identity()).min().z();
   const auto ground = ground_m(scene);
   if (!ground) return lowest - .05 * stage.radius_m;
@@ -109,14 +110,15 @@ struct PhotoPainter::Programs {
 class PhotoPainter::Session {
  public:
   Session(const gl::Functions& gl, const Programs& programs, const Scene& scene, const View& view,
-          const Stage& stage, const PhotoStyle& style)
+          const std::vector<Stage>& stages, const PhotoStyle& style)
       : gl_(gl),
         programs_(programs),
         view_(view),
-        stage_(stage),
+        stages_(stages),
+        stage_(&stages.front()),
         style_(style),
-        floor_m_(floor_of(scene, stage) - stage.origin.z()),
-        focus_m_(std::max(view.in_camera(stage.origin).z(), view.is_perspective ? 1e-6 : 1.0)),
+        floor_m_(floor_of(scene, *stage_) - stage_->origin.z()),
+        focus_m_(std::max(view.in_camera(stage_->origin).z(), view.is_perspective ? 1e-6 : 1.0)),
         key_(gl, gl::PixelFormat::shadow, kShadowSide, kShadowSide),
         sky_(gl, gl::PixelFormat::shadow, kShadowSide, kShadowSide),
         pass_(gl, gl::PixelFormat::half_rgba, view.size.width, view.size.height),
@@ -130,7 +132,7 @@ class PhotoPainter::Session {
     into_.z() = 0;
     into_ = into_.norm() > 1e-6 ? into_.normalized() : Vector(Vector::UnitY());
     right_ = into_.cross(Vector::UnitZ());
-    back_m_ = back_of(scene, stage, into_);
+    back_m_ = back_of(scene, *stage_, into_);
   }
 
   Light expose() {
@@ -139,6 +141,8 @@ class PhotoPainter::Session {
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     for (int k = 0; k < style_.passes; ++k) {
       const auto chance = spread_point(k);
+      stage_ = &stages_[static_cast<std::size_t>(k) * stages_.size() /
+                        static_cast<std::size_t>(style_.passes)];
       set_lights(chance);
       draw_shadows(key_target_, key_axes_);
       draw_shadows(sky_target_, sky_axes_);
@@ -184,11 +188,11 @@ class PhotoPainter::Session {
     programs_.shadow.use();
     programs_.shadow.set("light_axes", rows_of(axes));
     programs_.shadow.set("map_radius", map_radius_m());
-    draw_batches(gl_, stage_.grains);
-    draw_batches(gl_, stage_.walls);
+    draw_batches(gl_, stage_->grains);
+    draw_batches(gl_, stage_->walls);
   }
 
-  double map_radius_m() const { return kMapFraction * stage_.radius_m; }
+  double map_radius_m() const { return kMapFraction * stage_->radius_m; }
 
   void set_lighting(const gl::Program& program) const {
     program.set("key_map", kKeyUnit);
@@ -209,22 +213,22 @@ class PhotoPainter::Session {
     key_.bind(kKeyUnit);
     sky_.bind(kSkyUnit);
     programs_.body.use();
-    set_lens(programs_.body, view_, stage_, focus_m_, exposure);
+    set_lens(programs_.body, view_, *stage_, focus_m_, exposure);
     set_lighting(programs_.body);
     draw_bodies(programs_.body);
     programs_.room.use();
-    set_lens(programs_.room, view_, stage_, focus_m_, exposure);
+    set_lens(programs_.room, view_, *stage_, focus_m_, exposure);
     set_lighting(programs_.room);
     draw_room(programs_.room);
   }
 
   void draw_bodies(const gl::Program& program) {
-    program.set("lens", array_of(view_.eye - stage_.origin));
+    program.set("lens", array_of(view_.eye - stage_->origin));
     program.set("into_picture", array_of(view_.axes.row(2)));
     program.set("has_lens", view_.is_perspective ? 1 : 0);
     program.set("spot", linear(style_.spot));
     program.set("spread", style_.brightness_spread);
-    for (const Batch& batch : stage_.grains) {
+    for (const Batch& batch : stage_->grains) {
       const bool is_sphere = batch.kind == Batch::Kind::spheres;
       constexpr Colour kSphereBlue = {.30, .47, .75};
       program.set("is_shell", 1);
@@ -237,16 +241,16 @@ class PhotoPainter::Session {
     program.set("is_shell", 0);
     program.set("base", linear(style_.plate));
     program.set("gloss", .25);
-    draw_batches(gl_, stage_.walls);
+    draw_batches(gl_, stage_->walls);
   }
 
   void draw_room(const gl::Program& program) {
     constexpr double kFront = 2.6, kHeight = 3;  // in radii of the grains
     program.set("into_room", array_of(into_));
-    program.set("front", -kFront * stage_.radius_m);
+    program.set("front", -kFront * stage_->radius_m);
     program.set("back", back_m_);
-    program.set("before", 2 * kFront * stage_.radius_m);
-    program.set("height", kHeight * stage_.radius_m);
+    program.set("before", 2 * kFront * stage_->radius_m);
+    program.set("height", kHeight * stage_->radius_m);
     program.set("table", linear(style_.table));
     program.set("backdrop", linear(style_.backdrop));
     gl_.Disable(GL_CULL_FACE);
@@ -281,7 +285,8 @@ class PhotoPainter::Session {
   const gl::Functions& gl_;
   const Programs& programs_;
   const View& view_;
-  const Stage& stage_;
+  const std::vector<Stage>& stages_;
+  const Stage* stage_;  ///< of the pass at hand
   const PhotoStyle& style_;
   double floor_m_, focus_m_, back_m_ = 0;
   gl::Texture key_, sky_, pass_, depth_, sum_;
@@ -295,9 +300,9 @@ PhotoPainter::PhotoPainter(const gl::Functions& gl)
     : gl_(gl), programs_(std::make_unique<Programs>(gl)) {}
 PhotoPainter::~PhotoPainter() = default;
 
-Light PhotoPainter::paint(const Scene& scene, const View& view, const Stage& stage,
+Light PhotoPainter::paint(const Scene& scene, const View& view, const std::vector<Stage>& stages,
                           const PhotoStyle& style) {
-  return Session(gl_, *programs_, scene, view, stage, style).expose();
+  return Session(gl_, *programs_, scene, view, stages, style).expose();
 }
 
 }  // namespace repose::render

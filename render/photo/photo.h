@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "render/gl/objects.h"
 #include "render/gl/scene_uploader.h"
@@ -15,7 +16,8 @@ namespace repose::render {
 ///
 /// The picture is the mean of several, each with another point of the lamp, another direction of
 /// the light from all around, another point of the lens and another part of a pixel: soft shadows,
-/// dark gaps between grains, depth of field and smooth edges all come from that.
+/// dark gaps between grains, depth of field and smooth edges all come from that, and so does what
+/// moves while the picture is exposed.
 class PhotoPainter {
  public:
   explicit PhotoPainter(const gl::Functions& gl);
@@ -25,7 +27,9 @@ class PhotoPainter {
   PhotoPainter(PhotoPainter&&) = delete;
   PhotoPainter& operator=(PhotoPainter&&) = delete;
 
-  Light paint(const Scene& scene, const View& view, const Stage& stage, const PhotoStyle& style);
+  /// @param stages  the scene while it is exposed, one after the other; at least one
+  Light paint(const Scene& scene, const View& view, const std::vector<Stage>& stages,
+              const PhotoStyle& style);
 
  private:
   class Session;

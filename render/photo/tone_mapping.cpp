@@ -106,7 +106,7 @@ vision::Picture tone_mapped(const Light& light, const PhotoStyle& style) {
   picture.bgr.resize(sharp.rgb.size());
   const double half_width = .5 * light.width, half_height = .5 * light.height;
   const double corner2 = half_width * half_width + half_height * half_height;
-  const std::uint64_t start = mixed(style.seed);
+  const std::uint64_t start = mixed(style.seed + (style.frame << 32));
   std::size_t at = 0;
   for (int y = 0; y < light.height; ++y) {
     for (int x = 0; x < light.width; ++x) {

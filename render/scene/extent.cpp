@@ -28,8 +28,15 @@ std::optional<double> level_face_m(const PlacedWall& wall) {
 }  // namespace
 
 Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes) {
-  const std::vector<double> reaches_m = reaches_of(scene);
   Eigen::AlignedBox3d bounds;
+  if (scene.setting) {
+    for (int k = 0; k < 8; ++k) {
+      const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(k);
+      bounds.extend(axes * scene.setting->extent.corner(corner));
+    }
+    return bounds;
+  }
+  const std::vector<double> reaches_m = reaches_of(scene);
   for (const PlacedGrain& grain : scene.grains) {
     const auto kind = static_cast<std::size_t>(grain.shape);
     const dem::Vector middle = axes * grain.pose.position;

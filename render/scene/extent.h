@@ -10,7 +10,7 @@
 namespace repose::render {
 
 /// Box round all grains, along axes whose rows are given; empty without grains. Exact for spheres
-/// and surfaces, whichever is larger.
+/// and surfaces, whichever is larger. Of a scene with a setting, the box round its extent.
 Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes);
 
 /// What the grains lie on: height of the highest level wall face below the grains' middle, m. None

@@ -16,7 +16,8 @@ std::vector<dem::ClumpShape> shapes_of(const std::vector<dem::GrainKind>& kinds)
 PlacedGrain placed(const dem::Grain& grain, int number) {
   return {.shape = grain.kind,
           .number = number,
-          .pose = {.position = grain.position, .orientation = grain.orientation}};
+          .pose = {.position = grain.position, .orientation = grain.orientation},
+          .velocity = grain.velocity};
 }
 
 std::vector<PlacedWall> placed(const std::vector<dem::Wall>& walls, double time_s) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "dem/engine/simulation.h"
 #include "dem/shape/clump/clump_shape.h"
@@ -13,9 +16,10 @@ namespace repose::render {
 
 /// A grain where it lies.
 struct PlacedGrain {
-  int shape = 0;   ///< which of the scene's shapes
-  int number = 0;  ///< in the simulation; its looks follow from it
-  dem::Pose pose;  ///< of the centre of mass
+  int shape = 0;                               ///< which of the scene's shapes
+  int number = 0;                              ///< in the simulation; its looks follow from it
+  dem::Pose pose;                              ///< of the centre of mass
+  dem::Vector velocity = dem::Vector::Zero();  ///< of the centre of mass, m/s
 };
 
 /// A wall where it stands.
@@ -28,10 +32,17 @@ struct PlacedWall {
 /// as before and behind the boxes of a bench, and not drawn.
 bool is_pane(const PlacedWall& wall);
 
+/// What stays as it is while grains move: a film's camera, lamps, table and backdrop.
+struct Setting {
+  Eigen::AlignedBox3d extent;  ///< what cameras fit into the picture and lamps light
+  double floor_m = 0;          ///< top of the table
+};
+
 struct Scene {
   std::vector<dem::ClumpShape> shapes;
   std::vector<PlacedGrain> grains;
   std::vector<PlacedWall> walls;
+  std::optional<Setting> setting = {};  ///< without it all follows from the grains
 };
 
 /// The grains and walls that are present, at the time of the state.

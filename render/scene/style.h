@@ -47,6 +47,7 @@ struct PhotoStyle {
   double vignette = 0.10;          ///< light lost in the corners
   int passes = 24;                 ///< pictures averaged, to kMaxPasses; more: smoother shadows
   std::uint64_t seed = 1;          ///< of grains' looks, textures and noise
+  std::uint64_t frame = 0;         ///< of a film: each has other noise
 };
 
 /// The same light and camera; grains of a colour of their own are plain, without stripes and spot.

@@ -1,8 +1,9 @@
-// How near repose track comes to what is known of drawn films, and how often its intervals
-// hold: films with many settings, written as H.264 and read again.
+// How near repose track comes to what is known of films, and how often its intervals hold: films
+// with many settings, written as H.264 and read again. They are drawn, with paths by formulas, or
+// rendered, with paths that were simulated.
 //
-//   track_accuracy [--experiment drop|roll|tilt] [--films 40] [--first-seed 1] [--rates 30,60,240]
-//   [--each] [--threads N]
+//   track_accuracy [--experiment drop|roll|tilt] [--source drawn|rendered] [--films 40]
+//   [--first-seed 1] [--rates 30,60,240] [--each] [--threads N]
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,7 @@
 
 #include "render/film/film.h"
 #include "tests/bench/median.h"
+#include "tests/bench/rendered_films.h"
 #include "tests/bench/tilt_accuracy.h"
 #include "tests/support/drawn_drop.h"
 #include "tests/support/drawn_roll.h"
@@ -185,10 +187,13 @@ auto made(int films, unsigned first_seed, const Made& make) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Accuracy of repose track on drawn films");
+  CLI::App app("Accuracy of repose track on drawn or rendered films");
   std::string experiment = "drop";
   app.add_option("--experiment", experiment, "drop, roll or tilt")
       ->check(CLI::IsMember({"drop", "roll", "tilt"}));
+  std::string source = "drawn";
+  app.add_option("--source", source, "films that are drawn, or rendered from simulations")
+      ->check(CLI::IsMember({"drawn", "rendered"}));
   int films = 40;
   unsigned first_seed = 1;
   std::size_t threads = 2;
@@ -197,11 +202,16 @@ int main(int argc, char** argv) {
   std::vector<double> rates = {30, 60, 240};
   app.add_option("--rates", rates, "frames per second")->delimiter(',');
   bool prints_each = false;
-  app.add_flag("--each", prints_each, "a line for each film of a tilt");
+  app.add_flag("--each", prints_each, "a line for each film of a tilt, or rendered");
   app.add_option("--threads", threads, "films at a time");
   CLI11_PARSE(app, argc, argv);
   const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
   for (const double frames_per_s : rates) {
+    if (source == "rendered") {
+      repose::bench::print_rendered_accuracy(experiment, frames_per_s, films, first_seed,
+                                             prints_each);
+      continue;
+    }
     if (experiment == "tilt") {
       repose::bench::print_tilt_accuracy(frames_per_s, films, first_seed, prints_each);
       continue;

@@ -43,6 +43,20 @@ double full_difference(const cv::Mat& difference, const cv::Mat& mask) {
   return *at;
 }
 
+/// How far a colour has come from the background's to the thing's own: 0 to 1, or beyond.
+double mixed_part(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing) {
+  const cv::Vec3d step = thing - cv::Vec3d(background);
+  const double length = step.dot(step);
+  return length > 0 ? (cv::Vec3d(seen) - cv::Vec3d(background)).dot(step) / length : 0;
+}
+
+/// As cover_of(), where there are no shadows: above a thing's centre. Its lit side, whose colour is
+/// nearer to a bright backdrop's, counts whole.
+double lit_cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing) {
+  constexpr double kNone = .1, kFull = .6;
+  return std::clamp((mixed_part(seen, background, thing) - kNone) / (kFull - kNone), 0.0, 1.0);
+}
+
 /// Of the pixels that show nothing but the thing.
 cv::Vec3d own_colour(const cv::Mat& frame, const cv::Mat& difference, const cv::Mat& mask,
                      double full) {
@@ -62,12 +76,8 @@ cv::Vec3d own_colour(const cv::Mat& frame, const cv::Mat& difference, const cv::
 }  // namespace
 
 double cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing) {
-  const cv::Vec3d step = thing - cv::Vec3d(background);
-  const double length = step.dot(step);
-  if (length <= 0) return 0;
-  const double part = (cv::Vec3d(seen) - cv::Vec3d(background)).dot(step) / length;
   constexpr double kNone = .5, kFull = .8;
-  return std::clamp((part - kNone) / (kFull - kNone), 0.0, 1.0);
+  return std::clamp((mixed_part(seen, background, thing) - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 
 int reduction_for(const cv::Size& size) {
@@ -156,8 +166,8 @@ double BlobFinder::crest(const cv::Mat& seen, const cv::Mat& mask, const Blob& b
     for (int row = 0; row <= last; ++row) {
       if (mask.at<uchar>(row, k) == 0) continue;
       const double part = std::min(1.0, centre.y - row);
-      height += part * cover_of(seen.at<cv::Vec3b>(row, k),
-                                background_.bgr(blob.box).at<cv::Vec3b>(row, k), blob.colour);
+      height += part * lit_cover_of(seen.at<cv::Vec3b>(row, k),
+                                    background_.bgr(blob.box).at<cv::Vec3b>(row, k), blob.colour);
     }
   }
   return columns > 0 ? blob.centre.y - height / columns : blob.centre.y;
