@@ -1,33 +1,16 @@
 #include "cli/track/track_options.h"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "cli/common/number.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
+#include "cli/common/scale_option.h"
 
 namespace repose::cli {
 namespace {
-
-void read_scale(const std::string& text, TrackPlan& plan) {
-  if (text.empty()) return;
-  const auto numbers = numbers_in<double, 5>(text);
-  constexpr double kLeast_px = 10;
-  if (!numbers || !((*numbers)[4] > 0) ||
-      std::hypot((*numbers)[2] - (*numbers)[0], (*numbers)[3] - (*numbers)[1]) < kLeast_px) {
-    plan.errors.push_back(fmt::format(
-        "--scale {}: must be two points in pixels, at least {:g} apart, and their distance in mm: "
-        "X1,Y1,X2,Y2,MM. Fix: --scale 310,95,310,980,500, of a ruler in the grain's plane.",
-        text, kLeast_px));
-    return;
-  }
-  const auto& [x1, y1, x2, y2, length_mm] = *numbers;
-  plan.scale = vision::ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
-}
 
 /// What one experiment has and others do not.
 void read_own_options(const TrackArguments& arguments, TrackPlan& plan) {
@@ -79,7 +62,8 @@ TrackPlan plan_track(const TrackArguments& arguments) {
                           {{"drop", Filmed::drop}, {"roll", Filmed::roll}, {"tilt", Filmed::tilt}})
           .value_or(plan.filmed);
   plan.videos = {arguments.videos.begin(), arguments.videos.end()};
-  read_scale(arguments.scale, plan);
+  plan.scale = read_scale_bar({"--scale", arguments.scale, plan.errors},
+                              "--scale 310,95,310,980,500, of a ruler in the grain's plane");
   read_own_options(arguments, plan);
   plan.tells_all_bounces = read_choice<bool>({"--bounces", arguments.bounces, plan.errors},
                                              {{"first", false}, {"all", true}})

@@ -31,15 +31,7 @@ constexpr double kPitchOverEdge_rad = 5 * std::numbers::pi / 180;
 void check(const Picture& picture, const MeasureOptions& options) {
   std::vector<std::string> errors = options.problems();
   if (picture.empty()) errors.emplace_back("the picture is empty. Fix: read one first.");
-  for (const Box& box : options.excluded) {
-    if (box.width > picture.width - box.x || box.height > picture.height - box.y) {
-      errors.push_back(
-          fmt::format("excluded box = {},{},{},{} must lie inside the {} x {} picture. Fix: give "
-                      "the top-left pixel, width and height in pixels of the picture.",
-                      box.x, box.y, box.width, box.height, picture.width, picture.height));
-    }
-  }
-  for (std::string& problem : problems_of(options.hints, picture.width, picture.height)) {
+  for (std::string& problem : options.problems_in(picture.width, picture.height)) {
     errors.push_back(std::move(problem));
   }
   if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
@@ -71,30 +63,50 @@ double assumed_pitch_rad(const Reading& reading) {
 /// Takes the camera's pitch out of the angles of one reading, as far as it was told.
 class PitchCorrection {
  public:
-  PitchCorrection(const Reading& reading, const WorkingPicture& work,
-                  std::optional<double> pitch_rad)
-      : pitch_rad_(pitch_rad), assumed_rad_(assumed_pitch_rad(reading)) {
+  PitchCorrection(const Reading& reading, const WorkingPicture& work, const MeasureOptions& options)
+      : pitch_rad_(options.camera_pitch_rad),
+        deviation_rad_(options.camera_pitch_uncertainty_rad),
+        assumed_rad_(assumed_pitch_rad(reading)) {
     const Profile& profile = reading.profile;
     const GroundFrame ground(reading.body.ground);
     const Point crest = ground.picture(profile.along[profile.crest], profile.crest_height);
     const double middle = work.frame.y + work.frame.height / 2.0;
     const double radius = (profile.along.back() - profile.along.front()) / 2;
     if (radius > 0) crest_rise_ = (middle - crest.y) / radius;
+    if (!options.pinhole) return;
+    const double below = work.in_picture(crest).y - options.pinhole->centre.y;
+    below_axis_rad_ = std::atan(below / options.pinhole->focal_px);
   }
 
   double angle_rad(double apparent_rad) const {
-    return angle_without_pitch(apparent_rad, pitch_rad_.value_or(0));
+    return without_pitch(apparent_rad, pitch_rad_.value_or(0));
   }
   /// With what the camera's unknown distance or pitch adds to the half-width. An untold pitch
   /// always lowers the angle: that is no chance, so it is not added in quadrature.
   double half_width_rad(double apparent_rad, double own_rad) const {
     if (!pitch_rad_) return own_rad + assumed_pitch_error(apparent_rad, assumed_rad_);
-    return std::hypot(own_rad, far_camera_error(apparent_rad, *pitch_rad_, crest_rise_));
+    const double distance_rad =
+        below_axis_rad_ ? 0 : far_camera_error(apparent_rad, *pitch_rad_, crest_rise_);
+    return std::hypot(own_rad, distance_rad, pitch_error_rad(apparent_rad));
   }
 
  private:
-  std::optional<double> pitch_rad_;  // as it was told
-  double assumed_rad_;               // that a level camera may have
+  double without_pitch(double apparent_rad, double pitch_rad) const {
+    if (!pitch_rad_ || !below_axis_rad_) return angle_without_pitch(apparent_rad, pitch_rad);
+    return angle_without_pitch(apparent_rad, pitch_rad, pitch_rad + *below_axis_rad_);
+  }
+  /// What a pitch at either end of its interval changes.
+  double pitch_error_rad(double apparent_rad) const {
+    if (deviation_rad_ <= 0) return 0;
+    const double here = angle_rad(apparent_rad);
+    return std::max(std::abs(without_pitch(apparent_rad, *pitch_rad_ + deviation_rad_) - here),
+                    std::abs(without_pitch(apparent_rad, *pitch_rad_ - deviation_rad_) - here));
+  }
+
+  std::optional<double> pitch_rad_;       // as it was told
+  double deviation_rad_;                  // of it, half-width
+  double assumed_rad_;                    // that a level camera may have
+  std::optional<double> below_axis_rad_;  // the crest's direction, of a known lens
   double crest_rise_ = 0;            // above the picture's middle / the base's radius
 };
 
@@ -162,7 +174,7 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   result.segmentation = best.segmentation.name;
   if (best.body.mask.empty() || best.profile.size() == 0) return result;
   const Uncertainty u = uncertainty_of(choice);
-  const PitchCorrection correction(best, work, options.camera_pitch_rad);
+  const PitchCorrection correction(best, work, options);
   result.left = flank_of(best, Side::left, work, u.left_rad, correction);
   result.right = flank_of(best, Side::right, work, u.right_rad, correction);
   if (best.has_flank()) {
@@ -181,6 +193,8 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   const double crest = best.profile.along[best.profile.crest];
   result.crest = work.in_picture(ground.picture(crest, best.profile.crest_height));
   result.height_px = best.profile.crest_height * work.shrink;
+  result.base_bow = best.body.ground.bow;
+  result.hides_foot = best.body.ground.behind;
   result.base_px = (best.profile.along.back() - best.profile.along.front()) * work.shrink;
   if (best.grain) result.grain_px = *best.grain * work.shrink;
   result.strays = count_strays(best.body, best.segmentation, work);
@@ -224,6 +238,21 @@ std::vector<std::string> MeasureOptions::problems() const {
         "excluded box = {},{},{},{} must begin at 0,0 or beyond, and be at least 1 pixel wide and "
         "high. Fix: count from the picture's top left corner.",
         box.x, box.y, box.width, box.height));
+  }
+  return errors;
+}
+
+std::vector<std::string> MeasureOptions::problems_in(int width, int height) const {
+  std::vector<std::string> errors;
+  for (const Box& box : excluded) {
+    if (box.width <= width - box.x && box.height <= height - box.y) continue;
+    errors.push_back(
+        fmt::format("excluded box = {},{},{},{} must lie inside the {} x {} picture. Fix: give "
+                    "the top-left pixel, width and height in pixels of the picture.",
+                    box.x, box.y, box.width, box.height, width, height));
+  }
+  for (std::string& problem : problems_of(hints, width, height)) {
+    errors.push_back(std::move(problem));
   }
   return errors;
 }

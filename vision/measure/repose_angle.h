@@ -20,6 +20,12 @@ enum class Method {
   paper,      ///< grey, Otsu, holes filled, edge, ordinary least squares on each side
 };
 
+/// A lens without distortion.
+struct Pinhole {
+  double focal_px = 0;
+  Point centre;  ///< where its axis meets the picture [px]
+};
+
 struct MeasureOptions {
   Method method = Method::automatic;
   /// Stretch of the flank that is fitted: from where the edge, smoothed over three grains, has the
@@ -36,11 +42,17 @@ struct MeasureOptions {
   /// told, and taken for level; the interval then allows for the pitch that the base's bow gives
   /// away.
   std::optional<double> camera_pitch_rad = {};
+  /// Half-width of the pitch's 95 % interval, where it was measured; 0: told, and taken as exact.
+  double camera_pitch_uncertainty_rad = 0;
+  /// With it the angle is corrected for the pitch as this lens sees the heap, from any distance.
+  std::optional<Pinhole> pinhole = {};
   /// Same picture + same seed = same bytes (bootstrap, GrabCut).
   std::uint64_t seed = 1;
 
   /// Empty when usable; else a line for each error: name = value, rule, what to try.
   std::vector<std::string> problems() const;
+  /// The same for what cannot be meant in a picture of that size.
+  std::vector<std::string> problems_in(int width, int height) const;
 };
 
 enum class MeasureStatus {
@@ -114,6 +126,8 @@ struct ReposeAngle {
   std::optional<Point> crest;       ///< middle of the highest part, on the lightly smoothed edge
   std::optional<double> height_px;  ///< crest above the ground line
   std::optional<double> base_px;    ///< width of the base along the ground line
+  std::optional<double> base_bow;   ///< how far the base bows downwards / base_px; empty: not seen
+  bool hides_foot = false;          ///< the ground line is an edge behind the heap
   std::optional<double> grain_px;   ///< typical grain size, from the body's pattern
   int strays = 0;                   ///< grains lying apart from the body
   std::vector<NamedAngle> definitions;  ///< height over base, half-height tangent, ...

@@ -170,6 +170,13 @@ void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions
   }
 }
 
+/// How far below the lens's axis the base is seen; 0 of a lens that is not known.
+double below_axis_rad(const ReposeAngle& result, const MeasureOptions& options) {
+  if (!options.pinhole || !result.ground) return 0;
+  const double middle = (result.ground->from.y + result.ground->to.y) / 2;
+  return std::atan((middle - options.pinhole->centre.y) / options.pinhole->focal_px);
+}
+
 void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
   const Reading& best = choice.best;
   const Ground& ground = best.body.ground;
@@ -181,11 +188,15 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
              "the camera pitch if it did.",
              degrees(pitch)));
   }
-  if (options.camera_pitch_rad && ground.bow &&
-      std::abs(pitch - std::max(0.0, *options.camera_pitch_rad)) > kPitchTolerance_rad) {
-    flag(result, "pitch_disagrees",
-         fmt::format("The curved base implies a pitch of {:.0f} degrees, not the {:.0f} given.",
-                     degrees(pitch), degrees(*options.camera_pitch_rad)));
+  if (options.camera_pitch_rad && ground.bow) {
+    // The bow tells from how far above the base is seen: by a known lens, below its axis.
+    const double below_axis = below_axis_rad(result, options);
+    const double expected = std::max(0.0, *options.camera_pitch_rad + below_axis);
+    if (std::abs(pitch - expected) > kPitchTolerance_rad) {
+      flag(result, "pitch_disagrees",
+           fmt::format("The curved base implies a pitch of {:.0f} degrees, not the {:.0f} given.",
+                       degrees(pitch - below_axis), degrees(*options.camera_pitch_rad)));
+    }
   }
   if (std::abs(ground.tilt_rad()) > kTilted_rad) {
     note(result, "tilted_picture",

@@ -8,22 +8,11 @@
 
 #include "vision/film/film_facts.h"
 #include "vision/measure/repose_angle.h"
+#include "vision/measure/scale_bar.h"
 #include "vision/picture/picture.h"
 
 /// Films: what all experiments that are tracked have in common.
 namespace repose::vision {
-
-/// A value with the half-width of its 95 % interval.
-struct Estimate {
-  double value = 0;
-  double uncertainty = 0;
-};
-
-/// Two points of the picture whose distance is known, in the plane in which the grain moves.
-struct ScaleBar {
-  Segment line;
-  double length_mm = 0;
-};
 
 struct TrackOptions {
   std::optional<ScaleBar> scale = {};
@@ -39,8 +28,5 @@ struct GrainPlace {
   double time_s = 0;
   Point centre;
 };
-
-/// What the interval of a scale comes from: two points that a person points at.
-Estimate mm_per_px(const ScaleBar& scale);
 
 }  // namespace repose::vision

@@ -1,4 +1,4 @@
-#include "vision/track/track.h"
+#include "vision/measure/scale_bar.h"
 
 #include <cmath>
 

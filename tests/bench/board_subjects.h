@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tests/support/drawn_board.h"
+#include "vision/camera/lens.h"
+#include "vision/camera/lens_fit.h"
+#include "vision/picture/picture.h"
+
+/// Made-up pictures of boards, and of boards beside heaps, of which all is known.
+namespace repose::bench {
+
+/// A camera with any lens that a telephone or a compact camera may have.
+testing::BoardCamera any_camera(std::uint64_t seed);
+
+/// Pictures of a board that is held all over the picture, for the fit of a lens.
+std::vector<vision::BoardPicture> board_pictures(const testing::BoardCamera& camera, int count,
+                                                 std::uint64_t seed);
+
+/// A heap with a board, as people put it up: not quite upright, not quite in its plane, not quite
+/// printed true.
+struct HeapWithBoard {
+  vision::Picture picture;
+  testing::BoardCamera camera;
+  double behind_mm = 0;  ///< as it is told
+  double square_mm = 24;
+  double pitch_rad = 0;
+  double roll_rad = 0;
+  vision::Box board_box;  ///< around its sheet [px]
+  vision::Point crest_px;
+  double mm_per_px = 0;  ///< where the heap's axis meets the ground
+  double angle_rad = 0;  ///< of the outline as parallel rays see it, height over half the base
+  double height_mm = 0;
+  double base_mm = 0;
+};
+
+HeapWithBoard heap_with_board(std::uint64_t seed, bool stands_behind);
+
+}  // namespace repose::bench

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "vision/camera/board.h"
+#include "vision/camera/lens.h"
+
+namespace repose::vision {
+
+/// How a camera sees a board: x right, y down, z along the lens's axis, from the lens; lengths in
+/// squares. On the board x points right, y down, z away from who looks at it.
+struct BoardPose {
+  /// Rotation vector of the board, its origin, ln of the focal length [px], and where the axis
+  /// meets the picture [px].
+  using Numbers = Eigen::Matrix<double, 9, 1>;
+  using Covariance = Eigen::Matrix<double, 9, 9>;
+
+  Numbers numbers = Numbers::Zero();
+  Covariance covariance = Covariance::Zero();
+  double error_px = 0;  ///< root mean square distance of the corners from the fit
+};
+
+/// A pose's rotation: its columns are the board's directions as the camera sees them.
+Eigen::Matrix3d rotation_of(const BoardPose::Numbers& numbers);
+
+/// The place of a point of the board, in squares, in the picture [px].
+Point seen_at(const BoardPose::Numbers& numbers, Point on_board);
+
+/// Fits the pose to the corners by least squares, along with focal length and centre, which keep to
+/// the lens's as far as it is known: without one, the focal length is taken for one picture width
+/// within a factor of three, and the centre for the picture's within 3 % of its width.
+///
+/// A board that is small in the picture looks the same when it is tilted the other way; where the
+/// corners do not tell which, the difference is part of the covariance.
+///
+/// Proved by tests/vision/board_pose_test.cpp on projected corners.
+/// @param corners  in the corrected picture, at least six, not in a line
+/// @param lens  none: unknown; of pictures of this size
+BoardPose fit_pose(const std::vector<SeenCorner>& corners, const std::optional<Lens>& lens,
+                   int width, int height);
+
+}  // namespace repose::vision

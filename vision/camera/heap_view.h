@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "vision/camera/board_pose.h"
+#include "vision/camera/lens.h"
+#include "vision/picture/picture.h"
+
+namespace repose::vision {
+
+/// How a camera sees the upright plane in which a heap's middle lies. Directions as the camera has
+/// them: x right, y down, z along the lens's axis. Lengths in millimetres.
+struct HeapView {
+  double focal_px = 0;
+  Point centre;             ///< where the axis meets the picture [px]
+  Eigen::Vector3d up;       ///< away from the ground
+  Eigen::Vector3d normal;   ///< of the plane, away from the camera, level
+  double distance_mm = 0;   ///< of the plane from the lens, along its normal
+
+  /// Direction in which a point of the picture is seen, 1 along the axis.
+  Eigen::Vector3d direction(Point place) const;
+  /// How far the camera looks down.
+  double pitch_rad() const;
+  /// How far the camera is turned about its axis; above 0: the ground's right end lies lower.
+  double roll_rad() const;
+};
+
+/// How a person has put up a board, as it is meant and by how much it fails.
+struct BoardStand {
+  double square_mm = 0;  ///< as printed
+  double behind_mm = 0;  ///< how far behind the heap's plane
+  double lean_rad = 0;   ///< how far its upper side leans away from the camera
+  double tilt_rad = 0;   ///< in its own plane: how far its right end is too low
+  double turn_rad = 0;   ///< about its upright axis, from being parallel to the heap's plane
+};
+
+/// By a board that stands upright, but for those errors, parallel to the heap's plane.
+HeapView view_by_board(const BoardPose::Numbers& pose, const BoardStand& stand);
+
+/// By a known scale in the heap's plane at `place`, which faces the camera.
+HeapView view_by_scale(const Lens& lens, double mm_per_px, double pitch_rad, double roll_rad,
+                       Point place);
+
+/// A vector of inputs with their covariance.
+struct Inputs {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd covariance;
+};
+
+/// The covariance of a function's values, to first order: J C J^T with J by central differences of
+/// one standard deviation, so that what bends within it counts as it is. JCGM 102:2011, 6.2.
+Eigen::MatrixXd propagated(const Inputs& inputs,
+                           const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& function);
+
+}  // namespace repose::vision

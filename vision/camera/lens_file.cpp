@@ -1,0 +1,162 @@
+#include "vision/camera/lens_file.h"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include "base/error_list.h"
+#include "base/toml_nesting.h"
+#include "base/whole_file.h"
+
+namespace repose::vision {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedNumber {
+  const char* name = "";
+  LensNumber Lens::*number = nullptr;
+  const char* unit = "";
+  bool is_needed = false;
+};
+
+constexpr std::array<NamedNumber, 8> kNumbers = {
+    NamedNumber{"focal", &Lens::focal_px, "_px", true},
+    NamedNumber{"centre_x", &Lens::centre_x_px, "_px", true},
+    NamedNumber{"centre_y", &Lens::centre_y_px, "_px", true},
+    NamedNumber{"k1", &Lens::k1},
+    NamedNumber{"k2", &Lens::k2},
+    NamedNumber{"p1", &Lens::p1},
+    NamedNumber{"p2", &Lens::p2},
+    NamedNumber{"k3", &Lens::k3},
+};
+
+std::string key_of(const NamedNumber& number) { return std::string(number.name) + number.unit; }
+std::string uncertainty_key_of(const NamedNumber& number) {
+  return std::string(number.name) + "_uncertainty" + number.unit;
+}
+
+constexpr double kLargest = 1e6;
+
+/// Reads the numbers of one camera file; what is wrong with them is collected.
+class LensReader {
+ public:
+  LensReader(const toml::table& table, const fs::path& file) : table_(table), file_(file) {}
+
+  double number(const std::string& key, bool is_needed) {
+    known_.push_back(key);
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) {
+      if (is_needed) add(1, key, "is missing. Rule: a number");
+      return 0;
+    }
+    const auto value = node->value<double>();
+    if (value && std::abs(*value) <= kLargest) return *value;  // NaN fails
+    add(line_of(*node), key, "must be a number");
+    return 0;
+  }
+
+  void require(bool holds, const std::string& key, const char* rule) {
+    const toml::node* node = table_.get(key);
+    if (!holds && node != nullptr) add(line_of(*node), key, rule);
+  }
+
+  void refuse_other_keys() {
+    for (const auto& [key, node] : table_) {
+      if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+      add(line_of(node), std::string(key.str()),
+          fmt::format("is not a key of a camera file. Rule: its keys are {}",
+                      fmt::join(known_, ", ")));
+    }
+  }
+
+  void throw_if_any() const { errors_.throw_if_any(); }
+
+ private:
+  static unsigned line_of(const toml::node& node) { return node.source().begin.line; }
+  void add(unsigned line, const std::string& key, const std::string& rule) {
+    errors_.add(fmt::format("{}:{}: {} {}. Fix: correct it, or run repose camera again.",
+                            file_.string(), line, key, rule));
+  }
+
+  const toml::table& table_;
+  const fs::path& file_;
+  std::vector<std::string> known_;
+  base::ErrorList errors_;
+};
+
+toml::table parsed(const std::string& text, const fs::path& file) {
+  std::string what;
+  unsigned line = 1;
+  if (const auto deep = base::line_of_deep_key(text)) {
+    line = static_cast<unsigned>(*deep);
+    what = "a key has too many points";
+  } else {
+    try {
+      return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+      line = error.source().begin.line;
+      what = error.description();
+    }
+  }
+  throw std::invalid_argument(
+      fmt::format("{}:{}: {}. Rule: a camera file is TOML (https://toml.io). Fix: correct this "
+                  "line, or run repose camera again.",
+                  file.string(), line, what));
+}
+
+}  // namespace
+
+std::string lens_file_text(const Lens& lens, const std::string& origin) {
+  std::string text = fmt::format(
+      "# The lens of a camera, by repose camera: {}.\n"
+      "# It holds for this zoom and focus, and for whole pictures of any size:\n"
+      "#   repose measure PICTURE --camera-file THIS_FILE\n"
+      "# uncertainty: half-width of the 95 % interval.\n\n"
+      "width_px = {}\nheight_px = {}\n\n"
+      "# Focal length, and the place of the lens's axis, from the top left corner.\n",
+      origin, lens.width, lens.height);
+  for (const NamedNumber& number : kNumbers) {
+    const auto& [value, uncertainty] = lens.*number.number;
+    if (!number.is_needed && value == 0 && uncertainty == 0) continue;
+    if (number.number == &Lens::k1) {
+      text += "\n# Distortion (Brown-Conrady, as in OpenCV); coefficients that are not named are 0.\n";
+    }
+    const char* digits = number.is_needed ? "{} = {:.3f}\n{} = {:.3f}\n" : "{} = {:.6g}\n{} = {:.2g}\n";
+    text += fmt::format(fmt::runtime(digits), key_of(number), value, uncertainty_key_of(number),
+                        uncertainty);
+  }
+  return text;
+}
+
+Lens read_lens_file(const fs::path& file) {
+  constexpr std::uintmax_t kLargest_bytes = 1 << 20;
+  const std::string text = base::read_whole_file(file, kLargest_bytes);
+  const toml::table table = parsed(text, file);
+  LensReader reader(table, file);
+  Lens lens;
+  const double width = reader.number("width_px", true);
+  const double height = reader.number("height_px", true);
+  for (const NamedNumber& number : kNumbers) {
+    LensNumber& read = lens.*number.number;
+    read.value = reader.number(key_of(number), number.is_needed);
+    read.uncertainty = reader.number(uncertainty_key_of(number), false);
+    reader.require(read.uncertainty >= 0, uncertainty_key_of(number), "must not be below 0");
+  }
+  const auto is_side = [](double side) { return side >= 1 && side == std::floor(side); };
+  reader.require(is_side(width), "width_px", "must be a whole number above 0");
+  reader.require(is_side(height), "height_px", "must be a whole number above 0");
+  reader.require(lens.focal_px.value > 0, "focal_px", "must be above 0");
+  reader.refuse_other_keys();
+  reader.throw_if_any();
+  lens.width = static_cast<int>(width);
+  lens.height = static_cast<int>(height);
+  return lens;
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "vision/camera/lens.h"
+
+namespace repose::vision {
+
+/// A camera file: the lens as a small commented TOML.
+/// @param origin  what it was fitted to, as its first comment says: "10 pictures, ..."
+std::string lens_file_text(const Lens& lens, const std::string& origin);
+
+/// @throws std::invalid_argument  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
+Lens read_lens_file(const std::filesystem::path& file);
+
+}  // namespace repose::vision
