@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <set>
 #include <span>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/file_pattern.h"
+#include "cli/common/option_value.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/made_here.h"
 
@@ -159,6 +161,46 @@ FileList list_films(const std::vector<std::string>& names) { return list_files(n
 
 FileList list_pictures_and_films(const std::vector<std::string>& names) {
   return list_files(names, kBoth);
+}
+
+FileList list_with_frame_folders(const std::vector<std::string>& names) {
+  FileList list;
+  for (const std::string& name : names) {
+    std::error_code ignored;
+    if (fs::is_directory(name, ignored)) {
+      list.files.push_back(without_slash(name));
+      continue;
+    }
+    FileList one = list_files({name}, kBoth);
+    std::move(one.files.begin(), one.files.end(), std::back_inserter(list.files));
+    std::move(one.errors.begin(), one.errors.end(), std::back_inserter(list.errors));
+  }
+  drop_repeated(kBoth, list);
+  return list;
+}
+
+fs::path without_slash(const std::string& name) {
+  const std::size_t last = name.find_last_not_of('/');
+  return last == std::string::npos ? name : name.substr(0, last + 1);
+}
+
+std::optional<double> read_frame_rate(const std::string& text,
+                                      const std::vector<std::string>& names,
+                                      std::vector<std::string>& errors) {
+  constexpr double kSlowest = 1e-3, kFastest = 1e6;
+  const auto rate = read_number_within({"--fps", text, errors}, kSlowest, kFastest, "--fps 60");
+  if (!rate) return rate;
+  const bool any = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    std::error_code ignored;
+    return fs::is_directory(name, ignored);
+  });
+  if (!any) {
+    errors.push_back(fmt::format(
+        "--fps {}: is for folders of numbered frames, and no folder is named; films say it "
+        "themselves. Fix: leave it out, or name the folder.",
+        text));
+  }
+  return rate;
 }
 
 std::string naming_file(const std::string& file, const std::string& error) {

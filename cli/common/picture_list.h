@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,18 @@ FileList list_films(const std::vector<std::string>& names);
 /// The same with both. Of a folder's films those are left out that a camera took along with a
 /// picture of that name: they would count the same heap twice.
 FileList list_pictures_and_films(const std::vector<std::string>& names);
+
+/// The same, but each folder is one film, whose frames are in it.
+FileList list_with_frame_folders(const std::vector<std::string>& names);
+
+/// A name without the slashes at its end, which is that of its overlay too.
+std::filesystem::path without_slash(const std::string& name);
+
+/// Of --fps, which makes films of folders of numbered frames: how many were taken a second. An
+/// error where none of the names is a folder.
+std::optional<double> read_frame_rate(const std::string& text,
+                                      const std::vector<std::string>& names,
+                                      std::vector<std::string>& errors);
 
 /// Where the overlay of each picture goes.
 struct OverlayFiles {

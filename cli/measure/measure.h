@@ -20,6 +20,7 @@ struct MeasureArguments {
   std::string mask_file;
   std::string pitch_deg;
   std::string every;
+  std::string fps;
   std::string threads;
   std::string overlay_folder;
   std::string json_file;

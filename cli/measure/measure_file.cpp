@@ -196,14 +196,15 @@ std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size
   attempt(measured.front(), [&] {
     MeasuredPicture& rest = measured.front();
     rest.used = vision::with_saved_hints(plan.options, file);
+    const vision::FilmFile frames{file, plan.frames_per_s};
     vision::FilmAngle film =
-        vision::measure_film(file, rest.used, [&](double done) { progress(rest_part * done); });
+        vision::measure_film(frames, rest.used, [&](double done) { progress(rest_part * done); });
     if (plan.every_s) check_step(*plan.every_s, film);
     rest.angle = std::move(film.angle);
     rest.filmed = FilmedPicture{.film = film.film, .stretch = film.stretch, .time_s = {}};
     finish(plan, index, film.picture, rest);
     if (!plan.every_s) return;
-    vision::FrameSeries series(file, film.times_s, *plan.every_s);
+    vision::FrameSeries series(frames, film.times_s, *plan.every_s);
     measure_series(
         plan, index, series, [&](double done) { progress(rest_part + (1 - rest_part) * done); },
         measured);
@@ -230,9 +231,11 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
 
 std::vector<MeasuredPicture> measure_file(const MeasurePlan& plan, std::size_t index,
                                           const std::function<void(double)>& progress) {
-  std::vector<MeasuredPicture> measured = vision::has_film_ending(plan.pictures[index])
-                                              ? measure_one_film(plan, index, progress)
-                                              : measure_one_picture(plan, index);
+  const fs::path& file = plan.pictures[index];
+  std::error_code ignored;
+  const bool is_film = vision::has_film_ending(file) || fs::is_directory(file, ignored);
+  std::vector<MeasuredPicture> measured =
+      is_film ? measure_one_film(plan, index, progress) : measure_one_picture(plan, index);
   progress(1);
   return measured;
 }

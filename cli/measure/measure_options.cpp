@@ -72,7 +72,7 @@ void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
 void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
   plan.every_s =
       read_positive({"--every", arguments.every, plan.errors}, "a time in seconds", "--every 0.1");
-  if (!plan.every_s ||
+  if (!plan.every_s || plan.frames_per_s ||
       std::any_of(plan.pictures.begin(), plan.pictures.end(), vision::has_film_ending)) {
     return;
   }
@@ -98,7 +98,9 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
     plan.errors.emplace_back("--report -: a page cannot be shown on a terminal. Fix: name a file.");
   }
 
-  FileList list = list_pictures_and_films(arguments.pictures);
+  plan.frames_per_s = read_frame_rate(arguments.fps, arguments.pictures, plan.errors);
+  FileList list = plan.frames_per_s ? list_with_frame_folders(arguments.pictures)
+                                    : list_pictures_and_films(arguments.pictures);
   plan.pictures = std::move(list.files);
   plan.notes = std::move(list.notes);
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());

@@ -16,7 +16,8 @@ struct MeasurePlan {
   std::vector<std::filesystem::path> overlays;  ///< one a picture, or none
   bool keeps_overlays = false;                  ///< in memory, for a report
   vision::MeasureOptions options;
-  std::optional<double> every_s;  ///< also frames of each film, so far apart
+  std::optional<double> frames_per_s;  ///< of folders, each a film's frames
+  std::optional<double> every_s;       ///< also frames of each film, so far apart
   bool saves_hints = false;
   int threads = 1;
 

@@ -13,6 +13,7 @@ struct TrackArguments {
   std::vector<std::string> videos;
   std::string scale;
   std::string released;
+  std::string fps;
   std::string bounces;
   std::string overlay;
   std::string json_file;

@@ -46,17 +46,17 @@ vision::Picture overlay_of(const TrackedFilm& film, const std::string& title) {
   return vision::draw_tilt_overlay(film.tilt, title);
 }
 
-void track(const std::filesystem::path& file, const vision::TrackOptions& options,
+void track(const vision::FilmFile& film, const vision::TrackOptions& options,
            TrackedFilm& tracked) {
   switch (tracked.filmed) {
     case Filmed::drop:
-      tracked.drop = vision::track_drop(file, options);
+      tracked.drop = vision::track_drop(film, options);
       break;
     case Filmed::roll:
-      tracked.roll = vision::track_roll(file, options);
+      tracked.roll = vision::track_roll(film, options);
       break;
     case Filmed::tilt:
-      tracked.tilt = vision::track_tilt(file, options);
+      tracked.tilt = vision::track_tilt(film, options);
       break;
   }
 }
@@ -78,7 +78,7 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
                                        .released_mm = plan.released_mm,
                                        .draws_strobe = !plan.overlays.empty(),
                                        .progress = progress};
-    track(plan.videos[index], options, tracked);
+    track({plan.videos[index], plan.frames_per_s}, options, tracked);
     if (!plan.overlays.empty()) draw(plan, index, tracked);
     tracked.drop.strobe = {};
     tracked.roll.strobe = {};

@@ -9,7 +9,8 @@ namespace {
 
 constexpr const char* kNotes = R"(
 VIDEO is a film of one grain from the side, by a camera that stands still: MP4,
-MOV, AVI, MKV, WebM or GIF. FILE may be - for standard output.
+MOV, AVI, MKV, WebM or GIF. With --fps it may be a folder of its frames, pictures
+with numbers in their names. FILE may be - for standard output.
 
   drop   The grain falls on a level plate and bounces. Parabolas are fitted
          to its flights, all with one gravity, which is the ruler: the ratio
@@ -38,6 +39,7 @@ Examples:
   repose track drop drop_01.mp4 --overlay drop_01.png
   repose track drop drop_01.mp4 drop_02.mp4 --csv drops.csv
   repose bench restitution drops.csv
+  repose track drop frames_01 --fps 240 --overlay drop_01.png
   repose track roll roll_01.mp4 --released 150 --csv rolls.csv
   repose track tilt tilt_01.mp4 --overlay tilt_01.png --csv tilts.csv
 )";
@@ -54,6 +56,7 @@ Command track_command() {
                   {"videos", "VIDEO ...", "Films, a repeat each", &given->videos, true},
                   {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale},
                   {"--released", "MM", "Of rolls: way up the incline", &given->released},
+                  {"--fps", "N", "Of folders of frames: how many a second", &given->fps},
                   {"--bounces", "first|all", "Bounces in the CSV table (first)", &given->bounces},
                   {"--overlay", "FILE.png|FOLDER", "Draw what was tracked", &given->overlay},
                   {"--json", "FILE|-", "All results, for programs", &given->json_file},

@@ -61,7 +61,8 @@ TrackPlan plan_track(const TrackArguments& arguments) {
       read_choice<Filmed>({"track", arguments.experiment, plan.errors},
                           {{"drop", Filmed::drop}, {"roll", Filmed::roll}, {"tilt", Filmed::tilt}})
           .value_or(plan.filmed);
-  plan.videos = {arguments.videos.begin(), arguments.videos.end()};
+  for (const std::string& video : arguments.videos) plan.videos.push_back(without_slash(video));
+  plan.frames_per_s = read_frame_rate(arguments.fps, arguments.videos, plan.errors);
   plan.scale = read_scale_bar({"--scale", arguments.scale, plan.errors},
                               "--scale 310,95,310,980,500, of a ruler in the grain's plane");
   read_own_options(arguments, plan);

@@ -19,7 +19,8 @@ struct TrackPlan {
   std::vector<std::filesystem::path> videos;
   std::vector<std::filesystem::path> overlays;  ///< one a film, or none
   std::optional<vision::ScaleBar> scale;
-  std::optional<double> released_mm;  ///< of rolls; in place of a scale
+  std::optional<double> released_mm;   ///< of rolls; in place of a scale
+  std::optional<double> frames_per_s;  ///< of films that are folders of frames
   bool tells_all_bounces = false;
   int threads = 1;
 

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,22 @@ TEST_F(MeasureFilms, AFilmIsMeasuredAtRestWhereverAPictureIs) {
   EXPECT_GT(results[0]["stretch"]["frames"].get<int>(), 9);
   EXPECT_EQ(results[0]["hints"]["file"], "heap.mp4.repose.toml");
   for (const char* key : {"film", "stretch", "time_s"}) EXPECT_EQ(results[1][key], nullptr) << key;
+}
+
+TEST_F(MeasureFilms, AFolderOfFramesIsAFilmWithItsRate) {
+  std::filesystem::create_directory(path("frames"));
+  for (std::size_t k = 0; k < frames().size(); ++k) {
+    vision::write_picture(path("frames/f" + std::to_string(k) + ".png"), frames()[k]);
+  }
+  const Finished done = run({"frames", "--fps", "12", "--json", "a.json", "--overlay", "drawn"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(exists("drawn/frames.png"));
+  const json results = json::parse(text("a.json"));
+  ASSERT_EQ(results.size(), 1U) << "a film, and not its pictures";
+  EXPECT_EQ(results[0]["film"]["frames"], frames().size());
+  EXPECT_NEAR(results[0]["stretch"]["from_s"].get<double>(), .6, .1);
+  const Finished series = run({"frames", "--fps", "12", "--every", "0.5", "--csv", "-"});
+  EXPECT_EQ(series.exit_code, 0) << series.err;
 }
 
 TEST_F(MeasureFilms, EveryGivesTheAngleOverTimeAtAnyNumberOfThreads) {

@@ -68,6 +68,40 @@ TEST_F(RenderCommand, WritesModelFilmAndPhoto) {
   }
 }
 
+TEST_F(RenderCommand, FilmsARunInRealTimeAndSaysWhatIsExact) {
+  const Finished done = run({"film/trajectory.pvd",
+                             "--style",
+                             "photo",
+                             "--passes",
+                             "2",
+                             "--size",
+                             "96,64",
+                             "--fps",
+                             "200",
+                             "--exposure-ms",
+                             "3",
+                             "--hold-s",
+                             ".05",
+                             "--noise",
+                             ".01",
+                             "--camera",
+                             "distance_mm=1000,height_mm=20",
+                             "--out",
+                             "a.mp4",
+                             "--truth",
+                             "a.json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_GT(text("a.mp4").size(), 200U);
+  const json truth = json::parse(text("a.json"));
+  EXPECT_EQ(truth["frames_per_s"], 200);
+  EXPECT_NEAR(truth["exposure_ms"].get<double>(), 3, 1e-9);
+  const double ruler_px = truth["scale"][2].get<double>() - truth["scale"][0].get<double>();
+  EXPECT_NEAR(truth["scale"][4].get<double>() / ruler_px, truth["mm_per_px"].get<double>(), 1e-4);
+  EXPECT_EQ(truth["frames"].size(), 25U) << "0.02 s, and twice 0.05 s";
+  EXPECT_EQ(truth["frames"][0]["grains_mm"].size(), 3U);
+  EXPECT_EQ(truth["frames"][0]["grains_px"].size(), 3U);
+}
+
 TEST_F(RenderCommand, TheSameBytesAtAnyNumberOfThreadsOfTheDriver) {
   for (const std::string style : {"silhouette", "photo"}) {
     std::string first;
@@ -104,6 +138,14 @@ TEST_F(RenderCommand, ErrorsAreOneLineEachAndLeaveNothing) {
       {{"state.vtp", "--out", "a.glb", "--mask", "m.png"}, "--mask"},
       {{"state.vtp", "--out", "state.vtp"}, "would overwrite an input file"},
       {{"film/trajectory.pvd", "--out", "a.png"}, "film"},
+      {{"film/trajectory.pvd", "--out", "a.mp4", "--fps", "-1"}, "--fps"},
+      {{"film/trajectory.pvd", "--out", "a.mp4", "--hold-s", "1"}, "--fps"},
+      {{"film/trajectory.pvd", "--out", "a.mp4", "--truth", "t.json"}, "--truth"},
+      {{"film/trajectory.pvd", "--out", "a.mp4", "--fps", "60", "--exposure-ms", "4"}, "photo"},
+      {{"film/trajectory.pvd", "--out", "a.mp4", "--fps", "60", "--style", "photo", "--exposure-ms",
+        "40"},
+       "--exposure-ms 40"},
+      {{"state.vtp", "--out", "a.png", "--fps", "60"}, "--fps"},
   };
   for (const auto& [words, named] : cases) {
     const Finished done = run(words);

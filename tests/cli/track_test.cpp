@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "tests/support/drawn_drop.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/drawn_tilt.h"
+#include "vision/picture/picture.h"
 
 namespace repose::testing {
 namespace {
@@ -88,6 +90,32 @@ TEST_F(TrackCommand, AnOverlayOfOneFilmIsAPictureAndOfSeveralAFolder) {
   const Finished wrong = run({"drop", "a.mp4", "b.mp4", "--overlay", "x.png"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("Fix: name a folder."));
+}
+
+TEST_F(TrackCommand, AFolderOfFramesIsAFilmWithItsRate) {
+  const DrawnDrop drop{.width = 240,
+                       .height = 200,
+                       .seconds = .9,
+                       .mm_per_px = 1.8,
+                       .radius_px = 5,
+                       .release_s = .1};
+  std::filesystem::create_directory(path("frames"));
+  for (int frame = 0; frame < drop.frames(); ++frame) {
+    vision::write_picture(path("frames/f" + std::to_string(frame) + ".png"), drop.picture(frame));
+  }
+  const Finished done =
+      run({"drop", "frames/", "--fps", "60", "--json", "t.json", "--overlay", "overlays"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json film = json::parse(text("t.json"))[0];
+  EXPECT_EQ(film["file"], "frames");
+  EXPECT_NEAR(film["bounces"][0]["restitution"].get<double>(), drop.restitution, .03);
+  EXPECT_GT(text("overlays/frames.png").size(), 1000U);
+  const Finished unrated = run({"drop", "frames"});
+  EXPECT_EQ(unrated.exit_code, 2);
+  EXPECT_THAT(unrated.err, HasSubstr("--fps"));
+  const Finished no_folder = run({"drop", "a.mp4", "--fps", "60"});
+  EXPECT_EQ(no_folder.exit_code, 2);
+  EXPECT_THAT(no_folder.err, HasSubstr("no folder is named"));
 }
 
 TEST_F(TrackCommand, ARefusedFilmHasAReasonAndNoNumber) {

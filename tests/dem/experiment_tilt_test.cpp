@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/dem/experiment_model.h"
@@ -71,6 +73,32 @@ TEST(Tilt, ASingleGrainRolls) {
 
 TEST(Tilt, BeginningAboveTheAngleOfFrictionIsNoReading) {
   EXPECT_THROW(run_tilt(test::clump_bench(), {.start_deg = 30}, 1), NoReading);
+}
+
+TEST(Tilt, FramesShowThePlateFromLevelUntilTheGrainsHaveSlid) {
+  const Model model = test::sphere_bench();
+  const TiltProtocol protocol{.rate_deg_s = 10};
+  RunRecord record;
+  record.frame_interval_s = .01;
+  std::vector<double> angles_deg, along_m;
+  record.frame = [&](const Simulation& simulation) {
+    const Quaternion& turn = simulation.wall(0).pose.orientation;
+    angles_deg.push_back(2 * std::asin(turn.y()) * 180 / std::numbers::pi);
+    along_m.push_back((turn.conjugate() * simulation.grain(0).position).x());
+  };
+  const Repeat filmed = run_tilt(model, protocol, 1, {}, record);
+  const Repeat read = run_tilt(model, protocol, 1);
+  EXPECT_EQ(filmed.value, read.value);
+  EXPECT_EQ(filmed.steps, read.steps);
+  ASSERT_GT(angles_deg.size(), 100U);
+  EXPECT_NEAR(angles_deg.front(), 0, 1e-9);
+  EXPECT_GT(angles_deg.back(), read.value);
+  EXPECT_GT(along_m.back() - along_m.front(), 9 * model.grain.reach_m());
+  // It slides when the angle is the one that is read, and not before.
+  for (std::size_t k = 0; k < angles_deg.size(); ++k) {
+    if (angles_deg[k] > read.value - .2) break;
+    EXPECT_NEAR(along_m[k], along_m.front(), 1e-5) << angles_deg[k];
+  }
 }
 
 TEST(Tilt, HasNoChanceInIt) {

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <string>
 
 #include <gmock/gmock.h>
 
@@ -163,6 +165,50 @@ TEST(TrackDropFiles, WhatIsNoFilmIsAnErrorThatSaysSo) {
   EXPECT_THAT(error_of([&] { track_drop(folder.path() / "none.mp4"); }),
               HasSubstr("no such file. Fix: "));
   EXPECT_THAT(error_of([&] { track_drop(folder.path()); }), HasSubstr("is a folder"));
+}
+
+TEST(TrackDrop, AFolderOfItsFramesIsTheSameFilm) {
+  const DrawnDrop drop = small_drop();
+  const TemporaryFolder folder;
+  for (int frame = 0; frame < drop.frames(); ++frame) {
+    // Two are missing: their time goes by all the same.
+    if (frame == 5 || frame == 30) continue;
+    write_picture(folder.path() / ("frame" + std::to_string(frame) + ".png"), drop.picture(frame));
+  }
+  const DropTrack track = track_drop({folder.path(), drop.frames_per_s});
+  ASSERT_FALSE(track.bounces.empty()) << track.reason;
+  EXPECT_NEAR(track.bounces.front().restitution.value, drop.restitution, .02);
+  EXPECT_EQ(track.film.dropped_frames, 2);
+  EXPECT_THAT(track.warnings, warns_of("dropped_frames"));
+}
+
+/// Of each frame every other row is that of a frame that was taken half a frame later.
+std::filesystem::path interlaced_film(const TemporaryFolder& folder, DrawnDrop drop) {
+  const double frames_per_s = drop.frames_per_s;
+  drop.frames_per_s *= 2;
+  const auto file = folder.path() / "interlaced.mp4";
+  render::Film film(file, frames_per_s);
+  for (int frame = 0; frame + 1 < drop.frames(); frame += 2) {
+    Picture woven = drop.picture(frame);
+    const Picture later = drop.picture(frame + 1);
+    const auto row_bytes = static_cast<std::ptrdiff_t>(3) * woven.width;
+    for (std::ptrdiff_t row = 1; row < woven.height; row += 2) {
+      std::copy_n(later.bgr.begin() + row * row_bytes, row_bytes,
+                  woven.bgr.begin() + row * row_bytes);
+    }
+    film.add(woven);
+  }
+  film.close();
+  return file;
+}
+
+TEST(TrackDrop, InterlacedFilmsAreRefusedWithTheRemedy) {
+  DrawnDrop drop = small_drop();
+  drop.frames_per_s = 30;
+  const TemporaryFolder folder;
+  const DropTrack track = track_drop(interlaced_film(folder, drop));
+  EXPECT_EQ(track.status, MeasureStatus::refused);
+  EXPECT_THAT(track.reason, ::testing::AllOf(HasSubstr("interlaced"), HasSubstr("ffmpeg")));
 }
 
 }  // namespace

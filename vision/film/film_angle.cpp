@@ -28,7 +28,7 @@ bool has_film_ending(const std::filesystem::path& file) {
   return std::find(kFilmEndings.begin(), kFilmEndings.end(), ending) != kFilmEndings.end();
 }
 
-FilmAngle measure_film(const std::filesystem::path& file, const MeasureOptions& options,
+FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options,
                        const std::function<void(double)>& progress) {
   RestingPicture rest = resting_picture(file, options, progress);
   FilmAngle result{.angle = refusal(options, std::move(rest.reason)),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vision/film/film_facts.h"
+#include "vision/film/film_file.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
@@ -46,7 +47,7 @@ struct FilmAngle {
 /// @param progress  told which fraction of the work is done, from 0 to 1; may throw to stop it
 /// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read; or as
 ///   measure_repose_angle().
-FilmAngle measure_film(const std::filesystem::path& file, const MeasureOptions& options = {},
+FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options = {},
                        const std::function<void(double)>& progress = {});
 
 }  // namespace repose::vision

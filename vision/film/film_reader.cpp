@@ -7,9 +7,13 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
+#include <opencv2/videoio.hpp>
 
+#include "vision/film/frame_files.h"
+#include "vision/picture/mat_of_picture.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
@@ -36,11 +40,21 @@ bool is_film(std::string_view head) {
   return is_avi || head.starts_with("\x1a\x45\xdf\xa3"sv) || head.starts_with("GIF8");
 }
 
+void check_size(const fs::path& file, double width, double height) {
+  if (width * height <= kMostPixels) return;
+  refuse(file,
+         fmt::format("its frames are {:.0f} x {:.0f} pixels, {:.0f} million are the most", width,
+                     height, kMostPixels / 1e6),
+         "convert it to 1920 x 1080.");
+}
+
 void check(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) refuse(file, "no such file", "check the name.");
   if (fs::is_directory(file, error)) {
-    refuse(file, "is a folder", "name the films in it, such as FOLDER/*.mp4.");
+    refuse(file, "is a folder",
+           "name the films in it, such as FOLDER/*.mp4; of a folder of numbered frames say with "
+           "--fps how many were taken a second.");
   }
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 12> head{};
@@ -54,54 +68,114 @@ void check(const fs::path& file) {
 
 }  // namespace
 
-FilmReader::FilmReader(const fs::path& file) : file_(file) {
-  check(file);
-  if (!film_.open(file.string(), cv::CAP_FFMPEG)) {
-    refuse(file, "the film cannot be decoded: it is damaged, or of an unknown kind",
-           "copy it from the telephone again, or convert it to MP4 (H.264).");
+/// Where frames come from.
+class FilmReader::Source {
+ public:
+  Source() = default;
+  virtual ~Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  Source(Source&&) = delete;
+  Source& operator=(Source&&) = delete;
+
+  /// False at the end; of a frame that is skipped only the time is set.
+  virtual bool next(FilmFrame& frame, bool is_skipped) = 0;
+  virtual int claimed_frames() const = 0;
+};
+
+/// A file that FFmpeg decodes.
+class FilmReader::VideoSource : public FilmReader::Source {
+ public:
+  explicit VideoSource(const fs::path& file) {
+    check(file);
+    if (!film_.open(file.string(), cv::CAP_FFMPEG)) {
+      refuse(file, "the film cannot be decoded: it is damaged, or of an unknown kind",
+             "copy it from the telephone again, or convert it to MP4 (H.264).");
+    }
+    check_size(file, film_.get(cv::CAP_PROP_FRAME_WIDTH), film_.get(cv::CAP_PROP_FRAME_HEIGHT));
+    const double count = film_.get(cv::CAP_PROP_FRAME_COUNT);
+    claimed_frames_ = count > 0 && count < 1e9 ? static_cast<int>(count) : 0;
+    const double rate = film_.get(cv::CAP_PROP_FPS);
+    claimed_interval_s_ = 1 / (std::isfinite(rate) && rate > 0 ? rate : kUsualFramesPerS);
   }
-  const double width = film_.get(cv::CAP_PROP_FRAME_WIDTH);
-  const double height = film_.get(cv::CAP_PROP_FRAME_HEIGHT);
-  if (!(width * height <= kMostPixels)) {
-    refuse(file,
-           fmt::format("its frames are {:.0f} x {:.0f} pixels, {:.0f} million are the most", width,
-                       height, kMostPixels / 1e6),
-           "convert it to 1920 x 1080.");
+
+  bool next(FilmFrame& frame, bool is_skipped) override {
+    if (!film_.grab()) return false;
+    if (!is_skipped && (!film_.retrieve(frame.bgr) || frame.bgr.empty())) return false;
+    frame.time_s = last_s_ = time_of_frame();
+    ++frames_;
+    return true;
   }
-  const double count = film_.get(cv::CAP_PROP_FRAME_COUNT);
-  claimed_frames_ = count > 0 && count < 1e9 ? static_cast<int>(count) : 0;
-  const double rate = film_.get(cv::CAP_PROP_FPS);
-  claimed_interval_s_ = 1 / (std::isfinite(rate) && rate > 0 ? rate : kUsualFramesPerS);
+  int claimed_frames() const override { return claimed_frames_; }
+
+ private:
+  /// Where time stamps are missing or do not advance, one frame after the other.
+  double time_of_frame() {
+    constexpr double kSPerMs = 1e-3;
+    const double stamp_s = kSPerMs * film_.get(cv::CAP_PROP_POS_MSEC);
+    if (frames_ == 0) {
+      first_s_ = stamp_s;
+      return 0;
+    }
+    const double time_s = stamp_s - first_s_;
+    return std::isfinite(time_s) && time_s > last_s_ ? time_s : last_s_ + claimed_interval_s_;
+  }
+
+  cv::VideoCapture film_;
+  int claimed_frames_ = 0;
+  double claimed_interval_s_ = 0;
+  int frames_ = 0;
+  double first_s_ = 0;
+  double last_s_ = 0;
+};
+
+/// Numbered pictures: a number that is missing is a frame that was dropped.
+class FilmReader::FolderSource : public FilmReader::Source {
+ public:
+  FolderSource(const fs::path& folder, double frames_per_s)
+      : frames_(frame_files(folder)), interval_s_(1 / frames_per_s) {}
+
+  bool next(FilmFrame& frame, bool is_skipped) override {
+    if (next_ == frames_.size()) return false;
+    const FrameFile& now = frames_[next_++];
+    frame.time_s = static_cast<double>(now.place) * interval_s_;
+    if (is_skipped) return true;
+    picture_ = read_picture(now.file);
+    check_size(now.file, picture_.width, picture_.height);
+    frame.bgr = mat_of(picture_);
+    return true;
+  }
+  int claimed_frames() const override { return static_cast<int>(frames_.size()); }
+
+ private:
+  std::vector<FrameFile> frames_;
+  double interval_s_;
+  std::size_t next_ = 0;
+  Picture picture_;  ///< what the last frame's pixels are in
+};
+
+FilmReader::FilmReader(const FilmFile& film) : file_(film.path) {
+  std::error_code error;
+  if (film.frames_per_s && fs::is_directory(file_, error)) {
+    source_ = std::make_unique<FolderSource>(file_, *film.frames_per_s);
+  } else {
+    source_ = std::make_unique<VideoSource>(file_);
+  }
 }
 
-/// Where time stamps are missing or do not advance, one frame after the other.
-double FilmReader::time_of_frame() {
-  constexpr double kSPerMs = 1e-3;
-  const double stamp_s = kSPerMs * film_.get(cv::CAP_PROP_POS_MSEC);
-  if (frames_ == 0) {
-    first_s_ = stamp_s;
-    return 0;
-  }
-  const double time_s = stamp_s - first_s_;
-  return std::isfinite(time_s) && time_s > last_s_ ? time_s : last_s_ + claimed_interval_s_;
-}
+FilmReader::~FilmReader() = default;
+
+int FilmReader::claimed_frames() const { return source_->claimed_frames(); }
 
 bool FilmReader::next(FilmFrame& frame) {
-  if (!film_.grab() || !film_.retrieve(frame.bgr) || frame.bgr.empty()) return false;
+  if (!source_->next(frame, false)) return false;
   if (size_.empty()) size_ = frame.bgr.size();
   if (frame.bgr.size() != size_ || frame.bgr.type() != CV_8UC3) {
     refuse(file_, "the size of its frames changes", "keep the part of one size.");
   }
-  frame.time_s = last_s_ = time_of_frame();
-  ++frames_;
   return true;
 }
 
-bool FilmReader::skip(FilmFrame& frame) {
-  if (!film_.grab()) return false;
-  frame.time_s = last_s_ = time_of_frame();
-  ++frames_;
-  return true;
-}
+bool FilmReader::skip(FilmFrame& frame) { return source_->next(frame, true); }
 
 }  // namespace repose::vision

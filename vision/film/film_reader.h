@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
+
+#include "vision/film/film_file.h"
 
 /// Films, decoded frame by frame in order, never by seeking.
 namespace repose::vision {
@@ -13,12 +15,17 @@ struct FilmFrame {
   double time_s = 0;  ///< by the film's own time stamps, from the first frame on
 };
 
-/// Reads MP4, MOV, AVI, MKV, WebM and GIF.
+/// Reads MP4, MOV, AVI, MKV, WebM and GIF, and folders of numbered pictures.
 class FilmReader {
  public:
   /// @throws std::invalid_argument  "FILE: what. Fix: ...": missing, empty, no film, damaged, or of
-  /// too many pixels.
-  explicit FilmReader(const std::filesystem::path& file);
+  /// too many pixels; of a folder, also as frame_files(), and without a frame rate.
+  explicit FilmReader(const FilmFile& file);
+  ~FilmReader();
+  FilmReader(const FilmReader&) = delete;
+  FilmReader& operator=(const FilmReader&) = delete;
+  FilmReader(FilmReader&&) = delete;
+  FilmReader& operator=(FilmReader&&) = delete;
 
   /// False at the end, which is where nothing more can be decoded.
   /// @throws std::invalid_argument  a frame has another size than the first.
@@ -27,19 +34,16 @@ class FilmReader {
   bool skip(FilmFrame& frame);
 
   /// How many frames the file says it has, which need not be true; 0 where it does not say.
-  int claimed_frames() const { return claimed_frames_; }
+  int claimed_frames() const;
 
  private:
-  double time_of_frame();
+  class Source;
+  class VideoSource;
+  class FolderSource;
 
   std::filesystem::path file_;
-  cv::VideoCapture film_;
+  std::unique_ptr<Source> source_;
   cv::Size size_;
-  int claimed_frames_ = 0;
-  double claimed_interval_s_ = 0;
-  int frames_ = 0;
-  double first_s_ = 0;
-  double last_s_ = 0;
 };
 
 }  // namespace repose::vision

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/film/comb_finder.h"
 #include "vision/film/film_reader.h"
 
 namespace repose::vision {
@@ -88,12 +89,13 @@ void read_rate(FilmSurvey& survey) {
 
 }  // namespace
 
-FilmSurvey survey_film(const std::filesystem::path& file, const FilmProgress& progress) {
+FilmSurvey survey_film(const FilmFile& file, const FilmProgress& progress) {
   FilmReader film(file);
   FilmSurvey survey;
   survey.claimed_frames = film.claimed_frames();
   Samples samples;
   CutFinder cuts;
+  CombFinder combs;
   // Of a long film it is enough to look at every fourth frame.
   constexpr int kLooks = 60, kMostStep = 4;
   const int step = std::clamp(film.claimed_frames() / kLooks, 1, kMostStep);
@@ -104,6 +106,7 @@ FilmSurvey survey_film(const std::filesystem::path& file, const FilmProgress& pr
     if (looks) {
       survey.size = frame.bgr.size();
       if (cuts.is_cut(frame.bgr) && !survey.cut) survey.cut = number;
+      combs.look(frame.bgr);
       samples.add(frame.bgr);
     }
     survey.times_s.push_back(frame.time_s);
@@ -111,6 +114,7 @@ FilmSurvey survey_film(const std::filesystem::path& file, const FilmProgress& pr
     if (progress) progress(done / std::max({1.0, done, 1.0 * survey.claimed_frames}));
   }
   survey.samples = samples.take();
+  survey.is_interlaced = combs.is_interlaced();
   read_rate(survey);
   return survey;
 }

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/film/film_file.h"
+
 namespace repose::vision {
 
 /// Told which fraction of the work is done, from 0 to 1.
@@ -24,10 +26,11 @@ struct FilmSurvey {
   int dropped_frames = 0;          ///< that the gaps between time stamps have room for
   bool has_variable_rate = false;  ///< gaps apart, frames do not follow evenly
   std::optional<int> cut;          ///< the first frame of another scene
-  std::vector<cv::Mat> samples;    ///< spread evenly over the film, few whatever its length
+  bool is_interlaced = false;
+  std::vector<cv::Mat> samples;  ///< spread evenly over the film, few whatever its length
 };
 
 /// @throws std::invalid_argument  see FilmReader.
-FilmSurvey survey_film(const std::filesystem::path& file, const FilmProgress& progress);
+FilmSurvey survey_film(const FilmFile& file, const FilmProgress& progress);
 
 }  // namespace repose::vision

@@ -24,7 +24,7 @@ bool is_nearest_to_one(const std::vector<double>& times_s, std::size_t frame, do
 
 class FrameSeries::Decoder {
  public:
-  explicit Decoder(const std::filesystem::path& file) : film_(file) {}
+  explicit Decoder(const FilmFile& file) : film_(file) {}
 
   /// The frame of this number, which is none that was passed.
   std::optional<Picture> decode(std::size_t number) {
@@ -44,8 +44,7 @@ class FrameSeries::Decoder {
   std::size_t next_ = 0;
 };
 
-FrameSeries::FrameSeries(const std::filesystem::path& file, const std::vector<double>& times_s,
-                         double step_s)
+FrameSeries::FrameSeries(const FilmFile& file, const std::vector<double>& times_s, double step_s)
     : decoder_(std::make_unique<Decoder>(file)) {
   for (std::size_t k = 0; k < times_s.size(); ++k) {
     if (!is_nearest_to_one(times_s, k, step_s)) continue;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "vision/film/film_file.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
@@ -22,7 +23,7 @@ class FrameSeries {
  public:
   /// @param times_s  of each frame, see FilmAngle
   /// @throws std::invalid_argument  as measure_film().
-  FrameSeries(const std::filesystem::path& file, const std::vector<double>& times_s, double step_s);
+  FrameSeries(const FilmFile& file, const std::vector<double>& times_s, double step_s);
   ~FrameSeries();
   FrameSeries(const FrameSeries&) = delete;
   FrameSeries& operator=(const FrameSeries&) = delete;

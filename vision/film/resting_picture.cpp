@@ -47,7 +47,7 @@ cv::Mat places_that_count(const FilmSurvey& survey, const MeasureOptions& option
 }
 
 /// Looks for the rest, and keeps the film's last frame that it looked at.
-RestFinder find_rest(const std::filesystem::path& file, const FilmSurvey& survey, cv::Mat counts,
+RestFinder find_rest(const FilmFile& file, const FilmSurvey& survey, cv::Mat counts,
                      const FilmProgress& progress) {
   RestFinder finder(std::move(counts));
   FilmReader film(file);
@@ -64,8 +64,7 @@ RestFinder find_rest(const std::filesystem::path& file, const FilmSurvey& survey
 }
 
 /// The mean of a stretch's frames, or of as many as are worth it, evenly spread.
-std::pair<Picture, FilmStretch> mean_picture(const std::filesystem::path& file,
-                                             const FilmSurvey& survey,
+std::pair<Picture, FilmStretch> mean_picture(const FilmFile& file, const FilmSurvey& survey,
                                              const RestFinder::Stretch& rest,
                                              const FilmProgress& progress) {
   constexpr double kMost = 60, kRounding_s = 1e-6;
@@ -95,7 +94,7 @@ std::pair<Picture, FilmStretch> mean_picture(const std::filesystem::path& file,
 }
 
 /// Looks at the whole film and says why there is no rest, or takes the picture out of it.
-std::string take_rest(const std::filesystem::path& file, const MeasureOptions& options,
+std::string take_rest(const FilmFile& file, const MeasureOptions& options,
                       const FilmProgress& progress, RestingPicture& result) {
   constexpr double kSurveyed = .35, kRest = .35;
   FilmSurvey survey = survey_film(file, part_of(progress, 0, kSurveyed));
@@ -121,7 +120,7 @@ std::string take_rest(const std::filesystem::path& file, const MeasureOptions& o
 
 }  // namespace
 
-RestingPicture resting_picture(const std::filesystem::path& file, const MeasureOptions& options,
+RestingPicture resting_picture(const FilmFile& file, const MeasureOptions& options,
                                const FilmProgress& progress) {
   RestingPicture result;
   result.reason = take_rest(file, options, progress, result);

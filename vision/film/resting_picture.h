@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vision/film/film_angle.h"
+#include "vision/film/film_file.h"
 #include "vision/film/film_survey.h"
 
 namespace repose::vision {
@@ -22,7 +23,7 @@ struct RestingPicture {
 };
 
 /// See measure_film().
-RestingPicture resting_picture(const std::filesystem::path& file, const MeasureOptions& options,
+RestingPicture resting_picture(const FilmFile& file, const MeasureOptions& options,
                                const FilmProgress& progress);
 
 }  // namespace repose::vision

@@ -38,6 +38,13 @@ std::string fault_of_shot(const FilmSurvey& survey, double moved_px) {
   return {};
 }
 
+std::string fault_of_fields(const FilmSurvey& survey) {
+  if (!survey.is_interlaced) return {};
+  return "the film is interlaced: every other row of a frame was taken half a frame later, and "
+         "what moves is combed. Rule: whole frames. Fix: film in a progressive mode (p, not i), "
+         "or make frames of its fields: ffmpeg -i FILM -vf bwdif=mode=send_field -crf 12 NEW.mp4.";
+}
+
 bool warn_of_film(const FilmSurvey& survey, double moved_px, std::vector<Warning>& warnings) {
   const auto frames = static_cast<int>(survey.times_s.size());
   const bool is_cut_short = survey.claimed_frames > frames + 2 + frames / 50;

@@ -16,6 +16,10 @@ FilmFacts facts_of(const FilmSurvey& survey);
 /// @param moved_px  how far the camera moves
 std::string fault_of_shot(const FilmSurvey& survey, double moved_px);
 
+/// Why nothing that moves can be followed in it, where frames are made of two fields; empty: they
+/// are whole. What lies still is the same in both.
+std::string fault_of_fields(const FilmSurvey& survey);
+
 /// Adds what is to be known of it.
 /// @returns whether a person must look at something first
 bool warn_of_film(const FilmSurvey& survey, double moved_px, std::vector<Warning>& warnings);

@@ -157,7 +157,7 @@ GrainPath flown_path(const DropCandidate& grain) {
 
 }  // namespace
 
-DropTrack track_drop(const std::filesystem::path& file, const TrackOptions& options) {
+DropTrack track_drop(const FilmFile& file, const TrackOptions& options) {
   const FilmGrains film = grains_in_film(file, options.progress);
   DropTrack track{.film = facts_of(film.survey)};
   const std::vector<DropCandidate> candidates = candidates_in(film);

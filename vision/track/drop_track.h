@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/film/film_file.h"
 #include "vision/track/track.h"
 
 namespace repose::vision {
@@ -57,6 +58,6 @@ struct DropTrack {
 /// mm of the scale where one is given, else in those that 9.80665 m/s2 makes of the time stamps.
 /// Frames are not kept: memory does not grow with the film's length.
 /// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
-DropTrack track_drop(const std::filesystem::path& file, const TrackOptions& options = {});
+DropTrack track_drop(const FilmFile& file, const TrackOptions& options = {});
 
 }  // namespace repose::vision

@@ -32,7 +32,7 @@ double farthest_shift_px(const FilmGrains& film) {
   return moved_px;
 }
 
-FilmGrains grains_in_film(const std::filesystem::path& file, const FilmProgress& progress) {
+FilmGrains grains_in_film(const FilmFile& file, const FilmProgress& progress) {
   constexpr double kSurveyPart = .4;
   const auto part = [&](double from, double length) -> FilmProgress {
     return [=, &progress](double done) {

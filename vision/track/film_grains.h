@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "vision/film/film_file.h"
 #include "vision/film/film_survey.h"
 #include "vision/track/grain_path.h"
 
@@ -21,6 +22,6 @@ double farthest_shift_px(const FilmGrains& film);
 /// Looks through the film twice: for the scene, and for what moves before it. Scenes that change as
 /// a whole, and films of a few frames, are looked through once: they have no paths.
 /// @throws std::invalid_argument  see FilmReader.
-FilmGrains grains_in_film(const std::filesystem::path& file, const FilmProgress& progress);
+FilmGrains grains_in_film(const FilmFile& file, const FilmProgress& progress);
 
 }  // namespace repose::vision

@@ -3,7 +3,8 @@
 namespace repose::vision {
 
 std::string fault_of(const FilmGrains& film) {
-  const std::string fault = fault_of_shot(film.survey, farthest_shift_px(film));
+  std::string fault = fault_of_shot(film.survey, farthest_shift_px(film));
+  if (fault.empty()) fault = fault_of_fields(film.survey);
   if (!fault.empty()) return fault;
   if (film.paths.empty()) {
     return "nothing moves before a scene at rest. Fix: film from the side, with a backdrop of "

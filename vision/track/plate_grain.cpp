@@ -30,8 +30,7 @@ struct Followed {
 };
 
 /// The strip as it is before anything can have slid: the median of frames up to a few degrees.
-cv::Mat first_strip(const std::filesystem::path& file, const PlateMotion& motion,
-                    const PlateStrip& strip) {
+cv::Mat first_strip(const FilmFile& file, const PlateMotion& motion, const PlateStrip& strip) {
   constexpr double kBefore_rad = 4 * kDegree;
   constexpr std::size_t kMost = 25;
   std::vector<std::size_t> numbers;
@@ -136,7 +135,7 @@ double OnPlateTrack::slid_px() const {
   return most;
 }
 
-PlateGrains grains_on_plate(const std::filesystem::path& file, const FilmSurvey& survey,
+PlateGrains grains_on_plate(const FilmFile& file, const FilmSurvey& survey,
                             const PlateMotion& motion, const FilmProgress& progress) {
   const cv::Size size = survey.size / motion.reduction;
   PlateGrains grains{.strip = strip_above(motion, size)};

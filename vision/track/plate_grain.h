@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/film/film_file.h"
 #include "vision/film/film_survey.h"
 #include "vision/track/plate_strip.h"
 
@@ -49,7 +50,7 @@ struct PlateGrains {
 
 /// All that stands on the plate when the film begins, followed along it. Looks through the film
 /// twice, the first time at some frames only.
-PlateGrains grains_on_plate(const std::filesystem::path& file, const FilmSurvey& survey,
+PlateGrains grains_on_plate(const FilmFile& file, const FilmSurvey& survey,
                             const PlateMotion& motion, const FilmProgress& progress);
 
 }  // namespace repose::vision

@@ -183,8 +183,8 @@ std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
 
 }  // namespace
 
-std::optional<PlateMotion> plate_in_film(const std::filesystem::path& file,
-                                         const FilmSurvey& survey, const FilmProgress& progress) {
+std::optional<PlateMotion> plate_in_film(const FilmFile& file, const FilmSurvey& survey,
+                                         const FilmProgress& progress) {
   const int reduction = reduction_for(survey.size);
   const cv::Mat moves = moves_in(survey.samples, reduction);
   FilmReader film(file);

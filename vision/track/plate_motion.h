@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "vision/film/film_file.h"
 #include "vision/film/film_survey.h"
 #include "vision/track/plate_edge.h"
 
@@ -41,7 +42,7 @@ struct PlateMotion {
 
 /// Follows all long level edges that move, from frame to frame, and takes the one that turns, the
 /// uppermost of parallel ones; none where none turns by more than a fraction of a degree.
-std::optional<PlateMotion> plate_in_film(const std::filesystem::path& file,
-                                         const FilmSurvey& survey, const FilmProgress& progress);
+std::optional<PlateMotion> plate_in_film(const FilmFile& file, const FilmSurvey& survey,
+                                         const FilmProgress& progress);
 
 }  // namespace repose::vision

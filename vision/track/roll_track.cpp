@@ -274,7 +274,7 @@ void warn_of_roll(const Roll& roll, RollTrack& track) {
 
 }  // namespace
 
-RollTrack track_roll(const std::filesystem::path& file, const TrackOptions& options) {
+RollTrack track_roll(const FilmFile& file, const TrackOptions& options) {
   const FilmGrains film = grains_in_film(file, options.progress);
   RollTrack track{.film = facts_of(film.survey)};
   const std::optional<Roll> roll = roll_in(film);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/film/film_file.h"
 #include "vision/track/track.h"
 
 namespace repose::vision {
@@ -38,6 +39,6 @@ struct RollTrack {
 /// half the grain's width below them.
 /// @param options  with a scale or with released_mm, which the millimetres come from
 /// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
-RollTrack track_roll(const std::filesystem::path& file, const TrackOptions& options);
+RollTrack track_roll(const FilmFile& file, const TrackOptions& options);
 
 }  // namespace repose::vision

@@ -37,8 +37,7 @@ void show(const cv::Mat& frame, const cv::Mat& scene, const Blob& blob, cv::Mat&
 
 }  // namespace
 
-Picture strobe_picture(const std::filesystem::path& file, const cv::Mat& scene,
-                       const GrainPath& path) {
+Picture strobe_picture(const FilmFile& file, const cv::Mat& scene, const GrainPath& path) {
   Picture picture = blank_picture(scene.cols, scene.rows);
   cv::Mat strobe = mat_of(picture);
   scene.copyTo(strobe);

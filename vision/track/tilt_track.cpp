@@ -150,7 +150,7 @@ std::string read_slide(const PlateMotion& motion, const PlateGrains& grains,
 }
 
 /// The frame of the onset, or the last one before a slide that was not found.
-Picture frame_at(const std::filesystem::path& file, double time_s) {
+Picture frame_at(const FilmFile& file, double time_s) {
   FilmReader film(file);
   FilmFrame frame;
   if (!film.next(frame)) return {};
@@ -161,8 +161,8 @@ Picture frame_at(const std::filesystem::path& file, double time_s) {
   return picture;
 }
 
-std::string read(const std::filesystem::path& file, FilmSurvey& survey,
-                 const FilmProgress& progress, TiltTrack& track) {
+std::string read(const FilmFile& file, FilmSurvey& survey, const FilmProgress& progress,
+                 TiltTrack& track) {
   const auto part = [&](double from, double length) -> FilmProgress {
     return [=, &progress](double done) {
       if (progress) progress(from + length * done);
@@ -172,6 +172,7 @@ std::string read(const std::filesystem::path& file, FilmSurvey& survey,
   survey = survey_film(file, part(0, kSurveyed));
   track.film = facts_of(survey);
   std::string fault = fault_of_shot(survey, 0);
+  if (fault.empty()) fault = fault_of_fields(survey);
   if (!fault.empty()) return fault;
   const auto motion = plate_in_film(file, survey, part(kSurveyed, kPlate));
   survey.samples.clear();
@@ -187,7 +188,7 @@ std::string read(const std::filesystem::path& file, FilmSurvey& survey,
 
 }  // namespace
 
-TiltTrack track_tilt(const std::filesystem::path& file, const TrackOptions& options) {
+TiltTrack track_tilt(const FilmFile& file, const TrackOptions& options) {
   TiltTrack track;
   FilmSurvey survey;
   track.reason = read(file, survey, options.progress, track);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/film/film_file.h"
 #include "vision/picture/picture.h"
 #include "vision/track/track.h"
 
@@ -43,6 +44,6 @@ struct TiltTrack {
 
 /// Follows the plate's upper edge and what stands on it, and traces the slide back to its onset.
 /// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
-TiltTrack track_tilt(const std::filesystem::path& file, const TrackOptions& options = {});
+TiltTrack track_tilt(const FilmFile& file, const TrackOptions& options = {});
 
 }  // namespace repose::vision
