@@ -1,6 +1,8 @@
 #include "cli/commands.h"
 
+#include "cli/board/board_command.h"
 #include "cli/calibrate/calibrate_command.h"
+#include "cli/camera/camera_command.h"
 #include "cli/compare/compare_command.h"
 #include "cli/export/export_command.h"
 #include "cli/help/help_commands.h"
@@ -18,11 +20,12 @@
 namespace repose::cli {
 
 std::vector<Command> all_commands() {
-  std::vector<Command> commands = {measure_command(), compare_command(),  track_command(),
-                                   shape_command(),   simulate_command(), render_command(),
-                                   new_command(),     plan_command(),     calibrate_command(),
-                                   report_command(),  export_command(),   bench_command(),
-                                   design_command(),  regress_command(),  verify_command()};
+  std::vector<Command> commands = {measure_command(),  board_command(),     camera_command(),
+                                   compare_command(),  track_command(),     shape_command(),
+                                   simulate_command(), render_command(),    new_command(),
+                                   plan_command(),     calibrate_command(), report_command(),
+                                   export_command(),   bench_command(),     design_command(),
+                                   regress_command(),  verify_command()};
   const std::vector<Command> of_help = help_commands(commands);
   commands.insert(commands.end(), of_help.begin(), of_help.end());
   return commands;

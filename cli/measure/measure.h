@@ -19,6 +19,11 @@ struct MeasureArguments {
   std::vector<std::string> drop;
   std::string mask_file;
   std::string pitch_deg;
+  std::string camera_file;
+  bool finds_board = false;
+  std::string square_mm;
+  std::string board_behind_mm;
+  std::string scale;
   std::string every;
   std::string fps;
   std::string threads;

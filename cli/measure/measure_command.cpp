@@ -41,6 +41,13 @@ picture's top left corner. --save-hints saves them, with --exclude and
 --pitch-deg, in PICTURE.repose.toml, which is read whenever PICTURE is measured
 again. For a refused picture, hints are tried and the best one is suggested.
 
+Sizes: with a board (repose board) upright beside the heap and in the plane of
+its middle, or with --scale of two points in that plane, heights and widths are
+also in millimetres, with the volume of the cone. A camera file (repose camera)
+corrects the lens's distortion before the picture is measured; with it the board
+also gives the camera's pitch. Hints are in the pixels of the picture as it is,
+overlays show the corrected one.
+
 Uncertainties are half-widths of 95 % intervals. The mean of several pictures
 includes all that could be measured. A flagged picture counts, but has a warning
 to check; a refused one has a reason instead of an angle.
@@ -50,35 +57,40 @@ to check; a refused one has a reason instead of an angle.
 
 Command measure_command() {
   const auto given = std::make_shared<MeasureArguments>();
-  return {
-      .name = "measure",
-      .summary = "Measure heaps in pictures and films",
-      .options = {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
-                   &given->pictures, true},
-                  {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
-                  {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
-                  {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
-                  {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
-                  {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
-                  {"--keep", "X,Y", "Point on the heap; repeatable", &given->keep},
-                  {"--drop", "X,Y", "Point off the heap; repeatable", &given->drop},
-                  {"--mask", "FILE", "Picture with the heap light, rest dark", &given->mask_file},
-                  {"--save-hints", "", "Save these hints beside each picture", &given->saves_hints},
-                  {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)",
-                   &given->pitch_deg},
-                  {"--overlay", "FOLDER", "Folder for pictures with the measurement",
-                   &given->overlay_folder},
-                  {"--json", "FILE|-", "Full results, for programs", &given->json_file},
-                  {"--csv", "FILE|-", "One row per picture or frame", &given->csv_file},
-                  {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
-                  {"--report", "FILE.html", "Report as a web page", &given->report_file},
-                  {"--fps", "N", "Folders are films, their pictures the frames", &given->fps},
-                  {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
-                  {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
-                  {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
-      .notes = kNotes,
-      .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
-      .run = [given] { return run_measure(*given); }};
+  return {.name = "measure",
+          .summary = "Measure heaps in pictures and films",
+          .options =
+              {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
+                &given->pictures, true},
+               {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
+               {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
+               {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
+               {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
+               {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
+               {"--keep", "X,Y", "Point on the heap; repeatable", &given->keep},
+               {"--drop", "X,Y", "Point off the heap; repeatable", &given->drop},
+               {"--mask", "FILE", "Picture with the heap light, rest dark", &given->mask_file},
+               {"--save-hints", "", "Save these hints beside each picture", &given->saves_hints},
+               {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)", &given->pitch_deg},
+               {"--camera-file", "FILE.toml", "Camera whose lens distortion to correct",
+                &given->camera_file},
+               {"--board", "", "Find the board of repose board: sizes in mm", &given->finds_board},
+               {"--square-mm", "MM", "Side of a printed square (24)", &given->square_mm},
+               {"--board-behind", "MM", "How far behind the heap's middle it is (0)",
+                &given->board_behind_mm},
+               {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale},
+               {"--overlay", "FOLDER", "Folder for pictures with the measurement",
+                &given->overlay_folder},
+               {"--json", "FILE|-", "Full results, for programs", &given->json_file},
+               {"--csv", "FILE|-", "One row per picture or frame", &given->csv_file},
+               {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
+               {"--report", "FILE.html", "Report as a web page", &given->report_file},
+               {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
+               {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
+               {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
+          .notes = kNotes,
+          .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
+          .run = [given] { return run_measure(*given); }};
 }
 
 }  // namespace repose::cli

@@ -19,7 +19,11 @@ constexpr const char* kHeader =
     "right_status,right_deg,right_uncertainty_deg,right_r2,right_points,"
     "ground_tilt_deg,window_from,window_to,method,segmentation,confidence,"
     "strays,grain_px,height_px,base_px,hints,warnings,reason,"
-    "time_s,film_from_s,film_to_s,film_frames,frames_per_s\n";
+    "time_s,film_from_s,film_to_s,film_frames,frames_per_s,"
+    "camera,scale,mm_per_px,mm_per_px_uncertainty,height_mm,height_mm_uncertainty,"
+    "base_mm,base_mm_uncertainty,cone_volume_ml,cone_volume_ml_uncertainty,"
+    "left_run_out_mm,left_run_out_mm_uncertainty,right_run_out_mm,right_run_out_mm_uncertainty,"
+    "size_reason\n";
 
 /// One row, field by field.
 class Row {
@@ -68,6 +72,20 @@ void add_film(Row& row, const std::optional<FilmedPicture>& filmed) {
   row.add_number(filmed->film.frames_per_s);
 }
 
+/// Empty where there is no scale.
+void add_sizes(Row& row, const MeasuredPicture& picture) {
+  const vision::HeapSizes& sizes = picture.sizes;
+  row.add_text(picture.camera_file);
+  row.add_text(!picture.has_scale ? "" : picture.board ? "board" : "given");
+  for (const auto* estimate :
+       {&sizes.mm_per_px, &sizes.height_mm, &sizes.base_mm, &sizes.cone_volume_ml,
+        &sizes.left_run_out_mm, &sizes.right_run_out_mm}) {
+    row.add_number(*estimate ? std::optional((*estimate)->value) : std::nullopt);
+    row.add_number(*estimate ? std::optional((*estimate)->uncertainty) : std::nullopt);
+  }
+  row.add_text(sizes.reason);
+}
+
 std::string measured_line(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Row row;
@@ -91,6 +109,7 @@ std::string measured_line(const MeasuredPicture& picture) {
   row.add_text(warning_codes(angle.warnings));
   row.add_text(angle.reason);
   add_film(row, picture.filmed);
+  add_sizes(row, picture);
   return row.line();
 }
 
@@ -103,6 +122,7 @@ std::string unread_line(const MeasuredPicture& picture) {
   for (int field = 0; field < kUnknownFields; ++field) row.add_text("");
   row.add_text(picture.error);
   add_film(row, picture.filmed);
+  add_sizes(row, picture);
   return row.line();
 }
 

@@ -34,17 +34,24 @@ std::string title_of(const fs::path& file, const MeasuredPicture& measured) {
   return fmt::format("{} at rest from {:.2f} to {:.2f} s", name, stretch->from_s, stretch->to_s);
 }
 
-vision::OverlayNotes notes_for(const fs::path& file, const MeasuredPicture& measured) {
+/// What was measured: a picture, corrected where its lens is known, and what was said of it there.
+struct Seen {
+  const vision::Picture& picture;
+  const vision::MeasureOptions& options;
+};
+
+vision::OverlayNotes notes_for(const fs::path& file, const MeasuredPicture& measured,
+                               const Seen& seen) {
   return {.title = title_of(file, measured),
-          .excluded = measured.used.excluded,
-          .hints = measured.used.hints};
+          .excluded = seen.options.excluded,
+          .hints = seen.options.hints};
 }
 
-void draw(const vision::Picture& picture, const fs::path& file, const fs::path& overlay,
+void draw(const Seen& seen, const fs::path& file, const fs::path& overlay,
           MeasuredPicture& measured) {
   try {
-    vision::write_picture(overlay,
-                          vision::draw_overlay(picture, measured.angle, notes_for(file, measured)));
+    vision::write_picture(overlay, vision::draw_overlay(seen.picture, measured.angle,
+                                                        notes_for(file, measured, seen)));
   } catch (const std::invalid_argument& error) {
     measured.overlay_error = error.what();
   }
@@ -57,6 +64,7 @@ const std::vector<OptionName> kNames = [] {
   names.push_back({.value = "ground points", .option = "--ground"});
   names.push_back({.value = "place to keep", .option = "--keep"});
   names.push_back({.value = "place to drop", .option = "--drop"});
+  names.push_back({.value = "camera file", .option = "--camera-file"});
   return names;
 }();
 
@@ -87,22 +95,35 @@ void drop_large_parts(MeasuredPicture& measured) {
   measured.angle.right.edge = {};
 }
 
+/// A proposal for the corrected picture, in the pixels of the picture as it is.
+void move_back(const vision::Lens& lens, vision::Proposal& proposal) {
+  for (auto* box : {&proposal.excluded, &proposal.heap}) {
+    if (*box) *box = vision::seen_box(**box, lens);
+  }
+  if (!proposal.ground) return;
+  proposal.ground =
+      vision::Segment{lens.seen(proposal.ground->from), lens.seen(proposal.ground->to)};
+}
+
 /// All that follows from the angle of a picture, or of a film's heap at rest.
-void finish(const MeasurePlan& plan, std::size_t index, const vision::Picture& picture,
+void finish(const MeasurePlan& plan, std::size_t index, const Seen& seen,
             MeasuredPicture& measured) {
+  const vision::Picture& picture = seen.picture;
   const fs::path& file = plan.pictures[index];
   const bool shows_heap = !measured.filmed || measured.filmed->stretch;
   if (measured.angle.status == vision::MeasureStatus::refused && shows_heap) {
-    measured.proposal = vision::propose_hint(picture, measured.used);
+    measured.proposal = vision::propose_hint(picture, seen.options);
+    if (measured.proposal && measured.lens) move_back(*measured.lens, *measured.proposal);
   }
   name_options(measured.angle, kNames);
+  measured.sizes.reason = naming_options(std::move(measured.sizes.reason), kNames);
   if (plan.saves_hints) vision::save_hints(measured.used, file);
   if (!plan.overlays.empty() && !picture.empty()) {
-    draw(picture, file, plan.overlays[index], measured);
+    draw(seen, file, plan.overlays[index], measured);
   }
   if (plan.keeps_overlays && !picture.empty()) {
     measured.overlay = calibrate::report::overlay_for_page(
-        picture, measured.angle, notes_for(file, measured), plan.pictures.size());
+        picture, measured.angle, notes_for(file, measured, seen), plan.pictures.size());
   }
 }
 
@@ -124,6 +145,14 @@ fs::path overlay_of_frame(const MeasurePlan& plan, std::size_t index, double tim
   return file;
 }
 
+/// Of a film's picture: by a scale alone.
+void add_sizes(const MeasurePlan& plan, const vision::Picture& picture, MeasuredPicture& measured) {
+  if (!plan.scale.scale) return;
+  measured.has_scale = true;
+  measured.sizes = vision::sizes_of_measured(measured.angle, measured.used, picture.width,
+                                             picture.height, *plan.scale.scale);
+}
+
 /// A frame on its way through the pipeline.
 struct Frame {
   std::size_t place = 0;
@@ -140,10 +169,11 @@ MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
   attempt(measured, [&] {
     measured.used = rest.used;
     measured.angle = vision::measure_repose_angle(timed.picture, measured.used);
+    add_sizes(plan, timed.picture, measured);
     name_options(measured.angle, kNames);
     if (!plan.overlays.empty()) {
       const double length_s = rest.filmed->film.length_s;
-      draw(timed.picture, plan.pictures[index],
+      draw({timed.picture, measured.used}, plan.pictures[index],
            overlay_of_frame(plan, index, timed.time_s, length_s), measured);
     }
   });
@@ -202,7 +232,8 @@ std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size
     if (plan.every_s) check_step(*plan.every_s, film);
     rest.angle = std::move(film.angle);
     rest.filmed = FilmedPicture{.film = film.film, .stretch = film.stretch, .time_s = {}};
-    finish(plan, index, film.picture, rest);
+    add_sizes(plan, film.picture, rest);
+    finish(plan, index, {film.picture, rest.used}, rest);
     if (!plan.every_s) return;
     vision::FrameSeries series(frames, film.times_s, *plan.every_s);
     measure_series(
@@ -220,8 +251,16 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
   attempt(measured.front(), [&] {
     const vision::Picture picture = vision::read_picture(file);
     measured.front().used = vision::with_saved_hints(plan.options, file);
-    measured.front().angle = vision::measure_repose_angle(picture, measured.front().used);
-    finish(plan, index, picture, measured.front());
+    vision::SizedHeap heap = vision::measure_sized_heap(picture, measured.front().used, plan.scale);
+    MeasuredPicture& one = measured.front();
+    one.angle = std::move(heap.angle);
+    one.lens = heap.lens;
+    if (heap.lens) one.camera_file = plan.camera_file;
+    one.board = std::move(heap.board);
+    one.has_scale = heap.has_scale;
+    one.sizes = std::move(heap.sizes);
+    const vision::Picture& seen = heap.corrected.empty() ? picture : heap.corrected;
+    finish(plan, index, {seen, heap.options}, one);
   });
   drop_large_parts(measured.front());
   return measured;

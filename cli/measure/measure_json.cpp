@@ -1,6 +1,7 @@
 #include "cli/measure/measure_json.h"
 
 #include <optional>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,13 @@ Json number(const std::optional<double>& value) { return value ? Json(*value) : 
 
 Json degrees(const std::optional<double>& angle_rad) {
   return angle_rad ? Json(rounded_degrees(*angle_rad)) : Json(nullptr);
+}
+
+/// A length and its half-width, null where there is none.
+void add_estimate(Json& json, const std::string& key,
+                  const std::optional<vision::Estimate>& estimate) {
+  json[key] = estimate ? Json(estimate->value) : Json();
+  json[key + "_uncertainty"] = estimate ? Json(estimate->uncertainty) : Json();
 }
 
 Json flank_json(const vision::Flank& flank) {
@@ -101,6 +109,54 @@ Json proposal_json(const std::optional<vision::Proposal>& proposal) {
           {"uncertainty_deg", degrees(proposal->uncertainty_rad)}};
 }
 
+Json lens_json(const MeasuredPicture& picture) {
+  if (!picture.lens) return nullptr;
+  const vision::Lens& lens = *picture.lens;
+  return {{"file", picture.camera_file},
+          {"focal_px", lens.focal_px.value},
+          {"centre_px", {lens.centre_x_px.value, lens.centre_y_px.value}},
+          {"distortion",
+           {{"k1", lens.k1.value},
+            {"k2", lens.k2.value},
+            {"p1", lens.p1.value},
+            {"p2", lens.p2.value},
+            {"k3", lens.k3.value}}}};
+}
+
+void add_degrees(Json& json, const std::string& name,
+                 const std::optional<vision::Estimate>& estimate_rad) {
+  json[name + "_deg"] = estimate_rad ? Json(rounded_degrees(estimate_rad->value)) : Json();
+  json[name + "_uncertainty_deg"] =
+      estimate_rad ? Json(rounded_degrees(estimate_rad->uncertainty)) : Json();
+}
+
+Json board_json(const std::optional<vision::SeenBoard>& board) {
+  if (!board) return nullptr;
+  Json json{{"corners", board->corners},
+            {"error_px", board->error_px},
+            {"outline", places_json(board->outline)}};
+  add_degrees(json, "pitch", board->pitch_rad);
+  add_degrees(json, "roll", board->roll_rad);
+  add_estimate(json, "distance_mm", board->distance_mm);
+  json["missing"] = board->missing.empty() ? Json() : Json(board->missing);
+  return json;
+}
+
+/// Lens, board, and what they make of the heap.
+void add_sizes(const MeasuredPicture& picture, Json& json) {
+  const vision::HeapSizes& sizes = picture.sizes;
+  json["camera"] = lens_json(picture);
+  json["board"] = board_json(picture.board);
+  json["scale"] = !picture.has_scale ? Json() : Json(picture.board ? "board" : "given");
+  add_estimate(json, "mm_per_px", sizes.mm_per_px);
+  add_estimate(json, "height_mm", sizes.height_mm);
+  add_estimate(json, "base_mm", sizes.base_mm);
+  add_estimate(json, "cone_volume_ml", sizes.cone_volume_ml);
+  add_estimate(json["left"], "run_out_mm", sizes.left_run_out_mm);
+  add_estimate(json["right"], "run_out_mm", sizes.right_run_out_mm);
+  json["size_reason"] = sizes.reason.empty() ? Json() : Json(sizes.reason);
+}
+
 /// What part of a film it is; all null of a picture.
 void add_film(const std::optional<FilmedPicture>& filmed, Json& json) {
   json["film"] = filmed ? film_json(filmed->film) : Json();
@@ -136,6 +192,7 @@ Json picture_json(const MeasuredPicture& picture) {
             {"height_px", number(angle.height_px)},
             {"base_px", number(angle.base_px)},
             {"definitions", definitions_json(angle.definitions)}};
+  add_sizes(picture, json);
   add_film(picture.filmed, json);
   if (picture.outcome != Outcome::measured) {
     json["reason"] = picture.error;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/measure/measure.h"
+#include "vision/camera/sized_heap.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
@@ -17,7 +18,9 @@ struct MeasurePlan {
   bool keeps_overlays = false;                  ///< in memory, for a report
   vision::MeasureOptions options;
   std::optional<double> frames_per_s;  ///< of folders, each a film's frames
-  std::optional<double> every_s;       ///< also frames of each film, so far apart
+  vision::ScaleOptions scale;
+  std::string camera_file;        ///< that the lens was read from
+  std::optional<double> every_s;  ///< also frames of each film, so far apart
   bool saves_hints = false;
   int threads = 1;
 

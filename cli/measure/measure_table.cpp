@@ -95,6 +95,49 @@ void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& s
       colour_of(picture, style.has_colour));
 }
 
+/// "105.2 ± 3.1": as many digits as the uncertainty has.
+std::string size_text(const vision::Estimate& estimate) {
+  constexpr double kTwoDigits = 10;
+  int digits = 0;
+  for (double step = estimate.uncertainty; step > 0 && step < kTwoDigits && digits < 4;
+       step *= 10) {
+    ++digits;
+  }
+  return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, digits, estimate.uncertainty, digits);
+}
+
+/// Sizes in millimetres, in one line.
+std::string sizes_text(const MeasuredPicture& picture) {
+  const vision::HeapSizes& sizes = picture.sizes;
+  std::string text;
+  const auto add = [&](const char* name, const std::optional<vision::Estimate>& estimate,
+                       const char* unit) {
+    if (!estimate) return;
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", name, size_text(*estimate), unit);
+  };
+  add("height", sizes.height_mm, "mm");
+  add("base", sizes.base_mm, "mm");
+  add("cone's volume", sizes.cone_volume_ml, "ml");
+  add("run-out left", sizes.left_run_out_mm, "mm");
+  add("right", sizes.right_run_out_mm, "mm");
+  add("scale", sizes.mm_per_px, "mm per pixel");
+  return text;
+}
+
+std::string board_text(const vision::SeenBoard& board) {
+  if (!board.pitch_rad) return fmt::format("{} corners; {}", board.corners, board.missing);
+  return fmt::format("{} corners; the camera looks down by {:.1f} ± {:.1f}°", board.corners,
+                     to_degrees(board.pitch_rad->value), to_degrees(board.pitch_rad->uncertainty));
+}
+
+void add_sizes(Table& table, const MeasuredPicture& picture) {
+  if (picture.sizes.mm_per_px) table.add_note(kBelow, sizes_text(picture));
+  if (picture.board) table.add_note(fmt::format("{}board: ", kBelow), board_text(*picture.board));
+  if (picture.angle.status != vision::MeasureStatus::refused && !picture.sizes.reason.empty()) {
+    table.add_note(fmt::format("{}no sizes: ", kBelow), picture.sizes.reason);
+  }
+}
+
 void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
   if (is_of_series(picture)) return add_frame(table, picture, style);
   const vision::ReposeAngle& angle = picture.angle;
@@ -118,6 +161,7 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
                      proposal_text(picture.file, *picture.proposal));
     }
   }
+  add_sizes(table, picture);
   for (const vision::Warning& warning : angle.warnings) {
     table.add_note(fmt::format("{}! ", kBelow), warning.message);
   }

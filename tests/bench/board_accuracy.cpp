@@ -124,9 +124,10 @@ void measure_lenses(int count, int pictures, std::uint64_t first) {
   print("centre, y [px]", y);
   print("k1 [% at the picture's side]", k1);
   if (shifts.empty()) return;
-  fmt::print("correction in the picture: worst place {:.2f} px in the median, {:.2f} px at most; "
-             "reprojection {:.3f} px\n",
-             median(shifts), *std::max_element(shifts.begin(), shifts.end()), median(errors));
+  fmt::print(
+      "correction in the picture: worst place {:.2f} px in the median, {:.2f} px at most; "
+      "reprojection {:.3f} px\n",
+      median(shifts), *std::max_element(shifts.begin(), shifts.end()), median(errors));
 }
 
 /// The lens as its fit would give it: known to half a percent.
@@ -159,11 +160,7 @@ vision::SizedHeap measured(const HeapWithBoard& heap, const Way& way) {
   if (way.has_lens) scale.lens = lens_of(heap.camera);
   if (!way.has_bar) return vision::measure_sized_heap(heap.picture, {}, scale);
   scale.finds_board = false;
-  constexpr double kHalfLength_px = 150;
-  const vision::Point crest{heap.crest_px.x, heap.crest_px.y};
-  scale.scale = vision::ScaleBar{.line = {{crest.x - kHalfLength_px, crest.y},
-                                          {crest.x + kHalfLength_px, crest.y}},
-                                 .length_mm = 2 * kHalfLength_px * heap.mm_per_px};
+  scale.scale = heap.bar;
   const vision::MeasureOptions options{.excluded = {heap.board_box},
                                        .camera_pitch_rad = heap.pitch_rad};
   return vision::measure_sized_heap(heap.picture, options, scale);

@@ -74,6 +74,66 @@ void set_sizes(const render::Scene& scene, HeapWithBoard& heap) {
   heap.angle_rad = std::atan2(heap.height_mm, heap.base_mm / 2);
 }
 
+/// Puts a camera with a lens before the heap, which stands beside the picture's middle.
+render::PerspectiveCamera camera_before(const render::Scene& scene, double radius_m, double side,
+                                        HeapWithBoard& heap, Random& random) {
+  const double distance_m = radius_m * random.uniform(6, 11);
+  heap.pitch_rad = radians(random.uniform(0, 8));
+  heap.roll_rad = radians(random.uniform(-2, 2));
+  // The heap takes a third to a half of the picture.
+  const double width_m = 2 * radius_m / random.uniform(.38, .5);
+  render::PerspectiveCamera camera =
+      render::camera_on({.distance_m = distance_m,
+                         .pitch_rad = heap.pitch_rad,
+                         .focal_mm = kFilm_mm * distance_m / width_m},
+                        scene, kSize);
+  camera.roll_rad = heap.roll_rad;
+  camera.position_m.x() += side * .2 * width_m;
+  const double picture_side = .5 * kFilm_mm / camera.focal_mm;
+  camera.k1 = random.uniform(-.05, .03) / (picture_side * picture_side);
+  // A sheet that is a quarter of the picture wide.
+  heap.square_mm = std::round(.25 * width_m * kMm_per_m / 12.3);
+  heap.camera = {.width = kSize.width,
+                 .height = kSize.height,
+                 .focal_px = camera.focal_mm / kFilm_mm * kSize.width,
+                 .centre_x_px = kSize.width / 2.0,
+                 .centre_y_px = kSize.height / 2.0,
+                 .k1 = camera.k1};
+  return camera;
+}
+
+/// What the camera sees of the heap, exactly.
+void set_views(const Eigen::Matrix3d& view, const Vector3d& eye_mm, HeapWithBoard& heap) {
+  heap.mm_per_px = (view * -eye_mm).z() / heap.camera.focal_px;
+  const auto seen = [&](double aside_mm) {
+    return heap.camera.seen(view * (Vector3d(aside_mm, 0, heap.height_mm) - eye_mm));
+  };
+  const double half_mm = heap.base_mm / 3;
+  heap.bar = {.line = {seen(-half_mm), seen(half_mm)}, .length_mm = 2 * half_mm};
+}
+
+/// Where people put the board: upright, in the plane of the heap's middle, with its foot on the
+/// ground, all within what they see.
+testing::BoardPlace board_beside(const Eigen::Matrix3d& view, const Vector3d& eye_mm,
+                                 double beside_mm, const HeapWithBoard& heap, Random& random) {
+  const double printed_mm = heap.square_mm * random.normal(1, .0025);
+  const double really_behind_mm = heap.behind_mm + random.normal(0, 5);
+  // Board and heap stand in a plane that does not quite face the camera, nor the board it.
+  const double plane_rad = heap.behind_mm > 0 ? 0 : radians(random.uniform(-8, 8));
+  const auto upright = testing::placed_board(
+      Vector3d::Zero(), plane_rad + radians(random.normal(0, 1.5)), radians(random.normal(0, .5)),
+      radians(random.normal(0, .3)), printed_mm);
+  // From the directions of a level camera to the world's, and from there to the camera's.
+  Eigen::Matrix3d world_from_level;
+  world_from_level << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const Vector3d middle_mm(beside_mm * std::cos(plane_rad),
+                           really_behind_mm - beside_mm * std::sin(plane_rad), 4.8 * printed_mm);
+  testing::BoardPlace place = upright;
+  place.rotation = view * world_from_level * upright.rotation;
+  place.origin_mm = view * (middle_mm - eye_mm + world_from_level * upright.origin_mm);
+  return place;
+}
+
 }  // namespace
 
 BoardCamera any_camera(std::uint64_t seed) {
@@ -106,9 +166,8 @@ std::vector<vision::BoardPicture> board_pictures(const BoardCamera& camera, int 
     const auto place = testing::placed_board(
         distance_mm * camera.direction(middle), radians(random.uniform(-38, 38)),
         radians(random.uniform(-38, 38)), radians(random.uniform(-12, 12)));
-    const testing::BoardLook look{.blur_px = random.uniform(.5, 1.1),
-                                  .noise = random.uniform(1, 5),
-                                  .seed = random.seed()};
+    const testing::BoardLook look{
+        .blur_px = random.uniform(.5, 1.1), .noise = random.uniform(1, 5), .seed = random.seed()};
     pictures.push_back({.file = "picture",
                         .width = camera.width,
                         .height = camera.height,
@@ -119,71 +178,30 @@ std::vector<vision::BoardPicture> board_pictures(const BoardCamera& camera, int 
 
 HeapWithBoard heap_with_board(std::uint64_t seed, bool stands_behind) {
   Random random(seed * 0x9E3779B97F4A7C15 ^ testing::hash_of("heap and board"));
-  GrainCone cone{.angle_rad = radians(random.uniform(20, 33)),
-                 .grains_high = random.uniform(14, 22),
-                 .crest = random.uniform(.05, .2),
-                 .lopsided = random.uniform(0, .02),
-                 .seed = random.seed()};
-  render::Scene scene = scene_of(cone);
-  scene.walls.front() = testing::plate(8 * base_radius_m(cone));
+  const GrainCone cone{.angle_rad = radians(random.uniform(20, 33)),
+                       .grains_high = random.uniform(14, 22),
+                       .crest = random.uniform(.05, .2),
+                       .lopsided = random.uniform(0, .02),
+                       .seed = random.seed()};
   const double radius_m = base_radius_m(cone);
-  const double distance_m = radius_m * random.uniform(6, 11);
-  HeapWithBoard heap;
-  heap.pitch_rad = radians(random.uniform(0, 8));
-  heap.roll_rad = radians(random.uniform(-2, 2));
+  render::Scene scene = scene_of(cone);
+  scene.walls.front() = testing::plate(8 * radius_m);
   const double side = random.chance(.5) ? 1 : -1;
-  // The heap takes a third to a half of the picture, and stands beside its middle.
-  const double width_m = 2 * radius_m / random.uniform(.38, .5);
-  render::PerspectiveCamera camera = render::camera_on(
-      {.distance_m = distance_m,
-       .pitch_rad = heap.pitch_rad,
-       .focal_mm = kFilm_mm * distance_m / width_m},
-      scene, kSize);
-  camera.roll_rad = heap.roll_rad;
-  camera.position_m.x() += side * .2 * width_m;
-  const double picture_side = .5 * kFilm_mm / camera.focal_mm;
-  camera.k1 = random.uniform(-.05, .03) / (picture_side * picture_side);
+  HeapWithBoard heap;
+  const render::PerspectiveCamera camera = camera_before(scene, radius_m, side, heap, random);
   heap.picture = drawn(scene, camera, photo_style(random));
   set_sizes(scene, heap);
-
-  heap.camera = {.width = kSize.width,
-                 .height = kSize.height,
-                 .focal_px = camera.focal_mm / kFilm_mm * kSize.width,
-                 .centre_x_px = kSize.width / 2.0,
-                 .centre_y_px = kSize.height / 2.0,
-                 .k1 = camera.k1};
   const Eigen::Matrix3d view = testing::camera_from_world(heap.pitch_rad, heap.roll_rad);
-  const Vector3d axis = view * -camera.position_m * kMm_per_m;
-  heap.mm_per_px = axis.z() / heap.camera.focal_px;
-  heap.crest_px = heap.camera.seen(
-      view * (Vector3d(0, 0, heap.height_mm) - camera.position_m * kMm_per_m));
-
-  // A sheet that is a quarter of the picture wide, with its foot on the ground.
-  heap.square_mm = std::round(.25 * width_m * kMm_per_m / 12.3);
-  const double printed_mm = heap.square_mm * random.normal(1, .0025);
-  heap.behind_mm = stands_behind ? std::round(random.uniform(.3, 1) * radius_m * kMm_per_m) : 0;
-  const double really_behind_mm = heap.behind_mm + random.normal(0, 5);
-  // Board and heap stand in a plane that does not quite face the camera, nor the board it.
-  const double plane_rad = stands_behind ? 0 : radians(random.uniform(-8, 8));
-  const auto upright = testing::placed_board(Vector3d::Zero(),
-                                             plane_rad + radians(random.normal(0, 1.5)),
-                                             radians(random.normal(0, .5)),
-                                             radians(random.normal(0, .3)), printed_mm);
-  // From the camera's directions of a level view to the world's, and from there to the camera's.
-  Eigen::Matrix3d world_from_level;
-  world_from_level << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  const double beside_mm = side * (radius_m * kMm_per_m + 6.6 * printed_mm);
-  const Vector3d middle_mm(beside_mm * std::cos(plane_rad) ,
-                           really_behind_mm - beside_mm * std::sin(plane_rad), 4.8 * printed_mm);
-  testing::BoardPlace place = upright;
-  place.rotation = view * world_from_level * upright.rotation;
-  place.origin_mm = view * (middle_mm - camera.position_m * kMm_per_m +
-                            world_from_level * upright.origin_mm);
+  const Vector3d eye_mm = camera.position_m * kMm_per_m;
+  set_views(view, eye_mm, heap);
+  if (stands_behind) heap.behind_mm = std::round(random.uniform(.3, 1) * radius_m * kMm_per_m);
+  const double beside_mm = side * (radius_m * kMm_per_m + 6.6 * heap.square_mm);
+  const testing::BoardPlace place = board_beside(view, eye_mm, beside_mm, heap, random);
   heap.board_box = testing::sheet_box(heap.camera, place);
-  draw_board(heap.camera, place,
-             {.blur_px = random.uniform(.5, 1), .noise = random.uniform(1, 4),
-              .seed = random.seed()},
-             heap.picture);
+  draw_board(
+      heap.camera, place,
+      {.blur_px = random.uniform(.5, 1), .noise = random.uniform(1, 4), .seed = random.seed()},
+      heap.picture);
   return heap;
 }
 

@@ -6,6 +6,7 @@
 #include "tests/support/drawn_board.h"
 #include "vision/camera/lens.h"
 #include "vision/camera/lens_fit.h"
+#include "vision/measure/scale_bar.h"
 #include "vision/picture/picture.h"
 
 /// Made-up pictures of boards, and of boards beside heaps, of which all is known.
@@ -28,9 +29,9 @@ struct HeapWithBoard {
   double pitch_rad = 0;
   double roll_rad = 0;
   vision::Box board_box;  ///< around its sheet [px]
-  vision::Point crest_px;
-  double mm_per_px = 0;  ///< where the heap's axis meets the ground
-  double angle_rad = 0;  ///< of the outline as parallel rays see it, height over half the base
+  vision::ScaleBar bar;   ///< two points beside the crest
+  double mm_per_px = 0;   ///< where the heap's axis meets the ground
+  double angle_rad = 0;   ///< of the outline as parallel rays see it, height over half the base
   double height_mm = 0;
   double base_mm = 0;
 };

@@ -20,6 +20,7 @@ void read_restart(Bytes bytes);
 void read_result(Bytes bytes);
 void read_picture(Bytes bytes);
 void read_hints(Bytes bytes);
+void read_camera(Bytes bytes);
 void read_names(Bytes bytes);  ///< into the decks for other programs
 
 struct Reader {
@@ -27,7 +28,7 @@ struct Reader {
   void (*read)(Bytes bytes);
 };
 
-inline constexpr std::array<Reader, 10> kReaders = {{{"study", read_study},
+inline constexpr std::array<Reader, 11> kReaders = {{{"study", read_study},
                                                      {"table", read_table},
                                                      {"clump", read_clump},
                                                      {"scan", read_scan},
@@ -36,6 +37,7 @@ inline constexpr std::array<Reader, 10> kReaders = {{{"study", read_study},
                                                      {"result", read_result},
                                                      {"picture", read_picture},
                                                      {"hints", read_hints},
+                                                     {"camera", read_camera},
                                                      {"names", read_names}}};
 
 }  // namespace repose::fuzz

@@ -20,9 +20,8 @@ constexpr std::array<std::string_view, 6> kModules = {"base",   "vision",    "de
 
 /// Libraries that users of an installed header need not have.
 constexpr std::array<std::string_view, 12> kHiddenLibraries = {
-    "opencv2/",  "ceres/", "tbb/",          "assimp/", "toml++/",   "pugixml",
-    "nlohmann/", "GL/",    "meshoptimizer", "gif_lib", "ctemplate/",
-    "cairo"};
+    "opencv2/",  "ceres/", "tbb/",          "assimp/", "toml++/",    "pugixml",
+    "nlohmann/", "GL/",    "meshoptimizer", "gif_lib", "ctemplate/", "cairo"};
 
 struct Include {
   int line = 0;

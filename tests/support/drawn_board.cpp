@@ -26,7 +26,9 @@ class BoardPattern {
  public:
   BoardPattern() : cells_(vision::kBoardRows * kCells, vision::kBoardColumns * kCells, kWhite) {
     for (const vision::BoardPatch& patch : vision::board_patches()) {
-      const auto cell = [](double squares) { return static_cast<int>(std::lround(squares * kCells)); };
+      const auto cell = [](double squares) {
+        return static_cast<int>(std::lround(squares * kCells));
+      };
       cells_(cv::Rect(cell(patch.x), cell(patch.y), cell(patch.width), cell(patch.height))) = 0;
     }
   }
@@ -58,8 +60,8 @@ cv::Rect frame_of(const BoardCamera& camera, const BoardPlace& place) {
     for (int j = 0; j <= kSteps; ++j) {
       const double x = -kBeside + (vision::kBoardColumns + 2 * kBeside) * i / kSteps;
       const double y = -kAbove + (vision::kBoardRows + kAbove + kBelow) * j / kSteps;
-      const Point seen = camera.seen(place.origin_mm +
-                                     place.square_mm * place.rotation * Vector3d(x, y, 0));
+      const Point seen =
+          camera.seen(place.origin_mm + place.square_mm * place.rotation * Vector3d(x, y, 0));
       points.emplace_back(cvRound(seen.x), cvRound(seen.y));
     }
   }
@@ -155,8 +157,8 @@ void draw_board(const BoardCamera& camera, const BoardPlace& place, const BoardL
       const double noise = look.noise * random.normal(0, 1);
       for (int c = 0; c < 3; ++c) {
         auto& value = target.at<cv::Vec3b>(row, col)[c];
-        value = cv::saturate_cast<unsigned char>(colour(row, col) +
-                                                 (1 - cover(row, col)) * value + noise);
+        value = cv::saturate_cast<unsigned char>(colour(row, col) + (1 - cover(row, col)) * value +
+                                                 noise);
       }
     }
   }

@@ -34,12 +34,12 @@ struct Destroy {
 using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
 using Pen = std::unique_ptr<cairo_t, Destroy>;
 
-constexpr double kTop_mm = 10;      // above the board: printers leave some millimetres white
-constexpr double kRuler_mm = 100;   // long
-constexpr double kTick_mm = 10;     // apart
-constexpr double kBelow_mm = 8.5;   // from the board down to the ruler
+constexpr double kTop_mm = 10;     // above the board: printers leave some millimetres white
+constexpr double kRuler_mm = 100;  // long
+constexpr double kTick_mm = 10;    // apart
+constexpr double kBelow_mm = 8.5;  // from the board down to the ruler
 constexpr double kLetters_mm = 3.1;
-constexpr double kLine_mm = 4.6;    // from one line of text to the next
+constexpr double kLine_mm = 4.6;  // from one line of text to the next
 
 void draw_board(cairo_t* pen, const PageSize& page) {
   cairo_save(pen);
@@ -87,7 +87,8 @@ void draw_page(cairo_t* pen, const PageSize& page, const std::string& how_to_pri
       fmt::format("repose board: ChArUco, {} x {} squares of {:g} mm, markers of {:g} mm, {}. {}",
                   kBoardColumns, kBoardRows, kBoardSquare_mm, kMarkerPart * kBoardSquare_mm,
                   kBoardDictionary, how_to_print),
-      "Glue it to a flat plate. Stand it upright beside the heap, in the plane of the heap's middle, "
+      "Glue it to a flat plate. Stand it upright beside the heap, in the plane of the heap's "
+      "middle, "
       "facing the camera:",
       "repose measure PICTURE --board.  For the camera's lens: repose camera, with ten pictures of "
       "it from all sides.",
@@ -114,8 +115,8 @@ void require(cairo_status_t status) {
 std::string board_pdf(Paper paper) {
   const PageSize page = size_of(paper);
   std::string pdf;
-  const Surface surface(cairo_pdf_surface_create_for_stream(
-      append, &pdf, page.width_mm / kPoint_mm, page.height_mm / kPoint_mm));
+  const Surface surface(cairo_pdf_surface_create_for_stream(append, &pdf, page.width_mm / kPoint_mm,
+                                                            page.height_mm / kPoint_mm));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, "repose board");
   // Else the time at which it is written.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
@@ -151,8 +152,8 @@ Picture board_picture(Paper paper, double pixels_per_inch) {
   cv::Mat target = mat_of(picture);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      const unsigned char* pixel = pixels_of_page + static_cast<std::size_t>(y) * stride +
-                                   4 * static_cast<std::size_t>(x);
+      const unsigned char* pixel =
+          pixels_of_page + static_cast<std::size_t>(y) * stride + 4 * static_cast<std::size_t>(x);
       target.at<cv::Vec3b>(y, x) = {pixel[1], pixel[1], pixel[1]};
     }
   }

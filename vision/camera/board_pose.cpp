@@ -116,7 +116,8 @@ Minimum minimum_from(const BoardPose::Numbers& start, const std::vector<SeenCorn
   BoardPose::Covariance information = BoardPose::Covariance::Zero();
   for (int row = 0; row < rows.num_rows; ++row) {
     BoardPose::Numbers gradient = BoardPose::Numbers::Zero();
-    for (int i = rows.rows[row]; i < rows.rows[row + 1]; ++i) gradient[rows.cols[i]] = rows.values[i];
+    for (int i = rows.rows[row]; i < rows.rows[row + 1]; ++i)
+      gradient[rows.cols[i]] = rows.values[i];
     information += gradient * gradient.transpose();
   }
   minimum.covariance = information.ldlt().solve(BoardPose::Covariance::Identity());
@@ -165,9 +166,8 @@ double error_of(const BoardPose::Numbers& numbers, const std::vector<SeenCorner>
 
 /// The best of the minima; what a rival that fits nearly as well says is part of the covariance.
 Minimum best_of(const std::vector<Minimum>& minima) {
-  const auto best = std::min_element(minima.begin(), minima.end(), [](const auto& a, const auto& b) {
-    return a.cost < b.cost;
-  });
+  const auto best = std::min_element(minima.begin(), minima.end(),
+                                     [](const auto& a, const auto& b) { return a.cost < b.cost; });
   Minimum result = *best;
   for (const Minimum& other : minima) {
     constexpr double kTellsApart = 4.5;  // three standard deviations

@@ -48,7 +48,8 @@ double HeapView::roll_rad() const {
 HeapView view_by_board(const BoardPose::Numbers& pose, const BoardStand& stand) {
   const Eigen::Matrix3d rotation = rotation_of(pose);
   const BoardSides sides = sides_of(rotation);
-  HeapView view{.focal_px = std::exp(pose[6]), .centre = {pose[7], pose[8]}, .up = {}, .normal = {}};
+  HeapView view{
+      .focal_px = std::exp(pose[6]), .centre = {pose[7], pose[8]}, .up = {}, .normal = {}};
   const Eigen::Vector3d away = rotation.col(2);
   view.up = Eigen::AngleAxisd(stand.lean_rad, sides.right) *
             (Eigen::AngleAxisd(-stand.tilt_rad, away) * sides.up);

@@ -15,10 +15,10 @@ namespace repose::vision {
 /// them: x right, y down, z along the lens's axis. Lengths in millimetres.
 struct HeapView {
   double focal_px = 0;
-  Point centre;             ///< where the axis meets the picture [px]
-  Eigen::Vector3d up;       ///< away from the ground
-  Eigen::Vector3d normal;   ///< of the plane, away from the camera, level
-  double distance_mm = 0;   ///< of the plane from the lens, along its normal
+  Point centre;            ///< where the axis meets the picture [px]
+  Eigen::Vector3d up;      ///< away from the ground
+  Eigen::Vector3d normal;  ///< of the plane, away from the camera, level
+  double distance_mm = 0;  ///< of the plane from the lens, along its normal
 
   /// Direction in which a point of the picture is seen, 1 along the axis.
   Eigen::Vector3d direction(Point place) const;

@@ -125,9 +125,11 @@ std::string lens_file_text(const Lens& lens, const std::string& origin) {
     const auto& [value, uncertainty] = lens.*number.number;
     if (!number.is_needed && value == 0 && uncertainty == 0) continue;
     if (number.number == &Lens::k1) {
-      text += "\n# Distortion (Brown-Conrady, as in OpenCV); coefficients that are not named are 0.\n";
+      text +=
+          "\n# Distortion (Brown-Conrady, as in OpenCV); coefficients that are not named are 0.\n";
     }
-    const char* digits = number.is_needed ? "{} = {:.3f}\n{} = {:.3f}\n" : "{} = {:.6g}\n{} = {:.2g}\n";
+    const char* digits =
+        number.is_needed ? "{} = {:.3f}\n{} = {:.3f}\n" : "{} = {:.6g}\n{} = {:.2g}\n";
     text += fmt::format(fmt::runtime(digits), key_of(number), value, uncertainty_key_of(number),
                         uncertainty);
   }

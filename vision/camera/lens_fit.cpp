@@ -21,14 +21,14 @@ constexpr double kNormal95 = 1.96;
 constexpr double kPixelCentre = 0.5;
 constexpr double kDegree = std::numbers::pi / 180;
 
-constexpr int kFewestCorners = 12;           // of a picture: a quarter of the board, nearly
+constexpr int kFewestCorners = 12;               // of a picture: a quarter of the board, nearly
 constexpr double kLeastTurn_rad = 15 * kDegree;  // between two of the boards
-constexpr double kLeastCoverage = 0.3;       // of the picture's area
+constexpr double kLeastCoverage = 0.3;           // of the picture's area
 constexpr double kGoodCoverage = 0.6;
-constexpr double kLargestError = 0.0006;     // of the picture's longest side ...
-constexpr double kLargestError_px = 1;       // ... but of small ones no less than this
-constexpr double kUncertainFocal = 0.03;     // half-width / value
-constexpr int kGoodNumber = 8;               // of pictures
+constexpr double kLargestError = 0.0006;  // of the picture's longest side ...
+constexpr double kLargestError_px = 1;    // ... but of small ones no less than this
+constexpr double kUncertainFocal = 0.03;  // half-width / value
+constexpr int kGoodNumber = 8;            // of pictures
 
 using Points = std::vector<cv::Point2f>;
 using Places = std::vector<cv::Point3f>;
@@ -117,7 +117,11 @@ Fit fitted(const Seen& seen, int flags) {
   fit.values = {matrix.at<double>(1, 1),
                 matrix.at<double>(0, 2) + kPixelCentre,
                 matrix.at<double>(1, 2) + kPixelCentre,
-                k(0), k(1), k(2), k(3), k(4)};
+                k(0),
+                k(1),
+                k(2),
+                k(3),
+                k(4)};
   // The two focal lengths are one number, which is counted as the second.
   fit.deviations = {sd(1), sd(2), sd(3), sd(4), sd(5), sd(6), sd(7), sd(8)};
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -179,8 +183,7 @@ Lens lens_of(const Fit& fit, const Seen& seen, int flags) {
       &lens.focal_px, &lens.centre_x_px, &lens.centre_y_px, &lens.k1,
       &lens.k2,       &lens.p1,          &lens.p2,          &lens.k3};
   for (std::size_t k = 0; k < kNumbers; ++k) {
-    *numbers[k] = {fit.values[k],
-                   std::max(kNormal95 * fit.deviations[k], student * left_out[k])};
+    *numbers[k] = {fit.values[k], std::max(kNormal95 * fit.deviations[k], student * left_out[k])};
   }
   return lens;
 }
@@ -209,8 +212,8 @@ double coverage_of(const Seen& seen) {
   constexpr int kSide = 200;
   const double shrink =
       std::max(1.0, static_cast<double>(std::max(seen.size.width, seen.size.height)) / kSide);
-  cv::Mat1b covered = cv::Mat1b::zeros(cvCeil(seen.size.height / shrink),
-                                       cvCeil(seen.size.width / shrink));
+  cv::Mat1b covered =
+      cv::Mat1b::zeros(cvCeil(seen.size.height / shrink), cvCeil(seen.size.width / shrink));
   for (const Points& points : seen.in_picture) {
     std::vector<cv::Point> small;
     for (const cv::Point2f& point : points) {

@@ -20,22 +20,23 @@ struct BoardPicture {
 
 /// What the fit says of one picture.
 struct FittedPicture {
-  int corners = 0;      ///< seen in it
-  bool is_used = false; ///< enough of the board is seen
-  std::optional<double> error_px = {};    ///< root mean square distance of its corners from the fit
-  std::optional<double> tilt_rad = {};    ///< of the board, from facing the camera
-  std::optional<double> distance = {};    ///< of the board's middle from the lens, in squares
+  int corners = 0;                      ///< seen in it
+  bool is_used = false;                 ///< enough of the board is seen
+  std::optional<double> error_px = {};  ///< root mean square distance of its corners from the fit
+  std::optional<double> tilt_rad = {};  ///< of the board, from facing the camera
+  std::optional<double> distance = {};  ///< of the board's middle from the lens, in squares
 };
 
 struct LensFit {
   MeasureStatus status = MeasureStatus::refused;
   std::string reason;  ///< when refused: what is wrong and how to mend it
   std::vector<Warning> warnings;
-  Lens lens;                     ///< valid unless refused
+  Lens lens;                            ///< valid unless refused
   std::optional<double> error_px = {};  ///< root mean square distance of all corners from the fit
-  std::optional<double> coverage = {};  ///< part of the picture's area where a board was seen, 0 to 1
+  std::optional<double> coverage =
+      {};  ///< part of the picture's area where a board was seen, 0 to 1
   std::optional<double> turned_rad = {};  ///< largest angle between two boards
-  std::vector<FittedPicture> pictures;  ///< as given
+  std::vector<FittedPicture> pictures;    ///< as given
 };
 
 /// Pictures of the board that a fit needs at least.

@@ -62,10 +62,10 @@ void draw_marker(int id, cv::Mat& cells) {
 }
 
 Found found_in(const cv::Mat1b& grey) {
-  const auto board = cv::aruco::CharucoBoard::create(
-      kBoardColumns, kBoardRows, 1.0F, static_cast<float>(kMarkerPart), dictionary());
-  std::vector<std::vector<cv::Point2f>> markers;
-  std::vector<std::vector<cv::Point2f>> rejected;
+  const auto board = cv::aruco::CharucoBoard::create(kBoardColumns, kBoardRows, 1.0F,
+                                                     static_cast<float>(kMarkerPart), dictionary());
+  std::vector<std::vector<cv::Point2f> > markers;
+  std::vector<std::vector<cv::Point2f> > rejected;
   std::vector<int> ids;
   cv::aruco::detectMarkers(grey, dictionary(), markers, ids,
                            cv::aruco::DetectorParameters::create(), rejected);
@@ -91,7 +91,8 @@ std::vector<SeenCorner> detected_corners(const cv::Mat1b& grey) {
   const Found found = found_in(grey);
   std::vector<SeenCorner> corners;
   for (std::size_t i = 0; i < found.numbers.size(); ++i) {
-    corners.push_back({.number = found.numbers[i], .place = {found.places[i].x, found.places[i].y}});
+    corners.push_back(
+        {.number = found.numbers[i], .place = {found.places[i].x, found.places[i].y}});
   }
   return corners;
 }

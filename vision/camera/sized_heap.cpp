@@ -19,14 +19,14 @@ constexpr double kNormal95 = 1.96;
 constexpr double kDegree = std::numbers::pi / 180;
 
 // Half-widths of what a person does by eye.
-constexpr double kLean_rad = 1 * kDegree;   // a board stood upright
-constexpr double kPlaced_mm = 10;           // ... where the heap's middle is
-constexpr double kPrinted = 0.005;          // of its size
+constexpr double kLean_rad = 1 * kDegree;    // a board stood upright
+constexpr double kPlaced_mm = 10;            // ... where the heap's middle is
+constexpr double kPrinted = 0.005;           // of its size
 constexpr double kTurned_rad = 3 * kDegree;  // ... and parallel to the heap's middle plane
-constexpr double kNoLens = 0.02;            // of a scale, beside where it was taken
-constexpr double kByEye_rad = 2 * kDegree;  // pitch of a camera that was taken for level
+constexpr double kNoLens = 0.02;             // of a scale, beside where it was taken
+constexpr double kByEye_rad = 2 * kDegree;   // pitch of a camera that was taken for level
 
-constexpr double kUsefulPitch_rad = 3 * kDegree;     // half-width above which it says nothing
+constexpr double kUsefulPitch_rad = 3 * kDegree;      // half-width above which it says nothing
 constexpr double kRollTolerance_rad = 1.5 * kDegree;  // of the ground from the board's level
 
 constexpr int kPoseNumbers = 9;
@@ -99,13 +99,11 @@ struct BoardInputs {
   }
 
   HeapView view(const Eigen::VectorXd& values) const {
-    return view_by_board(
-        values.head<kPoseNumbers>(),
-        {.square_mm = square_mm,
-         .behind_mm = values[k_behind],
-         .lean_rad = values[k_lean],
-         .tilt_rad = values[k_tilt],
-         .turn_rad = values[k_turn]});
+    return view_by_board(values.head<kPoseNumbers>(), {.square_mm = square_mm,
+                                                       .behind_mm = values[k_behind],
+                                                       .lean_rad = values[k_lean],
+                                                       .tilt_rad = values[k_tilt],
+                                                       .turn_rad = values[k_turn]});
   }
   HeapView view() const { return view(inputs.values); }
 
@@ -135,6 +133,11 @@ SeenBoard described(const BoardInputs& board, const BoardPose& pose,
                  .pitch_rad = {},
                  .missing = {},
                  .distance_mm = {}};
+  if (!has_lens) {
+    seen.missing =
+        "the camera's pitch and distance need its focal length. Fix: give a camera file.";
+    return seen;
+  }
   const Estimate pitch = board.estimate([](const HeapView& view) { return view.pitch_rad(); });
   // Written so that NaN fails.
   if (pitch.uncertainty <= kUsefulPitch_rad) {
@@ -143,10 +146,9 @@ SeenBoard described(const BoardInputs& board, const BoardPose& pose,
     return seen;
   }
   seen.missing = fmt::format(
-      "the board tells the camera's pitch within ± {:.0f} degrees only. Fix: {}.",
-      pitch.uncertainty / kDegree,
-      has_lens ? "let the board fill more of the picture"
-               : "give a camera file, which tells the focal length");
+      "the board tells the camera's pitch within ± {:.0f} degrees only. Fix: let it fill more of "
+      "the picture.",
+      pitch.uncertainty / kDegree);
   return seen;
 }
 
@@ -192,25 +194,22 @@ struct Sizing {
 HeapSizes sizes_by_board(const BoardInputs& board, const SeenBoard& seen, const Sizing& sizing,
                          const ReposeAngle& angle) {
   if (!seen.pitch_rad) {
-    Estimate scale = board.estimate([](const HeapView& view) {
-      return view.distance_mm / view.normal.z() / view.focal_px;
-    });
-    scale.uncertainty =
-        std::hypot(scale.uncertainty, scale.value * std::hypot(kPrinted, kNoLens));
+    Estimate scale = board.estimate(
+        [](const HeapView& view) { return view.distance_mm / view.normal.z() / view.focal_px; });
+    scale.uncertainty = std::hypot(scale.uncertainty, scale.value * std::hypot(kPrinted, kNoLens));
     return sizes_by_scale(angle, scale, sizing.working_px);
   }
   BoardInputs inputs = board;
   if (sizing.told.camera_pitch_rad) inputs.take_pitch(*sizing.told.camera_pitch_rad);
-  const double scale_part = sizing.scale.lens ? kPrinted : std::hypot(kPrinted, kNoLens);
   return sizes_by_view(
       angle, inputs.inputs, [&](const Eigen::VectorXd& values) { return inputs.view(values); },
-      scale_part, sizing.working_px);
+      kPrinted, sizing.working_px);
 }
 
 /// By two points and a known lens.
 HeapSizes sizes_by_bar(const ScaleBar& bar, const Lens& lens, const Sizing& sizing,
                        const ReposeAngle& angle) {
-  if (!angle.crest) return sizes_by_scale(angle, mm_per_px(bar), sizing.working_px);
+  if (!angle.ground_tilt_rad) return sizes_by_scale(angle, mm_per_px(bar), sizing.working_px);
   const Estimate scale = mm_per_px(bar);
   const std::optional<double>& told = sizing.told.camera_pitch_rad;
   enum : int { k_scale, k_pitch, k_focal, k_x, k_y, k_count };
@@ -222,13 +221,13 @@ HeapSizes sizes_by_bar(const ScaleBar& bar, const Lens& lens, const Sizing& sizi
   half_widths << scale.uncertainty, told ? 0.25 * kDegree : kByEye_rad, lens.focal_px.uncertainty,
       lens.centre_x_px.uncertainty, lens.centre_y_px.uncertainty;
   inputs.covariance.diagonal() = (half_widths / kNormal95).cwiseAbs2();
+  const Point middle{(bar.line.from.x + bar.line.to.x) / 2, (bar.line.from.y + bar.line.to.y) / 2};
   const auto view_of = [&](const Eigen::VectorXd& values) {
     Lens here = lens;
     here.focal_px.value = values[k_focal];
     here.centre_x_px.value = values[k_x];
     here.centre_y_px.value = values[k_y];
-    return view_by_scale(here, values[k_scale], values[k_pitch], *angle.ground_tilt_rad,
-                         *angle.crest);
+    return view_by_scale(here, values[k_scale], values[k_pitch], *angle.ground_tilt_rad, middle);
   };
   return sizes_by_view(angle, inputs, view_of, 0, sizing.working_px);
 }

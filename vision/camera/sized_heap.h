@@ -27,9 +27,9 @@ struct SeenBoard {
   std::vector<Point> outline;  ///< its sheet's four corners, in the corrected picture [px]
   int corners = 0;
   double error_px = 0;
-  Estimate roll_rad;   ///< of the camera; above 0: the ground's right end lies lower
+  Estimate roll_rad;                  ///< of the camera; above 0: the ground's right end lies lower
   std::optional<Estimate> pitch_rad;  ///< how far the camera looks down; above 0: down
-  std::string missing;  ///< why there is no pitch
+  std::string missing;                ///< why there is no pitch
   std::optional<Estimate> distance_mm;  ///< of the heap's plane from the lens; with the pitch
 };
 
@@ -49,7 +49,7 @@ struct SizedHeap {
 /// where it is said to stand, and is printed true within 0.5 %: half-widths that the sizes and the
 /// pitch allow for. Where the pitch was not told, the board's is used, if it is known within 3
 /// degrees; where both are and differ, the told one is used and a warning says so. Without a lens a
-/// scale holds within 1 %, for what distortion may do.
+/// scale holds within 2 %, for what distortion may do, and a board tells no pitch.
 /// @throws std::invalid_argument  as measure_repose_angle and lens_for; a distance behind the heap
 ///   without a lens.
 SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& options,

@@ -228,9 +228,9 @@ Estimate front_part_of(const ReposeAngle& measured, const Marks& marks, double r
                                   : Estimate{kFrontPart, kFrontPartDeviation};
   const std::optional<double> rise = rise_of_feet(measured, marks);
   if (!rise || rim_px <= 0) return usual;
-  const Estimate seen{*rise / rim_px,
-                      kNormal95 *
-                          std::hypot(working_px, 0.3 * measured.grain_px.value_or(0)) / rim_px};
+  const Estimate seen{
+      *rise / rim_px,
+      kNormal95 * std::hypot(working_px, 0.3 * measured.grain_px.value_or(0)) / rim_px};
   const double of_usual = 1 / (usual.uncertainty * usual.uncertainty);
   const double of_seen = 1 / (seen.uncertainty * seen.uncertainty);
   return {(of_usual * usual.value + of_seen * seen.value) / (of_usual + of_seen),
@@ -283,8 +283,8 @@ double cone_volume_ml(double base_mm, double height_mm) {
 }
 
 double working_pixel(int width, int height, const Hints& hints) {
-  const int longest = hints.heap ? std::max(hints.heap->width, hints.heap->height)
-                                 : std::max(width, height);
+  const int longest =
+      hints.heap ? std::max(hints.heap->width, hints.heap->height) : std::max(width, height);
   return std::max(1.0, static_cast<double>(longest) / kWorkingSide);
 }
 
@@ -329,9 +329,8 @@ HeapSizes sizes_by_scale(const ReposeAngle& measured, const Estimate& mm_per_px,
   const Estimate part = front_part_of(measured, marks, rim_px, working_px);
   const Eigen::Index front = added(all, part.value, part.uncertainty / kNormal95);
   const auto numbers = [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
-    const PlainView view{.mm_per_px = values[scale],
-                         .rim_slope = values[rim],
-                         .narrowing = values[narrowing]};
+    const PlainView view{
+        .mm_per_px = values[scale], .rim_slope = values[rim], .narrowing = values[narrowing]};
     return lengths_by_scale(view, of_marks.applied(marks, values), values[front]).numbers();
   };
   return described(numbers(all.values), propagated(all, numbers), marks);

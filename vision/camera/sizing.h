@@ -15,7 +15,8 @@ namespace repose::vision {
 ///     R = D sin((a_r - a_l) / 2)
 ///
 ///     R          mm    radius of the base
-///     D          mm    distance of the axis from the eye, along the ground: where the middle of the
+///     D          mm    distance of the axis from the eye, along the ground: where the middle of
+///     the
 ///                      two directions meets the view's plane
 ///     a_l, a_r   rad   directions of the feet, seen from above
 ///
@@ -28,7 +29,8 @@ namespace repose::vision {
 ///                      is nearest to the camera, which lies lower in the picture
 ///
 /// q follows from how high the outline's ends, which lie beside the axis, stand above the ground
-/// line; and from where segmentations usually end, which is near the rim. Proved by tests/vision/sizing_test.cpp on projected cones.
+/// line; and from where segmentations usually end, which is near the rim. Proved by
+/// tests/vision/sized_heap_test.cpp on projected cones.
 /// @param inputs, view_of  what the view is made of, and how
 /// @param scale_part  half-width of the scale's own error, as a part of it
 HeapSizes sizes_by_view(const ReposeAngle& measured, const Inputs& inputs,

@@ -107,7 +107,7 @@ class PitchCorrection {
   double deviation_rad_;                  // of it, half-width
   double assumed_rad_;                    // that a level camera may have
   std::optional<double> below_axis_rad_;  // the crest's direction, of a known lens
-  double crest_rise_ = 0;            // above the picture's middle / the base's radius
+  double crest_rise_ = 0;                 // above the picture's middle / the base's radius
 };
 
 /// The side in the picture's own pixels, its angle corrected for the camera's pitch.

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/common/exit_code.h"
+
+namespace repose::cli {
+
+/// What `repose camera` is asked to do, as typed.
+struct CameraArguments {
+  std::vector<std::string> pictures;  ///< files and folders
+  std::string out_file;
+  std::string square_mm;
+  std::string json_file;
+  std::string threads;
+};
+
+/// Carries out `repose camera`.
+ExitCode run_camera(const CameraArguments& arguments);
+
+}  // namespace repose::cli
