@@ -85,6 +85,7 @@ Command measure_command() {
                {"--csv", "FILE|-", "One row per picture or frame", &given->csv_file},
                {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
                {"--report", "FILE.html", "Report as a web page", &given->report_file},
+               {"--fps", "N", "Folders are films, their pictures the frames", &given->fps},
                {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
                {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
                {"--definitions", "", "Also show other definitions", &given->shows_definitions}},

@@ -13,7 +13,6 @@
 namespace repose::vision {
 namespace {
 
-using repose::testing::error_of;
 using repose::testing::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::ElementsAre;

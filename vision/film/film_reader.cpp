@@ -154,10 +154,10 @@ class FilmReader::FolderSource : public FilmReader::Source {
   Picture picture_;  ///< what the last frame's pixels are in
 };
 
-FilmReader::FilmReader(const FilmFile& film) : file_(film.path) {
+FilmReader::FilmReader(const FilmFile& file) : file_(file.path) {
   std::error_code error;
-  if (film.frames_per_s && fs::is_directory(file_, error)) {
-    source_ = std::make_unique<FolderSource>(file_, *film.frames_per_s);
+  if (file.frames_per_s && fs::is_directory(file_, error)) {
+    source_ = std::make_unique<FolderSource>(file_, *file.frames_per_s);
   } else {
     source_ = std::make_unique<VideoSource>(file_);
   }
