@@ -2,10 +2,11 @@
 // how often their intervals hold the truth.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -161,8 +162,9 @@ vision::SizedHeap measured(const HeapWithBoard& heap, const Way& way) {
   if (!way.has_bar) return vision::measure_sized_heap(heap.picture, {}, scale);
   scale.finds_board = false;
   scale.scale = heap.bar;
-  const vision::MeasureOptions options{.excluded = {heap.board_box},
-                                       .camera_pitch_rad = heap.pitch_rad};
+  vision::MeasureOptions options;
+  options.excluded = {heap.board_box};
+  options.camera_pitch_rad = heap.pitch_rad;
   return vision::measure_sized_heap(heap.picture, options, scale);
 }
 

@@ -1,5 +1,9 @@
 #include "vision/camera/board.h"
 
+#include <filesystem>
+#include <fstream>
+#include <string>
+
 #include <gmock/gmock.h>
 
 #include "tests/cli/command_test.h"
@@ -15,7 +19,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 struct BoardCommand : CommandTest {

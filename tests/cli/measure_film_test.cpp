@@ -45,7 +45,7 @@ TEST_F(MeasureFilms, AFilmIsMeasuredAtRestWhereverAPictureIs) {
   EXPECT_TRUE(exists("drawn/heap.png"));
   EXPECT_THAT(text("a.html"), HasSubstr("heap.mp4"));
   EXPECT_THAT(text("a.csv"), HasSubstr(",reason,time_s,film_from_s,film_to_s,film_frames,"
-                                       "frames_per_s\n"));
+                                       "frames_per_s,camera,scale,mm_per_px,"));
   const json results = json::parse(text("a.json"));
   ASSERT_EQ(results.size(), 2U);
   EXPECT_NEAR(results[0]["angle_deg"].get<double>(), results[1]["angle_deg"].get<double>(), .5);

@@ -134,8 +134,10 @@ void draw_board(const BoardCamera& camera, const BoardPlace& place, const BoardL
       const Vector3d middle = camera.direction({col + 0.5, row + 0.5});
       const double step = 1 / (camera.focal_px * kSamples);
       for (int i = 0; i < kSamples * kSamples; ++i) {
-        const double aside = (i % kSamples - (kSamples - 1) / 2.0) * step;
-        const double below = (i / kSamples - (kSamples - 1) / 2.0) * step;
+        const int down = i / kSamples;
+        const int across = i - down * kSamples;
+        const double aside = (across - (kSamples - 1) / 2.0) * step;
+        const double below = (down - (kSamples - 1) / 2.0) * step;
         const Vector3d direction = to_board * (middle + Vector3d(aside, below, 0));
         const Vector3d at = (eye - eye.z() / direction.z() * direction) / place.square_mm;
         if (!is_on_sheet(at.x(), at.y())) continue;

@@ -1,5 +1,8 @@
 #include "vision/camera/board_pose.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gmock/gmock.h>
 
 #include "tests/support/drawn_board.h"

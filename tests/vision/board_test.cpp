@@ -1,6 +1,11 @@
 #include "vision/camera/board.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include <gmock/gmock.h>
+#include <opencv2/core.hpp>
 
 #include "tests/support/drawn_board.h"
 #include "vision/camera/board_page.h"
@@ -9,7 +14,6 @@
 namespace repose::vision {
 namespace {
 
-using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;

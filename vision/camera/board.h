@@ -23,7 +23,8 @@ inline constexpr int kBoardCorners = (kBoardColumns - 1) * (kBoardRows - 1);
 
 /// A corner of the board by its number, row by row from the top left one.
 inline Point board_corner(int number) {
-  return {1.0 + number % (kBoardColumns - 1), 1.0 + number / (kBoardColumns - 1)};
+  const int row = number / (kBoardColumns - 1);
+  return {1.0 + number - row * (kBoardColumns - 1), 1.0 + row};
 }
 
 /// A black rectangle of the board, in squares.

@@ -58,7 +58,7 @@ struct CornerError {
   template <typename T>
   bool operator()(const T* numbers, T* residual) const {
     const std::array<T, 3> board = {T(on_board.x), T(on_board.y), T(0)};
-    std::array<T, 3> here;
+    std::array<T, 3> here = {};
     ceres::AngleAxisRotatePoint(numbers, board.data(), here.data());
     const T depth = here[2] + numbers[5];
     const T focal = exp(numbers[6]);

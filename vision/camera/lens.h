@@ -34,10 +34,10 @@ struct LensNumber {
 struct Lens {
   int width = 0;  ///< of the pictures it holds for [px]
   int height = 0;
-  LensNumber focal_px;
-  LensNumber centre_x_px;
-  LensNumber centre_y_px;
-  LensNumber k1, k2, p1, p2, k3;
+  LensNumber focal_px = {};
+  LensNumber centre_x_px = {};
+  LensNumber centre_y_px = {};
+  LensNumber k1 = {}, k2 = {}, p1 = {}, p2 = {}, k3 = {};
 
   bool is_distorted() const;
   /// Where a point of the picture lies in the corrected picture: the one that a lens with the same

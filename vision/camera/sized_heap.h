@@ -15,11 +15,11 @@ namespace repose::vision {
 
 /// What gives the millimetres.
 struct ScaleOptions {
-  std::optional<Lens> lens;
+  std::optional<Lens> lens = {};
   bool finds_board = false;
   double square_mm = kBoardSquare_mm;  ///< as printed
   double behind_mm = 0;  ///< how far behind the heap's middle plane the board stands; needs a lens
-  std::optional<ScaleBar> scale;  ///< in the picture as it is; in place of a board
+  std::optional<ScaleBar> scale = {};  ///< in the picture as it is; in place of a board
 };
 
 /// A board beside or behind the heap.

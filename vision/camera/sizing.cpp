@@ -59,7 +59,9 @@ struct MarkDeviations {
 
 MarkDeviations deviations_of(const ReposeAngle& measured, double working_px) {
   const double grain = measured.grain_px.value_or(0);
-  return {.foot = std::hypot(working_px, 0.3 * grain),
+  // Segmentations lose what is thinner than a pixel: of a flat foot more than of a steep one.
+  const double slope = std::max(0.1, std::tan(measured.angle_rad.value_or(0)));
+  return {.foot = std::hypot(working_px / slope, 0.3 * grain),
           .crest = std::hypot(0.5 * working_px, 0.1 * grain),
           .ground = std::hypot(working_px, 0.1 * grain)};
 }

@@ -19,6 +19,10 @@ double angle_without_pitch(double apparent_rad, double pitch_rad, double apex_pi
   return std::atan(std::hypot(std::tan(apparent_rad) * across, down));
 }
 
+double angle_without_aside(double apparent_rad, double aside_rad) {
+  return std::atan(std::tan(apparent_rad) / std::cos(aside_rad));
+}
+
 double far_camera_error(double apparent_rad, double pitch_rad, double apex_rise) {
   const double near_rad = pitch_rad - std::atan(apex_rise / kNearestCamera);
   return std::abs(angle_without_pitch(apparent_rad, pitch_rad) -

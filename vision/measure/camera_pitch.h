@@ -32,6 +32,17 @@ double angle_without_pitch(double apparent_rad, double pitch_rad);
 /// tests/vision/camera_pitch_test.cpp against a search for the outline.
 double angle_without_pitch(double apparent_rad, double pitch_rad, double apex_pitch_rad);
 
+/// The angle a that a heap would show on the lens's axis, from the one seen, a', aside of it.
+///
+///     tan a = tan a' / cos s
+///
+///     s   aside_rad   rad   direction of the heap's crest, from the axis, along the ground
+///
+/// The picture stretches what is aside: along the ground by 1 / cos^2 s, upwards by 1 / cos s, of
+/// what lies at the same distance from the eye. Holds for heaps that are narrow beside their
+/// distance. Proved by tests/vision/sized_heap_test.cpp on a projected cone.
+double angle_without_aside(double apparent_rad, double aside_rad);
+
 /// Nearest camera that a corrected angle's interval allows for: base radii from the heap.
 inline constexpr double kNearestCamera = 6;
 

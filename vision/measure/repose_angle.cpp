@@ -75,7 +75,9 @@ class PitchCorrection {
     if (radius > 0) crest_rise_ = (middle - crest.y) / radius;
     if (!options.pinhole) return;
     const double below = work.in_picture(crest).y - options.pinhole->centre.y;
+    const double aside = work.in_picture(crest).x - options.pinhole->centre.x;
     below_axis_rad_ = std::atan(below / options.pinhole->focal_px);
+    aside_rad_ = std::atan(aside / options.pinhole->focal_px);
   }
 
   double angle_rad(double apparent_rad) const {
@@ -93,7 +95,8 @@ class PitchCorrection {
  private:
   double without_pitch(double apparent_rad, double pitch_rad) const {
     if (!pitch_rad_ || !below_axis_rad_) return angle_without_pitch(apparent_rad, pitch_rad);
-    return angle_without_pitch(apparent_rad, pitch_rad, pitch_rad + *below_axis_rad_);
+    return angle_without_pitch(angle_without_aside(apparent_rad, aside_rad_), pitch_rad,
+                               pitch_rad + *below_axis_rad_);
   }
   /// What a pitch at either end of its interval changes.
   double pitch_error_rad(double apparent_rad) const {
@@ -107,6 +110,7 @@ class PitchCorrection {
   double deviation_rad_;                  // of it, half-width
   double assumed_rad_;                    // that a level camera may have
   std::optional<double> below_axis_rad_;  // the crest's direction, of a known lens
+  double aside_rad_ = 0;                  // likewise
   double crest_rise_ = 0;                 // above the picture's middle / the base's radius
 };
 
