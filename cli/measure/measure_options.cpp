@@ -114,7 +114,9 @@ void read_scale(const MeasureArguments& arguments, MeasurePlan& plan) {
 void check_films(MeasurePlan& plan) {
   if (!plan.scale.finds_board && plan.camera_file.empty()) return;
   for (const fs::path& file : plan.pictures) {
-    if (!vision::has_film_ending(file)) continue;
+    std::error_code ignored;
+    const bool has_frames = plan.frames_per_s && fs::is_directory(file, ignored);
+    if (!vision::has_film_ending(file) && !has_frames) continue;
     plan.errors.push_back(fmt::format(
         "{}: is a film. Rule: --camera-file and --board are for pictures. Fix: use --scale for "
         "films, or photograph the heap at rest.",

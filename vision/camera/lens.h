@@ -42,8 +42,8 @@ struct Lens {
   bool is_distorted() const;
   /// Where a point of the picture lies in the corrected picture: the one that a lens with the same
   /// focal length and centre takes, but without distortion. And back.
-  Point corrected(Point seen) const;
-  Point seen(Point corrected) const;
+  Point corrected(Point place) const;
+  Point seen(Point place) const;
 };
 
 /// The same lens in pictures of that size: the camera's, made larger or smaller as a whole.

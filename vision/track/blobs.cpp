@@ -53,7 +53,7 @@ double mixed_part(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::
 /// As cover_of(), where there are no shadows: above a thing's centre. Its lit side, whose colour is
 /// nearer to a bright backdrop's, counts whole.
 double lit_cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing) {
-  constexpr double kNone = .1, kFull = .6;
+  constexpr double kNone = .3, kFull = .6;
   return std::clamp((mixed_part(seen, background, thing) - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 
