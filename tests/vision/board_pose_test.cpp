@@ -86,7 +86,7 @@ TEST(BoardPose, TheCovarianceIsThatOfManyNoisyCorners) {
   int held = 0;
   for (int i = 0; i < kTimes; ++i) {
     const auto corners =
-        corners_of(4 * kDegree, kDegree, 1400, .1, static_cast<std::uint64_t>(i + 1));
+        corners_of(4 * kDegree, kDegree, 1400, .1, static_cast<std::uint64_t>(i) + 1);
     const BoardPose pose = fit_pose(corners, known_lens(0), kCamera.width, kCamera.height);
     const Eigen::MatrixXd variance =
         propagated({.values = pose.numbers, .covariance = pose.covariance},
