@@ -26,10 +26,10 @@ void add_under(render::Scene& scene, double floor_m, double from_m, double to_m,
   for (int k = static_cast<int>(std::ceil(from_m / kRadius)); k * kRadius <= to_m; ++k) {
     const double top = height_m(k * kRadius);
     if (top < kRadius) continue;
-    scene.grains.push_back(
-        {.shape = 0,
-         .number = static_cast<int>(scene.grains.size()),
-         .pose = {.position = {k * kRadius, 0, floor_m + top - kRadius}, .orientation = {}}});
+    scene.grains.push_back({.shape = 0,
+                            .number = static_cast<int>(scene.grains.size()),
+                            .pose = {.position = {k * kRadius, 0, floor_m + top - kRadius},
+                                     .orientation = dem::Quaternion::Identity()}});
   }
 }
 
