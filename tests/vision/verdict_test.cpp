@@ -144,6 +144,8 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"high_apron", [](Case& c) { c.choice.best.right.high_apron = 0.4; }, "high_apron"},
         Error{"wide", [](Case& c) { c.result.uncertainty_rad = 6 * kDegree; }, "wide_interval"},
         Error{"legs", [](Case& c) { c.choice.likeness.filled = 0.8; }, "unlike_a_heap"},
+        Error{"lopsided", [](Case& c) { c.result.left.angle_rad = 45 * kDegree; },
+              "unequal_flanks"},
         Error{"low", [](Case& c) { c.choice.best.profile.crest_height = 30; }, "low_heap"},
         Error{"bow", [](Case& c) { c.choice.best.body.ground.bow = 0.045; }, "base_bows"},
         Error{"behind", [](Case& c) { c.choice.best.body.ground.behind = true; }, "edge_behind"}),
@@ -183,9 +185,16 @@ INSTANTIATE_TEST_SUITE_P(
                 c.options.hints.ground = Segment{{0, 9}, {9, 9}};
               },
               "hints"},
-        Error{"unequal", [](Case& c) { c.choice.best.left.angle_rad = 20 * kDegree; },
+        Error{"unequal", [](Case& c) { c.result.left.angle_rad = 20 * kDegree; },
               "unequal_flanks"}),
     name_of);
+
+TEST(Judge, FlanksThatTheirIntervalsLetDifferAreNoTrouble) {
+  Case heap;
+  heap.result.left.angle_rad = 45 * kDegree;
+  heap.result.left.uncertainty_rad = 18 * kDegree;
+  EXPECT_EQ(heap.judged().status, MeasureStatus::ok);
+}
 
 TEST(Judge, WhatTheGrainsScatterExplainsIsNoBend) {
   Case heap;

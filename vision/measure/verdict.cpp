@@ -24,6 +24,7 @@ constexpr double kDoubtfulPitch_rad = 5 * kDegree;
 constexpr double kPitchTolerance_rad = 6 * kDegree;
 constexpr double kMostOfUnlike = 0.5;  // confidence in what may be no heap
 constexpr double kWideInterval_rad = 5 * kDegree;
+constexpr double kTooUnequal_rad = 15 * kDegree;
 
 // Warnings to know of.
 constexpr double kFewGrains = 10;
@@ -170,6 +171,24 @@ void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions
   }
 }
 
+/// A line inside a heap, lit on one side, is easily taken for its edge: heaps are not that
+/// lopsided.
+void warn_of_unequal_flanks(ReposeAngle& result) {
+  if (!result.left.angle_rad || !result.right.angle_rad) return;
+  const double difference = std::abs(*result.left.angle_rad - *result.right.angle_rad);
+  if (difference <= kUnequal_rad) return;
+  const double interval =
+      std::hypot(result.left.uncertainty_rad.value_or(0), result.right.uncertainty_rad.value_or(0));
+  const std::string what =
+      fmt::format("The two flanks differ by {:.1f} degrees", degrees(difference));
+  if (difference > kTooUnequal_rad && difference > interval) {
+    flag(result, "unequal_flanks",
+         what + ": check that the overlay follows the heap's edge on both.");
+  } else {
+    note(result, "unequal_flanks", what + ".");
+  }
+}
+
 /// How far below the lens's axis the base is seen; 0 of a lens that is not known.
 double below_axis_rad(const ReposeAngle& result, const MeasureOptions& options) {
   if (!options.pinhole || !result.ground) return 0;
@@ -217,12 +236,6 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
          fmt::format("{} small object{} beside the heap {} ignored.", result.strays,
                      result.strays == 1 ? "" : "s", result.strays == 1 ? "is" : "are"));
   }
-  if (best.left.status == FlankStatus::ok && best.right.status == FlankStatus::ok &&
-      std::abs(best.left.angle_rad - best.right.angle_rad) > kUnequal_rad) {
-    note(result, "unequal_flanks",
-         fmt::format("The two flanks differ by {:.1f} degrees.",
-                     degrees(std::abs(best.left.angle_rad - best.right.angle_rad))));
-  }
 }
 
 }  // namespace
@@ -257,6 +270,7 @@ void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& opti
   warn_of_angle(result);
   warn_of_size(result, choice.best, options);
   warn_of_scene(result, choice, options);
+  warn_of_unequal_flanks(result);
 }
 
 }  // namespace repose::vision
