@@ -98,15 +98,13 @@ NamedValues shortest_timesteps(const std::vector<Run>& runs) {
   return {shortest.begin(), shortest.end()};
 }
 
-/// `softened`: readings are those of the rounds, not of the study's own stiffness.
 Provenance provenance_of(const StudyRecord& record, const Problem& problem,
-                         const std::vector<Run>& runs, bool softened) {
+                         const std::vector<Run>& runs) {
   const dem::Study& study = record.study;
   NamedValues stiffness;
   for (const Experiment& experiment : problem.experiments) {
     const dem::Experiment simulated = dem::experiment_named(experiment.name).experiment;
-    stiffness.emplace_back(experiment.name, dem::model_for(study, simulated).stiffness_factor *
-                                                (softened ? experiment.relative_stiffness : 1));
+    stiffness.emplace_back(experiment.name, dem::model_for(study, simulated).stiffness_factor);
   }
   return {.study = identity_of(record),
           .first_seed = study.seed,
@@ -173,7 +171,7 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
   for (ResponseSurface& surface : joint.surfaces) {
     for (std::vector<double>& row : surface.simulated) round_for_drawing(row);
   }
-  return {.provenance = provenance_of(record, problem.problem, outcome.runs, false),
+  return {.provenance = provenance_of(record, problem.problem, outcome.runs),
           .found = std::move(joint)};
 }
 
@@ -191,8 +189,7 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
     published.values.emplace_back(problem.problem.parameters[k].name, outcome.values[k]);
   }
   published.error_surface.runs.clear();  // they are the composite design
-  return {.provenance = provenance_of(record, problem.problem, {}, true),
-          .found = std::move(published)};
+  return {.provenance = provenance_of(record, problem.problem, {}), .found = std::move(published)};
 }
 
 }  // namespace repose::calibrate
