@@ -75,14 +75,18 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
   const std::string name = shortened(picture.file.filename().string());
   try {
     MeasuredHeap heap{.title = name, .picture = {}, .angle = {}};
-    const vision::MeasureOptions options = vision::with_saved_hints({}, picture.file);
     if (vision::has_film_ending(picture.file)) {
-      vision::FilmAngle film = vision::measure_film(picture.file, options);
+      const auto told = vision::with_saved_hints_of_film({}, picture.file);
+      vision::FilmAngle film = vision::measure_film(picture.file, told.measuring);
       heap.picture = std::move(film.picture);
       heap.angle = std::move(film.angle);
     } else {
+      const vision::PictureSettings told = vision::with_saved_hints({}, picture.file);
       heap.picture = vision::read_picture(picture.file);
-      heap.angle = vision::measure_repose_angle(heap.picture, options);
+      vision::SizedHeap sized =
+          vision::measure_sized_heap(heap.picture, told.measuring, told.scale);
+      if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
+      heap.angle = std::move(sized.angle);
     }
     constexpr double kSame_deg = 0.01;
     const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;

@@ -41,12 +41,16 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
   }
 }
 
+vision::ReposeAngle measured_angle(const std::filesystem::path& file) {
+  if (vision::has_film_ending(file)) {
+    return vision::measure_film(file, vision::with_saved_hints_of_film({}, file).measuring).angle;
+  }
+  const vision::PictureSettings told = vision::with_saved_hints({}, file);
+  return vision::measure_sized_heap(vision::read_picture(file), told.measuring, told.scale).angle;
+}
+
 calibrate::PictureReading reading_of(const std::filesystem::path& file) {
-  const vision::MeasureOptions options = vision::with_saved_hints({}, file);
-  const vision::ReposeAngle angle =
-      vision::has_film_ending(file)
-          ? vision::measure_film(file, options).angle
-          : vision::measure_repose_angle(vision::read_picture(file), options);
+  const vision::ReposeAngle angle = measured_angle(file);
   calibrate::PictureReading reading{.file = std::filesystem::absolute(file),
                                     .status = name_of(angle.status),
                                     .angle_deg = {},

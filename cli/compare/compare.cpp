@@ -26,17 +26,29 @@ struct MeasuredHeap {
   vision::Picture picture;
   vision::MeasureOptions used;  ///< with the picture's own hints
   vision::ReposeAngle angle;
+  std::optional<double> m_per_px;  ///< by a saved scale
   std::string error;
 };
+
+MeasuredHeap measured(const std::filesystem::path& file, const vision::MeasureOptions& options) {
+  MeasuredHeap heap;
+  heap.picture = vision::read_picture(file);
+  const vision::PictureSettings told =
+      vision::with_saved_hints({.measuring = options, .scale = {}}, file);
+  vision::SizedHeap sized = vision::measure_sized_heap(heap.picture, told.measuring, told.scale);
+  if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
+  heap.used = told.measuring;
+  heap.angle = std::move(sized.angle);
+  if (sized.sizes.mm_per_px) heap.m_per_px = sized.sizes.mm_per_px->value / 1000;
+  return heap;
+}
 
 std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
   std::array<MeasuredHeap, 2> heaps;
   tbb::parallel_for(std::size_t{0}, heaps.size(), [&](std::size_t i) {
     const auto names = measuring_names(kExcludeOptions[i]);
     try {
-      heaps[i].picture = vision::read_picture(plan.sources[i].pictures.front());
-      heaps[i].used = vision::with_saved_hints(plan.measuring[i], plan.sources[i].pictures.front());
-      heaps[i].angle = vision::measure_repose_angle(heaps[i].picture, heaps[i].used);
+      heaps[i] = measured(plan.sources[i].pictures.front(), plan.measuring[i]);
       name_options(heaps[i].angle, names);
     } catch (const std::invalid_argument& error) {
       heaps[i].error = naming_options(naming_file(plan.sources[i].name, error.what()), names);
@@ -56,6 +68,16 @@ bool is_same_measurement(const std::array<MeasuredHeap, 2>& heaps) {
          a.hints.empty() && b.hints.empty() &&
          std::equal(a.excluded.begin(), a.excluded.end(), b.excluded.begin(), b.excluded.end(),
                     same_box);
+}
+
+/// Where the command gave none.
+void take_saved_scales(const std::array<MeasuredHeap, 2>& heaps, ComparePlan& plan) {
+  using vision::PictureScale;
+  if (plan.comparing.scale[0] || !heaps[0].m_per_px || !heaps[1].m_per_px) return;
+  for (const std::size_t i : {0, 1}) {
+    plan.comparing.scale[i] =
+        PictureScale{.from = PictureScale::From::pixel, .length_m = *heaps[i].m_per_px};
+  }
 }
 
 void write_overlay(const ComparePlan& plan, const MeasuredHeap& first,
@@ -93,6 +115,7 @@ ExitCode compare_pair(ComparePlan plan, const std::atomic<bool>& is_interrupted)
   print_lines(errors);
   if (!errors.empty()) return ExitCode::bad_input;
 
+  take_saved_scales(heaps, plan);
   plan.comparing.same_measurement = is_same_measurement(heaps);
   const vision::HeapComparison comparison =
       vision::compare_heaps(heaps[0].angle, heaps[1].angle, plan.comparing);

@@ -25,8 +25,9 @@ heap, or simulated heaps, as written by repose simulate heap --out and repose
 calibrate --out; a .vtp file is one such heap.
 
 Scale: mm per pixel, or the known width of the base. One value applies to both
-pictures, A,B to one each. Without a scale only shapes are compared, and
-lengths are relative to the square root of a silhouette's area.
+pictures, A,B to one each. A scale that repose measure --save-hints has saved
+beside both pictures is used if none is given. Without a scale only shapes are
+compared, and lengths are relative to the square root of a silhouette's area.
 )";
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/common/option_value.h"
 #include "cli/common/output_places.h"
 #include "cli/common/picture_options.h"
+#include "vision/hints/hint_file.h"
 
 namespace repose::cli {
 namespace {
@@ -49,15 +50,26 @@ void read_scales(const CompareArguments& arguments, ComparePlan& plan) {
   read_scale("--base-mm", arguments.base_mm, PictureScale::From::base, plan);
 }
 
+/// Whether the files beside the pictures may give a scale: they are read with them.
+bool may_have_saved_scales(const ComparePlan& plan) {
+  const auto has_file = [](const std::filesystem::path& picture) {
+    std::error_code ignored;
+    return std::filesystem::exists(vision::hint_file_of(picture), ignored);
+  };
+  return std::any_of(plan.sources.begin(), plan.sources.end(), [&](const HeapSource& source) {
+    return std::any_of(source.pictures.begin(), source.pictures.end(), has_file);
+  });
+}
+
 void read_grain(const CompareArguments& arguments, ComparePlan& plan) {
   if (arguments.grain_mm.empty()) return;
   const auto mm = read_positive({"--grain-mm", arguments.grain_mm, plan.errors}, "a number of mm",
                                 "give the grains' mean diameter");
   if (!mm) return;
-  if (arguments.mm_per_px.empty() && arguments.base_mm.empty()) {
+  if (arguments.mm_per_px.empty() && arguments.base_mm.empty() && !may_have_saved_scales(plan)) {
     plan.errors.push_back(
         fmt::format("--grain-mm {}: lengths in grains need a scale. Fix: add --mm-per-px or "
-                    "--base-mm.",
+                    "--base-mm, or save a scale with repose measure --save-hints.",
                     arguments.grain_mm));
   }
   plan.grain_m = *mm / 1000;

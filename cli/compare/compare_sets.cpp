@@ -73,15 +73,22 @@ void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
   }
 }
 
-vision::ReposeAngle measured(const ComparePlan& plan, const Task& task,
-                             render::Renderer* renderer) {
+/// Of a photograph with a saved scale, that too.
+vision::ReposeAngle measured(const ComparePlan& plan, const Task& task, render::Renderer* renderer,
+                             SeenHeap& seen) {
   const vision::MeasureOptions& options = plan.measuring[task.set];
   if (task.session != nullptr) {
     return task.session->take(*renderer, static_cast<int>(task.view), options).angle;
   }
   const std::filesystem::path& file = plan.sources[task.set].pictures[task.heap];
   const vision::Picture picture = vision::read_picture(file);
-  return vision::measure_repose_angle(picture, vision::with_saved_hints(options, file));
+  const vision::PictureSettings told =
+      vision::with_saved_hints({.measuring = options, .scale = {}}, file);
+  vision::SizedHeap heap = vision::measure_sized_heap(picture, told.measuring, told.scale);
+  if (!seen.m_per_px && heap.sizes.mm_per_px) {
+    seen.m_per_px = heap.sizes.mm_per_px->value / 1000;
+  }
+  return std::move(heap.angle);
 }
 
 void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupted, Work& work) {
@@ -96,8 +103,9 @@ void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupte
     try {
       std::unique_ptr<render::Renderer>& renderer = renderers.local();
       if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
-      vision::ReposeAngle& angle = work.sets[task.set][task.heap].views[task.view];
-      angle = measured(plan, task, renderer.get());
+      SeenHeap& seen = work.sets[task.set][task.heap];
+      vision::ReposeAngle& angle = seen.views[task.view];
+      angle = measured(plan, task, renderer.get(), seen);
       name_options(angle, names);
     } catch (const std::invalid_argument& error) {
       const HeapSource& source = plan.sources[task.set];

@@ -75,7 +75,7 @@ void add_film(Row& row, const std::optional<FilmedPicture>& filmed) {
 /// Empty where there is no scale.
 void add_sizes(Row& row, const MeasuredPicture& picture) {
   const vision::HeapSizes& sizes = picture.sizes;
-  row.add_text(picture.camera_file);
+  row.add_text(picture.lens ? picture.told.scale.lens_file.string() : "");
   row.add_text(!picture.has_scale ? "" : picture.board ? "board" : "given");
   for (const auto* estimate :
        {&sizes.mm_per_px, &sizes.height_mm, &sizes.base_mm, &sizes.cone_volume_ml,
@@ -105,7 +105,7 @@ std::string measured_line(const MeasuredPicture& picture) {
   row.add_number(angle.grain_px);
   row.add_number(angle.height_px);
   row.add_number(angle.base_px);
-  row.add_text(picture.used.hints.text());
+  row.add_text(picture.told.measuring.hints.text());
   row.add_text(warning_codes(angle.warnings));
   row.add_text(angle.reason);
   add_film(row, picture.filmed);

@@ -88,7 +88,7 @@ void attempt(MeasuredPicture& measured, const Work& work) {
 
 /// What many pictures have no room for.
 void drop_large_parts(MeasuredPicture& measured) {
-  measured.used.hints.mask.bgr = {};
+  measured.told.measuring.hints.mask.bgr = {};
   measured.angle.outline = {};
   measured.angle.upper_edge = {};
   measured.angle.left.edge = {};
@@ -117,7 +117,7 @@ void finish(const MeasurePlan& plan, std::size_t index, const Seen& seen,
   }
   name_options(measured.angle, kNames);
   measured.sizes.reason = naming_options(std::move(measured.sizes.reason), kNames);
-  if (plan.saves_hints) vision::save_hints(measured.used, file);
+  if (plan.saves_hints) vision::save_hints(measured.told, file);
   if (!plan.overlays.empty() && !picture.empty()) {
     draw(seen, file, plan.overlays[index], measured);
   }
@@ -146,11 +146,12 @@ fs::path overlay_of_frame(const MeasurePlan& plan, std::size_t index, double tim
 }
 
 /// Of a film's picture: by a scale alone.
-void add_sizes(const MeasurePlan& plan, const vision::Picture& picture, MeasuredPicture& measured) {
-  if (!plan.scale.scale) return;
+void add_sizes(const vision::Picture& picture, MeasuredPicture& measured) {
+  const std::optional<vision::ScaleBar>& scale = measured.told.scale.scale;
+  if (!scale) return;
   measured.has_scale = true;
-  measured.sizes = vision::sizes_of_measured(measured.angle, measured.used, picture.width,
-                                             picture.height, *plan.scale.scale);
+  measured.sizes = vision::sizes_of_measured(measured.angle, measured.told.measuring, picture.width,
+                                             picture.height, *scale);
 }
 
 /// A frame on its way through the pipeline.
@@ -167,13 +168,13 @@ MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
   measured.filmed =
       FilmedPicture{.film = rest.filmed->film, .stretch = stretch, .time_s = timed.time_s};
   attempt(measured, [&] {
-    measured.used = rest.used;
-    measured.angle = vision::measure_repose_angle(timed.picture, measured.used);
-    add_sizes(plan, timed.picture, measured);
+    measured.told = rest.told;
+    measured.angle = vision::measure_repose_angle(timed.picture, measured.told.measuring);
+    add_sizes(timed.picture, measured);
     name_options(measured.angle, kNames);
     if (!plan.overlays.empty()) {
       const double length_s = rest.filmed->film.length_s;
-      draw({timed.picture, measured.used}, plan.pictures[index],
+      draw({timed.picture, measured.told.measuring}, plan.pictures[index],
            overlay_of_frame(plan, index, timed.time_s, length_s), measured);
     }
   });
@@ -225,15 +226,16 @@ std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size
   measured.front().file = file.string();
   attempt(measured.front(), [&] {
     MeasuredPicture& rest = measured.front();
-    rest.used = vision::with_saved_hints(plan.options, file);
+    rest.told = vision::with_saved_hints_of_film({plan.options, plan.scale}, file);
+    const vision::MeasureOptions& options = rest.told.measuring;
     const vision::FilmFile frames{file, plan.frames_per_s};
     vision::FilmAngle film =
-        vision::measure_film(frames, rest.used, [&](double done) { progress(rest_part * done); });
+        vision::measure_film(frames, options, [&](double done) { progress(rest_part * done); });
     if (plan.every_s) check_step(*plan.every_s, film);
     rest.angle = std::move(film.angle);
     rest.filmed = FilmedPicture{.film = film.film, .stretch = film.stretch, .time_s = {}};
-    add_sizes(plan, film.picture, rest);
-    finish(plan, index, {film.picture, rest.used}, rest);
+    add_sizes(film.picture, rest);
+    finish(plan, index, {film.picture, options}, rest);
     if (!plan.every_s) return;
     vision::FrameSeries series(frames, film.times_s, *plan.every_s);
     measure_series(
@@ -250,12 +252,12 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
   measured.front().file = file.string();
   attempt(measured.front(), [&] {
     const vision::Picture picture = vision::read_picture(file);
-    measured.front().used = vision::with_saved_hints(plan.options, file);
-    vision::SizedHeap heap = vision::measure_sized_heap(picture, measured.front().used, plan.scale);
     MeasuredPicture& one = measured.front();
+    one.told = vision::with_saved_hints({plan.options, plan.scale}, file);
+    vision::SizedHeap heap =
+        vision::measure_sized_heap(picture, one.told.measuring, one.told.scale);
     one.angle = std::move(heap.angle);
     one.lens = heap.lens;
-    if (heap.lens) one.camera_file = plan.camera_file;
     one.board = std::move(heap.board);
     one.has_scale = heap.has_scale;
     one.sizes = std::move(heap.sizes);

@@ -112,7 +112,7 @@ Json proposal_json(const std::optional<vision::Proposal>& proposal) {
 Json lens_json(const MeasuredPicture& picture) {
   if (!picture.lens) return nullptr;
   const vision::Lens& lens = *picture.lens;
-  return {{"file", picture.camera_file},
+  return {{"file", picture.told.scale.lens_file.string()},
           {"focal_px", lens.focal_px.value},
           {"centre_px", {lens.centre_x_px.value, lens.centre_y_px.value}},
           {"distortion",
@@ -183,8 +183,8 @@ Json picture_json(const MeasuredPicture& picture) {
             {"pitch_deg", degrees(angle.camera_pitch_rad)},
             {"confidence", angle.confidence},
             {"warnings", warnings_json(angle.warnings)},
-            {"excluded", excluded_json(picture.used.excluded)},
-            {"hints", hints_json(picture.used.hints)},
+            {"excluded", excluded_json(picture.told.measuring.excluded)},
+            {"hints", hints_json(picture.told.measuring.hints)},
             {"proposal", proposal_json(picture.proposal)},
             {"segmentation", angle.segmentation},
             {"strays", angle.strays},

@@ -85,7 +85,7 @@ void read_scale(const MeasureArguments& arguments, MeasurePlan& plan) {
   scale.behind_mm = read_number_within({"--board-behind", arguments.board_behind_mm, errors}, 0,
                                        kFarthest_mm, "--board-behind 150")
                         .value_or(scale.behind_mm);
-  plan.camera_file = arguments.camera_file;
+  scale.lens_file = arguments.camera_file;
   if (!arguments.camera_file.empty()) {
     try {
       scale.lens = vision::read_lens_file(arguments.camera_file);
@@ -112,7 +112,7 @@ void read_scale(const MeasureArguments& arguments, MeasurePlan& plan) {
 
 /// A lens and a board are for single pictures.
 void check_films(MeasurePlan& plan) {
-  if (!plan.scale.finds_board && plan.camera_file.empty()) return;
+  if (!plan.scale.finds_board && plan.scale.lens_file.empty()) return;
   for (const fs::path& file : plan.pictures) {
     std::error_code ignored;
     const bool has_frames = plan.frames_per_s && fs::is_directory(file, ignored);

@@ -19,7 +19,6 @@ struct MeasurePlan {
   vision::MeasureOptions options;
   std::optional<double> frames_per_s;  ///< of folders, each a film's frames
   vision::ScaleOptions scale;
-  std::string camera_file;        ///< that the lens was read from
   std::optional<double> every_s;  ///< also frames of each film, so far apart
   bool saves_hints = false;
   int threads = 1;

@@ -7,6 +7,7 @@
 
 #include "cli/common/degrees.h"
 #include "cli/common/table.h"
+#include "cli/measure/proposal_text.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
@@ -53,24 +54,6 @@ void add_definitions(Table& table, const vision::ReposeAngle& angle) {
                                  100 * other.window_from, 100 * other.window_to));
     }
   }
-}
-
-std::string box_text(const vision::Box& box) {
-  return fmt::format("{},{},{},{}", box.x, box.y, box.width, box.height);
-}
-
-/// The command that helps, with what it gives; or the one to correct and try.
-std::string proposal_text(const std::string& file, const vision::Proposal& proposal) {
-  std::string text = fmt::format("repose measure {}", file);
-  if (proposal.excluded) text += " --exclude " + box_text(*proposal.excluded);
-  if (proposal.heap) text += " --heap " + box_text(*proposal.heap);
-  if (proposal.ground) {
-    const auto& [from, to] = *proposal.ground;
-    text += fmt::format(" --ground {:.0f},{:.0f},{:.0f},{:.0f}", from.x, from.y, to.x, to.y);
-  }
-  if (!proposal.angle_rad) return text + "  with your own corners of the heap and its ground line";
-  return fmt::format("{}  which gives {}; look at its overlay", text,
-                     angle_cell(proposal.angle_rad, proposal.uncertainty_rad));
 }
 
 /// What of the film was measured.
@@ -157,8 +140,7 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
   if (angle.status == vision::MeasureStatus::refused) {
     table.add_note(fmt::format("{}refused: ", kBelow), angle.reason);
     if (picture.proposal) {
-      table.add_note(fmt::format("{}try: ", kBelow),
-                     proposal_text(picture.file, *picture.proposal));
+      table.add_note(fmt::format("{}try: ", kBelow), proposal_text(picture));
     }
   }
   add_sizes(table, picture);

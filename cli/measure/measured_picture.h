@@ -4,8 +4,8 @@
 #include <string>
 
 #include "calibrate/report/measure_report.h"
-#include "vision/camera/sized_heap.h"
 #include "vision/film/film_angle.h"
+#include "vision/hints/hint_file.h"
 #include "vision/hints/proposal.h"
 #include "vision/measure/repose_angle.h"
 
@@ -30,9 +30,8 @@ struct MeasuredPicture {
   Outcome outcome = Outcome::measured;
   std::string error;
   vision::ReposeAngle angle;         ///< without the outline and edge points, which are large
-  vision::MeasureOptions used;       ///< with the picture's own hints, without the mask's pixels
+  vision::PictureSettings told;      ///< with the picture's own hints, without the mask's pixels
   std::optional<vision::Lens> lens;  ///< that the picture was corrected by
-  std::string camera_file;           ///< ... and where it is from
   std::optional<vision::SeenBoard> board;  ///< in its picture
   bool has_scale = false;                  ///< a board that was seen, or a given scale
   vision::HeapSizes sizes;

@@ -1,8 +1,12 @@
 #include "vision/camera/board.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -170,6 +174,40 @@ TEST_F(MeasureWithScale, ACameraFileCorrectsThePictureAndIsNamed) {
   const Finished wrong = run({"heap.png", "--camera-file", "camera.toml"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, AllOf(HasSubstr("1200 x 800"), HasSubstr("1200 x 600"), HasSubstr("Fix")));
+}
+
+TEST_F(MeasureWithScale, WhatGivesMillimetresIsSavedWithTheHints) {
+  draw();
+  write_camera();
+  const std::vector<std::string> typed = {"heap.png",      "--board",     "--square-mm", "23.9",
+                                          "--camera-file", "camera.toml", "--save-hints"};
+  const json first = result(typed).at(0);
+  EXPECT_THAT(text("heap.png.repose.toml"),
+              AllOf(HasSubstr("board = true"), HasSubstr("square_mm = 23.9"),
+                    HasSubstr("camera_file = 'camera.toml'")));
+  const json again = result({"heap.png"}).at(0);
+  EXPECT_EQ(again["mm_per_px"], first["mm_per_px"]);
+  EXPECT_EQ(again["angle_deg"], first["angle_deg"]);
+  EXPECT_EQ(again["camera"]["file"], "camera.toml");
+  const json given = result({"heap.png", "--scale", "120,700,600,700,480"}).at(0);
+  EXPECT_EQ(given["scale"], "given") << "what is typed stands above what is saved";
+}
+
+TEST_F(MeasureWithScale, TheProposalForARefusedPictureRepeatsWhatWasTyped) {
+  vision::Picture night{.width = 400, .height = 300, .bgr = std::vector<std::uint8_t>(360000, 40)};
+  for (int y = 180; y < 240; ++y) {
+    for (int x = 100; x < 300; ++x) night.bgr[3 * (400 * y + x)] = 200;
+  }
+  vision::write_picture(path("a box.png"), night);
+  const Finished done = run(
+      {"a box.png", "--scale", "10,20,210,20,100", "--pitch-deg", "3", "--exclude", "0,0,40,40"});
+  EXPECT_EQ(done.exit_code, 3);
+  std::string words = done.out;  // the table breaks its lines
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  words = std::regex_replace(words, std::regex(" +"), " ");
+  EXPECT_THAT(words, AllOf(HasSubstr("try: repose measure 'a box.png'"),
+                           HasSubstr("--scale 10,20,210,20,100"), HasSubstr("--pitch-deg 3"),
+                           HasSubstr("--exclude 0,0,40,40"), HasSubstr("--heap ")));
 }
 
 TEST_F(MeasureWithScale, TwoPointsGiveASizeAndWhatDoesNotFitIsSaid) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -97,6 +98,18 @@ TEST_F(Compare, ScalesGiveMillimetres) {
   const json base = result({"steep.png", "flat.png", "--base-mm", "180"});
   EXPECT_NEAR(base["base"][0], 180, 1e-6);
   EXPECT_NEAR(base["base_difference"], 0, 1e-6);
+}
+
+TEST_F(Compare, ScalesSavedBesideThePicturesGiveMillimetres) {
+  std::ofstream(path("steep.png.repose.toml")) << "scale = [100, 350, 500, 350, 200]\n";
+  EXPECT_NE(result({"steep.png", "flat.png"})["unit"], "mm") << "one scale is not enough";
+  std::ofstream(path("flat.png.repose.toml")) << "scale = [100, 350, 500, 350, 100]\n";
+  const json mm = result({"steep.png", "flat.png", "--grain-mm", "4"});
+  EXPECT_EQ(mm["unit"], "mm");
+  EXPECT_NEAR(mm["base"][0], 2 * mm["base"][1].get<double>(), 3);
+  EXPECT_TRUE(mm["profile_rmse_grains"].is_number());
+  const json given = result({"steep.png", "flat.png", "--mm-per-px", "0.5"});
+  EXPECT_NEAR(given["base"][0], given["base"][1], 3) << "what is typed stands above what is saved";
 }
 
 TEST_F(Compare, UnmeasurablePicturesAreRefusedWithTheReason) {

@@ -19,8 +19,19 @@ using ::testing::SizeIs;
 class HintFile : public ::testing::Test {
  protected:
   std::filesystem::path picture() const { return folder_.path() / "heap.jpg"; }
+  PictureSettings read_all(PictureSettings given = {}) const {
+    return with_saved_hints(std::move(given), picture());
+  }
   MeasureOptions read(MeasureOptions options = {}) const {
-    return with_saved_hints(std::move(options), picture());
+    return read_all({.measuring = std::move(options), .scale = {}}).measuring;
+  }
+  void save(const MeasureOptions& options) const {
+    save_hints({.measuring = options, .scale = {}}, picture());
+  }
+  void write_camera() const {
+    base::write_whole_file(folder_.path() / "camera.toml",
+                           "width_px = 300\nheight_px = 200\nfocal_px = 400\ncentre_x_px = 150\n"
+                           "centre_y_px = 100\n");
   }
   std::string complaint(const std::string& text) const {
     base::write_whole_file(hint_file_of(picture()), text);
@@ -50,7 +61,7 @@ TEST_F(HintFile, WhatIsSavedIsReadAgain) {
   options.camera_pitch_rad = 4 * kDegree;
   options.hints.mask_file = folder_.path() / "a mask \"here\".png";
   write_picture(options.hints.mask_file, picture_of(cv::Mat3b(20, 30, cv::Vec3b(9, 9, 9))));
-  save_hints(options, picture());
+  save(options);
   for (int time = 0; time < 2; ++time) {  // what is given again is there once
     const MeasureOptions again = read(time == 0 ? MeasureOptions{} : options);
     EXPECT_EQ(again.hints.source, "heap.jpg.repose.toml");
@@ -70,7 +81,7 @@ TEST_F(HintFile, WhatItSaysIsKeptWhenItIsSavedAgain) {
   write_picture(folder_.path() / "mask.png", picture_of(cv::Mat3b(20, 30, cv::Vec3b(9, 9, 9))));
   base::write_whole_file(hint_file_of(picture()),
                          "ground = [0, 18, 30, 18]\nmask = \"mask.png\"\n");
-  save_hints(read(), picture());
+  save(read());
   EXPECT_EQ(read().hints.mask.width, 30);
   EXPECT_TRUE(read().hints.ground);
 }
@@ -85,6 +96,42 @@ TEST_F(HintFile, WhatIsGivenStandsAboveTheFile) {
   EXPECT_EQ(options.camera_pitch_rad, 0);
 }
 
+TEST_F(HintFile, ScaleAndLensAreSavedAndReadAgain) {
+  write_camera();
+  PictureSettings board;
+  board.scale.lens_file = folder_.path() / "camera.toml";
+  board.scale.finds_board = true;
+  board.scale.square_mm = 23.5;
+  board.scale.behind_mm = 120;
+  save_hints(board, picture());
+  PictureSettings again = read_all();
+  ASSERT_TRUE(again.scale.lens);
+  EXPECT_EQ(again.scale.lens->focal_px.value, 400);
+  EXPECT_TRUE(again.scale.finds_board);
+  EXPECT_EQ(again.scale.square_mm, 23.5);
+  EXPECT_EQ(again.scale.behind_mm, 120);
+
+  PictureSettings given;
+  given.scale.scale = ScaleBar{.line = {{0, 10}, {200, 10.5}}, .length_mm = 80};
+  again = read_all(given);
+  EXPECT_FALSE(again.scale.finds_board) << "one scale: the one that is given";
+  EXPECT_TRUE(again.scale.lens);
+
+  save_hints(given, picture());
+  again = read_all();
+  ASSERT_TRUE(again.scale.scale);
+  EXPECT_EQ(again.scale.scale->line.to.y, 10.5);
+  EXPECT_EQ(again.scale.scale->length_mm, 80);
+  EXPECT_FALSE(again.scale.lens);
+}
+
+TEST_F(HintFile, AFilmHasNoBoardAndNoLens) {
+  base::write_whole_file(hint_file_of(picture()), "scale = [0, 0, 90, 0, 40]\n");
+  EXPECT_TRUE(with_saved_hints_of_film({}, picture()).scale.scale);
+  base::write_whole_file(hint_file_of(picture()), "board = true\n");
+  EXPECT_THROW(with_saved_hints_of_film({}, picture()), std::invalid_argument);
+}
+
 TEST_F(HintFile, AllThatIsWrongIsSaidAtOnce) {
   EXPECT_THAT(complaint("heap = [1, 2, 3]\nground = 'level'\nkeep = [[1, nan]]\ndrop = 3\n"
                         "mask = 7\npitch_deg = 'low'\nhaep = [1, 2, 3, 4]\n"),
@@ -92,6 +139,15 @@ TEST_F(HintFile, AllThatIsWrongIsSaidAtOnce) {
                     HasSubstr(":2: ground: must be [x1, y1, x2, y2]"), HasSubstr(":3: keep"),
                     HasSubstr(":4: drop"), HasSubstr(":5: mask"), HasSubstr(":6: pitch_deg"),
                     HasSubstr(":7: haep: is not a hint")));
+  EXPECT_THAT(complaint("scale = [0, 0, 5, 0, 40]\nsquare_mm = -1\nboard = 'yes'\n"
+                        "board_behind_mm = 20\n"),
+              AllOf(HasSubstr(":1: scale: must be [x1, y1, x2, y2, mm]"),
+                    HasSubstr(":2: square_mm: must be a number above 0"),
+                    HasSubstr(":3: board: must be true or false"),
+                    HasSubstr(":4: board_behind_mm: needs the focal length")));
+  EXPECT_THAT(complaint("scale = [0, 0, 50, 0, 40]\nboard = true\n"), HasSubstr("one scale"));
+  EXPECT_THAT(complaint("square_mm = 20\n"), HasSubstr("it needs board = true"));
+  EXPECT_THAT(complaint("camera_file = \"none.toml\"\n"), HasSubstr("none.toml"));
   EXPECT_THAT(complaint("heap = [1, 2\n"), HasSubstr("must be TOML"));
   EXPECT_THAT(complaint("mask = \"nowhere.png\"\n"), HasSubstr("nowhere.png"));
 }

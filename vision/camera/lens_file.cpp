@@ -60,12 +60,16 @@ class LensReader {
     const auto value = node->value<double>();
     if (value && std::abs(*value) <= kLargest) return *value;  // NaN fails
     add(line_of(*node), key, "must be a number");
+    refused_.push_back(key);
     return 0;
   }
 
+  /// Of a number that is one: no key is named twice.
   void require(bool holds, const std::string& key, const char* rule) {
     const toml::node* node = table_.get(key);
-    if (!holds && node != nullptr) add(line_of(*node), key, rule);
+    if (holds || node == nullptr) return;
+    if (std::find(refused_.begin(), refused_.end(), key) != refused_.end()) return;
+    add(line_of(*node), key, rule);
   }
 
   void refuse_other_keys() {
@@ -89,6 +93,7 @@ class LensReader {
   const toml::table& table_;
   const fs::path& file_;
   std::vector<std::string> known_;
+  std::vector<std::string> refused_;
   base::ErrorList errors_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace repose::vision {
 /// What gives the millimetres.
 struct ScaleOptions {
   std::optional<Lens> lens = {};
+  std::filesystem::path lens_file = {};  ///< that it was read from
   bool finds_board = false;
   double square_mm = kBoardSquare_mm;  ///< as printed
   double behind_mm = 0;  ///< how far behind the heap's middle plane the board stands; needs a lens

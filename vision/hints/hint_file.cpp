@@ -9,15 +9,14 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
-#include "base/error_list.h"
-#include "base/toml_nesting.h"
 #include "base/whole_file.h"
+#include "vision/camera/lens_file.h"
+#include "vision/hints/hint_reader.h"
 
 namespace repose::vision {
 namespace {
@@ -25,113 +24,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kLargestPixel = 1e6;
-
-/// Reads the values of one hint file; what is wrong with them is collected.
-class HintReader {
- public:
-  HintReader(const toml::table& table, const fs::path& file) : table_(table), file_(file) {}
-
-  template <std::size_t kCount>
-  std::optional<std::array<double, kCount>> numbers(const char* key, const char* meaning) {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return std::nullopt;
-    return numbers_of<kCount>(*node, key, meaning);
-  }
-
-  /// A list of such groups.
-  template <std::size_t kCount>
-  std::vector<std::array<double, kCount>> groups(const char* key, const char* meaning) {
-    std::vector<std::array<double, kCount>> all;
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return all;
-    if (!node->is_array()) {
-      add(*node, key, fmt::format("must be a list of {}", meaning));
-      return all;
-    }
-    for (const toml::node& item : *node->as_array()) {
-      if (const auto group = numbers_of<kCount>(item, key, meaning)) all.push_back(*group);
-    }
-    return all;
-  }
-
-  std::optional<double> number(const char* key) {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return std::nullopt;
-    const auto value = node->value<double>();
-    if (!value || !std::isfinite(*value)) add(*node, key, "must be a number");
-    return value;
-  }
-
-  std::string text(const char* key) {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return {};
-    const auto value = node->value<std::string>();
-    if (!value) add(*node, key, "must be a file's name in quotes");
-    return value.value_or("");
-  }
-
-  void refuse_other_keys(std::initializer_list<std::string_view> known) {
-    for (const auto& [key, node] : table_) {
-      if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-      add(node, std::string(key.str()),
-          fmt::format("is not a hint. Known hints: {}", fmt::join(known, ", ")));
-    }
-  }
-
-  void throw_if_any() const { errors_.throw_if_any(); }
-
- private:
-  void add(const toml::node& node, const std::string& key, const std::string& rule) {
-    errors_.add(fmt::format("{}:{}: {}: {}. Fix: correct it, or delete the line.", file_.string(),
-                            node.source().begin.line, key, rule));
-  }
-
-  template <std::size_t kCount>
-  std::optional<std::array<double, kCount>> numbers_of(const toml::node& node, const char* key,
-                                                       const char* meaning) {
-    std::array<double, kCount> values{};
-    const toml::array* list = node.as_array();
-    bool is_good = list != nullptr && list->size() == kCount;
-    for (std::size_t i = 0; is_good && i < kCount; ++i) {
-      const auto value = list->get(i)->value<double>();
-      is_good = value && std::abs(*value) <= kLargestPixel;  // NaN fails
-      values[i] = value.value_or(0);
-    }
-    if (is_good) return values;
-    add(node, key, fmt::format("must be {}", meaning));
-    return std::nullopt;
-  }
-
-  const toml::table& table_;
-  const fs::path& file_;
-  base::ErrorList errors_;
-};
 
 constexpr const char* kBox = "[x, y, width, height] in pixels";
 constexpr const char* kLine = "[x1, y1, x2, y2] in pixels";
 constexpr const char* kPlace = "[x, y] in pixels";
+constexpr const char* kScale =
+    "[x1, y1, x2, y2, mm]: two points in pixels, at least 10 apart, and their distance in mm";
 
 Box box_of(const std::array<double, 4>& numbers) {
   const auto pixel = [&](std::size_t i) { return static_cast<int>(std::lround(numbers[i])); };
   return {.x = pixel(0), .y = pixel(1), .width = pixel(2), .height = pixel(3)};
-}
-
-toml::table parsed(const std::string& text, const fs::path& file) {
-  if (const auto line = base::line_of_deep_key(text)) {
-    throw std::invalid_argument(
-        fmt::format("{}:{}: a key has more than {} points. Fix: correct this line, or delete the "
-                    "file.",
-                    file.string(), *line, base::kMostPointsInAKey));
-  }
-  try {
-    return toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    throw std::invalid_argument(fmt::format(
-        "{}:{}: {}. Rule: the text must be TOML (https://toml.io). Fix: correct this line, or "
-        "delete the file.",
-        file.string(), error.source().begin.line, error.description()));
-  }
 }
 
 /// Adds what is not there yet: saved again, a list stays the same.
@@ -156,6 +58,51 @@ void add_boxes(HintReader& reader, std::vector<Box>& boxes) {
   }
 }
 
+std::optional<ScaleBar> scale_of(HintReader& reader) {
+  const auto numbers = reader.numbers<5>("scale", kScale);
+  if (!numbers) return std::nullopt;
+  const auto& [x1, y1, x2, y2, length_mm] = *numbers;
+  constexpr double kLeast_px = 10;
+  if (!(length_mm > 0) || std::hypot(x2 - x1, y2 - y1) < kLeast_px) {
+    reader.refuse("scale", fmt::format("must be {}", kScale));
+    return std::nullopt;
+  }
+  return ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
+}
+
+/// What the file says of the scale; of the lens the file's name alone.
+ScaleOptions read_scale(HintReader& reader) {
+  ScaleOptions scale;
+  scale.lens_file = reader.file_name("camera_file");
+  scale.finds_board = reader.truth("board").value_or(false);
+  scale.square_mm = reader.positive("square_mm").value_or(scale.square_mm);
+  scale.behind_mm = reader.positive("board_behind_mm").value_or(0);
+  scale.scale = scale_of(reader);
+  if (scale.finds_board) {
+    reader.refuse("scale", "stands beside board = true. Rule: one scale");
+  } else {
+    reader.refuse("square_mm", "is of a board. Rule: it needs board = true");
+    reader.refuse("board_behind_mm", "is of a board. Rule: it needs board = true");
+  }
+  if (scale.lens_file.empty() && scale.behind_mm > 0) {
+    reader.refuse("board_behind_mm", "needs the focal length. Rule: it needs camera_file");
+  }
+  return scale;
+}
+
+/// Takes from the file what was not given: the lens, and one scale.
+void add_scale(const ScaleOptions& saved, const fs::path& folder, ScaleOptions& given) {
+  if (!given.lens && !saved.lens_file.empty()) {
+    given.lens_file = folder / saved.lens_file;
+    given.lens = read_lens_file(given.lens_file);
+  }
+  if (given.finds_board || given.scale) return;
+  given.finds_board = saved.finds_board;
+  given.square_mm = saved.square_mm;
+  given.behind_mm = saved.behind_mm;
+  given.scale = saved.scale;
+}
+
 std::string pixel(double value) { return fmt::format("{:.6g}", value); }
 
 std::string text_of(const Box& box) {
@@ -173,6 +120,32 @@ std::string list_of(const std::vector<Item>& items) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
+/// Names a file as seen from the picture's folder.
+std::string near_text(const fs::path& file, const fs::path& picture) {
+  const fs::path beside = fs::absolute(picture).parent_path();
+  const fs::path near = fs::proximate(fs::absolute(file), beside);
+  return (std::ostringstream() << toml::value<std::string>(near.generic_string())).str();
+}
+
+std::string scale_text(const ScaleOptions& scale, const fs::path& picture) {
+  std::string text;
+  if (!scale.lens_file.empty()) {
+    text += fmt::format("camera_file = {}\n", near_text(scale.lens_file, picture));
+  }
+  if (scale.scale) {
+    const auto& [from, to] = scale.scale->line;
+    text += fmt::format("scale = [{}, {}, {}, {}, {:.6g}]\n", pixel(from.x), pixel(from.y),
+                        pixel(to.x), pixel(to.y), scale.scale->length_mm);
+  }
+  if (!scale.finds_board) return text;
+  text += "board = true\n";
+  if (scale.square_mm != kBoardSquare_mm) {
+    text += fmt::format("square_mm = {:.6g}\n", scale.square_mm);
+  }
+  if (scale.behind_mm > 0) text += fmt::format("board_behind_mm = {:.6g}\n", scale.behind_mm);
+  return text;
+}
+
 }  // namespace
 
 fs::path hint_file_of(const fs::path& picture) {
@@ -181,14 +154,16 @@ fs::path hint_file_of(const fs::path& picture) {
   return file;
 }
 
-MeasureOptions with_saved_hints(MeasureOptions options, const fs::path& picture) {
+PictureSettings with_saved_hints(PictureSettings given, const fs::path& picture) {
   const fs::path file = hint_file_of(picture);
   constexpr std::uintmax_t kLargest_bytes = 1 << 20;
   const std::optional<std::string> text = base::read_file_if_there(file, kLargest_bytes);
-  if (!text) return options;
-  const toml::table table = parsed(*text, file);
+  if (!text) return given;
+  const toml::table table = parse_hints(*text, file);
   HintReader reader(table, file);
-  reader.refuse_other_keys({"heap", "ground", "keep", "drop", "mask", "exclude", "pitch_deg"});
+  reader.refuse_other_keys({"heap", "ground", "keep", "drop", "mask", "exclude", "pitch_deg",
+                            "scale", "board", "square_mm", "board_behind_mm", "camera_file"});
+  MeasureOptions& options = given.measuring;
   Hints& hints = options.hints;
   hints.source = file.filename().string();
   const auto heap = reader.numbers<4>("heap", kBox);
@@ -203,16 +178,30 @@ MeasureOptions with_saved_hints(MeasureOptions options, const fs::path& picture)
   add_boxes(reader, options.excluded);
   const std::optional<double> pitch_deg = reader.number("pitch_deg");
   if (pitch_deg && !options.camera_pitch_rad) options.camera_pitch_rad = *pitch_deg * kDegree;
-  const std::string mask = reader.text("mask");
+  const std::string mask = reader.file_name("mask");
+  const ScaleOptions scale = read_scale(reader);
   reader.throw_if_any();
   if (!mask.empty() && hints.mask.empty()) {
     hints.mask_file = picture.parent_path() / mask;
     hints.mask = read_picture(hints.mask_file);
   }
-  return options;
+  add_scale(scale, picture.parent_path(), given.scale);
+  return given;
 }
 
-void save_hints(const MeasureOptions& options, const fs::path& picture) {
+PictureSettings with_saved_hints_of_film(PictureSettings given, const fs::path& film) {
+  PictureSettings settings = with_saved_hints(std::move(given), film);
+  if (settings.scale.lens || settings.scale.finds_board) {
+    throw std::invalid_argument(fmt::format(
+        "{}: names a board or a camera file for a film. Rule: they are for pictures. Fix: give "
+        "scale = [x1, y1, x2, y2, mm], or photograph the heap at rest.",
+        hint_file_of(film).string()));
+  }
+  return settings;
+}
+
+void save_hints(const PictureSettings& settings, const fs::path& picture) {
+  const MeasureOptions& options = settings.measuring;
   const Hints& hints = options.hints;
   std::string text = fmt::format("# Hints for {}, in its pixels: read whenever it is measured.\n",
                                  picture.filename().string());
@@ -227,15 +216,12 @@ void save_hints(const MeasureOptions& options, const fs::path& picture) {
   }
   if (!hints.keep.empty()) add("keep", list_of(hints.keep));
   if (!hints.drop.empty()) add("drop", list_of(hints.drop));
-  if (!hints.mask_file.empty()) {
-    const fs::path beside = fs::absolute(picture).parent_path();
-    const fs::path near = fs::proximate(fs::absolute(hints.mask_file), beside);
-    add("mask", (std::ostringstream() << toml::value<std::string>(near.generic_string())).str());
-  }
+  if (!hints.mask_file.empty()) add("mask", near_text(hints.mask_file, picture));
   if (!options.excluded.empty()) add("exclude", list_of(options.excluded));
   if (options.camera_pitch_rad) {
     add("pitch_deg", fmt::format("{:.6g}", *options.camera_pitch_rad / kDegree));
   }
+  text += scale_text(settings.scale, picture);
   base::write_whole_file(hint_file_of(picture), text);
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <vector>
 
+#include "vision/camera/sized_heap.h"
 #include "vision/measure/repose_angle.h"
 
 /// What a person has said of a picture, kept in a small file beside it.
@@ -12,14 +11,24 @@ namespace repose::vision {
 /// The file in which the hints of a picture are kept: its name with ".repose.toml" behind.
 std::filesystem::path hint_file_of(const std::filesystem::path& picture);
 
-/// The options with what the file beside the picture says: boxes and places are added to those of
-/// the options, all else is taken where the options say nothing. Unchanged when there is no file.
-/// @throws std::invalid_argument  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
-MeasureOptions with_saved_hints(MeasureOptions options, const std::filesystem::path& picture);
+/// What is said of a picture: how its heap is measured, and what gives it millimetres.
+struct PictureSettings {
+  MeasureOptions measuring = {};
+  ScaleOptions scale = {};
+};
 
-/// Writes the hints, excluded boxes and pitch of the options into the file beside the picture, for
-/// the next time. Of a mask the name of its file.
+/// The settings with what the file beside the picture says: boxes and places are added to those
+/// given, all else is taken where nothing was given. Unchanged when there is no file.
+/// @throws std::invalid_argument  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
+PictureSettings with_saved_hints(PictureSettings given, const std::filesystem::path& picture);
+
+/// The same for a film, which is measured without a lens and without a board.
+/// @throws std::invalid_argument  also where there is one.
+PictureSettings with_saved_hints_of_film(PictureSettings given, const std::filesystem::path& film);
+
+/// Writes hints, excluded boxes, pitch, scale and lens into the file beside the picture, for the
+/// next time. Of a mask and a lens the name of the file.
 /// @throws std::invalid_argument  when the file cannot be written.
-void save_hints(const MeasureOptions& options, const std::filesystem::path& picture);
+void save_hints(const PictureSettings& settings, const std::filesystem::path& picture);
 
 }  // namespace repose::vision
