@@ -14,6 +14,7 @@ constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron o
 constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
 constexpr double kOtherColour = 6;      // distance in a*b* alone, which a shade leaves alone
+constexpr double kNearer = 1.3;         // times: nearer in colour to the heap than to the ground
 constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a fraction of its width
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
@@ -26,6 +27,7 @@ constexpr double kBaseTolerance = 3.0;  // px: grains touch the ground only here
 constexpr double kEqualEvidence = 0.9;  // of the best line's: as good
 constexpr double kPlainEdge = 0.6;      // evidence above which a line lies on an edge
 constexpr double kBetterEdge = 1.1;     // times the evidence: a search that is worth believing
+constexpr double kFarthest = 6;         // px by which a search moves an end
 constexpr double kFirstStep = 4;        // px by which the search moves the line's ends
 constexpr double kLastStep = 0.5;
 constexpr int kMaxMoves = 24;
@@ -102,7 +104,7 @@ bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPic
   if (cv::norm(from_tail) < kSameMaterial) return false;
   // Grains in a shade are of the heap's colour, if not as light.
   const bool is_shaded =
-      colour_of(from_tail) >= kOtherColour && 2 * colour_of(from_heap) < colour_of(from_tail);
+      colour_of(from_tail) >= kOtherColour && kNearer * colour_of(from_heap) < colour_of(from_tail);
   return cv::norm(from_heap) < kSameMaterial || is_shaded;
 }
 
@@ -220,6 +222,13 @@ std::vector<std::pair<int, int>> moves_of(const std::optional<double>& bow) {
   return moves;
 }
 
+/// Whether both ends lie within the search's reach of where it began: the next edge of a plate does
+/// not.
+bool is_near(const PictureLine& line, const PictureLine& start, const Base& base) {
+  return std::abs(line.y(base.from) - start.y(base.from)) <= kFarthest &&
+         std::abs(line.y(base.to) - start.y(base.to)) <= kFarthest;
+}
+
 /// Pattern search: moves the line's ends as long as the picture shows a better edge.
 Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& base,
                const WorkingPicture& work) {
@@ -234,6 +243,7 @@ Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& 
       line.slope += step * (right - left) / width;
       line.y_at_0 = here.line.y(base.from) + step * left - line.slope * base.from;
       if (std::abs(line.tilt_rad()) > kMaxGroundTilt_rad) continue;
+      if (!is_near(line, start.line, base)) continue;
       const double valid_mask = ground_evidence(line, base, work);
       if (valid_mask > best.valid_mask) best = {line, valid_mask};
     }
