@@ -176,7 +176,7 @@ TEST(BestGround, IsAsUncertainAsEquallyGoodLinesDisagree) {
 
 TEST(BestGround, SearchesForTheEdgeWhereNoLineLiesOnOne) {
   const double tilt = 1.5 * kDegree;
-  const Ground best = best_ground({level(kGround + 10, 0)}, kBase, heap_on_plate(tilt));
+  const Ground best = best_ground({level(kGround + 8, 0)}, kBase, heap_on_plate(tilt));
   EXPECT_NEAR(best.tilt_rad(), tilt, 0.2 * kDegree);
   EXPECT_GE(best.deviation_rad, 0.6 * kDegree) << "half of what the search has changed";
 }
@@ -212,7 +212,8 @@ Spans spans_with_plate() {
 }
 
 TEST(FindGround, AnEdgeBehindTheHeapIsOneEvenIfTheGrainsBelowItLieInAShade) {
-  for (const cv::Vec3b& foot : {cv::Vec3b(90, 170, 200), cv::Vec3b(60, 135, 160)}) {
+  for (const cv::Vec3b& foot :
+       {cv::Vec3b(90, 170, 200), cv::Vec3b(60, 135, 160), cv::Vec3b(75, 119, 137)}) {
     const auto ground = find_ground(spans_with_plate(), heap_before_an_edge(foot));
     ASSERT_TRUE(ground);
     EXPECT_NEAR(ground->y(200), kGround, 2);
@@ -224,6 +225,59 @@ TEST(FindGround, AHeapsShadowOnThePlateIsNoFoot) {
   const auto ground = find_ground(spans_with_plate(), heap_before_an_edge(cv::Vec3b(80, 80, 80)));
   ASSERT_TRUE(ground);
   EXPECT_FALSE(ground->behind);
+}
+
+/// A heap of yellow grains on a grey plate whose front edge lies 14 px below the heap's foot.
+WorkingPicture heap_behind_an_edge() {
+  cv::Mat3b picture(220, 400, cv::Vec3b(200, 200, 200));
+  picture.rowRange(130, 220) = cv::Vec3b(120, 120, 120);
+  picture.rowRange(static_cast<int>(kGround) + 14, 220) = cv::Vec3b(40, 40, 40);
+  const std::vector<cv::Point> heap = {{100, 149}, {200, 90}, {300, 149}};
+  cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{heap}, cv::Scalar(90, 170, 200));
+  return work_of(picture);
+}
+
+/// The heap's outline down to a row: to its foot, or over the plate to the plate's edge.
+Spans spans_down_to(int bottom) {
+  Spans spans{.top = std::vector<int>(400, -1), .bottom = std::vector<int>(400, -1)};
+  for (int x = 101; x < 299; ++x) {
+    spans.top[static_cast<std::size_t>(x)] = static_cast<int>(90 + .6 * std::abs(x - 200));
+    spans.bottom[static_cast<std::size_t>(x)] = bottom;
+  }
+  return spans;
+}
+
+TEST(FindGround, AnEdgeBeforeTheHeapIsToldByTheGroundAboveIt) {
+  const WorkingPicture work = heap_behind_an_edge();
+  const auto edge = find_ground(spans_down_to(163), work);
+  ASSERT_TRUE(edge);
+  EXPECT_NEAR(edge->y(200), kGround + 14, 1);
+  EXPECT_TRUE(edge->before);
+  const auto foot = find_ground(spans_down_to(149), work);
+  ASSERT_TRUE(foot);
+  EXPECT_FALSE(foot->before);
+}
+
+TEST(BestGround, IsTheFootWhereTheHeapEndsAboveAPlainerEdge) {
+  const WorkingPicture work = heap_behind_an_edge();
+  Ground before = level(kGround + 14, 0);
+  before.before = true;
+  const Ground best = best_ground({before, level(kGround, 0)}, kBase, work);
+  EXPECT_NEAR(best.y(200), kGround, 1);
+  EXPECT_TRUE(best_ground({before}, kBase, work).before) << "no other is known";
+}
+
+TEST(BestGround, TheSearchDoesNotReachTheNextEdge) {
+  // Plainer with every row: the search would follow it down to the plate's edge, 30 px lower.
+  cv::Mat3b picture(220, 400, cv::Vec3b(160, 160, 160));
+  for (int y = static_cast<int>(kGround); y < 220; ++y) {
+    const double below = std::min(30.0, y - kGround);
+    picture.row(y) = cv::Vec3b::all(static_cast<uchar>(160 - below * below / 6));
+  }
+  const Ground best = best_ground({level(kGround, 0)}, kBase, work_of(picture));
+  EXPECT_GT(best.y(200), kGround + 3) << "it does search";
+  EXPECT_NEAR(best.y(kBase.from), kGround, 6);
+  EXPECT_NEAR(best.y(kBase.to), kGround, 6);
 }
 
 TEST(BestGround, IsTheFootWhereTheHeapGoesOnBelowAPlainerEdge) {

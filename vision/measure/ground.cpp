@@ -15,6 +15,8 @@ constexpr int kTailDepth = 15;          // px of the ground that are compared wi
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
 constexpr double kOtherColour = 6;      // distance in a*b* alone, which a shade leaves alone
 constexpr double kNearer = 1.3;         // times: nearer in colour to the heap than to the ground
+constexpr double kBesideBase = 0.15;    // of the base's width: ground on each side of it
+constexpr std::size_t kFewestColumns = 8;
 constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a fraction of its width
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
@@ -108,6 +110,35 @@ bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPic
   return cv::norm(from_heap) < kSameMaterial || is_shaded;
 }
 
+/// Whether the heap ends above a line through the lower outline: what lies just above the line
+/// below the heap has the colour of what lies there beside it, not that of the heap. Then the
+/// region has run down over the ground to an edge in front of the heap.
+bool ends_above(const Spans& spans, const PictureLine& line, const WorkingPicture& work) {
+  const std::vector<Point> tops = points_of(spans.top, 0);
+  if (tops.size() < kFewestColumns) return false;
+  const double first = tops.front().x;
+  const double last = tops.back().x;
+  const double beside = kBesideBase * (last - first);
+  Material heap;
+  Material strip;
+  Material ground;
+  for (int col = std::max(work.frame.x, static_cast<int>(first - beside));
+       col < std::min(work.frame.br().x, static_cast<int>(last + beside)); ++col) {
+    const int level = static_cast<int>(std::lround(line.y(col + 0.5)));
+    const int top = spans.top[static_cast<std::size_t>(col)];
+    const bool is_heap = top >= 0 && top < level - kTailDepth;
+    if (top >= 0 && !is_heap) continue;
+    const int end = std::min(level - 2, work.lab.rows);
+    for (int row = std::max(0, level - 2 - kSkirtDepth); row < end; ++row) {
+      (is_heap ? strip : ground).add(work, row, col);
+    }
+    for (int row = top + 3; is_heap && row < (top + level) / 2; row += 2) heap.add(work, row, col);
+  }
+  if (heap.count == 0 || strip.count == 0 || ground.count == 0) return false;
+  const double from_heap = colour_of(heap.mean() - strip.mean());
+  return from_heap >= kOtherColour && kNearer * colour_of(ground.mean() - strip.mean()) < from_heap;
+}
+
 /// Bare ground left or right of the heap, when the segmentation took the ground for heap: a smooth
 /// stretch of the upper outline that reaches the frame, everything else above it.
 std::optional<Ground> ground_from_tails(const Spans& spans, const WorkingPicture& work) {
@@ -193,7 +224,11 @@ std::optional<Ground> ground_from_base(const Spans& spans, const WorkingPicture&
   for (const double looser : {1.0, 2.0, 3.5}) {  // large grains leave large gaps at the ground
     base = support_line(bottoms, looser * kBaseTolerance);
     if (base && base->fraction > 0.5 && bow < kStraightBase && bow > -kRaggedBase) {
-      if (!hidden) return Ground{base->line, base->deviation_rad, bow, false};
+      if (!hidden) {
+        Ground ground{base->line, base->deviation_rad, bow, false};
+        ground.before = ends_above(spans, base->line, work);
+        return ground;
+      }
       return Ground{base->line, std::hypot(base->deviation_rad, kRoll_rad), std::nullopt, false};
     }
   }
@@ -252,12 +287,24 @@ Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& 
   return best;
 }
 
+/// In place of an edge before the heap the best of those that are not, if any is.
+std::size_t best_foot_behind(const std::vector<Ground>& candidates,
+                             const std::vector<double>& evidence, std::size_t best) {
+  std::size_t foot = best;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].before || candidates[i].behind || candidates[i].mirrored) continue;
+    if (foot == best || evidence[i] > evidence[foot]) foot = i;
+  }
+  return foot;
+}
+
 /// The candidate with the best evidence; but where the heap goes on below that, the best of those
 /// that are its foot, if any is.
 std::size_t best_of(const std::vector<Ground>& candidates, const std::vector<double>& evidence,
                     const Base& base) {
   const auto best = static_cast<std::size_t>(std::max_element(evidence.begin(), evidence.end()) -
                                              evidence.begin());
+  if (candidates.at(best).before) return best_foot_behind(candidates, evidence, best);
   if (!candidates.at(best).behind) return best;
   const double middle = (base.from + base.to) / 2;
   std::size_t foot = best;

@@ -17,6 +17,7 @@ struct Ground : PictureLine {
                                    ///< empty when the base is not seen
   bool mirrored = false;           ///< it is the axis of a reflection
   bool behind = false;             ///< the heap goes on below it: an edge behind the heap
+  bool before = false;             ///< the heap ends above it: an edge before the heap
 };
 
 /// Bow of a base that is seen from its own level.
