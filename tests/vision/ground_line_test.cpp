@@ -213,7 +213,7 @@ Spans spans_with_plate() {
 
 TEST(FindGround, AnEdgeBehindTheHeapIsOneEvenIfTheGrainsBelowItLieInAShade) {
   for (const cv::Vec3b& foot :
-       {cv::Vec3b(90, 170, 200), cv::Vec3b(60, 135, 160), cv::Vec3b(75, 119, 137)}) {
+       {cv::Vec3b(90, 170, 200), cv::Vec3b(60, 135, 160), cv::Vec3b(74, 120, 139)}) {
     const auto ground = find_ground(spans_with_plate(), heap_before_an_edge(foot));
     ASSERT_TRUE(ground);
     EXPECT_NEAR(ground->y(200), kGround, 2);

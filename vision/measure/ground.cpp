@@ -14,6 +14,7 @@ constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron o
 constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
 constexpr double kOtherColour = 6;      // distance in a*b* alone, which a shade leaves alone
+constexpr double kHeapsOwn = 1.6;       // times nearer in colour to the heap: no reflection of it
 constexpr double kNearer = 1.3;         // times: nearer in colour to the heap than to the ground
 constexpr double kBesideBase = 0.15;    // of the base's width: ground on each side of it
 constexpr std::size_t kFewestColumns = 8;
@@ -105,8 +106,8 @@ bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPic
   const cv::Vec4d from_tail = tail.mean() - below.mean();
   if (cv::norm(from_tail) < kSameMaterial) return false;
   // Grains in a shade are of the heap's colour, if not as light.
-  const bool is_shaded =
-      colour_of(from_tail) >= kOtherColour && kNearer * colour_of(from_heap) < colour_of(from_tail);
+  const bool is_shaded = colour_of(from_tail) >= kOtherColour &&
+                         kHeapsOwn * colour_of(from_heap) < colour_of(from_tail);
   return cv::norm(from_heap) < kSameMaterial || is_shaded;
 }
 
