@@ -1,6 +1,7 @@
 #include "vision/camera/board.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -194,9 +195,12 @@ TEST_F(MeasureWithScale, WhatGivesMillimetresIsSavedWithTheHints) {
 }
 
 TEST_F(MeasureWithScale, TheProposalForARefusedPictureRepeatsWhatWasTyped) {
-  vision::Picture night{.width = 400, .height = 300, .bgr = std::vector<std::uint8_t>(360000, 40)};
-  for (int y = 180; y < 240; ++y) {
-    for (int x = 100; x < 300; ++x) night.bgr[3 * (400 * y + x)] = 200;
+  constexpr std::size_t kWidth = 400, kHeight = 300;
+  vision::Picture night{.width = kWidth,
+                        .height = kHeight,
+                        .bgr = std::vector<std::uint8_t>(3 * kWidth * kHeight, 40)};
+  for (std::size_t y = 180; y < 240; ++y) {
+    for (std::size_t x = 100; x < 300; ++x) night.bgr[3 * (kWidth * y + x)] = 200;
   }
   vision::write_picture(path("a box.png"), night);
   const Finished done = run(
