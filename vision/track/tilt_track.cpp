@@ -135,7 +135,9 @@ std::string read_slide(const PlateMotion& motion, const PlateGrains& grains,
   fault = fault_of_slide(grain, motion);
   if (!fault.empty()) return fault;
   std::vector<SlidAt> places;
-  for (const OnPlateSighting& one : grain.seen) places.push_back({one.time_s, one.slid_px});
+  for (const OnPlateSighting& one : grain.seen) {
+    places.push_back({one.time_s, one.slid_px, motion.turned_at(motion.seen[one.plate])});
+  }
   const auto onset = slide_onset(places, grain.least_px(), grain.most_px());
   if (!onset) {
     return "too few frames show how the grain sets off. Rule: 4 at rest and 3 in its slide. Fix: "
