@@ -166,9 +166,10 @@ std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
   const auto best =
       std::max_element(motions.begin(), motions.end(),
                        [](const auto& a, const auto& b) { return weight_of(a) < weight_of(b); });
-  constexpr double kAlike = .1, kLeastWeight = .45;
-  const auto row = [](const PlateMotion& motion) {
-    return motion.seen.front().line.row_at(.5 * (motion.edge.from + motion.edge.to));
+  // The same line may have been found twice, a second time with a part of its length.
+  constexpr double kAlike = .1, kLeastWeight = .45, kSame_px = 1;
+  const auto row = [column = .5 * (best->edge.from + best->edge.to)](const PlateMotion& motion) {
+    return motion.seen.front().line.row_at(column);
   };
   const PlateMotion* upper = &*best;
   for (const PlateMotion& one : motions) {
@@ -176,7 +177,7 @@ std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
         one.sense == best->sense &&
         std::abs(one.turned_rad - best->turned_rad) < kAlike * best->turned_rad;
     if (!turns_along || weight_of(one) < kLeastWeight * weight_of(*best)) continue;
-    if (row(one) < row(*upper)) upper = &one;
+    if (row(one) < row(*upper) - kSame_px) upper = &one;
   }
   return *upper;
 }
