@@ -140,6 +140,25 @@ void find_hinge(PlateMotion& motion) {
   motion.wobble_px = std::sqrt(squares);
 }
 
+/// Once the plate has begun to turn, its line must lie where one that turns about the hinge lay at
+/// rest. Where it jumps, it was another one in part: a table's edge behind the plate, of which it
+/// gets clear. A line that leaves its place over some part of its length leans by the jump over
+/// that length.
+void find_level_error(PlateMotion& motion) {
+  constexpr double kFrom_rad = .5 * kDegree, kTo_rad = 2.5 * kDegree, kPart = .2;
+  double rest = 0, turning = 0, at_rest = 0, in_turn = 0;
+  const double rests_until_s = motion.seen.front().time_s + motion.rest_s;
+  for (const PlateSighting& one : motion.seen) {
+    const double off_px =
+        one.line.offset_px - one.line.normal().dot(motion.hinge) - motion.above_px;
+    const double turned_rad = motion.turned_at(one);
+    if (one.time_s <= rests_until_s) rest += (off_px - rest) / ++at_rest;
+    if (turned_rad > kFrom_rad && turned_rad < kTo_rad) turning += (off_px - turning) / ++in_turn;
+  }
+  if (at_rest == 0 || in_turn == 0) return;
+  motion.level_error_rad = std::abs(turning - rest) / (kPart * (motion.edge.to - motion.edge.from));
+}
+
 std::optional<PlateMotion> motion_of(Followed& followed, int reduction) {
   constexpr std::size_t kFewest = 8;
   if (followed.seen.size() < kFewest) return std::nullopt;
@@ -150,6 +169,7 @@ std::optional<PlateMotion> motion_of(Followed& followed, int reduction) {
   read_turn(motion);
   if (motion.turned_rad < kLeastTurn_rad) return std::nullopt;
   find_hinge(motion);
+  find_level_error(motion);
   return motion;
 }
 

@@ -97,6 +97,15 @@ void warn_of_level(const PlateMotion& motion, TiltWarnings& warnings) {
                               "shows",
                               std::abs(lean_deg)));
   }
+  constexpr double kUnsure_deg = .3;
+  const double unsure_deg = motion.level_error_rad / kDegree;
+  if (unsure_deg > kUnsure_deg) {
+    warnings.flag("level_hidden",
+                  fmt::format("something else with an edge lies behind the level plate's, such as "
+                              "a table: how the plate lay at first is uncertain by {:.1f}°. Raise "
+                              "the camera or the plate, so that only the backdrop is behind it",
+                              unsure_deg));
+  }
 }
 
 void warn_of_rate(const PlateMotion& motion, const TiltTrack& track, TiltWarnings& warnings) {
