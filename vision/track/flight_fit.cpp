@@ -18,6 +18,8 @@ constexpr double kLeastNoise_px = .03;
 /// Centres are not better than this, however little they scatter: shadows and the scene behind the
 /// grain move them alike in many frames.
 constexpr double kLeastError_px = .1;
+/// Frames so near in time err alike, as films of 240 frames per second show.
+constexpr double kAlike_s = 1. / 60;
 /// Air decelerates a sphere of the radius r at the speed v by 3 Cd p v^2 / (8 r q), with the
 /// densities p and q of air and grain: Newton's law of drag over the mass. This is 3 Cd p / (8 q),
 /// which has no unit, as a standard deviation: 2e-4 for Cd = .55, as of spheres at Reynolds numbers
@@ -221,7 +223,8 @@ double FlightFit::impact_time_s(std::size_t k) const {
 /// What the noise of one sighting counts as, for 95 %: residuals that follow each other tell less.
 double FlightFit::factor() const {
   const auto flights = static_cast<int>(curves_.size());
-  const double inflation = std::sqrt((1 + correlation_) / (1 - correlation_));
+  const double inflation =
+      std::sqrt((1 + correlation_) / (1 - correlation_) * std::max(1.0, kAlike_s / interval_s_));
   const double freedom =
       std::max(2.0, (sightings_ - 2 * flights - 1) * (1 - correlation_) / (1 + correlation_));
   const boost::math::students_t student(freedom);
