@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "vision/track/drop_candidate.h"
 #include "vision/track/flight_finder.h"
 #include "vision/track/flight_fit.h"
 
@@ -51,7 +52,8 @@ struct Drop {
 };
 
 FlightFit fit_of(const std::vector<SeenAt>& path) {
-  return {path, find_flights(path, .5), kFrame_s, kFrameHeight_px};
+  constexpr double kRadius_px = 4;
+  return {path, find_flights(path, .5), kFrame_s, kFrameHeight_px, kRadius_px};
 }
 
 Estimate restitution(const FlightFit& fit, std::size_t k) {
@@ -127,6 +129,52 @@ TEST(FlightFit, TakesTheReadoutOfRowsOut) {
   const Tally tally = tally_of(drop);
   EXPECT_GE(tally.held, 52);
   EXPECT_NEAR(tally.mean_error, 0, .001);
+}
+
+// What air can do goes by the grain's size in pixels, which no clock changes.
+TEST(FlightFit, IsTheSameInAFilmThatPlaysSlowerThanItWasTaken) {
+  std::vector<SeenAt> path = Drop{}.path();
+  const Estimate plain = restitution(fit_of(path), 0);
+  constexpr double kSlower = 4;
+  for (SeenAt& one : path) one.time_s *= kSlower;
+  const FlightFit slow(path, find_flights(path, .5), kSlower * kFrame_s, kFrameHeight_px, 4);
+  EXPECT_NEAR(restitution(slow, 0).value, plain.value, .002);
+  EXPECT_NEAR(restitution(slow, 0).uncertainty, plain.uncertainty, .3 * plain.uncertainty);
+}
+
+TEST(FlightFit, OfASmallGrainHasAWiderIntervalSinceAirMaySlowItMore) {
+  // A fall and a rise, which alone tell little of the air.
+  std::vector<SeenAt> path = Drop{.noise_px = .2}.path();
+  std::erase_if(path, [](const SeenAt& one) { return one.time_s > .7; });
+  const auto interval = [&](double radius_px) {
+    const FlightFit fit(path, find_flights(path, .5), kFrame_s, kFrameHeight_px, radius_px);
+    return restitution(fit, 0).uncertainty;
+  };
+  EXPECT_GT(interval(2), 1.1 * interval(12));
+}
+
+TEST(DropCandidate, JoinsAFlightThatTheReadoutOfRowsCutsInTwo) {
+  const Drop drop{.readout_s = .03};
+  FilmGrains film;
+  film.survey.interval_s = kFrame_s;
+  film.survey.size = cv::Size(960, static_cast<int>(kFrameHeight_px));
+  GrainPath path;
+  for (const SeenAt& one : drop.path()) {
+    Sighting sighting;
+    sighting.time_s = one.time_s;
+    sighting.blob.centre = {100, one.y_px + .5 * kFrameHeight_px - 200};
+    sighting.blob.area_px = 50;
+    path.push_back(sighting);
+  }
+  const DropCandidate candidate = drop_candidate(path, film);
+  ASSERT_TRUE(candidate.fit);
+  ASSERT_FALSE(candidate.impacts.empty());
+  const std::size_t pieces = find_flights(candidate.seen, .5).spans.size();
+  EXPECT_LT(candidate.flights.spans.size(), pieces) << "so that there is something to join";
+  EXPECT_NEAR(restitution(*candidate.fit, candidate.impacts.front()).value, kRestitution, .01);
+  for (std::size_t k = 0; k + 2 < candidate.flights.spans.size(); ++k) {
+    EXPECT_TRUE(candidate.fit->has_impact_after(k)) << k;
+  }
 }
 
 TEST(FlightFit, MoreNoiseGivesAWiderInterval) {

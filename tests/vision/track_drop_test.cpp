@@ -86,9 +86,8 @@ TEST(TrackDrop, TellsAFilmThatPlaysSlowerThanItWasTaken) {
   ASSERT_THAT(track.warnings, warns_of("frame_rate"));
   EXPECT_THAT(track.warnings[0].message, HasSubstr("times slower"));
   ASSERT_FALSE(track.bounces.empty());
-  // Slower, more of air is thought possible.
   EXPECT_NEAR(track.bounces[0].restitution.value, .6,
-              std::min(.03, track.bounces[0].restitution.uncertainty));
+              std::min(.02, track.bounces[0].restitution.uncertainty));
   EXPECT_NEAR(track.bounces[0].rebound_mm.value, 90, 3);
 }
 

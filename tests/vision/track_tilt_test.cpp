@@ -58,6 +58,7 @@ auto has_warning(const char* code) { return Contains(Field(&Warning::code, code)
 TEST(TrackTilt, FindsAndDrawsTheAngleAtWhichBondedGrainsSlide) {
   const TiltTrack track = tracked(small_tilt(), {.draws_strobe = true});
   expect_truth(track, small_tilt());
+  EXPECT_THAT(track.warnings, Not(has_warning("level_hidden")));
   EXPECT_EQ(track.status, MeasureStatus::ok);
   EXPECT_THAT(track.warnings, IsEmpty());
   EXPECT_GT(draw_tilt_overlay(track, "tilt.mp4").height, small_tilt().height);
@@ -147,6 +148,30 @@ TEST(TrackTilt, FlagsCreepAndAPlateThatWasNotAtRest) {
   EXPECT_EQ(track.status, MeasureStatus::flagged);
   EXPECT_THAT(track.warnings, has_warning("no_rest"));
   EXPECT_THAT(track.warnings, has_warning("creeps"));
+}
+
+// The camera leans, so that the table's edge goes on in the plate's where that ends.
+TEST(TrackTilt, FlagsATableWhoseEdgeLiesBehindTheLevelPlate) {
+  const DrawnTilt tilt{.width = 400,
+                       .height = 300,
+                       .frames_per_s = 30,
+                       .rest_s = .44,
+                       .rate_deg_s = 4.7,
+                       .onset_deg = 16,
+                       .mm_per_px = .55,
+                       .radius_px = 9,
+                       .hinge_part = .031,
+                       .plate_from = .011,
+                       .plate_to = .805,
+                       .thickness_px = 4,
+                       .edge_row = .8774,
+                       .goes_left = true,
+                       .lean_rad = .0131};
+  const TiltTrack track = tracked(tilt);
+  ASSERT_TRUE(track.has_reading) << track.reason;
+  EXPECT_THAT(track.warnings, has_warning("level_hidden"));
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, track.angle_deg.uncertainty);
 }
 
 TEST(TrackTilt, WarnsOfAnUnevenRate) {

@@ -9,6 +9,8 @@ namespace repose::vision {
 namespace {
 
 constexpr int kShiftWidth_px = 240;
+/// Grey levels by which what stands before the scene differs from it.
+constexpr double kOtherThing = 20;
 
 cv::Mat shift_picture(const cv::Mat& frame) {
   const double scale = std::min(1.0, kShiftWidth_px / static_cast<double>(frame.cols));
@@ -18,6 +20,14 @@ cv::Mat shift_picture(const cv::Mat& frame) {
   grey.convertTo(grey, CV_32F);
   cv::GaussianBlur(grey, grey, {5, 5}, 1);
   return grey;
+}
+
+cv::Mat moved_back(const cv::Mat& seen, const cv::Point2d& shift) {
+  const cv::Matx23d back(1, 0, shift.x, 0, 1, shift.y);
+  cv::Mat moved;
+  cv::warpAffine(seen, moved, back, seen.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                 cv::BORDER_REPLICATE);
+  return moved;
 }
 
 }  // namespace
@@ -33,9 +43,21 @@ SceneShift::SceneShift(const cv::Mat& scene, const cv::Mat& counts) : grey_(shif
 }
 
 cv::Point2d SceneShift::of(const cv::Mat& frame) const {
+  const cv::Mat seen = shift_picture(frame);
+  return shift_of(seen) * (static_cast<double>(frame.cols) / seen.cols);
+}
+
+cv::Point2d SceneShift::sure_of(const cv::Mat& frame) const {
+  constexpr double kMost = .5;  // of what differs may be left
+  const cv::Mat seen = shift_picture(frame);
+  const cv::Point2d shift = shift_of(seen);
+  if (difference_to(moved_back(seen, shift)) > kMost * difference_to(seen)) return {0, 0};
+  return shift * (static_cast<double>(frame.cols) / seen.cols);
+}
+
+cv::Point2d SceneShift::shift_of(const cv::Mat& seen) const {
   constexpr int kRounds = 10;
   constexpr double kEnough_px = .1;
-  const cv::Mat seen = shift_picture(frame);
   cv::Mat now = seen;
   cv::Point2d shift;
   for (int round = 0; round < kRounds; ++round) {
@@ -43,18 +65,24 @@ cv::Point2d SceneShift::of(const cv::Mat& frame) const {
     shift += step;
     // Gradients tell a pixel or so at a time.
     if (std::hypot(step.x, step.y) < kEnough_px) break;
-    const cv::Matx23d back(1, 0, shift.x, 0, 1, shift.y);
-    cv::warpAffine(seen, now, back, seen.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
-                   cv::BORDER_REPLICATE);
+    now = moved_back(seen, shift);
   }
-  return shift * (static_cast<double>(frame.cols) / seen.cols);
+  return shift;
+}
+
+/// Variance of what differs where nothing stands before the scene.
+double SceneShift::difference_to(const cv::Mat& now) const {
+  cv::Mat difference = now - grey_;
+  const cv::Mat counts = counts_ & (cv::abs(difference) <= kOtherThing);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(difference, mean, deviation, counts);
+  return deviation[0] * deviation[0];
 }
 
 cv::Point2d SceneShift::step_to(const cv::Mat& now) const {
   // now = gain scene + offset - shift . gradient, where nothing stands before the scene.
   cv::Matx44d normal = cv::Matx44d::zeros();
   cv::Vec4d right(0, 0, 0, 0);
-  constexpr double kOtherThing = 20;
   for (int row = 0; row < now.rows; ++row) {
     for (int k = 0; k < now.cols; ++k) {
       if (counts_.at<uchar>(row, k) == 0) continue;

@@ -12,8 +12,14 @@ class SceneShift {
 
   /// Of a frame of the scene's size, from the scene [px]. Of one with nothing to hold on to: none.
   cv::Point2d of(const cv::Mat& frame) const;
+  /// None as well where the shift does not explain half of what differs: the light on a plain
+  /// backdrop and what compression leaves of it change while the camera stands still.
+  cv::Point2d sure_of(const cv::Mat& frame) const;
 
  private:
+  /// Of a reduced frame, in its pixels.
+  cv::Point2d shift_of(const cv::Mat& seen) const;
+  double difference_to(const cv::Mat& now) const;
   cv::Point2d step_to(const cv::Mat& now) const;
 
   cv::Mat grey_, across_, down_, counts_;  ///< much reduced

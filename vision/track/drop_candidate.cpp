@@ -47,12 +47,55 @@ double tolerance_px(const std::vector<SeenAt>& seen) {
   return seen.empty() ? kLeast_px : std::max(kLeast_px, kOfWay * (lowest->y_px - highest->y_px));
 }
 
+/// Whether a flight goes on in the next one as if it were one: nothing strikes the grain between
+/// them, which would change its speed by more than gravity does in a frame.
+bool goes_on(const FlightFit& fit, std::size_t k, double interval_s) {
+  const FlightCurve& before = fit.curves()[k];
+  const FlightCurve& after = fit.curves()[k + 1];
+  constexpr double kNext = 1.5, kNear_px = 1.5;
+  if (after.begins_s - before.ends_s > kNext * interval_s) return false;
+  const double time_s = .5 * (before.ends_s + after.begins_s);
+  const double apart_px =
+      height_at(after, time_s, fit.pull()) - height_at(before, time_s, fit.pull());
+  const double faster_px_s =
+      speed_at(after, time_s, fit.pull()) - speed_at(before, time_s, fit.pull());
+  return std::abs(apart_px) < kNear_px && std::abs(faster_px_s) < fit.pull().gravity * interval_s;
+}
+
+/// Flights that were found in two pieces, because air or the camera's readout bend them, are one.
+bool join_pieces(Flights& flights, const FlightFit& fit, double interval_s) {
+  std::vector<FlightSpan> joined = {flights.spans.front()};
+  for (std::size_t k = 1; k < flights.spans.size(); ++k) {
+    if (goes_on(fit, k - 1, interval_s)) {
+      joined.back().to = flights.spans[k].to;
+    } else {
+      joined.push_back(flights.spans[k]);
+    }
+  }
+  const bool has_joined = joined.size() < flights.spans.size();
+  flights.spans = std::move(joined);
+  return has_joined;
+}
+
+/// As wide as a disc of its area is in most frames.
+double radius_px(const GrainPath& path) {
+  std::vector<double> areas;
+  for (const Sighting& one : path) areas.push_back(one.blob.area_px);
+  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+  std::nth_element(areas.begin(), middle, areas.end());
+  return std::sqrt(*middle / CV_PI);
+}
+
 void fit(DropCandidate& candidate, const FilmGrains& film) {
   candidate.fit.reset();
   candidate.flights = find_flights(candidate.seen, tolerance_px(candidate.seen));
   if (candidate.flights.spans.empty()) return;
-  candidate.fit.emplace(candidate.seen, candidate.flights, film.survey.interval_s,
-                        film.survey.size.height);
+  const auto fit_flights = [&] {
+    candidate.fit.emplace(candidate.seen, candidate.flights, film.survey.interval_s,
+                          film.survey.size.height, radius_px(*candidate.path));
+  };
+  fit_flights();
+  if (join_pieces(candidate.flights, *candidate.fit, film.survey.interval_s)) fit_flights();
 }
 
 }  // namespace

@@ -18,9 +18,16 @@ constexpr double kLeastNoise_px = .03;
 /// Centres are not better than this, however little they scatter: shadows and the scene behind the
 /// grain move them alike in many frames.
 constexpr double kLeastError_px = .1;
-/// The slowest that grains fall at in the end, by which drag is judged beforehand.
-constexpr double kTerminal_m_s = 8;
-constexpr double kGravity_m_s2 = 9.80665;
+/// Frames so near in time err alike, as films of 240 frames per second show.
+constexpr double kAlike_s = 1. / 60;
+/// Air decelerates a sphere of the radius r at the speed v by 3 Cd p v^2 / (8 r q), with the
+/// densities p and q of air and grain: Newton's law of drag over the mass. This is 3 Cd p / (8 q),
+/// which has no unit, as a standard deviation: 2e-4 for Cd = .55, as of spheres at Reynolds numbers
+/// of 500 to 2000 (R. Clift, J. R. Grace, M. E. Weber: Bubbles, Drops, and Particles, 1978, chapter
+/// 5), and q = 1200 kg/m3; 8e-4 for grains of 400 kg/m3 that are no spheres. By the radius and not
+/// by a terminal speed, since it holds in pixels and in films that play slower than they were
+/// taken.
+constexpr double kAir = 4e-4;
 
 /// Unknowns are of very different size: all are made alike first.
 cv::Mat inverse_of(const cv::Mat& normal) {
@@ -60,9 +67,10 @@ double meeting_time_s(const FlightCurve& before, const FlightCurve& after, const
 }
 
 FlightFit::FlightFit(const std::vector<SeenAt>& path, const Flights& flights,
-                     double frame_interval_s, double frame_height_px)
+                     double frame_interval_s, double frame_height_px, double radius_px)
     : interval_s_(frame_interval_s),
       most_readout_s_per_px_(std::min(frame_interval_s, 1. / 30) / frame_height_px),
+      radius_px_(std::max(1.0, radius_px)),
       pull_{.gravity = flights.gravity_px_s2} {
   for (std::size_t k = 0; k < flights.spans.size(); ++k) {
     const auto& [from, to] = flights.spans[k];
@@ -117,9 +125,7 @@ void FlightFit::solve() {
     right.at<double>(which) -= weight * value;
   };
   know(readout, readout_, most_readout_s_per_px_);
-  // Air carries a grain at its terminal speed: v_t^2 = gravity^3 / drag in these units.
-  const double terminal_px_s = kTerminal_m_s * pull_.gravity / kGravity_m_s2;
-  know(drag, pull_.drag, std::pow(pull_.gravity, 3) / (terminal_px_s * terminal_px_s));
+  know(drag, pull_.drag, kAir / radius_px_ * pull_.gravity * pull_.gravity);
   covariance_ = inverse_of(normal);
   const cv::Mat step = covariance_ * right;
   for (int k = 0; k < flights; ++k) {
@@ -217,7 +223,8 @@ double FlightFit::impact_time_s(std::size_t k) const {
 /// What the noise of one sighting counts as, for 95 %: residuals that follow each other tell less.
 double FlightFit::factor() const {
   const auto flights = static_cast<int>(curves_.size());
-  const double inflation = std::sqrt((1 + correlation_) / (1 - correlation_));
+  const double inflation =
+      std::sqrt((1 + correlation_) / (1 - correlation_) * std::max(1.0, kAlike_s / interval_s_));
   const double freedom =
       std::max(2.0, (sightings_ - 2 * flights - 1) * (1 - correlation_) / (1 + correlation_));
   const boost::math::students_t student(freedom);

@@ -30,12 +30,13 @@ struct FlightCurve {
 /// Flights of one grain, fitted together by least squares: each with its own place and speed, all
 /// with one gravity, one drag of the air, and one readout time a row (cameras that expose rows one
 /// after the other see what falls too fast, and what rises too slow). What the last two can be at
-/// most is known beforehand, and enters the fit.
+/// most is known beforehand, and enters the fit: of the air by the grain's size.
 class FlightFit {
  public:
   /// @param frame_interval_s  what readout and exposure cannot be longer than
+  /// @param radius_px  of the grain
   FlightFit(const std::vector<SeenAt>& path, const Flights& flights, double frame_interval_s,
-            double frame_height_px);
+            double frame_height_px, double radius_px);
 
   const std::vector<FlightCurve>& curves() const { return curves_; }
   const Pull& pull() const { return pull_; }
@@ -71,6 +72,7 @@ class FlightFit {
   std::vector<FlightCurve> curves_;
   double interval_s_;
   double most_readout_s_per_px_;
+  double radius_px_;
   Pull pull_;
   double readout_ = 0;
   double noise_px_ = 0;

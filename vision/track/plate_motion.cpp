@@ -140,6 +140,25 @@ void find_hinge(PlateMotion& motion) {
   motion.wobble_px = std::sqrt(squares);
 }
 
+/// Once the plate has begun to turn, its line must lie where one that turns about the hinge lay at
+/// rest. Where it jumps, it was another one in part: a table's edge behind the plate, of which it
+/// gets clear. A line that leaves its place over some part of its length leans by the jump over
+/// that length.
+void find_level_error(PlateMotion& motion) {
+  constexpr double kFrom_rad = .5 * kDegree, kTo_rad = 2.5 * kDegree, kPart = .2;
+  double rest = 0, turning = 0, at_rest = 0, in_turn = 0;
+  const double rests_until_s = motion.seen.front().time_s + motion.rest_s;
+  for (const PlateSighting& one : motion.seen) {
+    const double off_px =
+        one.line.offset_px - one.line.normal().dot(motion.hinge) - motion.above_px;
+    const double turned_rad = motion.turned_at(one);
+    if (one.time_s <= rests_until_s) rest += (off_px - rest) / ++at_rest;
+    if (turned_rad > kFrom_rad && turned_rad < kTo_rad) turning += (off_px - turning) / ++in_turn;
+  }
+  if (at_rest == 0 || in_turn == 0) return;
+  motion.level_error_rad = std::abs(turning - rest) / (kPart * (motion.edge.to - motion.edge.from));
+}
+
 std::optional<PlateMotion> motion_of(Followed& followed, int reduction) {
   constexpr std::size_t kFewest = 8;
   if (followed.seen.size() < kFewest) return std::nullopt;
@@ -150,6 +169,7 @@ std::optional<PlateMotion> motion_of(Followed& followed, int reduction) {
   read_turn(motion);
   if (motion.turned_rad < kLeastTurn_rad) return std::nullopt;
   find_hinge(motion);
+  find_level_error(motion);
   return motion;
 }
 
@@ -166,9 +186,10 @@ std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
   const auto best =
       std::max_element(motions.begin(), motions.end(),
                        [](const auto& a, const auto& b) { return weight_of(a) < weight_of(b); });
-  constexpr double kAlike = .1, kLeastWeight = .45;
-  const auto row = [](const PlateMotion& motion) {
-    return motion.seen.front().line.row_at(.5 * (motion.edge.from + motion.edge.to));
+  // The same line may have been found twice, a second time with a part of its length.
+  constexpr double kAlike = .1, kLeastWeight = .45, kSame_px = 1;
+  const auto row = [column = .5 * (best->edge.from + best->edge.to)](const PlateMotion& motion) {
+    return motion.seen.front().line.row_at(column);
   };
   const PlateMotion* upper = &*best;
   for (const PlateMotion& one : motions) {
@@ -176,7 +197,7 @@ std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
         one.sense == best->sense &&
         std::abs(one.turned_rad - best->turned_rad) < kAlike * best->turned_rad;
     if (!turns_along || weight_of(one) < kLeastWeight * weight_of(*best)) continue;
-    if (row(one) < row(*upper)) upper = &one;
+    if (row(one) < row(*upper) - kSame_px) upper = &one;
   }
   return *upper;
 }

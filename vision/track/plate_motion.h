@@ -23,12 +23,13 @@ struct PlateMotion {
   int reduction = 1;
   PlateEdge edge;  ///< in the first frame
   std::vector<PlateSighting> seen;
-  double seen_part = 0;   ///< of the edge, on average
-  double level_rad = 0;   ///< its lean before it turns
-  double rest_s = 0;      ///< how long it lies still at first
-  double noise_rad = 0;   ///< standard deviation of its lean in a frame
-  double sense = 1;       ///< 1: its right end sinks against the left one; -1: the other way
-  double turned_rad = 0;  ///< at most
+  double seen_part = 0;        ///< of the edge, on average
+  double level_rad = 0;        ///< its lean before it turns
+  double level_error_rad = 0;  ///< what that may be off by, as where a table's edge lies behind it
+  double rest_s = 0;           ///< how long it lies still at first
+  double noise_rad = 0;        ///< standard deviation of its lean in a frame
+  double sense = 1;            ///< 1: its right end sinks against the left one; -1: the other way
+  double turned_rad = 0;       ///< at most
   cv::Point2d hinge = {};
   double above_px = 0;   ///< of the edge's line over the hinge, downwards
   double wobble_px = 0;  ///< root mean square of what no turning about one hinge explains

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <span>
+
+#include <opencv2/core.hpp>
 
 namespace repose::vision {
 namespace {
@@ -23,34 +25,47 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
+/// A number for each place, free of the place at rest and of what goes with the plate's turn.
+class Column {
+ public:
+  template <typename Value>
+  Column(std::span<const SlidAt> places, const Value& value) {
+    const auto count = static_cast<double>(places.size());
+    double mean = 0, mean_turn = 0, turns = 0, product = 0;
+    for (const SlidAt& one : places) {
+      mean += value(one) / count;
+      mean_turn += one.turned_rad / count;
+    }
+    for (const SlidAt& one : places) {
+      const double turn = one.turned_rad - mean_turn;
+      turns += turn * turn;
+      product += turn * value(one);
+    }
+    const double slope = turns > 0 ? product / turns : 0;
+    for (const SlidAt& one : places) {
+      values_.push_back(value(one) - mean - slope * (one.turned_rad - mean_turn));
+    }
+  }
+  double dot(const Column& other) const {
+    return std::inner_product(values_.begin(), values_.end(), other.values_.begin(), 0.0);
+  }
+
+ private:
+  std::vector<double> values_;
+};
+
 /// Sum of squares of what a slide that begins at a time leaves over.
-double squares_left(std::span<const SlidAt> places, double begin_s) {
-  // The two terms as far as they are free of the place at rest and of each other.
-  const auto count = static_cast<double>(places.size());
-  const auto step = [&](const SlidAt& one) {
+double squares_left(std::span<const SlidAt> places, const Column& slid, double begin_s) {
+  const Column step(places, [&](const SlidAt& one) {
     const double t = std::max(0.0, one.time_s - begin_s);
     return .5 * t * t;
-  };
-  const auto growth = [&](const SlidAt& one) {
+  });
+  const Column growth(places, [&](const SlidAt& one) {
     const double t = std::max(0.0, one.time_s - begin_s);
     return t * t * t / 6;
-  };
-  double mean_a = 0, mean_j = 0, mean_s = 0;
-  for (const SlidAt& one : places) {
-    mean_a += step(one) / count;
-    mean_j += growth(one) / count;
-    mean_s += one.slid_px / count;
-  }
-  double aa = 0, aj = 0, jj = 0, as = 0, js = 0, ss = 0;
-  for (const SlidAt& one : places) {
-    const double a = step(one) - mean_a, j = growth(one) - mean_j, s = one.slid_px - mean_s;
-    aa += a * a;
-    aj += a * j;
-    jj += j * j;
-    as += a * s;
-    js += j * s;
-    ss += s * s;
-  }
+  });
+  const double aa = step.dot(step), aj = step.dot(growth), jj = growth.dot(growth);
+  const double as = step.dot(slid), js = growth.dot(slid), ss = slid.dot(slid);
   double left = ss;
   if (aa > 0 && as > 0) left = std::min(left, ss - as * as / aa);
   if (jj > 0 && js > 0) left = std::min(left, ss - js * js / jj);
@@ -62,45 +77,72 @@ double squares_left(std::span<const SlidAt> places, double begin_s) {
   return std::max(0.0, left);
 }
 
+/// The place a moment before that one.
+std::size_t shortly_before(std::span<const SlidAt> places, std::size_t place) {
+  constexpr double kMoment_s = .12;
+  std::size_t before = place;
+  while (before > 0 && places[place].time_s - places[before].time_s < kMoment_s) --before;
+  return before;
+}
+
 /// The number of the last place at which it stands still: what comes after is the slide proper,
 /// what came before may have crept.
 std::size_t last_at_rest(std::span<const SlidAt> places, double still_px) {
-  constexpr double kLook_s = .12;
   std::size_t k = places.size() - 1;
-  for (std::size_t before = k; k > 0; --k) {
-    before = std::min(before, k);
-    while (before > 0 && places[k].time_s - places[before].time_s < kLook_s) --before;
-    if (places[k].slid_px - places[before].slid_px < still_px) break;
-  }
+  while (k > 0 && places[k].slid_px - places[shortly_before(places, k)].slid_px >= still_px) --k;
   return k;
 }
 
-/// The first of the places before that one, up to a while before, between which it does not move.
+/// The first of the places before that one, up to a while before, between which it stands still.
 std::size_t first_at_rest(std::span<const SlidAt> places, std::size_t last, double still_px) {
   std::size_t first = last;
   while (first > 0 && places[first - 1].time_s > places[last].time_s - kBefore_s &&
-         std::abs(places[first - 1].slid_px - places[last].slid_px) < 2 * still_px)
+         std::abs(places[first - 1].slid_px - places[shortly_before(places, first)].slid_px) <
+             still_px)
     --first;
   return first;
 }
 
+/// By second differences, which nothing steady adds to.
 double noise_of(std::span<const SlidAt> rest) {
   constexpr double kSigmaPerMad = 1.4826;
-  std::vector<double> steps;
-  for (std::size_t k = 1; k < rest.size(); ++k) {
-    steps.push_back(std::abs(rest[k].slid_px - rest[k - 1].slid_px));
+  std::vector<double> bends;
+  for (std::size_t k = 2; k < rest.size(); ++k) {
+    bends.push_back(std::abs(rest[k].slid_px - 2 * rest[k - 1].slid_px + rest[k - 2].slid_px));
   }
-  return kSigmaPerMad * median_of(steps) / std::sqrt(2);
+  return kSigmaPerMad * median_of(bends) / std::sqrt(6);
 }
 
+/// The way between the medians of short stretches that lie farthest apart, of what no hinge beside
+/// its place explains: that lets what lies still seem to move with the cosine and the sine of the
+/// plate's angle.
 double crept_before(const std::vector<SlidAt>& places, double onset_s) {
-  constexpr double kStretch_s = .3;
-  std::vector<double> first, last;
+  constexpr double kStretch_s = .3, kRidge = 1e-9;
+  const auto terms_of = [](const SlidAt& one) {
+    return cv::Vec3d(1, std::cos(one.turned_rad), std::sin(one.turned_rad));
+  };
+  cv::Matx33d normal = kRidge * cv::Matx33d::eye();
+  cv::Vec3d right(0, 0, 0);
   for (const SlidAt& one : places) {
-    if (one.time_s < places.front().time_s + kStretch_s) first.push_back(one.slid_px);
-    if (one.time_s > onset_s - kStretch_s && one.time_s < onset_s) last.push_back(one.slid_px);
+    if (one.time_s >= onset_s) break;
+    normal += terms_of(one) * terms_of(one).t();
+    right += one.slid_px * terms_of(one);
   }
-  return last.empty() ? 0 : median_of(last) - median_of(first);
+  const cv::Vec3d solution = normal.solve(right, cv::DECOMP_CHOLESKY);
+  double least = 0, most = 0;
+  std::vector<double> off;
+  double begin_s = places.front().time_s;
+  for (const SlidAt& one : places) {
+    if (one.time_s >= begin_s + kStretch_s) {
+      least = std::min(least, median_of(off));
+      most = std::max(most, median_of(off));
+      off.clear();
+      begin_s = one.time_s;
+    }
+    if (one.time_s >= onset_s) break;
+    off.push_back(one.slid_px - solution.dot(terms_of(one)));
+  }
+  return most - least;
 }
 
 }  // namespace
@@ -126,14 +168,15 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
   const double interval_s =
       (fitted.back().time_s - fitted.front().time_s) / static_cast<double>(fitted.size() - 1);
   constexpr double kParts = 20;  // of the time between frames
+  const Column slid(fitted, [](const SlidAt& one) { return one.slid_px; });
   std::vector<std::pair<double, double>> profile;
   for (double t = fitted.front().time_s; t <= seen_s + 2 * interval_s; t += interval_s / kParts) {
-    profile.emplace_back(t, squares_left(fitted, t));
+    profile.emplace_back(t, squares_left(fitted, slid, t));
   }
   const auto best =
       std::min_element(profile.begin(), profile.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  const double free = std::max(1.0, static_cast<double>(fitted.size()) - 4);
+  const double free = std::max(1.0, static_cast<double>(fitted.size()) - 5);
   const double variance = std::max(best->second / free, kLeastNoise_px * kLeastNoise_px);
   const double limit = best->second + kChiSquare95 * kAlike * variance;
   auto earliest = best, latest = best;

@@ -99,11 +99,12 @@ void read_onset(const PlateMotion& motion, const PlateGrains& grains, const OnPl
   const double begins_s = motion.seen.front().time_s + motion.rest_s;
   const AngleLine whole = angle_between(motion, begins_s, at_s, at_s);
   const double late_s = onset.latest_s - at_s, early_s = at_s - onset.earliest_s;
-  const double level_error_deg = motion.noise_rad / kDegree;
-  track.angle_deg = {near.angle_deg,
-                     std::hypot(kLeast_deg, kNormal95 * near.angle_error_deg,
-                                std::hypot(kNormal95 * level_error_deg,
-                                           near.rate_deg_s * std::max(late_s, early_s)))};
+  const double level_error_deg =
+      std::hypot(kNormal95 * motion.noise_rad, motion.level_error_rad) / kDegree;
+  track.angle_deg = {
+      near.angle_deg,
+      std::hypot(kLeast_deg, kNormal95 * near.angle_error_deg,
+                 std::hypot(level_error_deg, near.rate_deg_s * std::max(late_s, early_s)))};
   track.rate_deg_s = {whole.rate_deg_s, kNormal95 * whole.rate_error_deg_s};
   track.onset_s = at_s;
   track.noise_px = motion.reduction * onset.rest_noise_px;
@@ -135,7 +136,9 @@ std::string read_slide(const PlateMotion& motion, const PlateGrains& grains,
   fault = fault_of_slide(grain, motion);
   if (!fault.empty()) return fault;
   std::vector<SlidAt> places;
-  for (const OnPlateSighting& one : grain.seen) places.push_back({one.time_s, one.slid_px});
+  for (const OnPlateSighting& one : grain.seen) {
+    places.push_back({one.time_s, one.slid_px, motion.turned_at(motion.seen[one.plate])});
+  }
   const auto onset = slide_onset(places, grain.least_px(), grain.most_px());
   if (!onset) {
     return "too few frames show how the grain sets off. Rule: 4 at rest and 3 in its slide. Fix: "

@@ -97,6 +97,15 @@ void warn_of_level(const PlateMotion& motion, TiltWarnings& warnings) {
                               "shows",
                               std::abs(lean_deg)));
   }
+  constexpr double kUnsure_deg = .3;
+  const double unsure_deg = motion.level_error_rad / kDegree;
+  if (unsure_deg > kUnsure_deg) {
+    warnings.flag("level_hidden",
+                  fmt::format("something else with an edge lies behind the level plate's, such as "
+                              "a table: how the plate lay at first is uncertain by {:.1f}°. Raise "
+                              "the camera or the plate, so that only the backdrop is behind it",
+                              unsure_deg));
+  }
 }
 
 void warn_of_rate(const PlateMotion& motion, const TiltTrack& track, TiltWarnings& warnings) {
@@ -187,7 +196,8 @@ std::string fault_of_grains(const PlateGrains& grains, const std::vector<std::si
 std::string fault_of_slide(const OnPlateTrack& grain, const PlateMotion& motion) {
   const bool is_round = grain.thing.elongation < kRound;
   for (const OnPlateSighting& one : grain.seen) {
-    const double turned_rad = std::abs(one.turned_rad);
+    // Down the plate: the light on a shaded grain seems to turn it the other way.
+    const double turned_rad = motion.sense * one.turned_rad;
     if (one.slid_px > .6 * grain.thing.height_px) break;
     if (turned_rad < (is_round ? kRolled_rad : kTipped_rad)) continue;
     if (one.turn_gain < kShown) continue;
@@ -206,10 +216,11 @@ bool warn_of_tilt(const PlateMotion& motion, const OnPlateTrack& grain, const Sl
   TiltWarnings warnings(track);
   warn_of_level(motion, warnings);
   warn_of_rate(motion, track, warnings);
-  constexpr double kCrept_px = 1.5, kSigmas = 5, kUnlike_px = .6;
+  constexpr double kCrept_px = .4, kSigmas = 5, kUnlike_px = .6;
   if (onset.crept_px > std::max(kCrept_px, kSigmas * onset.rest_noise_px)) {
-    warnings.flag("creeps", fmt::format("the grain has moved by {:.1f} pixels along the plate "
-                                        "before it slides off: the angle is that of the slide",
+    warnings.flag("creeps", fmt::format("the grain has moved by {:.1f} pixels or more along the "
+                                        "plate before it slides off: the angle is that of the "
+                                        "slide",
                                         motion.reduction * onset.crept_px));
   }
   if (onset.rms_px > std::max(kUnlike_px, kSigmas * onset.rest_noise_px)) {

@@ -1,0 +1,64 @@
+#include "vision/film/scene_shift.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+namespace repose::vision {
+namespace {
+
+constexpr int kWidth = 240, kHeight = 160;
+
+/// Brightness as a function of the place.
+template <typename Light>
+cv::Mat scene_of(const Light& light) {
+  cv::Mat scene(kHeight, kWidth, CV_8UC3);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) scene.at<cv::Vec3b>(y, x) = light(x, y);
+  }
+  return scene;
+}
+
+cv::Vec3b grey(double level) { return cv::Vec3b::all(cv::saturate_cast<uchar>(level)); }
+
+/// Soft waves of some tens of pixels, moved.
+cv::Mat waves(double across_px, double down_px) {
+  return scene_of([&](int x, int y) {
+    return grey(150 + 20 * std::sin((x - across_px) / 9) + 20 * std::cos((y - down_px) / 11));
+  });
+}
+
+/// A wall that darkens to its corners, with light that falls on one side of it.
+cv::Mat wall(double light) {
+  return scene_of([&](int x, int y) {
+    const double off = std::hypot(x - .5 * kWidth, y - .5 * kHeight) / kWidth;
+    const double side = std::exp(-.5 * std::pow((x - 60.) / 30, 2));
+    return grey(200 - 12 * off * off + light * side);
+  });
+}
+
+TEST(SceneShift, IsThatOfASceneThatMoved) {
+  const SceneShift scene(waves(0, 0));
+  for (const cv::Point2d& moved : {cv::Point2d(3, -2), cv::Point2d(-5, 1), cv::Point2d(.5, 0)}) {
+    const cv::Mat now = waves(moved.x, moved.y);
+    EXPECT_LT(cv::norm(scene.of(now) - moved), .2) << moved;
+    EXPECT_LT(cv::norm(scene.sure_of(now) - moved), .2) << moved;
+  }
+  EXPECT_LT(cv::norm(scene.sure_of(waves(0, 0))), .05);
+}
+
+TEST(SceneShift, IsNotSureOfALightThatChangesOnAPlainWall) {
+  const SceneShift scene(wall(0));
+  EXPECT_GT(cv::norm(scene.of(wall(8))), 1) << "the light is taken for a shift";
+  EXPECT_EQ(scene.sure_of(wall(8)), cv::Point2d(0, 0));
+}
+
+TEST(SceneShift, IsNoneWhereThereIsNothingToHoldOnTo) {
+  const cv::Mat blank = scene_of([](int, int) { return grey(120); });
+  EXPECT_EQ(SceneShift(blank).of(blank), cv::Point2d(0, 0));
+  EXPECT_EQ(SceneShift(blank).sure_of(waves(2, 2)), cv::Point2d(0, 0));
+}
+
+}  // namespace
+}  // namespace repose::vision
