@@ -48,10 +48,10 @@ RollTrack tracked(const DrawnRoll& roll, const TrackOptions& options) {
 }
 RollTrack tracked(const DrawnRoll& roll) { return tracked(roll, scaled_options(roll)); }
 
-void expect_truth(const RollTrack& track, const DrawnRoll& roll) {
+void expect_truth(const RollTrack& track, const DrawnRoll& roll, double within = .01) {
   ASSERT_TRUE(track.has_reading) << track.reason;
   EXPECT_EQ(track.status, MeasureStatus::ok);
-  EXPECT_NEAR(track.stopped_mm.value, roll.stopped_mm, .01 * roll.stopped_mm);
+  EXPECT_NEAR(track.stopped_mm.value, roll.stopped_mm, within * roll.stopped_mm);
   EXPECT_NEAR(track.released_mm.value, roll.released_mm, .02 * roll.released_mm);
   EXPECT_NEAR(track.incline_deg.value, roll.incline_deg, .5);
   EXPECT_NEAR(track.stopped_s, roll.release_s + roll.roll_s, .15);
@@ -66,7 +66,7 @@ TEST(TrackRoll, FindsWhereTheGrainRestsByAScale) {
 TEST(TrackRoll, MillimetresComeFromTheReleaseWhereThereIsNoScale) {
   const DrawnRoll roll = small_roll();
   const RollTrack track = tracked(roll, {.released_mm = roll.released_mm});
-  expect_truth(track, roll);
+  expect_truth(track, roll, .02);  // an error in the foot's place counts twice
   EXPECT_FALSE(track.has_scale);
   EXPECT_NEAR(track.mm_per_px, roll.mm_per_px, .02 * roll.mm_per_px);
 }
