@@ -31,6 +31,11 @@ bool is_measured(const Problem& problem, const std::string& experiment,
       [&](const Observable& o) { return o.experiment == experiment && o.reading == reading; });
 }
 
+bool is_held_out(const Problem& problem, const std::string& experiment) {
+  return std::ranges::any_of(problem.held_out,
+                             [&](const Observable& o) { return o.experiment == experiment; });
+}
+
 bool depends(const Experiment& experiment, std::size_t parameter) {
   return std::find(experiment.parameters.begin(), experiment.parameters.end(), parameter) !=
          experiment.parameters.end();
@@ -197,7 +202,12 @@ std::string Advisor::unmade_advice(std::size_t parameter) const {
   std::vector<std::string> parts;
   for (const Experiment& experiment : problem_.experiments) {
     if (is_measured(problem_, experiment.name) || !depends(experiment, parameter)) continue;
-    parts.push_back(fmt::format("do the {} experiment, which depends on it", experiment.name));
+    parts.push_back(
+        is_held_out(problem_, experiment.name)
+            ? fmt::format("fit the {} experiment too, which is held out and depends on "
+                          "it",
+                          experiment.name)
+            : fmt::format("do the {} experiment, which depends on it", experiment.name));
   }
   return fmt::format("{}", fmt::join(parts, "; or "));
 }

@@ -137,6 +137,16 @@ std::vector<std::vector<double>> correlation_of(const std::vector<Point>& points
   return correlation;
 }
 
+/// Evenly over all of them: neighbours may be copies of one that was resampled.
+std::vector<std::vector<double>> drawn_from(const Problem& problem,
+                                            const std::vector<Point>& points) {
+  std::vector<std::vector<double>> drawn;
+  for (std::size_t k = 0; k < kDrawnSets; ++k) {
+    drawn.push_back(to_values(problem, points[(2 * k + 1) * points.size() / (2 * kDrawnSets)]));
+  }
+  return drawn;
+}
+
 }  // namespace
 
 JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
@@ -164,6 +174,7 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   for (const std::vector<double>& values : asked) {
     fit.asked.push_back(predicted(problem, solution, values));
   }
+  fit.drawn = drawn_from(problem, solution.sets.points);
   fit.curves = response_curves(problem, solution);
   fit.surfaces = response_surfaces(problem, solution);
   fit.rounds = replay(problem, sorted).complete;

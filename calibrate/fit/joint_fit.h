@@ -109,6 +109,9 @@ struct StudyAddition {
   std::string lines;  ///< its section of the study file
 };
 
+/// Sets of JointFit::drawn.
+inline constexpr std::size_t kDrawnSets = 8;
+
 struct JointFit {
   std::vector<FittedParameter> parameters;       ///< in Problem's order
   std::vector<FittedObservable> observables;     ///< in Problem's order
@@ -117,8 +120,10 @@ struct JointFit {
   std::vector<std::vector<double>> reading_correlation;
   std::vector<ParameterSet> equivalence_family;  ///< the best fit not included
   std::vector<PredictedSet> asked;               ///< in the order of the question
-  std::vector<StudyAddition> additions;          ///< each once
-  std::vector<SurrogateQuality> surrogates;      ///< in order of the observables
+  /// Drawn from the plausible sets, as probable as the data leave them; for predictions.
+  std::vector<std::vector<double>> drawn;
+  std::vector<StudyAddition> additions;      ///< each once
+  std::vector<SurrogateQuality> surrogates;  ///< in order of the observables
   std::vector<ResponseCurve> curves;
   std::vector<ResponseSurface> surfaces;
   std::vector<RoundSummary> rounds;  ///< of the runs that propose() asked for

@@ -136,6 +136,17 @@ void check_observable(const Problem& problem, const Observable& observable, Erro
   check_scatter(observable, errors);
 }
 
+/// Where a reading of an experiment is fitted, its others predict nothing new.
+void check_not_fitted(const Problem& problem, const Observable& held_out, ErrorList& errors) {
+  const bool is_fitted = std::ranges::any_of(problem.observables, [&](const Observable& fitted) {
+    return fitted.experiment == held_out.experiment;
+  });
+  if (!is_fitted) return;
+  errors.push_back(
+      fmt::format("{}: held out, but other readings of {} are fitted. Fix: hold out all of them",
+                  held_out.name, held_out.experiment));
+}
+
 template <typename Things>
 void check_names(const Things& things, const char* what, ErrorList& errors) {
   std::set<std::string> names;
@@ -180,12 +191,17 @@ std::vector<std::string> errors_of(const Problem& problem) {
   check_names(problem.parameters, "parameters", errors);
   check_names(problem.experiments, "experiments", errors);
   check_names(problem.observables, "observables", errors);
+  check_names(problem.held_out, "observables that are held out", errors);
   for (const Parameter& parameter : problem.parameters) check_parameter(parameter, errors);
   for (const Experiment& experiment : problem.experiments) {
     check_experiment(problem, experiment, errors);
   }
   for (const Observable& observable : problem.observables) {
     check_observable(problem, observable, errors);
+  }
+  for (const Observable& observable : problem.held_out) {
+    check_observable(problem, observable, errors);
+    check_not_fitted(problem, observable, errors);
   }
   check_settings(problem, errors);
   return errors;

@@ -112,6 +112,8 @@ struct Problem {
   std::vector<Experiment> experiments;
   FitSettings settings;
   std::vector<Offer> offers = {};
+  /// Measured, but of experiments that no observable is of: predicted from the fit (prediction.h).
+  std::vector<Observable> held_out = {};
 };
 
 /// Every error of a problem, a line each: where, the value, the rule, "Fix: ...". Empty: none.

@@ -42,6 +42,7 @@ bool is_measured(const dem::Measured& measured) {
 Problem with_all(dem::Study study, const dem::ClumpFile& grain, const Budget& budget) {
   std::set<std::string> made_up;
   for (auto& [experiment, described] : study.experiments) {
+    described.is_held_out = false;  // a plan is about what could be fitted
     if (is_measured(described.measured)) continue;
     described.measured.mean = 1;
     made_up.insert(dem::name_of(experiment));

@@ -6,6 +6,7 @@
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/result/candidates.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 double bench_half_width(const ResultObservable& observable) {
   const double uncertainty = observable.measured_uncertainty;
   if (observable.sd_assumed) return half_width_95(uncertainty);
-  const double root_n = observable.measured_sd / uncertainty;
-  return half_width_95(uncertainty, std::round(root_n * root_n) - 1);
+  return half_width_95(uncertainty, bench_readings(observable) - 1);
 }
 
 Table agreement_table(const JointResult& joint) {
@@ -134,6 +134,68 @@ std::string rounds_text(const JointResult& joint) {
       joint.agreement.rounds == 1 ? "once" : fmt::format("in {} rounds", joint.agreement.rounds));
 }
 
+Table predictions_table(const JointResult& joint) {
+  Table table{.name = "held_out",
+              .title = "Held out: not fitted, but predicted from the fit",
+              .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                                   {.name = "measured", .unit = {}},
+                                   {.name = "standard uncertainty", .unit = {}},
+                                   {.name = "predicted", .unit = {}},
+                                   {.name = "95 % from", .unit = {}},
+                                   {.name = "95 % to", .unit = {}},
+                                   {.name = "difference / σ", .unit = {}, .decimals = 1},
+                                   {.name = "p", .unit = "%", .decimals = 2},
+                                   {.name = "tolerance", .unit = {}},
+                                   {.name = "verdict", .unit = {}}},
+                       .rows = {}}};
+  for (const Prediction& prediction : joint.held_out) {
+    table.data.add({axis_of_observable(prediction.name, prediction.unit), cell(prediction.measured),
+                    cell(prediction.measured_uncertainty), cell(prediction.predicted),
+                    cell(prediction.interval.low), cell(prediction.interval.high),
+                    cell(prediction.difference_sigma), cell(100 * prediction.chance),
+                    cell(prediction.tolerance), name_of(prediction.verdict)});
+  }
+  return table;
+}
+
+void add_predictions(const JointResult& joint, Chapter& chapter) {
+  if (joint.held_out.empty()) return;
+  chapter.blocks.push_back(predictions_table(joint));
+  chapter.blocks.push_back(Paragraph{fmt::format(
+      "These readings had no part in the fit. They were simulated at {} sets of coefficients drawn "
+      "from those that the fit leaves plausible; the interval holds what these differ by, and "
+      "chance. Cannot tell: the coefficients are not known well enough to predict this reading "
+      "within its tolerance.",
+      kDrawnSets)});
+}
+
+Table candidates_table(const JointResult& joint) {
+  Table table{.name = "rolling_models",
+              .title = "Rolling models fitted to the same readings",
+              .data = {.columns = {{.name = "rolling model", .unit = {}},
+                                   {.name = "deviance of means", .unit = {}, .decimals = 1},
+                                   {.name = "deviance of scatter", .unit = {}, .decimals = 1},
+                                   {.name = "sum", .unit = {}, .decimals = 1},
+                                   {.name = "bench and simulation", .unit = {}}},
+                       .rows = {}}};
+  for (const Candidate& candidate : joint.candidates) {
+    table.data.add({candidate.name, cell(candidate.means), cell(candidate.scatter),
+                    cell(deviance_of(candidate)), name_of(candidate.verdict)});
+  }
+  return table;
+}
+
+/// What this rolling model was weighed against.
+void add_candidates(const JointResult& joint, Chapter& chapter) {
+  if (joint.candidates.size() < 2) return;
+  chapter.blocks.push_back(candidates_table(joint));
+  chapter.blocks.push_back(Paragraph{fmt::format(
+      "The study was also fitted with other rolling models. Of these, {}. The deviance is minus "
+      "twice the logarithm of how much less likely a model makes the readings than a simulation "
+      "that gives exactly their means and scatters no more than they do.",
+      candidates_text(joint.candidates))});
+}
+
 }  // namespace
 
 Chapter agreement_chapter(const JointResult& joint) {
@@ -154,6 +216,8 @@ Chapter agreement_chapter(const JointResult& joint) {
       "check detects in four of five cases. No number of runs to decide means that it is decided, "
       "or "
       "that the bench readings are too uncertain for any number of runs to decide."});
+  add_predictions(joint, chapter);
+  add_candidates(joint, chapter);
   return chapter;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/prediction.h"
 #include "calibrate/fit/problem.h"
 #include "calibrate/published/published_method.h"
 #include "calibrate/result/surface_summary.h"
@@ -69,6 +70,9 @@ struct ResultObservable : FittedObservable {
   SurrogateCheck surrogate;  ///< what had been expected of them; its name likewise
 };
 
+/// How many readings the bench made, where their scatter was measured.
+int bench_readings(const ResultObservable& observable);
+
 /// How bench and simulation agree, over all observables.
 struct OverallAgreement {
   std::string text;            ///< the verdict in plain words, a sentence
@@ -81,6 +85,15 @@ struct OverallAgreement {
 struct EquivalentSet : ParameterSet {
   std::optional<AgreementVerdict> verdict;  ///< by simulation; none: not simulated
   std::vector<double> simulated;            ///< each observable there; empty: not simulated
+};
+
+/// One of several ways to simulate the same bench, each fitted by itself (candidates.h).
+struct Candidate {
+  std::string name;    ///< of its rolling model
+  double means = 0;    ///< deviance by the differences of means; not finite: a reading is missing
+  double scatter = 0;  ///< deviance by scatter that the bench does not have
+  AgreementVerdict verdict = AgreementVerdict::cannot_tell;
+  NamedValues values;  ///< fitted coefficients
 };
 
 /// A polynomial through the runs of an observable; none where there are too few for one.
@@ -97,11 +110,13 @@ struct JointResult {
   /// Of the last check with fresh seeds; which parameters it was of is in `agreement`.
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
   OverallAgreement agreement;
+  std::vector<Prediction> held_out;  ///< readings that were predicted, not fitted; or none
   double chi2 = 0;
   std::vector<std::vector<double>> correlation;
   std::vector<std::vector<double>> reading_correlation;
   std::vector<EquivalentSet> equivalence_family;
   std::vector<StudyAddition> additions;  ///< what the advice would have in the study file
+  std::vector<Candidate> candidates;     ///< this one and those it was weighed against; or none
   std::vector<std::string> warnings;
   std::vector<SurrogateQuality> surrogates;  ///< without warp and length scales
   std::vector<RoundSummary> rounds;

@@ -134,6 +134,25 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, Prediction>& prediction) {
+  io("name", prediction.name);
+  io("unit", prediction.unit);
+  io("measured", prediction.measured);
+  io("measured_uncertainty", prediction.measured_uncertainty);
+  io("predicted", prediction.predicted);
+  io("uncertainty", prediction.uncertainty);
+  io("interval", prediction.interval);
+  io("coefficients_sd", prediction.coefficients_sd);
+  io("run_sd", prediction.run_sd);
+  io("difference_sigma", prediction.difference_sigma);
+  io("p", prediction.chance);
+  io("tolerance", prediction.tolerance);
+  io("sets", prediction.sets);
+  io("failed_runs", prediction.failed_runs);
+  io("verdict", prediction.verdict);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, EquivalentSet>& set) {
   by_name(io, "parameters", io.names().parameters, set.values);
   io("chi2_above_best", set.chi2);
@@ -147,6 +166,15 @@ template <typename Io>
 void fields(Io& io, Held<Io, StudyAddition>& addition) {
   io("experiment", addition.experiment);
   io("lines", addition.lines);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, Candidate>& candidate) {
+  io("name", candidate.name);
+  io("deviance_of_means", candidate.means);
+  io("deviance_of_scatter", candidate.scatter);
+  io("verdict", candidate.verdict);
+  io("values", candidate.values);
 }
 
 template <typename Io>
@@ -218,11 +246,13 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   io.names() = {names_of(joint.parameters), names_of(joint.observables), {}};
   io("verdict", joint.verdict);
   io("agreement", joint.agreement);
+  if (io.has("held_out", !joint.held_out.empty())) io("held_out", joint.held_out);
   io("chi2", joint.chi2);
   io("correlation", joint.correlation);
   io("reading_correlation", joint.reading_correlation);
   io("equivalence_family", joint.equivalence_family);
   if (io.has("additions", !joint.additions.empty())) io("additions", joint.additions);
+  if (io.has("candidates", !joint.candidates.empty())) io("candidates", joint.candidates);
   io("warnings", joint.warnings);
   io("surrogates", joint.surrogates);
   io("rounds", joint.rounds);

@@ -7,6 +7,7 @@
 
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/fit/budget.h"
+#include "calibrate/fit/prediction.h"
 #include "calibrate/fit/unit_box.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_run.h"
@@ -72,7 +73,22 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
                          .fit_runs = runs[e],
                          .check_runs = checks});
   }
+  for (const Experiment& experiment : held_out_experiments(problem)) {
+    estimates.push_back({.experiment = experiment.name,
+                         .run_s = experiment.run_s,
+                         .check_run_s = run_s_of(experiment, 1),
+                         .fit_runs = 0,
+                         .check_runs = prediction_runs(experiment)});
+  }
   return estimates;
+}
+
+double prediction_s(const Problem& problem) {
+  double seconds = 0;
+  for (const Experiment& experiment : held_out_experiments(problem)) {
+    seconds += run_s_of(experiment, 1) * prediction_runs(experiment);
+  }
+  return seconds;
 }
 
 double check_s(const Problem& problem, int repeats) {

@@ -18,7 +18,7 @@ struct ExperimentEstimate {
   double run_s = 0;        ///< in the fit, by the program's own measure, see Experiment::run_s
   double check_run_s = 0;  ///< likewise, of a run of a check, which may be stiffer
   int fit_runs = 0;        ///< in all rounds of the fit
-  int check_runs = 0;      ///< with fresh seeds afterwards
+  int check_runs = 0;      ///< with fresh seeds afterwards, or to predict what is held out
 };
 
 std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& budget);
@@ -26,7 +26,11 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
 /// Work of one check of one set of coefficients, s by the program's own measure.
 double check_s(const Problem& problem, int repeats);
 
-/// Runs of each experiment that so many seconds buy, in the order of estimate_of.
+/// Work of predicting what is held out, likewise.
+double prediction_s(const Problem& problem);
+
+/// Runs of each experiment that so many seconds buy, in the order of estimate_of; none of those
+/// held out, which come last there.
 std::vector<int> runs_for(const Problem& problem, double seconds);
 
 /// Makes a run, for `longest_s` at most, and saves nothing. How long all of it takes on a core of

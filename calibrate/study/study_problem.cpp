@@ -107,12 +107,12 @@ class Maker {
       add(entry, entry.is_pictured ? budget.heap_softening : 1);
     }
     if (made_.problem.observables.empty()) {
-      throw std::invalid_argument(
-          fmt::format("{}: no experiment that depends on a fitted coefficient has readings. Fix: "
-                      "give one or more experiments their bench readings, as in measured = {{ mean "
-                      "= 9.42, sd = "
-                      "0.5, n = 10 }}.",
-                      study_.file.string()));
+      throw std::invalid_argument(fmt::format(
+          "{}: no experiment that depends on a fitted coefficient has readings{}. Fix: "
+          "give one or more experiments their bench readings, as in measured = {{ mean "
+          "= 9.42, sd = "
+          "0.5, n = 10 }}.",
+          study_.file.string(), made_.problem.held_out.empty() ? "" : ", but for those held out"));
     }
     allow_a_fit();
     require_sound(made_.problem);
@@ -147,6 +147,7 @@ class Maker {
          .measurable = measurable(entry),
          .readings_per_run = readings_per_run(entry),
          .relative_stiffness = relative_stiffness});
+    into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured) add(observable_of(measured), entry, "value");
     for (const dem::MeasuredReading& reading : measured.also) {
       Observable observable;
@@ -191,12 +192,13 @@ class Maker {
       observable.sd.reset();
       observable.assumed_sd_fraction = observable.assumed_sd_fraction.value_or(kAssumedSdFraction);
     }
-    made_.problem.observables.push_back(std::move(observable));
+    into_->push_back(std::move(observable));
   }
 
   const dem::Study& study_;
   const dem::ClumpFile& grain_;
   StudyProblem made_;
+  std::vector<Observable>* into_ = &made_.problem.observables;  ///< those fitted, or held out
 };
 
 }  // namespace

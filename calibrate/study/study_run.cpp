@@ -80,8 +80,9 @@ bool try_family(const Problem& problem, const Budget& budget, JobRunner& runner,
     jobs.insert(jobs.end(), of_set.begin(), of_set.end());
     tried.push_back(set.values);
   }
-  const auto checks = runner.get("checking equally good sets", jobs,
-                                 kMostCheckRounds * check_s(problem, budget.verification_repeats));
+  const auto checks = runner.get(
+      "checking equally good sets", jobs,
+      kMostCheckRounds * check_s(problem, budget.verification_repeats) + prediction_s(problem));
   if (!checks) return false;
   outcome.runs = joined(std::move(outcome.runs), *checks);
   return true;
@@ -110,7 +111,8 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
         fmt::format("check {} of at most {}", outcome.check_rounds + 1, kMostCheckRounds),
         verification_jobs(problem, values, budget.verification_repeats, outcome.check_rounds),
         (kMostCheckRounds - outcome.check_rounds - 1) *
-            check_s(problem, budget.verification_repeats));
+                check_s(problem, budget.verification_repeats) +
+            prediction_s(problem));
     if (!checks) return false;
     ++outcome.check_rounds;
     outcome.checks = *checks;
@@ -144,6 +146,16 @@ void judge_family(const Problem& problem, StudyOutcome& outcome) {
       fmt::format("{} of {} sets that had seemed to fit as well as the best were simulated and are "
                   "ruled out now",
                   ruled_out, outcome.fit.asked.size() - 1));
+}
+
+/// Simulates what was held out at coefficients drawn from the fit. False when interrupted.
+bool predict(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
+  const std::vector<Job> jobs = prediction_jobs(problem, outcome.fit);
+  if (jobs.empty()) return true;
+  const auto runs = runner.get("predicting what is held out", jobs, 0);
+  if (!runs) return false;
+  outcome.predictions = predictions_of(problem, outcome.fit, *runs);
+  return true;
 }
 
 constexpr double kNormal95 = 1.96;
@@ -204,6 +216,7 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
     if (!try_family(problem, budget, runner, tried, outcome)) return std::nullopt;
     if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
     judge_family(problem, outcome);
+    if (!predict(problem, runner, outcome)) return std::nullopt;
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }

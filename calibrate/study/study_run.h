@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/prediction.h"
 #include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_context.h"
@@ -28,6 +29,7 @@ struct StudyOutcome {
   int check_rounds = 0;
   std::vector<SurrogateCheck> surrogates;  ///< what was expected of that check before
   std::vector<CheckedSet> family;          ///< those simulated that still fit
+  std::vector<Prediction> predictions;     ///< of what was held out
   std::vector<Run> runs;                   ///< those that the fit was made from
   std::vector<Run> checks;                 ///< those of the last check
   std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs

@@ -25,6 +25,7 @@
 #include "cli/calibrate/check_heaps.h"
 #include "cli/calibrate/dry_run.h"
 #include "cli/calibrate/paper_table.h"
+#include "cli/calibrate/rolling_models.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
@@ -176,6 +177,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 }  // namespace
 
 ExitCode run_calibrate(const CalibrateArguments& arguments) {
+  if (!arguments.rolling_models.empty()) return run_rolling_models(arguments);
   if (calibrate::is_launched_as_rank()) {
     if (arguments.is_dry_run) {
       print_line(

@@ -13,6 +13,7 @@ struct CalibrateArguments {
   std::vector<std::string> settings;
   std::string method = "joint";
   std::string budget = "quick";
+  std::string rolling_models;
   std::string jobs;
   std::string out_folder;
   std::string json_file;

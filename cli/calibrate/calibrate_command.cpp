@@ -34,9 +34,14 @@ extra. --dry-run times one run of each experiment, for at most 20 seconds each,
 and reports what each budget would simulate and how long it takes. It needs the
 bench readings, and saves nothing.
 
+--rolling-models constant_torque,elastic_plastic calibrates the study with each
+of them, in folders of their own, and says which one explains the bench readings
+best: their means, and how much they scatter.
+
 Examples:
   repose calibrate study.toml --dry-run
   repose calibrate study.toml
+  repose calibrate study.toml --rolling-models constant_torque,elastic_plastic
   repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
 )";
 
@@ -51,6 +56,8 @@ Command calibrate_command() {
                   {"--budget", "quick|standard|paper", "Limit on the simulations (quick)",
                    &given->budget},
                   {"--method", "joint|paper", "Method of calibration (joint)", &given->method},
+                  {"--rolling-models", "A,B", "Fit the study with each, and compare them",
+                   &given->rolling_models},
                   {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
                    &given->settings},
                   {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},

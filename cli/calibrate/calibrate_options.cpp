@@ -116,7 +116,7 @@ void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
 /// Nothing of the user's may be written over.
 void check_places(CalibratePlan& plan) {
   const dem::Study& study = plan.record.study;
-  if (plan.out_folder.empty()) plan.out_folder = study.file.stem().string() + "_calibration";
+  if (plan.out_folder.empty()) plan.out_folder = default_folder(study.file);
   const std::vector<std::string> foreign = calibrate::foreign_files(plan.out_folder, study.file);
   if (!foreign.empty()) {
     plan.errors.push_back(
@@ -151,6 +151,10 @@ void check_method(const CalibrateArguments& arguments, CalibratePlan& plan) {
 }
 
 }  // namespace
+
+std::filesystem::path default_folder(const std::filesystem::path& study_file) {
+  return study_file.stem().string() + "_calibration";
+}
 
 CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows no_rows) {
   CalibratePlan plan;

@@ -23,6 +23,9 @@ struct CalibratePlan {
   std::vector<std::string> notes;   ///< for the user to know
 };
 
+/// Where a study is calibrated if nothing else is said: STUDY_calibration, here.
+std::filesystem::path default_folder(const std::filesystem::path& study_file);
+
 /// The study and what its bench gave, for a command that simulates in the study's folder: all of a
 /// plan but its problem.
 CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows no_rows);

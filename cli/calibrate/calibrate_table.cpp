@@ -78,6 +78,35 @@ void add_agreement(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
+/// What was held out, as the fit predicts it.
+void add_predictions(const calibrate::JointResult& joint, Page& page) {
+  if (joint.held_out.empty()) return;
+  Table table({{.heading = "held out"},
+               number_column("measured"),
+               number_column("predicted"),
+               {.heading = "95 % interval"},
+               number_column("difference / σ"),
+               {.heading = "verdict"}});
+  for (const calibrate::Prediction& prediction : joint.held_out) {
+    table.add_row(
+        {prediction.unit.empty() ? prediction.name
+                                 : fmt::format("{} [{}]", prediction.name, prediction.unit),
+         pair(prediction.measured, prediction.measured_uncertainty),
+         pair(prediction.predicted, prediction.uncertainty),
+         fmt::format("{} … {}", number(prediction.interval.low), number(prediction.interval.high)),
+         std::isfinite(prediction.difference_sigma)
+             ? fmt::format("{:+.1f}", prediction.difference_sigma)
+             : kNothing,
+         name_of(prediction.verdict)});
+  }
+  page.add_gap();
+  page.add(table);
+  page.add(fmt::format(
+      "(not fitted: predicted by simulations at {} sets of coefficients that the fit leaves "
+      "plausible)",
+      calibrate::kDrawnSets));
+}
+
 void add_family(const calibrate::JointResult& joint, Page& page) {
   if (joint.equivalence_family.empty()) return;
   std::vector<Column> columns(joint.parameters.size(), number_column(""));
@@ -140,6 +169,7 @@ std::string joint_table(const calibrate::JointResult& joint,
   page.add(observables_table(joint));
   page.add("(± is the standard uncertainty of the mean; simulated with fresh seeds)");
   add_agreement(joint, page);
+  add_predictions(joint, page);
   add_family(joint, page);
   add_advice(joint, page);
   add_additions(joint, page);

@@ -99,6 +99,7 @@ BudgetColumn hour_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
   for (const int runs : calibrate::runs_for(problem, kHour_s * jobs)) {
     column.runs.push_back(fmt::format("{}", runs));
   }
+  column.runs.resize(budget.estimates.size(), "0");  // what is held out gets no more
   return column;
 }
 

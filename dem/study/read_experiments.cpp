@@ -167,6 +167,7 @@ void read_experiment(Section section, const ExperimentEntry& entry, const NamedF
            number_key("stiffness_factor", "0.01", above(0, 1), described.stiffness_factor));
   described.measured = read_measured(section, entry, files);
   read_also(section, entry, described.measured);
+  described.is_held_out = section.truth("held_out", "held_out = true").value_or(false);
   section.refuse_others();
   study.experiments.emplace(entry.experiment, std::move(described));
 }

@@ -132,6 +132,16 @@ std::optional<std::string> Section::text(const std::string& key, const std::stri
   return found->text;
 }
 
+std::optional<bool> Section::truth(const std::string& key, const std::string& example) {
+  const ConfigValue* found = value(key);
+  if (found == nullptr) return std::nullopt;
+  if (found->kind != Kind::boolean) {
+    wrong(*found, "true or false", for_example(example));
+    return std::nullopt;
+  }
+  return found->shown == "true";
+}
+
 std::optional<std::vector<double>> Section::numbers(const std::string& key, const Range& range,
                                                     const std::string& example) {
   const ConfigValue* found = value(key);

@@ -29,6 +29,7 @@ class Section {
   std::optional<std::int64_t> integer(const std::string& key, std::int64_t from, std::int64_t to,
                                       const std::string& example);
   std::optional<std::string> text(const std::string& key, const std::string& example);
+  std::optional<bool> truth(const std::string& key, const std::string& example);
   std::optional<std::vector<double>> numbers(const std::string& key, const Range& range,
                                              const std::string& example);
   std::optional<std::vector<std::string>> texts(const std::string& key, const std::string& example);

@@ -67,6 +67,8 @@ struct StudyExperiment {
   Protocol protocol;
   Measured measured;
   double stiffness_factor = 1;  ///< of the grains and walls in it; 1 is the real material
+  /// Its readings are not fitted, but predicted from the fit of the others, and compared.
+  bool is_held_out = false;
 };
 
 /// What a report says about a study beside its numbers. Each may be empty.

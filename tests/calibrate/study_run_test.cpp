@@ -113,6 +113,32 @@ TEST_F(StudyRun, ADropIsTheMeanOfItsGrains) {
   EXPECT_EQ(made.problem.experiments[1].readings_per_run, 1);
 }
 
+TEST_F(StudyRun, WhatIsHeldOutIsPredictedAndNotFitted) {
+  const dem::Study study = read({"experiment.tilt.held_out = true"});
+  const Problem problem = small_problem(study);
+  ASSERT_THAT(problem.observables, SizeIs(1));
+  ASSERT_THAT(problem.held_out, SizeIs(1));
+  EXPECT_EQ(problem.held_out[0].name, "tilt");
+  const auto outcome = run("held_out", 2, -1, {"experiment.tilt.held_out = true"});
+  ASSERT_TRUE(outcome);
+  ASSERT_THAT(outcome->fit.observables, SizeIs(1));
+  ASSERT_THAT(outcome->predictions, SizeIs(1));
+  const Prediction& tilt = outcome->predictions[0];
+  EXPECT_EQ(tilt.name, "tilt");
+  EXPECT_EQ(tilt.sets, 8);
+  EXPECT_LT(tilt.interval.low, 20.475) << "nothing tells the friction";
+  EXPECT_GT(tilt.interval.high, 20.475);
+  EXPECT_EQ(tilt.verdict, AgreementVerdict::cannot_tell);
+  EXPECT_THAT(outcome->fit.parameters[1].advice, HasSubstr("fit the tilt experiment too"));
+}
+
+TEST_F(StudyRun, SomethingMustBeLeftToFit) {
+  const dem::Study study =
+      read({"experiment.tilt.held_out = true", "experiment.drop.held_out = true"});
+  EXPECT_THAT(error_of([&] { problem_of(study, grain_of(study), budget_named("quick")); }),
+              HasSubstr("has readings, but for those held out"));
+}
+
 TEST_F(StudyRun, TheToleranceIsTheStudys) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5, tolerance = 3 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));

@@ -67,6 +67,50 @@ TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
   EXPECT_GT(regression["regression"]["anova"]["model"]["f"], 10);
 }
 
+TEST_F(Calibrate, WeighsRollingModelsAgainstEachOther) {
+  const std::string both = "constant_torque,elastic_plastic";
+  const Finished done = run({"study.toml", "--rolling-models", both});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("deviance: means"), HasSubstr("elastic_plastic")));
+  for (const char* model : {"constant_torque", "elastic_plastic"}) {
+    const json result =
+        json::parse(text(std::string("study_calibration/") + model + "/result.json"));
+    EXPECT_EQ(result["provenance"]["rolling_model"], model);
+    ASSERT_EQ(result["candidates"].size(), 2U);
+    EXPECT_EQ(result["candidates"][0]["name"], "constant_torque");
+    EXPECT_GE(result["candidates"][1]["deviance_of_means"], 0);
+  }
+  const std::string first = text("study_calibration/elastic_plastic/result.json");
+  ASSERT_EQ(run({"study.toml", "--rolling-models", both}).exit_code, 0) << "it resumes";
+  EXPECT_EQ(text("study_calibration/elastic_plastic/result.json"), first);
+}
+
+TEST_F(Calibrate, PredictsWhatIsHeldOut) {
+  const std::string held_out = "experiment.tilt.held_out = true";
+  const Finished done = run({"study.toml", "--set", held_out, "--json", "result.json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("held out"), HasSubstr("95 % interval")));
+  const json result = json::parse(text("result.json"));
+  ASSERT_EQ(result["held_out"].size(), 1U);
+  EXPECT_EQ(result["held_out"][0]["name"], "tilt");
+  EXPECT_EQ(result["observables"].size(), 1U);
+  const Finished dry = run({"study.toml", "--set", held_out, "--dry-run"});
+  EXPECT_EQ(dry.exit_code, 0) << dry.err;
+  EXPECT_THAT(dry.out, HasSubstr("0 + 8")) << "nothing for the fit, eight predictions";
+  EXPECT_EQ(run({"study.toml", "--set", "experiment.tilt.held_out = 1"}).exit_code, 2);
+}
+
+TEST_F(Calibrate, RefusesRollingModelsThatCannotBeWeighed) {
+  const Finished done =
+      run({"study.toml", "--rolling-models", "constant_torque,sliding", "--method", "paper",
+           "--json", "-", "--set", "contact.rolling_model=\"none\""});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("--rolling-models sliding"), HasSubstr("two or more"),
+                              HasSubstr("--method paper"), HasSubstr("leave out --json"),
+                              HasSubstr("contradicts --rolling-models")));
+  EXPECT_FALSE(exists("study_calibration")) << "nothing is begun";
+}
+
 TEST_F(Calibrate, TakesReadingsFromASheetAsIfTheyWereListed) {
   std::string study = calibrate::test::kSphereStudy;
   const std::string values = "values = [20.1, 21.3, 20.7, 19.8]";

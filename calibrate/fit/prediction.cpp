@@ -1,0 +1,199 @@
+#include "calibrate/fit/prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "base/distributions.h"
+#include "calibrate/fit/check_sample.h"
+#include "calibrate/fit/unit_box.h"
+
+namespace repose::calibrate {
+namespace {
+
+/// Checks of sets of parameters have seeds up to some millions above kFirstCheckSeed.
+constexpr std::uint64_t kFirstPredictionSeed = kFirstCheckSeed + 500'000'000;
+constexpr std::size_t kFewestSets = 3;  // two say nothing of their scatter
+constexpr double kLevel = .05;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+int repeats_of(const Experiment& experiment) {
+  return experiment.is_stochastic ? kPredictionRepeats : 1;
+}
+
+Job job_of(const Problem& problem, const Experiment& experiment, const std::vector<double>& values,
+           std::size_t number) {
+  Job job = job_at(problem, experiment, to_unit(problem, values),
+                   problem.settings.seed + kFirstPredictionSeed + number);
+  job.relative_stiffness = 1;
+  return job;
+}
+
+/// Means at the sets that gave a reading, and what runs at one set scatter by.
+struct SetMeans {
+  std::vector<double> means;
+  double per_set = 0;         ///< mean of 1 / runs
+  double within_squares = 0;  ///< of runs against the mean of their set
+  int within_df = 0;
+  int failed = 0;
+
+  void add(const std::vector<double>& readings);
+  double run_variance() const { return within_df > 0 ? within_squares / within_df : 0; }
+};
+
+void SetMeans::add(const std::vector<double>& readings) {
+  if (readings.empty()) return;
+  double mean = 0;
+  for (const double reading : readings) mean += reading / static_cast<double>(readings.size());
+  for (const double reading : readings) within_squares += (reading - mean) * (reading - mean);
+  within_df += static_cast<int>(readings.size()) - 1;
+  per_set =
+      (per_set * static_cast<double>(means.size()) + 1. / static_cast<double>(readings.size())) /
+      static_cast<double>(means.size() + 1);
+  means.push_back(mean);
+}
+
+SetMeans means_of(const Problem& problem, const JointFit& fit, const Observable& observable,
+                  const std::vector<Run>& runs) {
+  const Experiment& experiment = experiment_named(problem, observable.experiment);
+  SetMeans sets;
+  std::size_t number = 0;
+  for (const std::vector<double>& values : fit.drawn) {
+    std::vector<double> readings;
+    for (int k = 0; k < repeats_of(experiment); ++k, ++number) {
+      const Job job = job_of(problem, experiment, values, number);
+      const auto run = std::ranges::find(runs, job, &Run::job);
+      if (run == runs.end()) continue;
+      const auto found = run->readings.find(observable.reading);
+      if (run->failure.empty() && found != run->readings.end() && std::isfinite(found->second)) {
+        readings.push_back(found->second);
+      } else {
+        ++sets.failed;
+      }
+    }
+    sets.add(readings);
+  }
+  return sets;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double variance_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return squares / static_cast<double>(values.size() - 1);
+}
+
+/// The standard uncertainty of a measured mean; a scatter that is only assumed is no less than that
+/// of single readings in the simulation, as in the fit.
+double measured_uncertainty_of(const Problem& problem, const Observable& observable,
+                               double run_sd) {
+  const double known = standard_uncertainty(observable);
+  if (observable.sd) return known;
+  const Experiment& experiment = experiment_named(problem, observable.experiment);
+  return std::max(
+      known, run_sd * std::sqrt(static_cast<double>(experiment.readings_per_run) / observable.n));
+}
+
+void judge(const Problem& problem, const Observable& observable, double sets_df,
+           Prediction& prediction) {
+  const double measured_df =
+      observable.sd ? observable.n - 1 : std::numeric_limits<double>::infinity();
+  const UncertainMean difference =
+      difference_of({prediction.predicted, prediction.uncertainty, sets_df},
+                    {prediction.measured, prediction.measured_uncertainty, measured_df});
+  prediction.difference_sigma = difference.value / difference.uncertainty;
+  prediction.chance = chance_of(difference);
+  const Interval within = not_ruled_out(difference);
+  if (within.low >= -prediction.tolerance && within.high <= prediction.tolerance) {
+    prediction.verdict = AgreementVerdict::agrees;
+  } else if (prediction.chance < kLevel / static_cast<double>(problem.held_out.size())) {
+    prediction.verdict = AgreementVerdict::disagrees;
+  }
+}
+
+Prediction prediction_of(const Problem& problem, const JointFit& fit, const Observable& observable,
+                         const std::vector<Run>& runs) {
+  const SetMeans sets = means_of(problem, fit, observable, runs);
+  Prediction prediction{.name = observable.name,
+                        .unit = observable.unit,
+                        .measured = observable.mean,
+                        .measured_uncertainty = standard_uncertainty(observable),
+                        .predicted = kNone,
+                        .uncertainty = kNone,
+                        .interval = {kNone, kNone},
+                        .coefficients_sd = kNone,
+                        .run_sd = kNone,
+                        .difference_sigma = kNone,
+                        .chance = kNone,
+                        .tolerance = kNone,
+                        .sets = static_cast<int>(sets.means.size()),
+                        .failed_runs = sets.failed};
+  prediction.tolerance = tolerance_of(observable, prediction.measured_uncertainty);
+  if (sets.means.size() < kFewestSets) {
+    // Where the bench has a reading, coefficients that never give one are wrong.
+    if (sets.means.empty()) prediction.verdict = AgreementVerdict::disagrees;
+    return prediction;
+  }
+  const double between = variance_of(sets.means);
+  const auto count = static_cast<double>(sets.means.size());
+  const double by_coefficients = std::max(0., between - sets.run_variance() * sets.per_set);
+  prediction.predicted = mean_of(sets.means);
+  prediction.coefficients_sd = std::sqrt(by_coefficients);
+  prediction.run_sd = std::sqrt(sets.run_variance());
+  prediction.uncertainty = std::sqrt(by_coefficients + between / count);
+  prediction.measured_uncertainty = measured_uncertainty_of(problem, observable, prediction.run_sd);
+  prediction.tolerance = tolerance_of(observable, prediction.measured_uncertainty);
+  const double half = base::student_t_quantile(.975, count - 1) * prediction.uncertainty;
+  prediction.interval = {std::max(prediction.predicted - half, observable.least),
+                         std::min(prediction.predicted + half, observable.most)};
+  judge(problem, observable, count - 1, prediction);
+  return prediction;
+}
+
+}  // namespace
+
+std::vector<Job> prediction_jobs(const Problem& problem, const JointFit& fit) {
+  std::vector<Job> jobs;
+  for (const Experiment& experiment : held_out_experiments(problem)) {
+    std::size_t number = 0;
+    for (const std::vector<double>& values : fit.drawn) {
+      for (int k = 0; k < repeats_of(experiment); ++k, ++number) {
+        jobs.push_back(job_of(problem, experiment, values, number));
+      }
+    }
+  }
+  return jobs;
+}
+
+std::vector<Experiment> held_out_experiments(const Problem& problem) {
+  std::vector<Experiment> held_out;
+  std::ranges::copy_if(problem.experiments, std::back_inserter(held_out),
+                       [&](const Experiment& experiment) {
+                         return std::ranges::any_of(problem.held_out, [&](const Observable& one) {
+                           return one.experiment == experiment.name;
+                         });
+                       });
+  return held_out;
+}
+
+int prediction_runs(const Experiment& experiment) {
+  return static_cast<int>(kDrawnSets) * repeats_of(experiment);
+}
+
+std::vector<Prediction> predictions_of(const Problem& problem, const JointFit& fit,
+                                       const std::vector<Run>& runs) {
+  std::vector<Prediction> predictions;
+  for (const Observable& observable : problem.held_out) {
+    predictions.push_back(prediction_of(problem, fit, observable, runs));
+  }
+  return predictions;
+}
+
+}  // namespace repose::calibrate

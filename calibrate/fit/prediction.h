@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/agreement.h"
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/problem.h"
+
+namespace repose::calibrate {
+
+/// Runs of a stochastic experiment at each of the drawn sets.
+inline constexpr int kPredictionRepeats = 2;
+
+/// A measured mean that the fit knows nothing of, as the fitted coefficients predict it. In its
+/// unit; NaN where too few sets gave a reading.
+struct Prediction {
+  std::string name;
+  std::string unit;
+  double measured = 0;
+  double measured_uncertainty = 0;  ///< standard uncertainty of the mean
+  double predicted = 0;
+  double uncertainty = 0;  ///< standard uncertainty: by the coefficients and by chance in the runs
+  Interval interval;       ///< 95 %, of the expected reading
+  double coefficients_sd = 0;  ///< of the uncertainty, what the coefficients leave open
+  double run_sd = 0;           ///< scatter of runs at the same coefficients
+  double difference_sigma = 0;
+  double chance = 0;     ///< that prediction and measurement differ so much by chance
+  double tolerance = 0;  ///< what does not matter
+  int sets = 0;          ///< with a reading
+  int failed_runs = 0;
+  AgreementVerdict verdict = AgreementVerdict::cannot_tell;
+};
+
+/// Simulations of all experiments that are held out, at each of the fit's drawn sets, with seeds
+/// that nothing else uses, as stiff as the study. None where nothing is held out.
+std::vector<Job> prediction_jobs(const Problem& problem, const JointFit& fit);
+
+/// The experiments that readings are held out of, and how many runs predict those of one.
+std::vector<Experiment> held_out_experiments(const Problem& problem);
+int prediction_runs(const Experiment& experiment);
+
+/// What these runs predict for each of Problem::held_out, and whether it is what was measured.
+/// Formulae and reasons: THEORY.md, "Predictions". Proved by Prediction.* in tests/calibrate.
+std::vector<Prediction> predictions_of(const Problem& problem, const JointFit& fit,
+                                       const std::vector<Run>& runs);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,109 @@
+#include "calibrate/result/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/distributions.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kSmallestChance = 1e-300;
+
+/// Of the differences of all means: the chi-square that is exceeded with their joint probability.
+double deviance_of_means(const JointResult& joint) {
+  for (const ResultObservable& observable : joint.observables) {
+    if (observable.verification.runs == 0) return kInfinite;
+  }
+  if (!std::isfinite(joint.agreement.chance)) return kInfinite;
+  const double chance = std::clamp(joint.agreement.chance, kSmallestChance, 1.);
+  return base::chi_square_exceeded(chance, static_cast<double>(joint.observables.size()));
+}
+
+/// Of two normal samples: likelihood ratio of equal variances against any (Bartlett 1937, Proc. R.
+/// Soc. Lond. A 160, 268, before his correction for few readings). A bench that scatters more has
+/// reasons of its own, of which the simulation knows nothing.
+double deviance_of_scatter(double bench_sd, double bench_df, double simulated_sd,
+                           double simulated_df) {
+  if (!(bench_sd > 0) || simulated_sd <= bench_sd || bench_df < 1 || simulated_df < 1) return 0;
+  const double bench = bench_sd * bench_sd;
+  const double simulated = simulated_sd * simulated_sd;
+  const double df = bench_df + simulated_df;
+  const double pooled = (bench_df * bench + simulated_df * simulated) / df;
+  return df * std::log(pooled) - bench_df * std::log(bench) - simulated_df * std::log(simulated);
+}
+
+double deviance_of_scatters(const JointResult& joint) {
+  double sum = 0;
+  for (std::size_t k = 0; k < joint.observables.size(); ++k) {
+    const ResultObservable& observable = joint.observables[k];
+    if (observable.sd_assumed || k >= joint.surrogates.size()) continue;
+    sum += deviance_of_scatter(observable.measured_sd, bench_readings(observable) - 1,
+                               observable.predicted_sd, joint.surrogates[k].runs - 1);
+  }
+  return sum;
+}
+
+}  // namespace
+
+int bench_readings(const ResultObservable& observable) {
+  const double root_n = observable.measured_sd / observable.measured_uncertainty;
+  return static_cast<int>(std::lround(root_n * root_n));
+}
+
+Candidate candidate_of(const std::string& name, const JointResult& joint) {
+  Candidate candidate{.name = name,
+                      .means = deviance_of_means(joint),
+                      .scatter = deviance_of_scatters(joint),
+                      .verdict = joint.verdict,
+                      .values = {}};
+  for (const ResultParameter& parameter : joint.parameters) {
+    candidate.values.emplace_back(parameter.name, parameter.value);
+  }
+  return candidate;
+}
+
+double deviance_of(const Candidate& candidate) {
+  const double sum = candidate.means + candidate.scatter;
+  return std::isfinite(sum) ? sum : kInfinite;
+}
+
+std::optional<std::size_t> preferred(const std::vector<Candidate>& candidates) {
+  const auto best = std::ranges::min_element(candidates, {}, deviance_of);
+  if (best == candidates.end()) return std::nullopt;
+  for (auto other = candidates.begin(); other != candidates.end(); ++other) {
+    // Also where neither is finite.
+    if (other != best && !(deviance_of(*other) - deviance_of(*best) >= kStrongEvidence)) {
+      return std::nullopt;
+    }
+  }
+  return static_cast<std::size_t>(best - candidates.begin());
+}
+
+std::string candidates_text(const std::vector<Candidate>& candidates) {
+  const auto place = preferred(candidates);
+  if (!place) {
+    return fmt::format(
+        "the bench readings do not tell which of them is right: the deviances differ by less than "
+        "{:g}, or none of them gives all readings",
+        kStrongEvidence);
+  }
+  const Candidate& best = candidates[*place];
+  double next = kInfinite;
+  for (const Candidate& other : candidates) {
+    if (&other != &best) next = std::min(next, deviance_of(other));
+  }
+  if (!std::isfinite(next)) {
+    return fmt::format("{} is the only one that gives all readings", best.name);
+  }
+  return fmt::format(
+      "{} explains the bench readings best: its deviance is lower by {:.1f} or more ({:g} is "
+      "strong evidence)",
+      best.name, next - deviance_of(best), kStrongEvidence);
+}
+
+}  // namespace repose::calibrate
