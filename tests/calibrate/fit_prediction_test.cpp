@@ -68,12 +68,12 @@ TEST(Prediction, IntervalsHoldTheReadingAsOftenAsTheySay) {
   constexpr int kMaterials = 400;
   constexpr double kSd = .03;
   int held = 0;
-  for (int seed = 1; seed <= kMaterials; ++seed) {
-    Random random(static_cast<std::uint64_t>(seed));
+  for (std::uint64_t seed = 1; seed <= kMaterials; ++seed) {
+    Random random(seed);
     std::vector<double> truth = kTruth;
     truth.front() += kSd * random.normal();  // as uncertain as any of the drawn ones
-    Problem problem = holding_out("drop", static_cast<std::uint64_t>(seed));
-    problem.settings.seed = static_cast<std::uint64_t>(1000 * seed);
+    Problem problem = holding_out("drop", seed);
+    problem.settings.seed = 1000 * seed;
     const Prediction prediction = predicted(problem, fit_of(kTruth, kSd, random));
     const double reading = fake::expected("drop", "value", truth);
     held += prediction.interval.low <= reading && reading <= prediction.interval.high ? 1 : 0;

@@ -132,6 +132,33 @@ ResultObservable drop_result() {
            .misses = false}};
 }
 
+Prediction held_out_roll() {
+  return {.name = "roll",
+          .unit = "mm",
+          .measured = 300,
+          .measured_uncertainty = 5,
+          .predicted = 310,
+          .uncertainty = 12,
+          .interval = {280, 340},
+          .coefficients_sd = 11,
+          .run_sd = 20,
+          .difference_sigma = .75,
+          .chance = .47,
+          .tolerance = 15,
+          .sets = 8,
+          .failed_runs = 1,
+          .verdict = AgreementVerdict::cannot_tell};
+}
+
+Candidate constant_torque() {
+  return {.name = "constant_torque",
+          .means = .5,
+          .scatter = 4.25,
+          .verdict = AgreementVerdict::cannot_tell,
+          .values = {{"contact.particle_wall.restitution", .4},
+                     {"contact.particle_wall.sliding_friction", .3}}};
+}
+
 }  // namespace
 
 StudyResult joint_result() {
@@ -144,33 +171,14 @@ StudyResult joint_result() {
                     .chance = .55,
                     .rounds = 2,
                     .values = {.4, .3}},
-      .held_out = {{.name = "roll",
-                    .unit = "mm",
-                    .measured = 300,
-                    .measured_uncertainty = 5,
-                    .predicted = 310,
-                    .uncertainty = 12,
-                    .interval = {280, 340},
-                    .coefficients_sd = 11,
-                    .run_sd = 20,
-                    .difference_sigma = .75,
-                    .chance = .47,
-                    .tolerance = 15,
-                    .sets = 8,
-                    .failed_runs = 1,
-                    .verdict = AgreementVerdict::cannot_tell}},
+      .held_out = {held_out_roll()},
       .chi2 = .5,
       .correlation = {{1, .25}, {.25, 1}},
       .reading_correlation = {{1}},
       .equivalence_family = {{{{.41, .5}, 1.5}, AgreementVerdict::disagrees, {26}},
                              {{{.39, .7}, 2.5}, {}, {}}},
       .additions = {{.experiment = "pendulum", .lines = "[experiment.pendulum]\n"}},
-      .candidates = {{.name = "constant_torque",
-                      .means = .5,
-                      .scatter = 4.25,
-                      .verdict = AgreementVerdict::cannot_tell,
-                      .values = {{"contact.particle_wall.restitution", .4},
-                                 {"contact.particle_wall.sliding_friction", .3}}}},
+      .candidates = {constant_torque()},
       .warnings = {"a <b>bold</b> warning"},
       .surrogates = {{.observable = "drop",
                       .runs = 12,
