@@ -75,19 +75,18 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
   const std::string name = shortened(picture.file.filename().string());
   try {
     MeasuredHeap heap{.title = name, .picture = {}, .angle = {}};
+    const auto [told, scale] = vision::with_saved_hints({}, picture.file);
+    vision::SizedHeap sized;
     if (vision::has_film_ending(picture.file)) {
-      const auto told = vision::with_saved_hints_of_film({}, picture.file);
-      vision::FilmAngle film = vision::measure_film(picture.file, told.measuring);
+      vision::FilmAngle film = vision::measure_film(picture.file, told, scale);
       heap.picture = std::move(film.picture);
-      heap.angle = std::move(film.angle);
+      sized = std::move(film.heap);
     } else {
-      const vision::PictureSettings told = vision::with_saved_hints({}, picture.file);
       heap.picture = vision::read_picture(picture.file);
-      vision::SizedHeap sized =
-          vision::measure_sized_heap(heap.picture, told.measuring, told.scale);
-      if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
-      heap.angle = std::move(sized.angle);
+      sized = vision::measure_sized_heap(heap.picture, told, scale);
     }
+    if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
+    heap.angle = std::move(sized.angle);
     constexpr double kSame_deg = 0.01;
     const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;
     if (picture.angle_deg && std::abs(now_deg - *picture.angle_deg) > kSame_deg) {

@@ -42,11 +42,9 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
 }
 
 vision::ReposeAngle measured_angle(const std::filesystem::path& file) {
-  if (vision::has_film_ending(file)) {
-    return vision::measure_film(file, vision::with_saved_hints_of_film({}, file).measuring).angle;
-  }
-  const vision::PictureSettings told = vision::with_saved_hints({}, file);
-  return vision::measure_sized_heap(vision::read_picture(file), told.measuring, told.scale).angle;
+  const auto [told, scale] = vision::with_saved_hints({}, file);
+  if (vision::has_film_ending(file)) return vision::measure_film(file, told, scale).heap.angle;
+  return vision::measure_sized_heap(vision::read_picture(file), told, scale).angle;
 }
 
 calibrate::PictureReading reading_of(const std::filesystem::path& file) {

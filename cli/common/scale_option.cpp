@@ -1,10 +1,14 @@
 #include "cli/common/scale_option.h"
 
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/common/number.h"
+#include "cli/common/output.h"
+#include "vision/camera/lens_file.h"
 
 namespace repose::cli {
 
@@ -22,6 +26,44 @@ std::optional<vision::ScaleBar> read_scale_bar(const Typed& typed, std::string_v
   }
   const auto& [x1, y1, x2, y2, length_mm] = *numbers;
   return vision::ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
+}
+
+vision::ScaleOptions read_scale(const ScaleArguments& arguments, std::string_view scale_fix,
+                                std::string_view plane, std::vector<std::string>& errors) {
+  vision::ScaleOptions scale;
+  scale.finds_board = arguments.finds_board;
+  scale.scale = read_scale_bar({"--scale", arguments.scale, errors}, scale_fix);
+  scale.square_mm = read_positive({"--square-mm", arguments.square_mm, errors},
+                                  "the side of a printed square in mm", "--square-mm 23.9")
+                        .value_or(scale.square_mm);
+  constexpr double kFarthest_mm = 10000;
+  scale.behind_mm = read_number_within({"--board-behind", arguments.board_behind_mm, errors}, 0,
+                                       kFarthest_mm, "--board-behind 150")
+                        .value_or(scale.behind_mm);
+  scale.lens_file = arguments.camera_file;
+  if (!arguments.camera_file.empty()) {
+    try {
+      scale.lens = vision::read_lens_file(arguments.camera_file);
+    } catch (const std::invalid_argument& error) {
+      add_lines(fmt::format("--camera-file {}", error.what()), errors);
+    }
+  }
+  if (scale.finds_board && scale.scale) {
+    errors.emplace_back(
+        "--scale: there is --board, too. Rule: one scale. Fix: leave one of them out.");
+  }
+  for (const auto& [option, text] : {std::pair("--square-mm", &arguments.square_mm),
+                                     {"--board-behind", &arguments.board_behind_mm}}) {
+    if (text->empty() || scale.finds_board) continue;
+    errors.push_back(fmt::format("{}: is for a board in the picture. Fix: add --board.", option));
+  }
+  if (scale.behind_mm > 0 && arguments.camera_file.empty()) {
+    errors.push_back(fmt::format(
+        "--board-behind: how much smaller a board looks from farther away follows from the focal "
+        "length. Rule: it needs --camera-file. Fix: add it, or put the board in the plane of {}.",
+        plane));
+  }
+  return scale;
 }
 
 }  // namespace repose::cli

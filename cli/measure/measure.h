@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/common/exit_code.h"
+#include "cli/common/scale_option.h"
 
 namespace repose::cli {
 
@@ -19,11 +20,7 @@ struct MeasureArguments {
   std::vector<std::string> drop;
   std::string mask_file;
   std::string pitch_deg;
-  std::string camera_file;
-  bool finds_board = false;
-  std::string square_mm;
-  std::string board_behind_mm;
-  std::string scale;
+  ScaleArguments scale;
   std::string every;
   std::string fps;
   std::string threads;

@@ -105,6 +105,20 @@ void move_back(const vision::Lens& lens, vision::Proposal& proposal) {
       vision::Segment{lens.seen(proposal.ground->from), lens.seen(proposal.ground->to)};
 }
 
+/// Moves what was measured out of the heap.
+void take(vision::SizedHeap& heap, MeasuredPicture& measured) {
+  measured.angle = std::move(heap.angle);
+  measured.lens = heap.lens;
+  measured.board = std::move(heap.board);
+  measured.has_scale = heap.has_scale;
+  measured.sizes = std::move(heap.sizes);
+}
+
+/// The picture that was measured.
+const vision::Picture& seen_in(const vision::Picture& picture, const vision::SizedHeap& heap) {
+  return heap.corrected.empty() ? picture : heap.corrected;
+}
+
 /// All that follows from the angle of a picture, or of a film's heap at rest.
 void finish(const MeasurePlan& plan, std::size_t index, const Seen& seen,
             MeasuredPicture& measured) {
@@ -145,15 +159,6 @@ fs::path overlay_of_frame(const MeasurePlan& plan, std::size_t index, double tim
   return file;
 }
 
-/// Of a film's picture: by a scale alone.
-void add_sizes(const vision::Picture& picture, MeasuredPicture& measured) {
-  const std::optional<vision::ScaleBar>& scale = measured.told.scale.scale;
-  if (!scale) return;
-  measured.has_scale = true;
-  measured.sizes = vision::sizes_of_measured(measured.angle, measured.told.measuring, picture.width,
-                                             picture.height, *scale);
-}
-
 /// A frame on its way through the pipeline.
 struct Frame {
   std::size_t place = 0;
@@ -169,12 +174,13 @@ MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
       FilmedPicture{.film = rest.filmed->film, .stretch = stretch, .time_s = timed.time_s};
   attempt(measured, [&] {
     measured.told = rest.told;
-    measured.angle = vision::measure_repose_angle(timed.picture, measured.told.measuring);
-    add_sizes(timed.picture, measured);
+    vision::SizedHeap heap =
+        vision::measure_sized_heap(timed.picture, measured.told.measuring, measured.told.scale);
+    take(heap, measured);
     name_options(measured.angle, kNames);
     if (!plan.overlays.empty()) {
       const double length_s = rest.filmed->film.length_s;
-      draw({timed.picture, measured.told.measuring}, plan.pictures[index],
+      draw({seen_in(timed.picture, heap), heap.options}, plan.pictures[index],
            overlay_of_frame(plan, index, timed.time_s, length_s), measured);
     }
   });
@@ -226,16 +232,14 @@ std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size
   measured.front().file = file.string();
   attempt(measured.front(), [&] {
     MeasuredPicture& rest = measured.front();
-    rest.told = vision::with_saved_hints_of_film({plan.options, plan.scale}, file);
-    const vision::MeasureOptions& options = rest.told.measuring;
+    rest.told = vision::with_saved_hints({plan.options, plan.scale}, file);
     const vision::FilmFile frames{file, plan.frames_per_s};
-    vision::FilmAngle film =
-        vision::measure_film(frames, options, [&](double done) { progress(rest_part * done); });
+    vision::FilmAngle film = vision::measure_film(frames, rest.told.measuring, rest.told.scale,
+                                                  [&](double done) { progress(rest_part * done); });
     if (plan.every_s) check_step(*plan.every_s, film);
-    rest.angle = std::move(film.angle);
+    take(film.heap, rest);
     rest.filmed = FilmedPicture{.film = film.film, .stretch = film.stretch, .time_s = {}};
-    add_sizes(film.picture, rest);
-    finish(plan, index, {film.picture, options}, rest);
+    finish(plan, index, {seen_in(film.picture, film.heap), film.heap.options}, rest);
     if (!plan.every_s) return;
     vision::FrameSeries series(frames, film.times_s, *plan.every_s);
     measure_series(
@@ -256,13 +260,8 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
     one.told = vision::with_saved_hints({plan.options, plan.scale}, file);
     vision::SizedHeap heap =
         vision::measure_sized_heap(picture, one.told.measuring, one.told.scale);
-    one.angle = std::move(heap.angle);
-    one.lens = heap.lens;
-    one.board = std::move(heap.board);
-    one.has_scale = heap.has_scale;
-    one.sizes = std::move(heap.sizes);
-    const vision::Picture& seen = heap.corrected.empty() ? picture : heap.corrected;
-    finish(plan, index, {seen, heap.options}, one);
+    take(heap, one);
+    finish(plan, index, {seen_in(picture, heap), heap.options}, one);
   });
   drop_large_parts(measured.front());
   return measured;

@@ -12,7 +12,6 @@
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
 #include "cli/common/scale_option.h"
-#include "vision/camera/lens_file.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/picture.h"
 
@@ -70,60 +69,6 @@ void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
   }
 }
 
-/// What gives millimetres, and the lens.
-void read_scale(const MeasureArguments& arguments, MeasurePlan& plan) {
-  vision::ScaleOptions& scale = plan.scale;
-  std::vector<std::string>& errors = plan.errors;
-  scale.finds_board = arguments.finds_board;
-  scale.scale = read_scale_bar({"--scale", arguments.scale, errors},
-                               "--scale 310,980,910,980,200, of a ruler in the plane of the "
-                               "heap's middle");
-  scale.square_mm = read_positive({"--square-mm", arguments.square_mm, errors},
-                                  "the side of a printed square in mm", "--square-mm 23.9")
-                        .value_or(scale.square_mm);
-  constexpr double kFarthest_mm = 10000;
-  scale.behind_mm = read_number_within({"--board-behind", arguments.board_behind_mm, errors}, 0,
-                                       kFarthest_mm, "--board-behind 150")
-                        .value_or(scale.behind_mm);
-  scale.lens_file = arguments.camera_file;
-  if (!arguments.camera_file.empty()) {
-    try {
-      scale.lens = vision::read_lens_file(arguments.camera_file);
-    } catch (const std::invalid_argument& error) {
-      add_lines(fmt::format("--camera-file {}", error.what()), errors);
-    }
-  }
-  if (scale.finds_board && scale.scale) {
-    errors.emplace_back(
-        "--scale: there is --board, too. Rule: one scale. Fix: leave one of them out.");
-  }
-  for (const auto& [option, text] : {std::pair("--square-mm", &arguments.square_mm),
-                                     {"--board-behind", &arguments.board_behind_mm}}) {
-    if (text->empty() || scale.finds_board) continue;
-    errors.push_back(fmt::format("{}: is for a board in the picture. Fix: add --board.", option));
-  }
-  if (scale.behind_mm > 0 && arguments.camera_file.empty()) {
-    errors.emplace_back(
-        "--board-behind: how much smaller a board looks from farther away follows from the focal "
-        "length. Rule: it needs --camera-file. Fix: add it, or put the board in the plane of the "
-        "heap's middle.");
-  }
-}
-
-/// A lens and a board are for single pictures.
-void check_films(MeasurePlan& plan) {
-  if (!plan.scale.finds_board && plan.scale.lens_file.empty()) return;
-  for (const fs::path& file : plan.pictures) {
-    std::error_code ignored;
-    const bool has_frames = plan.frames_per_s && fs::is_directory(file, ignored);
-    if (!vision::has_film_ending(file) && !has_frames) continue;
-    plan.errors.push_back(fmt::format(
-        "{}: is a film. Rule: --camera-file and --board are for pictures. Fix: use --scale for "
-        "films, or photograph the heap at rest.",
-        file.string()));
-  }
-}
-
 /// Only films have frames.
 void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
   plan.every_s =
@@ -148,7 +93,10 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
                                  .exclude = arguments.exclude},
                                 plan.errors);
   read_hints(arguments, plan);
-  read_scale(arguments, plan);
+  plan.scale = read_scale(arguments.scale,
+                          "--scale 310,980,910,980,200, of a ruler in the plane of the heap's "
+                          "middle",
+                          "the heap's middle", plan.errors);
   plan.threads = read_threads({"--threads", arguments.threads, plan.errors});
   plan.keeps_overlays = !arguments.report_file.empty();
   if (arguments.report_file == kStandardOutput) {
@@ -162,7 +110,6 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   plan.notes = std::move(list.notes);
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   read_step(arguments, plan);
-  check_films(plan);
   const std::vector<OutputPlace> places = {{"--json", arguments.json_file},
                                            {"--csv", arguments.csv_file},
                                            {"--summary", arguments.summary_file},

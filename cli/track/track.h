@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/common/exit_code.h"
+#include "cli/common/scale_option.h"
 
 namespace repose::cli {
 
@@ -11,7 +12,7 @@ namespace repose::cli {
 struct TrackArguments {
   std::string experiment;
   std::vector<std::string> videos;
-  std::string scale;
+  ScaleArguments scale;
   std::string released;
   std::string fps;
   std::string bounces;

@@ -74,11 +74,14 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
                       const std::function<void(double)>& progress) {
   TrackedFilm tracked{.file = plan.videos[index].string(), .filmed = plan.filmed};
   try {
-    const vision::TrackOptions options{.scale = plan.scale,
-                                       .released_mm = plan.released_mm,
-                                       .draws_strobe = !plan.overlays.empty(),
-                                       .progress = progress};
-    track({plan.videos[index], plan.frames_per_s}, options, tracked);
+    vision::TrackOptions options{.scale = plan.scale.scale,
+                                 .released_mm = plan.released_mm,
+                                 .draws_strobe = !plan.overlays.empty(),
+                                 .progress = progress};
+    if (plan.scale.finds_board) {
+      options.board = vision::BoardPlacing{plan.scale.square_mm, plan.scale.behind_mm};
+    }
+    track({plan.videos[index], plan.frames_per_s, plan.scale.lens}, options, tracked);
     if (!plan.overlays.empty()) draw(plan, index, tracked);
     tracked.drop.strobe = {};
     tracked.roll.strobe = {};

@@ -59,6 +59,20 @@ Json warnings_json(const std::vector<vision::Warning>& warnings) {
   return json;
 }
 
+Json places_json(const std::vector<vision::Point>& places) {
+  if (places.empty()) return nullptr;
+  Json json = Json::array();
+  for (const vision::Point& place : places) json.push_back({place.x, place.y});
+  return json;
+}
+
+/// Where millimetres come from.
+template <typename Track>
+const char* scale_json(const Track& track, const char* otherwise) {
+  if (!track.has_scale) return otherwise;
+  return track.board.empty() ? "given" : "board";
+}
+
 /// What is known of the path that has bounces.
 Json drop_track_json(const vision::DropTrack& drop) {
   Json gravity = nullptr, gravity_uncertainty = nullptr;
@@ -66,7 +80,8 @@ Json drop_track_json(const vision::DropTrack& drop) {
     gravity = drop.gravity_m_s2->value;
     gravity_uncertainty = drop.gravity_m_s2->uncertainty;
   }
-  return {{"scale", drop.has_scale ? "given" : "gravity"},
+  return {{"scale", scale_json(drop, "gravity")},
+          {"board_px", places_json(drop.board)},
           {"mm_per_px", drop.mm_per_px ? Json(*drop.mm_per_px) : Json()},
           {"gravity_m_s2", gravity},
           {"gravity_uncertainty_m_s2", gravity_uncertainty},
@@ -91,7 +106,8 @@ Json roll_json(const vision::RollTrack& roll) {
 }
 
 Json roll_track_json(const vision::RollTrack& roll) {
-  return {{"scale", roll.has_scale ? "given" : "released"},
+  return {{"scale", scale_json(roll, "released")},
+          {"board_px", places_json(roll.board)},
           {"mm_per_px", roll.mm_per_px},
           {"noise_px", roll.noise_px},
           {"grain_px", roll.grain_px},

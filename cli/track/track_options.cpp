@@ -23,14 +23,17 @@ void read_own_options(const TrackArguments& arguments, TrackPlan& plan) {
           "--released: is for track roll. Fix: leave it out.");
   belongs(plan.filmed == Filmed::drop, arguments.bounces,
           "--bounces: is for track drop. Fix: leave it out.");
-  belongs(plan.filmed != Filmed::tilt, arguments.scale,
+  const bool has_scale = !arguments.scale.scale.empty() || arguments.scale.finds_board;
+  belongs(plan.filmed != Filmed::tilt, arguments.scale.scale,
           "--scale: is for track drop and roll; angles need none. Fix: leave it out.");
-  if (plan.filmed == Filmed::roll && arguments.scale.empty() == arguments.released.empty()) {
+  belongs(plan.filmed != Filmed::tilt, arguments.scale.finds_board ? "--board" : "",
+          "--board: is for track drop and roll; angles need no scale. Fix: leave it out.");
+  if (plan.filmed == Filmed::roll && has_scale == !arguments.released.empty()) {
     plan.errors.push_back(fmt::format(
-        "track roll: {}. Rule: millimetres come from --scale or from --released. Fix: --scale "
-        "X1,Y1,X2,Y2,MM of a ruler beside the way, or --released MM, how far up the incline from "
-        "its foot the grains were let go.",
-        arguments.scale.empty() ? "there is no scale" : "there are two scales"));
+        "track roll: {}. Rule: millimetres come from --scale, --board or --released. Fix: --scale "
+        "X1,Y1,X2,Y2,MM of a ruler beside the way, --board with the printed board there, or "
+        "--released MM, how far up the incline from its foot the grains were let go.",
+        has_scale ? "there are two scales" : "there is no scale"));
   }
 }
 
@@ -63,8 +66,9 @@ TrackPlan plan_track(const TrackArguments& arguments) {
           .value_or(plan.filmed);
   for (const std::string& video : arguments.videos) plan.videos.push_back(without_slash(video));
   plan.frames_per_s = read_frame_rate(arguments.fps, arguments.videos, plan.errors);
-  plan.scale = read_scale_bar({"--scale", arguments.scale, plan.errors},
-                              "--scale 310,95,310,980,500, of a ruler in the grain's plane");
+  plan.scale =
+      read_scale(arguments.scale, "--scale 310,95,310,980,500, of a ruler in the grain's plane",
+                 "the grain's way", plan.errors);
   read_own_options(arguments, plan);
   plan.tells_all_bounces = read_choice<bool>({"--bounces", arguments.bounces, plan.errors},
                                              {{"first", false}, {"all", true}})

@@ -18,7 +18,7 @@ struct TrackPlan {
   Filmed filmed = Filmed::drop;
   std::vector<std::filesystem::path> videos;
   std::vector<std::filesystem::path> overlays;  ///< one a film, or none
-  std::optional<vision::ScaleBar> scale;
+  vision::ScaleOptions scale;
   std::optional<double> released_mm;   ///< of rolls; in place of a scale
   std::optional<double> frames_per_s;  ///< of films that are folders of frames
   bool tells_all_bounces = false;

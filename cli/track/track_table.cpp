@@ -33,11 +33,12 @@ Colour colour_of(const TrackedFilm& film, bool has_colour) {
 std::string scale_text(const vision::DropTrack& drop) {
   if (!drop.gravity_m_s2) {
     return fmt::format(
-        "heights by gravity and {:.4g} frames per second, {:.4g} mm per pixel: there is no --scale",
+        "heights by gravity and {:.4g} frames per second, {:.4g} mm per pixel: there is no scale",
         drop.film.frames_per_s, drop.mm_per_px.value_or(0));
   }
-  return fmt::format("heights by the scale, which makes gravity {:.2f} ± {:.2f} m/s²",
-                     drop.gravity_m_s2->value, drop.gravity_m_s2->uncertainty);
+  return fmt::format("heights by the {}, which makes gravity {:.2f} ± {:.2f} m/s²",
+                     drop.board.empty() ? "scale" : "board", drop.gravity_m_s2->value,
+                     drop.gravity_m_s2->uncertainty);
 }
 
 /// Why there is no number, and what to know.

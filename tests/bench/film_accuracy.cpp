@@ -60,7 +60,7 @@ Row row_of(const testing::DrawnHeapFilm& drawn) {
   film.close();
   vision::FilmAngle measured = vision::measure_film(file);
   Row row{.truth_deg = testing::heap_truth(drawn.scene).mean_rad().value_or(0) / kDegree,
-          .film = std::move(measured.angle),
+          .film = std::move(measured.heap.angle),
           .frame = {}};
   vision::FrameSeries series(file, measured.times_s, drawn.grows_s + drawn.rests_s / 2);
   series.next();

@@ -149,6 +149,31 @@ TEST_F(TrackCommand, FilmsOfRollsBecomeATableThatTheBenchReads) {
   EXPECT_EQ(json::parse(bench.out)["quantities"][0]["n"], 2);
 }
 
+TEST_F(TrackCommand, ABoardGivesTheScaleAndACameraFileItsLens) {
+  const DrawnRoll roll{.width = 360,
+                       .height = 180,
+                       .seconds = 1.9,
+                       .mm_per_px = 1.2,
+                       .stopped_mm = 170,
+                       .radius_px = 6,
+                       .release_s = .2,
+                       .roll_s = 1.2,
+                       .board_square_px = 14};
+  render::Film film(path("a.mp4"), roll.frames_per_s);
+  for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
+  film.close();
+  folder_.write("camera.toml", std::string("[lens]\n"));
+  EXPECT_THAT(run({"roll", "a.mp4", "--board", "--camera-file", "camera.toml"}).err,
+              HasSubstr("--camera-file camera.toml"));
+  const Finished done = run({"roll", "a.mp4", "--board", "--square-mm", "16.8", "--json", "r.json",
+                             "--overlay", "a.png"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json read = json::parse(text("r.json"))[0];
+  EXPECT_EQ(read["track"]["scale"], "board");
+  EXPECT_EQ(read["track"]["board_px"].size(), 4U);
+  EXPECT_NEAR(read["roll"]["stopped_mm"].get<double>(), roll.stopped_mm, 2);
+}
+
 TEST_F(TrackCommand, ARollNeedsOneScaleAndNoBounces) {
   const Finished none = run({"roll", "a.mp4", "--bounces", "all"});
   EXPECT_EQ(none.exit_code, 2);
@@ -156,6 +181,9 @@ TEST_F(TrackCommand, ARollNeedsOneScaleAndNoBounces) {
                                                                         "drop")));
   EXPECT_THAT(run({"roll", "a.mp4", "--scale", "0,0,99,0,90", "--released", "9"}).err,
               HasSubstr("there are two scales"));
+  EXPECT_THAT(run({"roll", "a.mp4", "--board", "--released", "9", "--board-behind", "5"}).err,
+              AllOf(HasSubstr("there are two scales"), HasSubstr("it needs --camera-file")));
+  EXPECT_THAT(run({"tilt", "a.mp4", "--board"}).err, HasSubstr("--board: is for track drop"));
   EXPECT_THAT(run({"drop", "a.mp4", "--released", "9"}).err, HasSubstr("is for track roll"));
 }
 

@@ -32,7 +32,8 @@ double DrawnDrop::height_mm(double time_s) const {
 }
 
 vision::Picture DrawnDrop::picture(int frame) const {
-  const cv::Mat scene = drawn_scene({width, height}, seed, cut >= 0 && frame >= cut);
+  cv::Mat scene = drawn_scene({width, height}, seed, cut >= 0 && frame >= cut);
+  if (board_square_px > 0) draw_film_board(scene, {.73 * width, .42 * height}, board_square_px);
   cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
   const int parts = exposure > 0 ? 8 : 1;
   const double floor = kFloorPart * height + radius_px * .3;

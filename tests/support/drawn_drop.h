@@ -23,8 +23,9 @@ struct DrawnDrop {
   double shake_px = 0;        ///< of the camera
   bool has_hand = false;      ///< holds the grain, then leaves
   bool has_shadow = true;
-  int grains = 1;  ///< beside each other
-  int cut = -1;    ///< frame from which on another scene is seen
+  int grains = 1;              ///< beside each other
+  int cut = -1;                ///< frame from which on another scene is seen
+  double board_square_px = 0;  ///< of a board beside the grain's way; 0: there is none
   unsigned seed = 1;
 
   int frames() const { return static_cast<int>(frames_per_s * seconds); }

@@ -5,6 +5,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/drawn_board.h"
+#include "vision/picture/mat_of_picture.h"
+
 namespace repose::testing {
 
 cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other) {
@@ -21,6 +24,21 @@ cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other) {
   }
   cv::GaussianBlur(scene, scene, {3, 3}, .7);
   return scene;
+}
+
+void draw_film_board(cv::Mat& scene, const cv::Point2d& middle, double square_px) {
+  // As far away as the camera's focal length, so that a millimetre is a pixel.
+  constexpr double kFar = 1e4;
+  const BoardCamera camera{.width = scene.cols,
+                           .height = scene.rows,
+                           .focal_px = kFar,
+                           .centre_x_px = middle.x,
+                           .centre_y_px = middle.y};
+  vision::Picture picture = vision::blank_picture(scene.cols, scene.rows);
+  cv::Mat drawn = vision::mat_of(picture);
+  scene.convertTo(drawn, CV_8UC3);
+  draw_board(camera, placed_board({0, 0, kFar}, 0, 0, 0, square_px), {.noise = 0}, picture);
+  drawn.convertTo(scene, CV_32FC3);
 }
 
 void draw_ball(cv::Mat& scene, const cv::Point2d& centre, double radius, const cv::Vec3f& colour) {

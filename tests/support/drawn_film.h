@@ -12,6 +12,10 @@ inline constexpr double kFloorPart = .88;  ///< of the picture's height, where t
 /// A wall with a soft pattern and a floor of another colour.
 cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other = false);
 
+/// A printed board that faces the camera, its middle at a place of the picture.
+/// @param square_px  side of a square
+void draw_film_board(cv::Mat& scene, const cv::Point2d& middle, double square_px);
+
 /// Mixes a disc of one colour, lit from the upper left, into the picture.
 void draw_ball(cv::Mat& scene, const cv::Point2d& centre, double radius, const cv::Vec3f& colour);
 

@@ -86,6 +86,7 @@ vision::Picture DrawnRoll::picture(int frame) const {
   const Course course(*this);
   cv::Mat scene = drawn_scene({width, height}, seed);
   if (has_incline) draw_incline(scene, *this, course);
+  if (board_square_px > 0) draw_film_board(scene, {.75 * width, .36 * height}, board_square_px);
   cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
   const int parts = exposure > 0 ? 8 : 1;
   for (int part = 0; part < parts; ++part) {

@@ -25,8 +25,9 @@ struct DrawnRoll {
   bool has_hand = false;  ///< holds the grain, then leaves
   bool has_shadow = true;
   bool goes_left = false;
-  int grains = 1;           ///< further ones begin lower and stop earlier
-  bool has_incline = true;  ///< false: it rolls on the flat alone
+  int grains = 1;              ///< further ones begin lower and stop earlier
+  bool has_incline = true;     ///< false: it rolls on the flat alone
+  double board_square_px = 0;  ///< of a board beside the grain's way; 0: there is none
   unsigned seed = 1;
 
   int frames() const { return static_cast<int>(frames_per_s * seconds); }

@@ -56,9 +56,9 @@ double error_deg(const ReposeAngle& angle, const DrawnHeapFilm& film) {
 }
 
 void expect_truth(const FilmAngle& film, const DrawnHeapFilm& drawn) {
-  ASSERT_TRUE(film.angle.angle_rad) << film.angle.reason;
-  EXPECT_LT(error_deg(film.angle, drawn), .3);
-  EXPECT_LT(error_deg(film.angle, drawn), film.angle.uncertainty_rad.value() / kDegree);
+  ASSERT_TRUE(film.heap.angle.angle_rad) << film.heap.angle.reason;
+  EXPECT_LT(error_deg(film.heap.angle, drawn), .3);
+  EXPECT_LT(error_deg(film.heap.angle, drawn), film.heap.angle.uncertainty_rad.value() / kDegree);
 }
 
 auto has_warning(const char* code) { return Contains(Field(&Warning::code, code)); }
@@ -68,8 +68,8 @@ TEST_F(FilmAngleOf, AHeapThatCameToRestIsThatOfItsLastSecond) {
   const std::vector<Picture> frames = drawn.pictures();
   const FilmAngle film = measure_film(write(frames, drawn.frames_per_s));
   expect_truth(film, drawn);
-  EXPECT_EQ(film.angle.status, MeasureStatus::ok);
-  EXPECT_THAT(film.angle.warnings, Not(has_warning("short_rest")));
+  EXPECT_EQ(film.heap.angle.status, MeasureStatus::ok);
+  EXPECT_THAT(film.heap.angle.warnings, Not(has_warning("short_rest")));
   ASSERT_TRUE(film.stretch);
   EXPECT_GT(film.stretch->from_s, drawn.grows_s - .05);
   EXPECT_NEAR(film.stretch->to_s - film.stretch->from_s, 1, .15);
@@ -82,7 +82,7 @@ TEST_F(FilmAngleOf, ManyFramesAreNearerToTheTruthThanOneOfThem) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const DrawnHeapFilm drawn{.scene = small_heap(seed), .noise = 30};
     const std::vector<Picture> frames = drawn.pictures();
-    of_films_deg += error_deg(measure_film(write(frames, drawn.frames_per_s)).angle, drawn);
+    of_films_deg += error_deg(measure_film(write(frames, drawn.frames_per_s)).heap.angle, drawn);
     of_single_frames_deg += error_deg(measure_repose_angle(frames.back()), drawn);
   }
   EXPECT_LT(of_films_deg, of_single_frames_deg);
@@ -95,15 +95,15 @@ TEST_F(FilmAngleOf, ASceneWithFlickerATimerAndAHandAtTheEndIsThatBeforeTheHand) 
   expect_truth(film, drawn);
   ASSERT_TRUE(film.stretch);
   EXPECT_NEAR(film.stretch->to_s, drawn.grows_s + drawn.rests_s, .17);
-  EXPECT_THAT(film.angle.warnings, AllOf(has_warning("moves_after"), has_warning("writing")));
+  EXPECT_THAT(film.heap.angle.warnings, AllOf(has_warning("moves_after"), has_warning("writing")));
 }
 
 TEST_F(FilmAngleOf, AHeapThatNeverRestsIsRefusedWithWhereItMoves) {
   const FilmAngle film = measured({.scene = small_heap(1, 240), .grows_s = 1, .rests_s = 0});
-  EXPECT_FALSE(film.angle.angle_rad);
+  EXPECT_FALSE(film.heap.angle.angle_rad);
   EXPECT_FALSE(film.stretch);
   EXPECT_FALSE(film.picture.empty()) << "it is shown why";
-  EXPECT_THAT(film.angle.reason,
+  EXPECT_THAT(film.heap.angle.reason,
               AllOf(HasSubstr("nothing in the film is at rest: at last it moved within"),
                     HasSubstr("Fix: film at least 1 s after the last grain has stopped")));
 }
@@ -119,15 +119,15 @@ TEST_F(FilmAngleOf, AHeapThatRestsAndThenGrowsOnIsRefused) {
     frames.push_back(frame);
   }
   const FilmAngle film = measure_film(write(frames, 12));
-  EXPECT_THAT(film.angle.reason, HasSubstr("the film's end still moves: after a rest until"));
+  EXPECT_THAT(film.heap.angle.reason, HasSubstr("the film's end still moves: after a rest until"));
 }
 
 TEST_F(FilmAngleOf, AShortFilmAtRestIsMeasuredAndFlagged) {
   const DrawnHeapFilm drawn{.scene = small_heap(4), .grows_s = 0, .rests_s = .75};
   const FilmAngle film = measured(drawn);
   expect_truth(film, drawn);
-  EXPECT_EQ(film.angle.status, MeasureStatus::flagged);
-  EXPECT_THAT(film.angle.warnings, has_warning("short_rest"));
+  EXPECT_EQ(film.heap.angle.status, MeasureStatus::flagged);
+  EXPECT_THAT(film.heap.angle.warnings, has_warning("short_rest"));
 }
 
 /// What a camera of the picture's size sees so far to the left.
@@ -142,18 +142,18 @@ TEST_F(FilmAngleOf, ACutAndACameraThatMovesAreNamed) {
   const Picture heap = draw_heap(small_heap(1, 240)).picture;
   std::vector<Picture> shaken, cut(8, heap);
   for (int frame = 0; frame < 12; ++frame) shaken.push_back(moved(heap, 2 * frame));
-  EXPECT_THAT(measure_film(write(shaken, 12)).angle.reason, HasSubstr("the camera moves"));
+  EXPECT_THAT(measure_film(write(shaken, 12)).heap.angle.reason, HasSubstr("the camera moves"));
   Picture other = heap;
   for (std::uint8_t& byte : other.bgr) byte = static_cast<std::uint8_t>(255 - byte);
   cut.insert(cut.end(), 8, other);
-  EXPECT_THAT(measure_film(write(cut, 12)).angle.reason,
+  EXPECT_THAT(measure_film(write(cut, 12)).heap.angle.reason,
               HasSubstr("another scene begins with frame 9. Rule: one shot."));
 }
 
 TEST_F(FilmAngleOf, AFilmOfFewFramesOrFewASecondIsRefused) {
   const Picture heap = draw_heap(small_heap(1, 240)).picture;
-  EXPECT_THAT(measure_film(write({heap}, 25)).angle.reason, HasSubstr("Rule: 8 or more"));
-  EXPECT_THAT(measure_film(write(std::vector(9, heap), 2)).angle.reason,
+  EXPECT_THAT(measure_film(write({heap}, 25)).heap.angle.reason, HasSubstr("Rule: 8 or more"));
+  EXPECT_THAT(measure_film(write(std::vector(9, heap), 2)).heap.angle.reason,
               HasSubstr("the film has 2 frames per second. Rule: 4 or more. Fix: "));
 }
 
@@ -166,8 +166,8 @@ TEST_F(FilmAngleOf, NoiseIsRefused) {
     }
   }
   const FilmAngle film = measure_film(write(frames, 25));
-  EXPECT_EQ(film.angle.status, MeasureStatus::refused);
-  EXPECT_THAT(film.angle.reason, HasSubstr("Fix: "));
+  EXPECT_EQ(film.heap.angle.status, MeasureStatus::refused);
+  EXPECT_THAT(film.heap.angle.reason, HasSubstr("Fix: "));
 }
 
 TEST_F(FilmAngleOf, WhatMovesInAnExcludedBoxIsNoMovement) {
@@ -193,7 +193,7 @@ TEST_F(FilmAngleOf, UnevenTimeStampsAreUsedAndSaid) {
   }
   std::ofstream(file, std::ios::binary) << bytes;
   const FilmAngle film = measure_film(file);
-  EXPECT_THAT(film.angle.warnings, has_warning("variable_rate"));
+  EXPECT_THAT(film.heap.angle.warnings, has_warning("variable_rate"));
   ASSERT_TRUE(film.stretch);
   EXPECT_NEAR(film.film.length_s, 13 * .05, .03);
 }

@@ -125,13 +125,6 @@ TEST_F(HintFile, ScaleAndLensAreSavedAndReadAgain) {
   EXPECT_FALSE(again.scale.lens);
 }
 
-TEST_F(HintFile, AFilmHasNoBoardAndNoLens) {
-  base::write_whole_file(hint_file_of(picture()), "scale = [0, 0, 90, 0, 40]\n");
-  EXPECT_TRUE(with_saved_hints_of_film({}, picture()).scale.scale);
-  base::write_whole_file(hint_file_of(picture()), "board = true\n");
-  EXPECT_THROW(with_saved_hints_of_film({}, picture()), std::invalid_argument);
-}
-
 TEST_F(HintFile, AllThatIsWrongIsSaidAtOnce) {
   EXPECT_THAT(complaint("heap = [1, 2, 3]\nground = 'level'\nkeep = [[1, nan]]\ndrop = 3\n"
                         "mask = 7\npitch_deg = 'low'\nhaep = [1, 2, 3, 4]\n"),

@@ -5,8 +5,11 @@
 
 #include <gmock/gmock.h>
 
+#include "render/film/film.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/heap_random.h"
+#include "tests/support/temporary_folder.h"
+#include "vision/film/film_angle.h"
 #include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
@@ -237,6 +240,24 @@ TEST(SizedHeap, WithoutAnyScaleItIsWhatMeasuringGives) {
   EXPECT_EQ(heap.angle.uncertainty_rad, plain.uncertainty_rad);
   EXPECT_FALSE(heap.sizes.mm_per_px);
   EXPECT_FALSE(heap.has_scale);
+}
+
+TEST(SizedHeap, OfAFilmHasItsBoardAndLensToo) {
+  const Stage stage;
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "heap.mp4";
+  render::Film film(file, 12);
+  const Picture picture = stage.picture_with_board();
+  for (int frame = 0; frame < 14; ++frame) film.add(picture);
+  film.close();
+  const FilmAngle measured =
+      measure_film(file, kIsHeap, {.lens = stage.lens(), .finds_board = true, .scale = {}});
+  ASSERT_TRUE(measured.heap.board) << measured.heap.angle.reason;
+  ASSERT_TRUE(measured.heap.board->pitch_rad);
+  EXPECT_NEAR(measured.heap.board->pitch_rad->value, stage.pitch_rad, .5 * kDegree);
+  expect_holds(measured.heap.sizes.height_mm, 75, .1);
+  expect_holds(measured.heap.sizes.base_mm, 300, .05);
+  expect_holds_angle(measured.heap.angle);
 }
 
 TEST(ConeVolume, OfALitreCone) {

@@ -132,6 +132,111 @@ TEST(TrackDropRefuses, AFallWithoutItsRise) {
   EXPECT_THAT(tracked(drop).reason, HasSubstr("no bounce was seen"));
 }
 
+/// A board of 12 px a square beside the fall.
+DropTrack tracked_beside_board(const DrawnDrop& drop) {
+  return tracked(drop, {.board = BoardPlacing{.square_mm = 12 * drop.mm_per_px}});
+}
+
+TEST(TrackDrop, GivesHeightsInTheMillimetresOfABoard) {
+  DrawnDrop drop = small_drop();
+  drop.board_square_px = 12;
+  const DropTrack track = tracked_beside_board(drop);
+  ASSERT_FALSE(track.bounces.empty()) << track.reason;
+  EXPECT_EQ(track.status, MeasureStatus::ok);
+  EXPECT_EQ(track.board.size(), 4U);
+  EXPECT_NEAR(track.mm_per_px.value(), drop.mm_per_px, .01 * drop.mm_per_px);
+  const Estimate& fall = track.bounces[0].drop_mm;
+  EXPECT_NEAR(fall.value, 250, fall.uncertainty);
+  EXPECT_GT(fall.uncertainty, .02 * 250) << "without a lens its distortion is allowed for";
+  EXPECT_LT(fall.uncertainty, .05 * 250);
+}
+
+TEST(TrackDrop, HeightsAreByGravityWhereNoBoardIsSeenAndThatIsFlagged) {
+  const DropTrack track = tracked_beside_board(small_drop());
+  ASSERT_FALSE(track.bounces.empty()) << track.reason;
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  EXPECT_THAT(track.warnings, warns_of("no_board"));
+  EXPECT_FALSE(track.has_scale);
+  EXPECT_NEAR(track.bounces[0].drop_mm.value, 250, track.bounces[0].drop_mm.uncertainty);
+}
+
+/// What a lens makes of undistorted pictures of its size.
+class Distortion {
+ public:
+  explicit Distortion(const Lens& lens) {
+    for (int row = 0; row < lens.height; ++row) {
+      for (int k = 0; k < lens.width; ++k) {
+        const Point from = lens.corrected({k + .5, row + .5});
+        const int x = std::clamp(static_cast<int>(from.x), 0, lens.width - 1);
+        const int y = std::clamp(static_cast<int>(from.y), 0, lens.height - 1);
+        from_.push_back(static_cast<std::size_t>(3) * (y * lens.width + x));
+      }
+    }
+  }
+  Picture operator()(const Picture& picture) const {
+    Picture seen = picture;
+    for (std::size_t k = 0; k < from_.size(); ++k) {
+      for (std::size_t c = 0; c < 3; ++c) seen.bgr[3 * k + c] = picture.bgr[from_[k] + c];
+    }
+    return seen;
+  }
+
+ private:
+  std::vector<std::size_t> from_;
+};
+
+/// Mean distance of the grain's places from those in another film of the same drop.
+double distance_px(const DropTrack& track, const DropTrack& other) {
+  double sum = 0;
+  int count = 0;
+  for (const GrainPlace& place : track.places) {
+    const auto same = std::ranges::find(other.places, place.time_s, &GrainPlace::time_s);
+    if (same == other.places.end()) continue;
+    sum += std::hypot(place.centre.x - same->centre.x, place.centre.y - same->centre.y);
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(TrackDrop, TheLensIsTakenOutOfTheFrames) {
+  DrawnDrop drop = small_drop();
+  drop.board_square_px = 14;
+  const Lens lens{.width = 2 * drop.width,
+                  .height = 2 * drop.height,
+                  .focal_px = {700, 2},
+                  .centre_x_px = {1. * drop.width, 1},
+                  .centre_y_px = {1. * drop.height, 1},
+                  .k1 = {-.35, .002},
+                  .k2 = {},
+                  .p1 = {},
+                  .p2 = {},
+                  .k3 = {}};
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "drop.mp4";
+  {
+    render::Film film(file, drop.frames_per_s);
+    const Distortion distorted(lens_for(lens, drop.width, drop.height));
+    for (int frame = 0; frame < drop.frames(); ++frame) film.add(distorted(drop.picture(frame)));
+    film.close();
+  }
+  const TrackOptions options{.board = BoardPlacing{.square_mm = 14 * drop.mm_per_px}};
+  const DropTrack with = track_drop({file, std::nullopt, lens}, options);
+  const DropTrack without = track_drop(file);
+  const DropTrack plain = tracked(drop);
+  ASSERT_FALSE(with.bounces.empty()) << with.reason;
+  EXPECT_LT(distance_px(with, plain), .5);
+  EXPECT_GT(distance_px(without, plain), 1.5);
+  EXPECT_NEAR(with.bounces[0].restitution.value, .6, .01);
+  EXPECT_NEAR(with.mm_per_px.value(), drop.mm_per_px, .01 * drop.mm_per_px);
+  EXPECT_NEAR(with.bounces[0].drop_mm.value, 250, with.bounces[0].drop_mm.uncertainty);
+  Lens other = lens;
+  other.height = lens.width;
+  EXPECT_THAT(error_of([&] {
+                track_drop({file, std::nullopt, other});
+              }),
+              HasSubstr("the camera file is for"));
+}
+
 TEST(TrackDropRefuses, AnotherScene) {
   DrawnDrop drop = small_drop();
   drop.cut = 30;

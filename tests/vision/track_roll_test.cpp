@@ -63,6 +63,28 @@ TEST(TrackRoll, FindsWhereTheGrainRestsByAScale) {
   expect_truth(tracked(small_roll()), small_roll());
 }
 
+/// A board of 14 px a square above the flat.
+const BoardPlacing kBoard{.square_mm = 14 * small_roll().mm_per_px};
+
+TEST(TrackRoll, MillimetresComeFromABoard) {
+  DrawnRoll roll = small_roll();
+  roll.board_square_px = 14;
+  const RollTrack track = tracked(roll, {.board = kBoard});
+  ASSERT_TRUE(track.has_reading) << track.reason;
+  EXPECT_EQ(track.status, MeasureStatus::ok);
+  EXPECT_TRUE(track.has_scale);
+  EXPECT_EQ(track.board.size(), 4U);
+  EXPECT_NEAR(track.stopped_mm.value, roll.stopped_mm, .01 * roll.stopped_mm);
+  EXPECT_LT(track.stopped_mm.uncertainty, .05 * roll.stopped_mm);
+}
+
+TEST(TrackRoll, IsRefusedWhereNoBoardIsSeen) {
+  const RollTrack track = tracked(small_roll(), {.board = kBoard});
+  EXPECT_EQ(track.status, MeasureStatus::refused);
+  EXPECT_FALSE(track.has_reading);
+  EXPECT_THAT(track.reason, HasSubstr("no board was found"));
+}
+
 TEST(TrackRoll, MillimetresComeFromTheReleaseWhereThereIsNoScale) {
   const DrawnRoll roll = small_roll();
   const RollTrack track = tracked(roll, {.released_mm = roll.released_mm});

@@ -8,6 +8,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/camera/lens_correction.h"
 #include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
@@ -125,16 +126,25 @@ Lens lens_for(const Lens& lens, int width, int height) {
   return scaled;
 }
 
-Picture corrected_picture(const Picture& picture, const Lens& lens) {
-  if (!lens.is_distorted()) return picture;
-  cv::Mat to_x;
-  cv::Mat to_y;
+LensCorrection::LensCorrection(const Lens& lens) {
+  if (!lens.is_distorted()) return;
   cv::initUndistortRectifyMap(matrix_of(lens), distortion_of(lens), cv::noArray(), matrix_of(lens),
-                              {picture.width, picture.height}, CV_32FC1, to_x, to_y);
+                              {lens.width, lens.height}, CV_32FC1, to_x_, to_y_);
+}
+
+void LensCorrection::correct(const cv::Mat& picture, cv::Mat& corrected) const {
+  if (to_x_.empty()) {
+    picture.copyTo(corrected);
+    return;
+  }
+  // Beyond what the camera saw, black would be another thing's.
+  cv::remap(picture, corrected, to_x_, to_y_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+}
+
+Picture corrected_picture(const Picture& picture, const Lens& lens) {
   Picture corrected = blank_picture(picture.width, picture.height);
   cv::Mat target = mat_of(corrected);
-  // What the camera did not see goes on as its edge: black would be another thing's.
-  cv::remap(mat_of(picture), target, to_x, to_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  LensCorrection(lens).correct(mat_of(picture), target);
   return corrected;
 }
 

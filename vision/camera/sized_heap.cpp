@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "vision/camera/board_pose.h"
+#include "vision/camera/board_view.h"
 #include "vision/camera/heap_view.h"
 #include "vision/camera/sizing.h"
 
@@ -18,43 +19,10 @@ namespace {
 constexpr double kNormal95 = 1.96;
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Half-widths of what a person does by eye.
-constexpr double kLean_rad = 1 * kDegree;    // a board stood upright
-constexpr double kPlaced_mm = 10;            // ... where the heap's middle is
-constexpr double kPrinted = 0.005;           // of its size
-constexpr double kTurned_rad = 3 * kDegree;  // ... and parallel to the heap's middle plane
-constexpr double kNoLens = 0.02;             // of a scale, beside where it was taken
-constexpr double kByEye_rad = 2 * kDegree;   // pitch of a camera that was taken for level
+constexpr double kByEye_rad = 2 * kDegree;  // half-width: pitch of a camera taken for level
 
 constexpr double kUsefulPitch_rad = 3 * kDegree;      // half-width above which it says nothing
 constexpr double kRollTolerance_rad = 1.5 * kDegree;  // of the ground from the board's level
-
-constexpr int kPoseNumbers = 9;
-
-/// How much of the sheet is left out around the board, in squares: what is printed below it is
-/// part of the sheet.
-constexpr double kBeside = 1.25, kAbove = 0.6, kBelow = 1.4;
-
-/// What of the board is seen: all of it, or what the heap leaves.
-Segment part_seen(const std::vector<SeenCorner>& corners) {
-  Segment part{{1e9, 1e9}, {-1e9, -1e9}};
-  for (const SeenCorner& corner : corners) {
-    const Point place = board_corner(corner.number);
-    part.from = {std::min(part.from.x, place.x), std::min(part.from.y, place.y)};
-    part.to = {std::max(part.to.x, place.x), std::max(part.to.y, place.y)};
-  }
-  return {{part.from.x - 1 - kBeside, part.from.y - 1 - kAbove},
-          {part.to.x + 1 + kBeside, part.to.y + 1 + kBelow}};
-}
-
-std::vector<Point> sheet_outline(const BoardPose& pose, const std::vector<SeenCorner>& corners) {
-  const auto& [from, to] = part_seen(corners);
-  std::vector<Point> outline;
-  for (const Point corner : {from, Point{to.x, from.y}, to, Point{from.x, to.y}}) {
-    outline.push_back(seen_at(pose.numbers, corner));
-  }
-  return outline;
-}
 
 /// The box around it, inside the picture.
 std::optional<Box> box_around(const std::vector<Point>& outline, int width, int height) {
@@ -78,53 +46,7 @@ std::optional<Box> box_around(const std::vector<Point>& outline, int width, int 
   return box;
 }
 
-/// The board's pose with what a person does to it: lean and distance behind the heap's plane.
-struct BoardInputs {
-  Inputs inputs;
-  double square_mm = 0;
-
-  enum : int { k_lean = kPoseNumbers, k_tilt, k_turn, k_behind, k_count };
-
-  BoardInputs(const BoardPose& pose, const ScaleOptions& scale)
-      : inputs{.values = Eigen::VectorXd::Zero(k_count),
-               .covariance = Eigen::MatrixXd::Zero(k_count, k_count)},
-        square_mm(scale.square_mm) {
-    inputs.values.head<kPoseNumbers>() = pose.numbers;
-    inputs.covariance.topLeftCorner<kPoseNumbers, kPoseNumbers>() = pose.covariance;
-    inputs.values[k_behind] = scale.behind_mm;
-    inputs.covariance(k_lean, k_lean) = std::pow(kLean_rad / kNormal95, 2);
-    inputs.covariance(k_tilt, k_tilt) = std::pow(kLean_rad / kNormal95, 2);
-    inputs.covariance(k_turn, k_turn) = std::pow(kTurned_rad / kNormal95, 2);
-    inputs.covariance(k_behind, k_behind) = std::pow(kPlaced_mm / kNormal95, 2);
-  }
-
-  HeapView view(const Eigen::VectorXd& values) const {
-    return view_by_board(values.head<kPoseNumbers>(), {.square_mm = square_mm,
-                                                       .behind_mm = values[k_behind],
-                                                       .lean_rad = values[k_lean],
-                                                       .tilt_rad = values[k_tilt],
-                                                       .turn_rad = values[k_turn]});
-  }
-  HeapView view() const { return view(inputs.values); }
-
-  /// The pitch is told: the board leans by what it differs.
-  void take_pitch(double pitch_rad) {
-    constexpr double kTold_rad = 0.25 * kDegree;
-    inputs.values[k_lean] += pitch_rad - view().pitch_rad();
-    // The corners' own say of it is in the lean now.
-    inputs.covariance(k_lean, k_lean) = std::pow(kTold_rad / kNormal95, 2);
-  }
-
-  Estimate estimate(const std::function<double(const HeapView&)>& number) const {
-    const Eigen::MatrixXd covariance =
-        propagated(inputs, [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
-          return Eigen::VectorXd::Constant(1, number(view(values)));
-        });
-    return {number(view()), kNormal95 * std::sqrt(covariance(0, 0))};
-  }
-};
-
-SeenBoard described(const BoardInputs& board, const BoardPose& pose,
+SeenBoard described(const BoardView& board, const BoardPose& pose,
                     const std::vector<SeenCorner>& corners, bool has_lens) {
   SeenBoard seen{.outline = sheet_outline(pose, corners),
                  .corners = static_cast<int>(corners.size()),
@@ -191,7 +113,7 @@ struct Sizing {
   double working_px = 1;
 };
 
-HeapSizes sizes_by_board(const BoardInputs& board, const SeenBoard& seen, const Sizing& sizing,
+HeapSizes sizes_by_board(const BoardView& board, const SeenBoard& seen, const Sizing& sizing,
                          const ReposeAngle& angle) {
   if (!seen.pitch_rad) {
     Estimate scale = board.estimate(
@@ -199,11 +121,18 @@ HeapSizes sizes_by_board(const BoardInputs& board, const SeenBoard& seen, const 
     scale.uncertainty = std::hypot(scale.uncertainty, scale.value * std::hypot(kPrinted, kNoLens));
     return sizes_by_scale(angle, scale, sizing.working_px);
   }
-  BoardInputs inputs = board;
-  if (sizing.told.camera_pitch_rad) inputs.take_pitch(*sizing.told.camera_pitch_rad);
+  BoardView view = board;
+  if (sizing.told.camera_pitch_rad) view.take_pitch(*sizing.told.camera_pitch_rad);
   return sizes_by_view(
-      angle, inputs.inputs, [&](const Eigen::VectorXd& values) { return inputs.view(values); },
+      angle, view.inputs(), [&](const Eigen::VectorXd& values) { return view.view(values); },
       kPrinted, sizing.working_px);
+}
+
+/// By two points alone.
+HeapSizes sizes_by_bar(const ScaleBar& bar, const Sizing& sizing, const ReposeAngle& angle) {
+  Estimate scale = mm_per_px(bar);
+  scale.uncertainty = std::hypot(scale.uncertainty, kNoLens * scale.value);
+  return sizes_by_scale(angle, scale, sizing.working_px);
 }
 
 /// By two points and a known lens.
@@ -275,10 +204,10 @@ SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& optio
   const Picture& measured = heap.corrected.empty() ? picture : heap.corrected;
   std::vector<SeenCorner> corners;
   if (scale.finds_board) corners = find_board(measured);
-  std::optional<BoardInputs> board;
+  std::optional<BoardView> board;
   if (!corners.empty()) {
     const BoardPose pose = fit_pose(corners, heap.lens, measured.width, measured.height);
-    board.emplace(pose, scale);
+    board.emplace(pose, BoardPlacing{scale.square_mm, scale.behind_mm});
     heap.board = described(*board, pose, corners, heap.lens.has_value());
     const auto box = box_around(heap.board->outline, measured.width, measured.height);
     if (box) heap.options.excluded.push_back(*box);
@@ -295,8 +224,7 @@ SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& optio
     heap.sizes = sizes_by_board(*board, *heap.board, sizing, heap.angle);
   } else if (bar) {
     heap.sizes = heap.lens ? sizes_by_bar(*bar, *heap.lens, sizing, heap.angle)
-                           : sizes_of_measured(heap.angle, heap.options, measured.width,
-                                               measured.height, *bar);
+                           : sizes_by_bar(*bar, sizing, heap.angle);
   } else if (scale.finds_board) {
     heap.sizes.reason =
         "no board was found. Fix: let it face the camera, sharp and evenly lit, at least 10 pixels "
@@ -306,13 +234,6 @@ SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& optio
     }
   }
   return heap;
-}
-
-HeapSizes sizes_of_measured(const ReposeAngle& measured, const MeasureOptions& options, int width,
-                            int height, const ScaleBar& scale) {
-  Estimate known = mm_per_px(scale);
-  known.uncertainty = std::hypot(known.uncertainty, kNoLens * known.value);
-  return sizes_by_scale(measured, known, working_pixel(width, height, options.hints));
 }
 
 }  // namespace repose::vision

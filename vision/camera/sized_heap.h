@@ -57,8 +57,4 @@ struct SizedHeap {
 SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& options,
                              const ScaleOptions& scale);
 
-/// Sizes of a heap that was measured already, by a scale in its picture. For films.
-HeapSizes sizes_of_measured(const ReposeAngle& measured, const MeasureOptions& options, int width,
-                            int height, const ScaleBar& scale);
-
 }  // namespace repose::vision

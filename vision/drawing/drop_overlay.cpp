@@ -59,6 +59,7 @@ Picture draw_drop_overlay(const DropTrack& track, const std::string& title) {
   const double scale = drawing_scale(track.strobe);
   cv::Mat image = scaled(track.strobe, scale);
   const Canvas canvas(image, scale);
+  draw_board(canvas, track.board);
   draw_flights(canvas, track);
   draw_impacts(canvas, track, lettering);
   return with_caption(image, rows_of(track, title), lettering);

@@ -52,6 +52,7 @@ Picture draw_roll_overlay(const RollTrack& track, const std::string& title) {
   const double scale = drawing_scale(track.strobe);
   cv::Mat image = scaled(track.strobe, scale);
   const Canvas canvas(image, scale);
+  draw_board(canvas, track.board);
   draw_lines(canvas, track);
   if (track.has_reading) draw_places(canvas, track, lettering);
   return with_caption(image, rows_of(track, title), lettering);

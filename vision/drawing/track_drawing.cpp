@@ -26,6 +26,13 @@ void draw_path(const Canvas& canvas, const std::vector<GrainPlace>& places) {
   }
 }
 
+void draw_board(const Canvas& canvas, const std::vector<Point>& board) {
+  if (board.empty()) return;
+  std::vector<Point> closed = board;
+  closed.push_back(board.front());
+  canvas.draw(canvas.path_of(closed), kYellow, 1);
+}
+
 void add_verdict(MeasureStatus status, const std::string& reason,
                  const std::vector<Warning>& warnings, std::vector<TextRow>& rows) {
   if (status == MeasureStatus::refused) rows.push_back({"refused: " + reason, kVermilion});

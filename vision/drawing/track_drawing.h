@@ -18,6 +18,9 @@ void require_strobe(const Picture& strobe, const std::string& title, const std::
 /// The grain's centre in each frame.
 void draw_path(const Canvas& canvas, const std::vector<GrainPlace>& places);
 
+/// The outline of the board that gives the scale, if there is one.
+void draw_board(const Canvas& canvas, const std::vector<Point>& board);
+
 /// Why there is no number, and every warning.
 void add_verdict(MeasureStatus status, const std::string& reason,
                  const std::vector<Warning>& warnings, std::vector<TextRow>& rows);

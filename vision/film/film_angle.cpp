@@ -10,13 +10,15 @@
 namespace repose::vision {
 namespace {
 
-ReposeAngle refusal(const MeasureOptions& options, std::string reason) {
-  ReposeAngle angle;
+SizedHeap refusal(const MeasureOptions& options, std::string reason) {
+  SizedHeap heap;
+  heap.options = options;
+  ReposeAngle& angle = heap.angle;
   angle.reason = std::move(reason);
   angle.window = {options.window_from, options.window_to};
   angle.method = options.method;
   angle.camera_pitch_rad = options.camera_pitch_rad;
-  return angle;
+  return heap;
 }
 
 }  // namespace
@@ -29,20 +31,19 @@ bool has_film_ending(const std::filesystem::path& file) {
 }
 
 FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options,
-                       const std::function<void(double)>& progress) {
+                       const ScaleOptions& scale, const std::function<void(double)>& progress) {
   RestingPicture rest = resting_picture(file, options, progress);
-  FilmAngle result{.angle = refusal(options, std::move(rest.reason)),
+  FilmAngle result{.heap = refusal(options, std::move(rest.reason)),
                    .picture = std::move(rest.picture),
                    .stretch = rest.stretch,
                    .film = rest.film,
                    .times_s = std::move(rest.times_s)};
   if (!result.stretch) return result;
-  result.angle = measure_repose_angle(result.picture, options);
-  std::vector<Warning>& warnings = result.angle.warnings;
+  result.heap = measure_sized_heap(result.picture, options, scale);
+  ReposeAngle& angle = result.heap.angle;
+  std::vector<Warning>& warnings = angle.warnings;
   warnings.insert(warnings.end(), rest.warnings.begin(), rest.warnings.end());
-  if (rest.is_doubtful && result.angle.status == MeasureStatus::ok) {
-    result.angle.status = MeasureStatus::flagged;
-  }
+  if (rest.is_doubtful && angle.status == MeasureStatus::ok) angle.status = MeasureStatus::flagged;
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vision/camera/sized_heap.h"
 #include "vision/film/film_facts.h"
 #include "vision/film/film_file.h"
 #include "vision/measure/repose_angle.h"
@@ -30,24 +31,26 @@ struct FilmStretch {
 };
 
 struct FilmAngle {
-  ReposeAngle angle;  ///< of the picture; or why the film has none, and what is to be known of it
-  Picture picture;    ///< the heap at rest; a late frame where nothing in it is
+  SizedHeap heap;   ///< of the picture; or why the film has none, and what is to be known of it
+  Picture picture;  ///< the heap at rest; a late frame where nothing in it is
   std::optional<FilmStretch> stretch = {};  ///< what the picture is the mean of; none: no rest
   FilmFacts film = {};
   std::vector<double> times_s = {};  ///< of each frame
 };
 
 /// Finds the last second in which nothing moves, and measures the mean of its frames as any other
-/// picture. What sensors, lamps and codecs change, and small things that change all through the
-/// film above or below the scene (a timer), are no movement; nor is what lies in the options'
-/// excluded boxes or outside their box around the heap. A hand that comes in from the left, the
-/// right or below afterwards does no harm; a heap that then goes on growing is refused.
+/// picture, with a lens, a scale or a board. What sensors, lamps and codecs change, and small
+/// things that change all through the film above or below the scene (a timer), are no movement; nor
+/// is what lies in the options' excluded boxes or outside their box around the heap. A hand that
+/// comes in from the left, the right or below afterwards does no harm; a heap that then goes on
+/// growing is refused.
 ///
 /// Looks through the film three times, and keeps no frames: memory does not grow with its length.
 /// @param progress  told which fraction of the work is done, from 0 to 1; may throw to stop it
 /// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read; or as
-///   measure_repose_angle().
+///   measure_sized_heap().
 FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options = {},
+                       const ScaleOptions& scale = {},
                        const std::function<void(double)>& progress = {});
 
 }  // namespace repose::vision

@@ -4,18 +4,23 @@
 #include <optional>
 #include <utility>
 
+#include "vision/camera/lens.h"
+
 namespace repose::vision {
 
 /// Where a film is: a file, or a folder that holds its frames as numbered pictures.
 struct FilmFile {
   // NOLINTNEXTLINE(google-explicit-constructor): a place alone is a film too
   FilmFile(std::filesystem::path place) : path(std::move(place)) {}
-  FilmFile(std::filesystem::path place, std::optional<double> rate)
-      : path(std::move(place)), frames_per_s(rate) {}
+  FilmFile(std::filesystem::path place, std::optional<double> rate,
+           std::optional<Lens> camera_lens = {})
+      : path(std::move(place)), frames_per_s(rate), lens(std::move(camera_lens)) {}
 
   std::filesystem::path path;
   /// Of a folder's pictures, which do not say it; files say it themselves.
   std::optional<double> frames_per_s = {};
+  /// Whose distortion is taken out of each frame as it is read.
+  std::optional<Lens> lens = {};
 };
 
 }  // namespace repose::vision

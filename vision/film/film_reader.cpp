@@ -154,7 +154,7 @@ class FilmReader::FolderSource : public FilmReader::Source {
   Picture picture_;  ///< what the last frame's pixels are in
 };
 
-FilmReader::FilmReader(const FilmFile& file) : file_(file.path) {
+FilmReader::FilmReader(const FilmFile& file) : file_(file.path), lens_(file.lens) {
   std::error_code error;
   if (file.frames_per_s && fs::is_directory(file_, error)) {
     source_ = std::make_unique<FolderSource>(file_, *file.frames_per_s);
@@ -173,6 +173,10 @@ bool FilmReader::next(FilmFrame& frame) {
   if (frame.bgr.size() != size_ || frame.bgr.type() != CV_8UC3) {
     refuse(file_, "the size of its frames changes", "keep the part of one size.");
   }
+  if (!lens_) return true;
+  if (!correction_) correction_.emplace(lens_for(*lens_, size_.width, size_.height));
+  cv::swap(seen_, frame.bgr);
+  correction_->correct(seen_, frame.bgr);
   return true;
 }
 

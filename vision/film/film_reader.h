@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <opencv2/core.hpp>
 
+#include "vision/camera/lens_correction.h"
 #include "vision/film/film_file.h"
 
 /// Films, decoded frame by frame in order, never by seeking.
@@ -28,7 +30,8 @@ class FilmReader {
   FilmReader& operator=(FilmReader&&) = delete;
 
   /// False at the end, which is where nothing more can be decoded.
-  /// @throws std::invalid_argument  a frame has another size than the first.
+  /// @throws std::invalid_argument  a frame has another size than the first, or the camera's lens
+  ///   is of pictures of another shape.
   bool next(FilmFrame& frame);
   /// As next(), without the picture, which takes the larger part of the time.
   bool skip(FilmFrame& frame);
@@ -44,6 +47,9 @@ class FilmReader {
   std::filesystem::path file_;
   std::unique_ptr<Source> source_;
   cv::Size size_;
+  std::optional<Lens> lens_;
+  std::optional<LensCorrection> correction_;  ///< from the first frame on
+  cv::Mat seen_;                              ///< a frame before it was corrected
 };
 
 }  // namespace repose::vision

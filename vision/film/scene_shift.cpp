@@ -43,11 +43,6 @@ SceneShift::SceneShift(const cv::Mat& scene, const cv::Mat& counts) : grey_(shif
 }
 
 cv::Point2d SceneShift::of(const cv::Mat& frame) const {
-  const cv::Mat seen = shift_picture(frame);
-  return shift_of(seen) * (static_cast<double>(frame.cols) / seen.cols);
-}
-
-cv::Point2d SceneShift::sure_of(const cv::Mat& frame) const {
   constexpr double kMost = .5;  // of what differs may be left
   const cv::Mat seen = shift_picture(frame);
   const cv::Point2d shift = shift_of(seen);

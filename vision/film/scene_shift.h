@@ -10,11 +10,10 @@ class SceneShift {
   /// @param counts  0 where something moves before the scene; empty: it counts everywhere
   explicit SceneShift(const cv::Mat& scene, const cv::Mat& counts = {});
 
-  /// Of a frame of the scene's size, from the scene [px]. Of one with nothing to hold on to: none.
+  /// Of a frame of the scene's size, from the scene [px]. None where there is nothing to hold on
+  /// to, and where the shift does not explain half of what differs: the light on a plain backdrop
+  /// and what compression leaves of it change while the camera stands still.
   cv::Point2d of(const cv::Mat& frame) const;
-  /// None as well where the shift does not explain half of what differs: the light on a plain
-  /// backdrop and what compression leaves of it change while the camera stands still.
-  cv::Point2d sure_of(const cv::Mat& frame) const;
 
  private:
   /// Of a reduced frame, in its pixels.

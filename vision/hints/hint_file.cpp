@@ -189,17 +189,6 @@ PictureSettings with_saved_hints(PictureSettings given, const fs::path& picture)
   return given;
 }
 
-PictureSettings with_saved_hints_of_film(PictureSettings given, const fs::path& film) {
-  PictureSettings settings = with_saved_hints(std::move(given), film);
-  if (settings.scale.lens || settings.scale.finds_board) {
-    throw std::invalid_argument(fmt::format(
-        "{}: names a board or a camera file for a film. Rule: they are for pictures. Fix: give "
-        "scale = [x1, y1, x2, y2, mm], or photograph the heap at rest.",
-        hint_file_of(film).string()));
-  }
-  return settings;
-}
-
 void save_hints(const PictureSettings& settings, const fs::path& picture) {
   const MeasureOptions& options = settings.measuring;
   const Hints& hints = options.hints;

@@ -22,10 +22,6 @@ struct PictureSettings {
 /// @throws std::invalid_argument  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
 PictureSettings with_saved_hints(PictureSettings given, const std::filesystem::path& picture);
 
-/// The same for a film, which is measured without a lens and without a board.
-/// @throws std::invalid_argument  also where there is one.
-PictureSettings with_saved_hints_of_film(PictureSettings given, const std::filesystem::path& film);
-
 /// Writes hints, excluded boxes, pitch, scale and lens into the file beside the picture, for the
 /// next time. Of a mask and a lens the name of the file.
 /// @throws std::invalid_argument  when the file cannot be written.

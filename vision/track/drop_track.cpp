@@ -6,6 +6,7 @@
 #include "vision/track/drop_candidate.h"
 #include "vision/track/drop_verdict.h"
 #include "vision/track/film_grains.h"
+#include "vision/track/film_scale.h"
 #include "vision/track/film_verdict.h"
 #include "vision/track/strobe.h"
 
@@ -77,22 +78,21 @@ FlightPath path_of(const DropCandidate& grain, std::size_t k) {
 
 /// Height of a fall to a speed, mm: of the scale, or of the millimetres that gravity makes.
 Estimate height_mm(const DropCandidate& grain, std::size_t k, bool is_before,
-                   const std::optional<ScaleBar>& scale) {
-  const Estimate mm = scale ? mm_per_px(*scale) : Estimate{};
+                   const std::optional<Estimate>& mm) {
   Estimate height = grain.fit->estimate(
       k, k + 1, [&](const FlightCurve& before, const FlightCurve& after, const Pull& pull) {
         const double time_s = meeting_time_s(before, after, pull);
         const double speed = speed_at(is_before ? before : after, time_s, pull);
         return speed * speed / (2 * pull.gravity) *
-               (scale ? mm.value : kGravity_mm_s2 / pull.gravity);
+               (mm ? mm->value : kGravity_mm_s2 / pull.gravity);
       });
-  if (scale) {
-    height.uncertainty = std::hypot(height.uncertainty, height.value * mm.uncertainty / mm.value);
+  if (mm) {
+    height.uncertainty = std::hypot(height.uncertainty, height.value * mm->uncertainty / mm->value);
   }
   return height;
 }
 
-Bounce bounce_after(const DropCandidate& grain, std::size_t k, const TrackOptions& options) {
+Bounce bounce_after(const DropCandidate& grain, std::size_t k, const std::optional<Estimate>& mm) {
   const FlightFit& fit = *grain.fit;
   Bounce bounce{.time_s = fit.impact_time_s(k)};
   bounce.place = place_at(grain, k, bounce.time_s);
@@ -101,32 +101,44 @@ Bounce bounce_after(const DropCandidate& grain, std::size_t k, const TrackOption
         const double time_s = meeting_time_s(before, after, pull);
         return -speed_at(after, time_s, pull) / speed_at(before, time_s, pull);
       });
-  bounce.drop_mm = height_mm(grain, k, true, options.scale);
-  bounce.rebound_mm = height_mm(grain, k, false, options.scale);
+  bounce.drop_mm = height_mm(grain, k, true, mm);
+  bounce.rebound_mm = height_mm(grain, k, false, mm);
   bounce.sightings_before = fit.curves()[k].sightings;
   bounce.sightings_after = fit.curves()[k + 1].sightings;
   return bounce;
 }
 
-void read_scale(const DropCandidate& grain, const TrackOptions& options, DropTrack& track) {
+/// Of the grain's plane, in the middle of its path, along gravity.
+std::optional<Estimate> mm_per_px_of(const DropCandidate& grain, const FilmScale& scale) {
+  if (!scale.exists()) return std::nullopt;
+  cv::Point2d middle(0, 0);
+  for (const Sighting& one : *grain.path) {
+    middle += one.blob.centre / static_cast<double>(grain.path->size());
+  }
+  return scale.mm_per_px(middle, upright(0, 1, grain.used_lean_rad));
+}
+
+void read_scale(const DropCandidate& grain, const std::optional<Estimate>& mm, DropTrack& track) {
   track.gravity_px_s2 = grain.fit->pull().gravity;
-  track.has_scale = options.scale.has_value();
+  track.has_scale = mm.has_value();
   track.mm_per_px = kGravity_mm_s2 / track.gravity_px_s2;
-  if (!options.scale) return;
-  const Estimate mm = mm_per_px(*options.scale);
-  track.mm_per_px = mm.value;
+  if (!mm) return;
+  track.mm_per_px = mm->value;
   Estimate gravity =
       grain.fit->estimate(0, 0, [&](const FlightCurve&, const FlightCurve&, const Pull& pull) {
-        return pull.gravity * mm.value / kMmPerM;
+        return pull.gravity * mm->value / kMmPerM;
       });
-  gravity.uncertainty = std::hypot(gravity.uncertainty, gravity.value * mm.uncertainty / mm.value);
+  gravity.uncertainty =
+      std::hypot(gravity.uncertainty, gravity.value * mm->uncertainty / mm->value);
   track.gravity_m_s2 = gravity;
 }
 
-void read_grain(const DropCandidate& grain, const FilmGrains& film, const TrackOptions& options,
+void read_grain(const DropCandidate& grain, const FilmGrains& film, const FilmScale& scale,
                 DropTrack& track) {
   const FlightFit& fit = *grain.fit;
-  read_scale(grain, options, track);
+  const std::optional<Estimate> mm = mm_per_px_of(grain, scale);
+  read_scale(grain, mm, track);
+  track.board = scale.board();
   track.lean_rad = grain.used_lean_rad;
   track.readout_ms = kMmPerM * fit.readout_s_per_px() * film.survey.size.height;
   track.noise_px = fit.noise_px();
@@ -140,7 +152,7 @@ void read_grain(const DropCandidate& grain, const FilmGrains& film, const TrackO
   track.grain_px = 2 * std::sqrt(*middle / CV_PI);
   for (std::size_t k = 0; k < fit.curves().size(); ++k) track.flights.push_back(path_of(grain, k));
   for (const std::size_t k : grain.impacts) {
-    track.bounces.push_back(bounce_after(grain, k, options));
+    track.bounces.push_back(bounce_after(grain, k, mm));
   }
 }
 
@@ -162,8 +174,9 @@ DropTrack track_drop(const FilmFile& file, const TrackOptions& options) {
   DropTrack track{.film = facts_of(film.survey)};
   const std::vector<DropCandidate> candidates = candidates_in(film);
   const bool has_grain = !candidates.empty() && !candidates.front().impacts.empty();
-  if (has_grain) read_grain(candidates.front(), film, options, track);
-  judge_drop(film, candidates, track);
+  const FilmScale scale(options, film.scene, file.lens);
+  if (has_grain) read_grain(candidates.front(), film, scale, track);
+  judge_drop(film, candidates, scale, track);
   if (options.draws_strobe && !film.scene.empty()) {
     track.strobe =
         strobe_picture(file, film.scene, has_grain ? flown_path(candidates.front()) : GrainPath{});

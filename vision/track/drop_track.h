@@ -40,6 +40,7 @@ struct DropTrack {
   /// Of the scale; without one, what gravity and the time stamps make it.
   std::optional<double> mm_per_px = {};
   bool has_scale = false;
+  std::vector<Point> board = {};  ///< corners of the board's sheet, where that is the scale
   /// Gravity as scale and time stamps have it; none without a scale.
   std::optional<Estimate> gravity_m_s2 = {};
   double lean_rad = 0;    ///< of gravity against the picture's upright, clockwise

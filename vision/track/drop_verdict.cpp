@@ -105,19 +105,23 @@ void check_bounces(DropTrack& track) {
 }  // namespace
 
 void judge_drop(const FilmGrains& film, const std::vector<DropCandidate>& candidates,
-                DropTrack& track) {
+                const FilmScale& scale, DropTrack& track) {
   track.reason = fault_of(film);
   if (track.reason.empty()) track.reason = of_the_grain(candidates);
   if (!track.reason.empty()) {
     track.bounces.clear();
     return;
   }
+  if (scale.misses_board()) {
+    warn(track, "no_board", fmt::format("heights are by gravity: {}", kNoBoardSeen));
+  }
   check_rate(track);
   const bool is_doubtful_film = warn_of_film(film, track.warnings);
   check_lean(track);
   check_bounces(track);
   const auto is_doubtful = [](const Warning& warning) {
-    return warning.code == "frame_rate" || warning.code == "gains_energy";
+    return warning.code == "no_board" || warning.code == "frame_rate" ||
+           warning.code == "gains_energy";
   };
   const bool is_flagged =
       is_doubtful_film || std::any_of(track.warnings.begin(), track.warnings.end(), is_doubtful);

@@ -4,6 +4,7 @@
 
 #include "vision/track/drop_candidate.h"
 #include "vision/track/drop_track.h"
+#include "vision/track/film_scale.h"
 
 namespace repose::vision {
 
@@ -11,6 +12,6 @@ namespace repose::vision {
 /// bounces.
 /// @param candidates  the best first
 void judge_drop(const FilmGrains& film, const std::vector<DropCandidate>& candidates,
-                DropTrack& track);
+                const FilmScale& scale, DropTrack& track);
 
 }  // namespace repose::vision

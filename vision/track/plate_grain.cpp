@@ -156,7 +156,7 @@ PlateGrains grains_on_plate(const FilmFile& file, const FilmSurvey& survey,
     if (number < plate.frame) continue;
     const cv::Mat small = reduced_frame(frame.bgr, motion.reduction);
     if (!scene) scene.emplace(small, above_plate(motion, grains.strip, size));
-    const cv::Point2d shift = motion.reduction * scene->sure_of(small);
+    const cv::Point2d shift = motion.reduction * scene->of(small);
     grains.moved_px = std::max(grains.moved_px, std::hypot(shift.x, shift.y));
     const cv::Mat strip = strip_picture(small, motion, plate.line, grains.strip);
     for (Followed& one : all) follow(one, strip, k, plate.time_s, motion.sense);

@@ -10,6 +10,7 @@
 
 #include "vision/track/bent_path.h"
 #include "vision/track/film_grains.h"
+#include "vision/track/film_scale.h"
 #include "vision/track/film_verdict.h"
 #include "vision/track/strobe.h"
 
@@ -141,8 +142,7 @@ struct Ways {
 };
 
 /// By a scale in the picture.
-void measure_by(const ScaleBar& bar, const Ways& ways, RollTrack& track) {
-  const Estimate scale = mm_per_px(bar);
+void measure_by(const Estimate& scale, const Ways& ways, RollTrack& track) {
   const double error_px = kNormal95 * std::hypot(ways.foot_error_px, ways.end_error_px);
   const auto length_mm = [&](double px) {
     return Estimate{px * scale.value, std::hypot(error_px * scale.value, px * scale.uncertainty)};
@@ -166,7 +166,8 @@ void measure_by(double released_mm, const Ways& ways, RollTrack& track) {
 
 Point point_of(const cv::Point2d& p) { return {p.x, p.y}; }
 
-void read_roll(const Roll& roll, const TrackOptions& options, RollTrack& track) {
+void read_roll(const Roll& roll, const FilmScale& scale, const TrackOptions& options,
+               RollTrack& track) {
   const BentPath& bent = roll.bent;
   const Rest first = first_rest(*roll.path), last = last_rest(*roll.path);
   // Planes lie half a width below the lines, so that the foot is before the path's corner. How high
@@ -178,8 +179,10 @@ void read_roll(const Roll& roll, const TrackOptions& options, RollTrack& track) 
                   .released_px = (bent.corner - first.crest).dot(bent.incline.along) + before,
                   .foot_error_px = std::hypot(bent.corner_error_px, kShape * before),
                   .end_error_px = kEnd_px};
-  if (options.scale) {
-    measure_by(*options.scale, ways, track);
+  if (scale.exists()) {
+    const cv::Point2d middle = .5 * (bent.corner + last.crest);
+    measure_by(scale.mm_per_px(middle, bent.flat.along), ways, track);
+    track.board = scale.board();
   } else {
     measure_by(options.released_mm.value(), ways, track);
   }
@@ -224,7 +227,7 @@ bool has_another(const FilmGrains& film, const GrainPath& path) {
 }
 
 /// Reads the film's roll, or says why it cannot.
-std::string read(const FilmGrains& film, const std::optional<Roll>& roll,
+std::string read(const FilmGrains& film, const std::optional<Roll>& roll, const FilmScale& scale,
                  const TrackOptions& options, RollTrack& track) {
   const std::string fault = fault_of(film);
   if (!fault.empty()) return fault;
@@ -241,17 +244,18 @@ std::string read(const FilmGrains& film, const std::optional<Roll>& roll,
            "by "
            "itself.";
   }
+  if (scale.misses_board()) return kNoBoardSeen;
   track.grain_px = width_px(*roll->path);
   const Rest last = last_rest(*roll->path);
   const std::string end = fault_of_end(*roll->path, last, film);
   if (!end.empty()) return end;
   constexpr double kHeld_s = .1;
-  if (!options.scale && first_rest(*roll->path).lasts_s < kHeld_s) {
+  if (!scale.exists() && first_rest(*roll->path).lasts_s < kHeld_s) {
     return "it is not seen where the grain was let go, from which the millimetres come. Rule: at "
            "rest and in sight before. Fix: film from before, hold the grain by a card or a thread "
            "and not within a hand, or give --scale.";
   }
-  read_roll(*roll, options, track);
+  read_roll(*roll, scale, options, track);
   return {};
 }
 
@@ -278,7 +282,8 @@ RollTrack track_roll(const FilmFile& file, const TrackOptions& options) {
   const FilmGrains film = grains_in_film(file, options.progress);
   RollTrack track{.film = facts_of(film.survey)};
   const std::optional<Roll> roll = roll_in(film);
-  track.reason = read(film, roll, options, track);
+  const FilmScale scale(options, film.scene, file.lens);
+  track.reason = read(film, roll, scale, options, track);
   if (roll) {
     for (const Sighting& one : *roll->path) {
       track.places.push_back({one.time_s, point_of(one.blob.centre)});

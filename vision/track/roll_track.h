@@ -18,11 +18,12 @@ struct RollTrack {
   FilmFacts film = {};
 
   bool has_reading = false;
-  Estimate incline_deg = {};  ///< between incline and flat, as seen
-  Estimate released_mm = {};  ///< up the incline, where it was let go
-  Estimate stopped_mm = {};   ///< along the flat, where it rests
-  double stopped_s = 0;       ///< when it came to rest
-  bool has_scale = false;     ///< else millimetres are those of the release
+  Estimate incline_deg = {};      ///< between incline and flat, as seen
+  Estimate released_mm = {};      ///< up the incline, where it was let go
+  Estimate stopped_mm = {};       ///< along the flat, where it rests
+  double stopped_s = 0;           ///< when it came to rest
+  bool has_scale = false;         ///< else millimetres are those of the release
+  std::vector<Point> board = {};  ///< corners of the board's sheet, where that is the scale
   double mm_per_px = 0;
   double noise_px = 0;  ///< standard deviation of a centre from the path's two lines
   double grain_px = 0;  ///< diameter of a disc of the grain's area
@@ -37,7 +38,7 @@ struct RollTrack {
 
 /// Follows the grain and takes the two straight lines of its path: incline and flat. The planes lie
 /// half the grain's width below them.
-/// @param options  with a scale or with released_mm, which the millimetres come from
+/// @param options  with a scale, a board or released_mm, which the millimetres come from
 /// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
 RollTrack track_roll(const FilmFile& file, const TrackOptions& options);
 

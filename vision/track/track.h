@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/camera/board_placing.h"
 #include "vision/film/film_facts.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/measure/scale_bar.h"
@@ -16,6 +17,8 @@ namespace repose::vision {
 
 struct TrackOptions {
   std::optional<ScaleBar> scale = {};
+  /// Of a board that stands in the picture, in place of a scale.
+  std::optional<BoardPlacing> board = {};
   /// Of a roll without a scale: how far up the incline the grain was let go.
   std::optional<double> released_mm = {};
   bool draws_strobe = false;

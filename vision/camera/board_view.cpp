@@ -1,0 +1,143 @@
+#include "vision/camera/board_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/LU>
+
+namespace repose::vision {
+namespace {
+
+constexpr double kNormal95 = 1.96;
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Half-widths of what a person does by eye.
+constexpr double kLean_rad = 1 * kDegree;    // a board stood upright
+constexpr double kPlaced_mm = 10;            // ... where the plane is
+constexpr double kTurned_rad = 3 * kDegree;  // ... and parallel to it
+
+constexpr int kPoseNumbers = 9;
+enum : int { k_x = 3, k_y, k_z };  // of the pose: the board's origin
+
+/// The pose with its origin as x / z, y / z and ln z: where the focal length is not known, its
+/// logarithm and that of the distance vary together by much, and what is seen does not change.
+BoardPose::Numbers by_distance(const BoardPose::Numbers& pose) {
+  BoardPose::Numbers numbers = pose;
+  numbers[k_x] /= pose[k_z];
+  numbers[k_y] /= pose[k_z];
+  numbers[k_z] = std::log(pose[k_z]);
+  return numbers;
+}
+
+BoardPose::Numbers pose_of(const BoardPose::Numbers& numbers) {
+  BoardPose::Numbers pose = numbers;
+  pose[k_z] = std::exp(numbers[k_z]);
+  pose[k_x] *= pose[k_z];
+  pose[k_y] *= pose[k_z];
+  return pose;
+}
+
+BoardPose::Covariance slopes_by_distance(const BoardPose::Numbers& pose) {
+  BoardPose::Covariance slopes = BoardPose::Covariance::Identity();
+  const double z = pose[k_z];
+  slopes(k_x, k_x) = slopes(k_y, k_y) = slopes(k_z, k_z) = 1 / z;
+  slopes(k_x, k_z) = -pose[k_x] / (z * z);
+  slopes(k_y, k_z) = -pose[k_y] / (z * z);
+  return slopes;
+}
+
+enum : int { k_lean = kPoseNumbers, k_tilt, k_turn, k_behind, k_count };
+
+/// How much of the sheet is left out around the board, in squares: what is printed below it is
+/// part of the sheet.
+constexpr double kBeside = 1.25, kAbove = 0.6, kBelow = 1.4;
+
+/// What of the board is seen: all of it, or what the heap leaves.
+Segment part_seen(const std::vector<SeenCorner>& corners) {
+  Segment part{{1e9, 1e9}, {-1e9, -1e9}};
+  for (const SeenCorner& corner : corners) {
+    const Point place = board_corner(corner.number);
+    part.from = {std::min(part.from.x, place.x), std::min(part.from.y, place.y)};
+    part.to = {std::max(part.to.x, place.x), std::max(part.to.y, place.y)};
+  }
+  return {{part.from.x - 1 - kBeside, part.from.y - 1 - kAbove},
+          {part.to.x + 1 + kBeside, part.to.y + 1 + kBelow}};
+}
+
+}  // namespace
+
+BoardView::BoardView(const BoardPose& pose, const BoardPlacing& placing)
+    : inputs_{.values = Eigen::VectorXd::Zero(k_count),
+              .covariance = Eigen::MatrixXd::Zero(k_count, k_count)},
+      square_mm_(placing.square_mm) {
+  inputs_.values.head<kPoseNumbers>() = by_distance(pose.numbers);
+  const BoardPose::Covariance slopes = slopes_by_distance(pose.numbers);
+  inputs_.covariance.topLeftCorner<kPoseNumbers, kPoseNumbers>() =
+      slopes * pose.covariance * slopes.transpose();
+  inputs_.values[k_behind] = placing.behind_mm;
+  inputs_.covariance(k_lean, k_lean) = std::pow(kLean_rad / kNormal95, 2);
+  inputs_.covariance(k_tilt, k_tilt) = std::pow(kLean_rad / kNormal95, 2);
+  inputs_.covariance(k_turn, k_turn) = std::pow(kTurned_rad / kNormal95, 2);
+  inputs_.covariance(k_behind, k_behind) = std::pow(kPlaced_mm / kNormal95, 2);
+}
+
+HeapView BoardView::view(const Eigen::VectorXd& values) const {
+  return view_by_board(pose_of(values.head<kPoseNumbers>()), {.square_mm = square_mm_,
+                                                              .behind_mm = values[k_behind],
+                                                              .lean_rad = values[k_lean],
+                                                              .tilt_rad = values[k_tilt],
+                                                              .turn_rad = values[k_turn]});
+}
+
+void BoardView::take_pitch(double pitch_rad) {
+  constexpr double kTold_rad = 0.25 * kDegree;
+  inputs_.values[k_lean] += pitch_rad - view().pitch_rad();
+  // The corners' own say of it is in the lean now.
+  inputs_.covariance(k_lean, k_lean) = std::pow(kTold_rad / kNormal95, 2);
+}
+
+void BoardView::take_square(double within_rad) {
+  const auto with_aside = [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
+    Eigen::VectorXd all(k_count + 2);
+    all << values, view(values).normal.head<2>();
+    return all;
+  };
+  const Eigen::MatrixXd covariance = propagated(inputs_, with_aside);
+  const Eigen::MatrixXd shared = covariance.topRightCorner<k_count, 2>();
+  const double variance = std::pow(std::sin(within_rad) / kNormal95, 2);
+  const Eigen::Matrix2d of_difference =
+      covariance.bottomRightCorner<2, 2>() + variance * Eigen::Matrix2d::Identity();
+  const Eigen::MatrixXd gain = shared * of_difference.inverse();
+  inputs_.values -= gain * view().normal.head<2>();
+  inputs_.covariance -= gain * shared.transpose();
+}
+
+Estimate BoardView::estimate(const std::function<double(const HeapView&)>& number) const {
+  const Eigen::MatrixXd covariance =
+      propagated(inputs_, [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
+        return Eigen::VectorXd::Constant(1, number(view(values)));
+      });
+  return {number(view()), kNormal95 * std::sqrt(covariance(0, 0))};
+}
+
+std::vector<Point> sheet_outline(const BoardPose& pose, const std::vector<SeenCorner>& corners) {
+  const auto& [from, to] = part_seen(corners);
+  std::vector<Point> outline;
+  for (const Point corner : {from, Point{to.x, from.y}, to, Point{from.x, to.y}}) {
+    outline.push_back(seen_at(pose.numbers, corner));
+  }
+  return outline;
+}
+
+double mm_per_px_along(const HeapView& view, Point place, Point along) {
+  const double length = std::hypot(along.x, along.y);
+  const Point half{along.x / length / 2, along.y / length / 2};
+  const auto in_plane = [&](double sign) -> Eigen::Vector3d {
+    const Eigen::Vector3d ray = view.direction({place.x + sign * half.x, place.y + sign * half.y});
+    return ray * (view.distance_mm / ray.dot(view.normal));
+  };
+  return (in_plane(1) - in_plane(-1)).norm();
+}
+
+}  // namespace repose::vision

@@ -1,0 +1,44 @@
+#include "vision/track/film_scale.h"
+
+#include <cmath>
+
+#include "vision/picture/mat_of_picture.h"
+
+namespace repose::vision {
+namespace {
+
+std::vector<SeenCorner> corners_in(const cv::Mat& scene) {
+  Picture picture = blank_picture(scene.cols, scene.rows);
+  scene.copyTo(mat_of(picture));
+  return find_board(picture);
+}
+
+}  // namespace
+
+FilmScale::FilmScale(const TrackOptions& options, const cv::Mat& scene,
+                     const std::optional<Lens>& lens)
+    : asks_for_board_(options.board.has_value()), has_lens_(lens.has_value()) {
+  if (options.scale) bar_ = vision::mm_per_px(*options.scale);
+  if (!options.board || scene.empty()) return;
+  const std::vector<SeenCorner> corners = corners_in(scene);
+  if (corners.empty()) return;
+  std::optional<Lens> here = lens;
+  if (here) here = lens_for(*here, scene.cols, scene.rows);
+  const BoardPose pose = fit_pose(corners, here, scene.cols, scene.rows);
+  board_.emplace(pose, *options.board);
+  constexpr double kSquare_rad = 10 * CV_PI / 180;
+  if (!here) board_->take_square(kSquare_rad);
+  outline_ = sheet_outline(pose, corners);
+}
+
+Estimate FilmScale::mm_per_px(const cv::Point2d& place, const cv::Point2d& along) const {
+  if (bar_) return *bar_;
+  Estimate scale = board_->estimate([&](const HeapView& view) {
+    return mm_per_px_along(view, {place.x, place.y}, {along.x, along.y});
+  });
+  const double print_and_lens = std::hypot(kPrinted, has_lens_ ? 0 : kNoLens);
+  scale.uncertainty = std::hypot(scale.uncertainty, print_and_lens * scale.value);
+  return scale;
+}
+
+}  // namespace repose::vision
