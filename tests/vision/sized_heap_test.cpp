@@ -231,6 +231,19 @@ TEST(SizedHeap, ABoardThatIsNotThereIsSaidAndTheAngleStays) {
   EXPECT_THAT(heap.sizes.reason, HasSubstr("Fix"));
 }
 
+TEST(SizedHeap, AGroundLineFarBelowTheFootGivesNoSizes) {
+  MeasureOptions told = kIsHeap;
+  const SizedHeap right = measure_sized_heap(Stage().picture(), told, {.lens = {}, .scale = {}});
+  const double foot_y = right.angle.ground->from.y;
+  const double height_px = foot_y - right.angle.crest->y;
+  told.hints.ground = Segment{{100, foot_y + height_px}, {900, foot_y + height_px}};
+  const SizedHeap heap = measure_sized_heap(
+      Stage().picture(), told, {.lens = {}, .scale = ScaleBar{{{0, 0}, {300, 0}}, 300}});
+  ASSERT_NE(heap.angle.status, MeasureStatus::refused) << heap.angle.reason;
+  EXPECT_THAT(heap.sizes.reason, HasSubstr("the ground line lies far below the heap's foot"));
+  EXPECT_FALSE(heap.sizes.height_mm);
+}
+
 TEST(SizedHeap, WithoutAnyScaleItIsWhatMeasuringGives) {
   const Stage stage;
   const Picture picture = stage.picture();

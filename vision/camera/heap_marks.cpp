@@ -34,8 +34,25 @@ MarkDeviations deviations_of(const ReposeAngle& measured, double working_px) {
           .ground = std::hypot(working_px, 0.1 * grain)};
 }
 
-/// How high the outline's ends lie above the ground line: a round base is widest where its middle
-/// is, and the lowest grains stick out farthest half of their size above the ground [px].
+}  // namespace
+
+Marks marks_of(const ReposeAngle& measured) {
+  const Segment& ground = *measured.ground;
+  const auto shows_foot = [](const Flank& flank) {
+    return flank.status == FlankStatus::ok && !flank.leaves_frame;
+  };
+  Marks marks{.left_foot = {}, .right_foot = {}, .crest = *measured.crest, .below_crest = {}};
+  if (shows_foot(measured.left)) marks.left_foot = ground.from;
+  if (shows_foot(measured.right)) marks.right_foot = ground.to;
+  const double dx = ground.to.x - ground.from.x;
+  const double dy = ground.to.y - ground.from.y;
+  const double part =
+      ((marks.crest.x - ground.from.x) * dx + (marks.crest.y - ground.from.y) * dy) /
+      (dx * dx + dy * dy);
+  marks.below_crest = {ground.from.x + part * dx, ground.from.y + part * dy};
+  return marks;
+}
+
 std::optional<double> rise_of_feet(const ReposeAngle& measured, const Marks& marks) {
   if (measured.upper_edge.empty()) return std::nullopt;
   const Segment& ground = *measured.ground;
@@ -55,25 +72,6 @@ std::optional<double> rise_of_feet(const ReposeAngle& measured, const Marks& mar
   add(marks.right_foot.has_value(), measured.upper_edge.back());
   if (count == 0) return std::nullopt;
   return sum / count - measured.grain_px.value_or(0) / 2;
-}
-
-}  // namespace
-
-Marks marks_of(const ReposeAngle& measured) {
-  const Segment& ground = *measured.ground;
-  const auto shows_foot = [](const Flank& flank) {
-    return flank.status == FlankStatus::ok && !flank.leaves_frame;
-  };
-  Marks marks{.left_foot = {}, .right_foot = {}, .crest = *measured.crest, .below_crest = {}};
-  if (shows_foot(measured.left)) marks.left_foot = ground.from;
-  if (shows_foot(measured.right)) marks.right_foot = ground.to;
-  const double dx = ground.to.x - ground.from.x;
-  const double dy = ground.to.y - ground.from.y;
-  const double part =
-      ((marks.crest.x - ground.from.x) * dx + (marks.crest.y - ground.from.y) * dy) /
-      (dx * dx + dy * dy);
-  marks.below_crest = {ground.from.x + part * dx, ground.from.y + part * dy};
-  return marks;
 }
 
 Eigen::Index added(Inputs& inputs, double value, double deviation) {

@@ -20,6 +20,10 @@ struct Marks {
 /// Of a heap with a ground line and a crest.
 Marks marks_of(const ReposeAngle& measured);
 
+/// How high the outline's ends lie above the ground line: a round base is widest where its middle
+/// is, and the lowest grains stick out farthest half of their size above the ground [px].
+std::optional<double> rise_of_feet(const ReposeAngle& measured, const Marks& marks);
+
 /// Inputs and one more: its number, and room for it.
 Eigen::Index added(Inputs& inputs, double value, double deviation);
 

@@ -104,6 +104,8 @@ HeapSizes described(const Eigen::VectorXd& values, const Eigen::MatrixXd& covari
   return sizes;
 }
 
+double distance_between(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
 /// Why a measured heap has no sizes; empty when it has.
 std::string reason_against(const ReposeAngle& measured) {
   if (measured.status == MeasureStatus::refused) return "the heap could not be measured.";
@@ -112,10 +114,15 @@ std::string reason_against(const ReposeAngle& measured) {
     return "the heap's foot is hidden by the edge that was taken for the ground. Fix: raise the "
            "camera's view of the plate, or draw the ground line.";
   }
+  const Marks marks = marks_of(measured);
+  const double height_px = distance_between(marks.crest, marks.below_crest);
+  constexpr double kFarBelow = 0.3;  // of the height: more than a round base's rim lies lower
+  if (rise_of_feet(measured, marks).value_or(0) > kFarBelow * height_px) {
+    return "the ground line lies far below the heap's foot: it may be another edge, such as a "
+           "table's. Fix: draw the ground line.";
+  }
   return {};
 }
-
-double distance_between(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// As parallel rays have it, but for the rim and how near the camera may be.
 struct PlainView {
