@@ -13,8 +13,8 @@ struct FilmFile {
   // NOLINTNEXTLINE(google-explicit-constructor): a place alone is a film too
   FilmFile(std::filesystem::path place) : path(std::move(place)) {}
   FilmFile(std::filesystem::path place, std::optional<double> rate,
-           std::optional<Lens> camera_lens = {})
-      : path(std::move(place)), frames_per_s(rate), lens(std::move(camera_lens)) {}
+           const std::optional<Lens>& camera_lens = {})
+      : path(std::move(place)), frames_per_s(rate), lens(camera_lens) {}
 
   std::filesystem::path path;
   /// Of a folder's pictures, which do not say it; files say it themselves.

@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "vision/camera/board_view.h"
 #include "vision/track/track.h"
 
