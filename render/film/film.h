@@ -13,6 +13,9 @@ namespace repose::render {
 
 /// Pictures one after the other in an MP4 (H.264) or GIF file, which is there whole or not at all:
 /// until then the earlier one is.
+///
+/// The same pictures give the same bytes in a program's first film. In later ones an MP4's frame
+/// may begin elsewhere in memory, and the library then rounds its colours otherwise.
 class Film {
  public:
   /// By the name's ending.
