@@ -150,7 +150,8 @@ TEST_F(MeasureWithScale, ABoardGivesSizesInAllOutputs) {
   EXPECT_EQ(heap["scale"], "board");
   EXPECT_NEAR(heap["mm_per_px"].get<double>(), .5, .01);
   EXPECT_NEAR(heap["height_mm"].get<double>(), .5 * height_px_, .1 * height_px_);
-  EXPECT_NEAR(heap["base_mm"].get<double>(), 240, heap["base_mm_uncertainty"].get<double>());
+  EXPECT_NEAR(heap["base_mm"].get<double>(), 240, .05 * 240);
+  EXPECT_GT(heap["base_mm_uncertainty"].get<double>(), .02 * 240) << "for distortion alone";
   EXPECT_GT(heap["left"]["run_out_mm"].get<double>(), 80);
   EXPECT_EQ(heap["board"]["corners"], 54);
   EXPECT_THAT(heap["board"]["missing"].get<std::string>(), HasSubstr("camera file"));
