@@ -5,7 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "vision/picture/picture.h"
+
 namespace repose::cli {
+
+inline nlohmann::ordered_json places_json(const std::vector<vision::Point>& places) {
+  auto json = nlohmann::ordered_json::array();
+  for (const vision::Point& place : places) json.push_back({place.x, place.y});
+  return json;
+}
 
 /// A list as the text of a JSON array.
 /// @param json_of  makes an object of each

@@ -76,12 +76,6 @@ Json line_json(const std::optional<vision::Segment>& line) {
   return Json::array({line->from.x, line->from.y, line->to.x, line->to.y});
 }
 
-Json places_json(const std::vector<vision::Point>& places) {
-  Json json = Json::array();
-  for (const vision::Point& place : places) json.push_back(Json::array({place.x, place.y}));
-  return json;
-}
-
 /// What a person has said of the picture; null when nothing.
 Json hints_json(const vision::Hints& hints) {
   if (hints.empty() && hints.source.empty()) return nullptr;

@@ -59,11 +59,8 @@ Json warnings_json(const std::vector<vision::Warning>& warnings) {
   return json;
 }
 
-Json places_json(const std::vector<vision::Point>& places) {
-  if (places.empty()) return nullptr;
-  Json json = Json::array();
-  for (const vision::Point& place : places) json.push_back({place.x, place.y});
-  return json;
+Json board_json(const std::vector<vision::Point>& board) {
+  return board.empty() ? Json() : places_json(board);
 }
 
 /// Where millimetres come from.
@@ -81,7 +78,7 @@ Json drop_track_json(const vision::DropTrack& drop) {
     gravity_uncertainty = drop.gravity_m_s2->uncertainty;
   }
   return {{"scale", scale_json(drop, "gravity")},
-          {"board_px", places_json(drop.board)},
+          {"board_px", board_json(drop.board)},
           {"mm_per_px", drop.mm_per_px ? Json(*drop.mm_per_px) : Json()},
           {"gravity_m_s2", gravity},
           {"gravity_uncertainty_m_s2", gravity_uncertainty},
@@ -107,7 +104,7 @@ Json roll_json(const vision::RollTrack& roll) {
 
 Json roll_track_json(const vision::RollTrack& roll) {
   return {{"scale", scale_json(roll, "released")},
-          {"board_px", places_json(roll.board)},
+          {"board_px", board_json(roll.board)},
           {"mm_per_px", roll.mm_per_px},
           {"noise_px", roll.noise_px},
           {"grain_px", roll.grain_px},

@@ -36,6 +36,12 @@ struct TrackCommand : CommandTest {
     film.close();
   }
 
+  void write(const char* name, const DrawnRoll& roll) {
+    render::Film film(path(name), roll.frames_per_s);
+    for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
+    film.close();
+  }
+
   DrawnRoll draw_roll(const char* name, double stopped_mm) {
     const DrawnRoll roll{.width = 300,
                          .height = 150,
@@ -45,9 +51,7 @@ struct TrackCommand : CommandTest {
                          .radius_px = 6,
                          .release_s = .2,
                          .roll_s = 1.2};
-    render::Film film(path(name), roll.frames_per_s);
-    for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
-    film.close();
+    write(name, roll);
     return roll;
   }
 };
@@ -159,9 +163,7 @@ TEST_F(TrackCommand, ABoardGivesTheScaleAndACameraFileItsLens) {
                        .release_s = .2,
                        .roll_s = 1.2,
                        .board_square_px = 14};
-  render::Film film(path("a.mp4"), roll.frames_per_s);
-  for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
-  film.close();
+  write("a.mp4", roll);
   folder_.write("camera.toml", std::string("[lens]\n"));
   EXPECT_THAT(run({"roll", "a.mp4", "--board", "--camera-file", "camera.toml"}).err,
               HasSubstr("--camera-file camera.toml"));

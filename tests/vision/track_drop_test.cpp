@@ -222,6 +222,10 @@ TEST(TrackDrop, TheLensIsTakenOutOfTheFrames) {
   const TrackOptions options{.board = BoardPlacing{.square_mm = 14 * drop.mm_per_px}};
   const DropTrack with = track_drop({file, std::nullopt, lens}, options);
   const DropTrack without = track_drop(file);
+  const Lens seen = lens_for(lens, drop.width, drop.height);
+  const ScaleBar bar{.line = {seen.seen({20, 30}), seen.seen({20, 130})},
+                     .length_mm = 100 * drop.mm_per_px};
+  const DropTrack by_bar = track_drop({file, std::nullopt, lens}, {.scale = bar});
   const DropTrack plain = tracked(drop);
   ASSERT_FALSE(with.bounces.empty()) << with.reason;
   EXPECT_LT(distance_px(with, plain), .5);
@@ -229,6 +233,7 @@ TEST(TrackDrop, TheLensIsTakenOutOfTheFrames) {
   EXPECT_NEAR(with.bounces[0].restitution.value, .6, .01);
   EXPECT_NEAR(with.mm_per_px.value(), drop.mm_per_px, .01 * drop.mm_per_px);
   EXPECT_NEAR(with.bounces[0].drop_mm.value, 250, with.bounces[0].drop_mm.uncertainty);
+  EXPECT_NEAR(by_bar.mm_per_px.value(), drop.mm_per_px, .002 * drop.mm_per_px);
   Lens other = lens;
   other.height = lens.width;
   EXPECT_THAT(error_of([&] {

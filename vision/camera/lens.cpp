@@ -164,6 +164,11 @@ MeasureOptions corrected_options(const MeasureOptions& options, const Lens& lens
   return corrected;
 }
 
+ScaleBar corrected_bar(const ScaleBar& bar, const Lens& lens) {
+  return {.line = {lens.corrected(bar.line.from), lens.corrected(bar.line.to)},
+          .length_mm = bar.length_mm};
+}
+
 Box seen_box(const Box& box, const Lens& lens) {
   return moved(box, lens, [&](Point point) { return lens.seen(point); });
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vision/measure/repose_angle.h"
+#include "vision/measure/scale_bar.h"
 #include "vision/picture/picture.h"
 
 /// A camera's lens: how directions become places in its pictures.
@@ -56,6 +57,9 @@ Picture corrected_picture(const Picture& picture, const Lens& lens);
 /// What a person has said of the picture, in the corrected one: boxes around where they come to
 /// lie, cut off at the frame.
 MeasureOptions corrected_options(const MeasureOptions& options, const Lens& lens);
+
+/// Two points of the picture where the corrected one has them.
+ScaleBar corrected_bar(const ScaleBar& bar, const Lens& lens);
 
 /// A box of the corrected picture in the picture.
 Box seen_box(const Box& box, const Lens& lens);

@@ -161,14 +161,6 @@ HeapSizes sizes_by_bar(const ScaleBar& bar, const Lens& lens, const Sizing& sizi
   return sizes_by_view(angle, inputs, view_of, 0, sizing.working_px);
 }
 
-std::optional<ScaleBar> corrected_bar(const ScaleOptions& scale, const std::optional<Lens>& lens) {
-  std::optional<ScaleBar> bar = scale.scale;
-  if (bar && lens) {
-    bar->line = {lens->corrected(bar->line.from), lens->corrected(bar->line.to)};
-  }
-  return bar;
-}
-
 void require(bool holds, const char* error) {
   if (!holds) throw std::invalid_argument(error);
 }
@@ -217,7 +209,8 @@ SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& optio
 
   const Sizing sizing{measured, options, scale,
                       working_pixel(measured.width, measured.height, heap.options.hints)};
-  const std::optional<ScaleBar> bar = corrected_bar(scale, heap.lens);
+  std::optional<ScaleBar> bar = scale.scale;
+  if (bar && heap.lens) bar = corrected_bar(*bar, *heap.lens);
   heap.has_scale = bar || heap.board;
   if (heap.board) {
     warn_of_board(*heap.board, options, heap.angle);

@@ -18,12 +18,15 @@ std::vector<SeenCorner> corners_in(const cv::Mat& scene) {
 FilmScale::FilmScale(const TrackOptions& options, const cv::Mat& scene,
                      const std::optional<Lens>& lens)
     : asks_for_board_(options.board.has_value()), has_lens_(lens.has_value()) {
-  if (options.scale) bar_ = vision::mm_per_px(*options.scale);
-  if (!options.board || scene.empty()) return;
+  if (scene.empty()) return;
+  std::optional<Lens> here;
+  if (lens) here = lens_for(*lens, scene.cols, scene.rows);
+  if (options.scale) {
+    bar_ = vision::mm_per_px(here ? corrected_bar(*options.scale, *here) : *options.scale);
+  }
+  if (!options.board) return;
   const std::vector<SeenCorner> corners = corners_in(scene);
   if (corners.empty()) return;
-  std::optional<Lens> here = lens;
-  if (here) here = lens_for(*here, scene.cols, scene.rows);
   const BoardPose pose = fit_pose(corners, here, scene.cols, scene.rows);
   board_.emplace(pose, *options.board);
   constexpr double kSquare_rad = 10 * CV_PI / 180;

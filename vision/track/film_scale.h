@@ -37,6 +37,6 @@ class FilmScale {
 /// What is wrong with a film whose board is not seen, and what to do about it.
 inline constexpr const char* kNoBoardSeen =
     "no board was found. Rule: it faces the camera, sharp and evenly lit, at least 10 pixels a "
-    "square, and nothing hides it. Fix: put it up beside the grain's way, or give --scale.";
+    "square, and nothing hides it. Fix: put it up beside the grain's way, or give a scale.";
 
 }  // namespace repose::vision

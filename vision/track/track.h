@@ -16,7 +16,7 @@
 namespace repose::vision {
 
 struct TrackOptions {
-  std::optional<ScaleBar> scale = {};
+  std::optional<ScaleBar> scale = {};  ///< in the frames as they are
   /// Of a board that stands in the picture, in place of a scale.
   std::optional<BoardPlacing> board = {};
   /// Of a roll without a scale: how far up the incline the grain was let go.
