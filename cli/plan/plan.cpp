@@ -58,6 +58,7 @@ PlanOptions options_of(const PlanArguments& arguments) {
   constexpr double kLeast_minutes = .1, kUsual_minutes = 15, kMost_minutes = 1e5;
   PlanOptions options{.study = read_bench({.study = arguments.study,
                                            .settings = arguments.settings,
+                                           .rolling_models = {},
                                            .jobs = arguments.jobs,
                                            .out_folder = arguments.out_folder,
                                            .json_file = arguments.json_file},
