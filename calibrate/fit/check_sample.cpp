@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calibrate/fit/unit_box.h"
 
@@ -21,13 +22,14 @@ double CheckSample::sd() const {
 }
 
 CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
-                         const Observable& observable, const std::vector<Run>& runs) {
+                         const Observable& observable, const std::vector<Run>& runs,
+                         double relative_stiffness) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
   const Job at = job_at(problem, experiment, to_unit(problem, values), 0);
   CheckSample sample;
   for (const Run& run : runs) {
     if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
-    if (run.job.relative_stiffness != 1) continue;
+    if (run.job.relative_stiffness != relative_stiffness) continue;
     if (experiment.is_stochastic && run.job.seed < kFirstCheckSeed) continue;
     const auto found = run.readings.find(observable.reading);
     if (run.failure.empty() && found != run.readings.end() && std::isfinite(found->second)) {
@@ -45,6 +47,17 @@ RunScatter scatter_of(const CheckSample& sample, const JointFit* fit, std::size_
   const RunScatter known{fit->observables[observable].simulated_sd,
                          std::max(fit->surrogates[observable].runs - 1, 1)};
   return known.sd > seen.sd ? known : seen;
+}
+
+UncertainMean mean_of(const CheckSample& sample, bool is_stochastic, const JointFit* fit,
+                      std::size_t observable) {
+  if (sample.count() == 0)
+    return {std::numeric_limits<double>::quiet_NaN(),
+            is_stochastic ? std::numeric_limits<double>::quiet_NaN() : 0, 1};
+  if (!is_stochastic) return {sample.mean(), 0, 1};
+  if (sample.count() < 2) return {sample.mean(), std::numeric_limits<double>::quiet_NaN(), 1};
+  const RunScatter scatter = scatter_of(sample, fit, observable);
+  return {sample.mean(), scatter.sd / std::sqrt(sample.count()), static_cast<double>(scatter.df)};
 }
 
 }  // namespace repose::calibrate

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/fit/agreement.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/problem.h"
 
@@ -23,8 +24,10 @@ struct CheckSample {
   double sd() const;  ///< of single readings; NaN from one
 };
 
+/// Of runs with this part of the study's stiffness.
 CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
-                         const Observable& observable, const std::vector<Run>& runs);
+                         const Observable& observable, const std::vector<Run>& runs,
+                         double relative_stiffness = 1);
 
 /// How much a single run scatters, and by how many runs that is known.
 struct RunScatter {
@@ -35,5 +38,10 @@ struct RunScatter {
 /// The larger of what the sample shows and, where there is a fit, of what all runs show: a handful
 /// that happens to agree is not trusted over them. NaN from one run.
 RunScatter scatter_of(const CheckSample& sample, const JointFit* fit, std::size_t observable);
+
+/// With the uncertainty that this scatter gives it. NaN without a reading, its uncertainty from
+/// one.
+UncertainMean mean_of(const CheckSample& sample, bool is_stochastic, const JointFit* fit,
+                      std::size_t observable);
 
 }  // namespace repose::calibrate

@@ -53,6 +53,11 @@ void check_experiment(const Problem& problem, const Experiment& experiment, Erro
                     "is the study's own",
                     where, experiment.relative_stiffness));
   }
+  if (!std::isfinite(experiment.real_stiffness) || experiment.real_stiffness < 1) {
+    errors.push_back(fmt::format(
+        "{}: real_stiffness = {} must be 1 or more. Fix: 1 where grains are not softened", where,
+        experiment.real_stiffness));
+  }
   if (experiment.readings_per_run < 1) {
     errors.push_back(fmt::format("{}: readings_per_run = {} must be 1 or more. Fix: count them",
                                  where, experiment.readings_per_run));

@@ -41,6 +41,8 @@ struct Experiment {
   /// Rounds run it with this part of the study's stiffness, which is faster; checks with all of it.
   /// What softness does to its readings is found from both (THEORY.md, "Softened runs").
   double relative_stiffness = 1;
+  /// That of real grains, as a multiple of the study's.
+  double real_stiffness = 1;
 };
 
 /// One number measured on the bench: the mean of n readings.

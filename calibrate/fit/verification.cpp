@@ -32,15 +32,6 @@ int repeats_of(const Experiment& experiment, double dearest_s, int repeats) {
   return affordable < most ? std::max(static_cast<int>(affordable), repeats) : most;
 }
 
-UncertainMean mean_of(const CheckSample& sample, bool is_stochastic, const JointFit* fit,
-                      std::size_t observable) {
-  if (sample.count() == 0) return {kNone, is_stochastic ? kNone : 0, 1};
-  if (!is_stochastic) return {sample.mean(), 0, 1};
-  if (sample.count() < 2) return {sample.mean(), kNone, 1};
-  const RunScatter scatter = scatter_of(sample, fit, observable);
-  return {sample.mean(), scatter.sd / std::sqrt(sample.count()), static_cast<double>(scatter.df)};
-}
-
 /// Everything about one observable but whether it disagrees: that depends on the others, too.
 Agreement compared(const Observable& observable, const CheckSample& sample,
                    const UncertainMean& simulated, double measured_uncertainty, double level) {

@@ -153,6 +153,21 @@ void fields(Io& io, Held<Io, Prediction>& prediction) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, StiffnessCheck>& check) {
+  io("name", check.name);
+  io("unit", check.unit);
+  io("stiffness", check.stiffness);
+  io("change", check.change);
+  io("uncertainty", check.uncertainty);
+  io("interval", check.interval);
+  io("p", check.chance);
+  io("limit", check.limit);
+  io("runs", check.runs);
+  io("failed_runs", check.failed_runs);
+  io("verdict", check.verdict);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, EquivalentSet>& set) {
   by_name(io, "parameters", io.names().parameters, set.values);
   io("chi2_above_best", set.chi2);
@@ -247,6 +262,9 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   io("verdict", joint.verdict);
   io("agreement", joint.agreement);
   if (io.has("held_out", !joint.held_out.empty())) io("held_out", joint.held_out);
+  if (io.has("stiffness_checks", !joint.stiffness_checks.empty())) {
+    io("stiffness_checks", joint.stiffness_checks);
+  }
   io("chi2", joint.chi2);
   io("correlation", joint.correlation);
   io("reading_correlation", joint.reading_correlation);

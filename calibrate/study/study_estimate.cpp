@@ -8,6 +8,7 @@
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/prediction.h"
+#include "calibrate/fit/stiffness_check.h"
 #include "calibrate/fit/unit_box.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_run.h"
@@ -42,19 +43,44 @@ std::vector<int> fit_runs(const Problem& problem, const std::vector<Experiment>&
 }
 
 /// Wherever the coefficients are, a check has as many jobs.
-std::vector<Job> check_jobs(const Problem& problem, int repeats) {
+std::vector<double> middle_of(const Problem& problem) {
   std::vector<double> middle;
   for (const Parameter& parameter : problem.parameters) {
     middle.push_back((parameter.min + parameter.max) / 2);
   }
-  return verification_jobs(problem, middle, repeats, 0);
+  return middle;
 }
 
 /// Of one experiment, in a check with so many repeats of the dearest.
 int check_runs(const Problem& problem, const std::string& experiment, int repeats) {
-  const std::vector<Job> jobs = check_jobs(problem, repeats);
-  return static_cast<int>(std::count_if(
-      jobs.begin(), jobs.end(), [&](const Job& job) { return job.experiment == experiment; }));
+  return static_cast<int>(std::ranges::count(
+      verification_jobs(problem, middle_of(problem), repeats, 0), experiment, &Job::experiment));
+}
+
+double run_s_of_all(const Problem& problem, const std::vector<Job>& jobs) {
+  double seconds = 0;
+  for (const Job& job : jobs) {
+    seconds += run_s_of(experiment_named(problem, job.experiment), job.relative_stiffness);
+  }
+  return seconds;
+}
+
+/// Of the last runs: those that predict what is held out, and those of stiffer grains.
+void count_last_runs(const Problem& problem, int repeats,
+                     std::vector<ExperimentEstimate>& estimates) {
+  const StiffnessPlan plan = plan_stiffness(problem, middle_of(problem), repeats);
+  for (ExperimentEstimate& estimate : estimates) {
+    for (const Job& job : plan.jobs) {
+      if (job.experiment != estimate.experiment) continue;
+      if (job.relative_stiffness == 1) {
+        ++estimate.check_runs;
+        continue;
+      }
+      ++estimate.stiff_runs;
+      estimate.stiff_run_s =
+          run_s_of(experiment_named(problem, job.experiment), job.relative_stiffness);
+    }
+  }
 }
 
 }  // namespace
@@ -71,20 +97,25 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
                          .run_s = experiments[e].run_s,
                          .check_run_s = run_s_of(experiments[e], 1),
                          .fit_runs = runs[e],
-                         .check_runs = checks});
+                         .check_runs = checks,
+                         .stiff_run_s = 0,
+                         .stiff_runs = 0});
   }
   for (const Experiment& experiment : held_out_experiments(problem)) {
     estimates.push_back({.experiment = experiment.name,
                          .run_s = experiment.run_s,
                          .check_run_s = run_s_of(experiment, 1),
                          .fit_runs = 0,
-                         .check_runs = prediction_runs(experiment)});
+                         .check_runs = prediction_runs(experiment),
+                         .stiff_run_s = 0,
+                         .stiff_runs = 0});
   }
+  count_last_runs(problem, budget.verification_repeats, estimates);
   return estimates;
 }
 
-double prediction_s(const Problem& problem) {
-  double seconds = 0;
+double last_runs_s(const Problem& problem, int repeats) {
+  double seconds = plan_stiffness(problem, middle_of(problem), repeats).run_s;
   for (const Experiment& experiment : held_out_experiments(problem)) {
     seconds += run_s_of(experiment, 1) * prediction_runs(experiment);
   }
@@ -92,11 +123,7 @@ double prediction_s(const Problem& problem) {
 }
 
 double check_s(const Problem& problem, int repeats) {
-  double seconds = 0;
-  for (const Experiment& experiment : measured_experiments(problem)) {
-    seconds += run_s_of(experiment, 1) * check_runs(problem, experiment.name, repeats);
-  }
-  return seconds;
+  return run_s_of_all(problem, verification_jobs(problem, middle_of(problem), repeats, 0));
 }
 
 std::vector<int> runs_for(const Problem& problem, double seconds) {

@@ -19,6 +19,8 @@ struct ExperimentEstimate {
   double check_run_s = 0;  ///< likewise, of a run of a check, which may be stiffer
   int fit_runs = 0;        ///< in all rounds of the fit
   int check_runs = 0;      ///< with fresh seeds afterwards, or to predict what is held out
+  double stiff_run_s = 0;  ///< likewise, of a run with stiffer grains than the study's
+  int stiff_runs = 0;
 };
 
 std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& budget);
@@ -26,8 +28,8 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
 /// Work of one check of one set of coefficients, s by the program's own measure.
 double check_s(const Problem& problem, int repeats);
 
-/// Work of predicting what is held out, likewise.
-double prediction_s(const Problem& problem);
+/// Work of what follows the last check, likewise: predictions of what is held out, stiffer grains.
+double last_runs_s(const Problem& problem, int repeats);
 
 /// Runs of each experiment that so many seconds buy, in the order of estimate_of; none of those
 /// held out, which come last there.

@@ -146,7 +146,8 @@ class Maker {
          .is_stochastic = entry.is_stochastic,
          .measurable = measurable(entry),
          .readings_per_run = readings_per_run(entry),
-         .relative_stiffness = relative_stiffness});
+         .relative_stiffness = relative_stiffness,
+         .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured) add(observable_of(measured), entry, "value");
     for (const dem::MeasuredReading& reading : measured.also) {

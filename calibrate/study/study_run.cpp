@@ -49,6 +49,7 @@ bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
     left_s += estimate.fit_runs * estimate.run_s;
     checks_s += estimate.check_runs * estimate.check_run_s;
+    checks_s += estimate.stiff_runs * estimate.stiff_run_s;
   }
   for (int round = 1;; ++round) {
     const std::vector<Job> jobs = propose(problem, runs);
@@ -80,9 +81,9 @@ bool try_family(const Problem& problem, const Budget& budget, JobRunner& runner,
     jobs.insert(jobs.end(), of_set.begin(), of_set.end());
     tried.push_back(set.values);
   }
-  const auto checks = runner.get(
-      "checking equally good sets", jobs,
-      kMostCheckRounds * check_s(problem, budget.verification_repeats) + prediction_s(problem));
+  const auto checks = runner.get("checking equally good sets", jobs,
+                                 kMostCheckRounds * check_s(problem, budget.verification_repeats) +
+                                     last_runs_s(problem, budget.verification_repeats));
   if (!checks) return false;
   outcome.runs = joined(std::move(outcome.runs), *checks);
   return true;
@@ -112,7 +113,7 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
         verification_jobs(problem, values, budget.verification_repeats, outcome.check_rounds),
         (kMostCheckRounds - outcome.check_rounds - 1) *
                 check_s(problem, budget.verification_repeats) +
-            prediction_s(problem));
+            last_runs_s(problem, budget.verification_repeats));
     if (!checks) return false;
     ++outcome.check_rounds;
     outcome.checks = *checks;
@@ -158,6 +159,26 @@ bool predict(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
   return true;
 }
 
+/// Simulates softened experiments with stiffer grains at the coefficients that were checked last.
+/// False when interrupted.
+bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
+             StudyOutcome& outcome) {
+  const StiffnessPlan plan =
+      plan_stiffness(problem, outcome.best.values, budget.verification_repeats);
+  for (const std::string& experiment : plan.too_dear) {
+    outcome.notes.push_back(fmt::format(
+        "{}: it is not known what its stiffness_factor does to its readings: stiffer grains would "
+        "take more than a fifth of this budget. A larger budget simulates them.",
+        experiment));
+  }
+  if (plan.jobs.empty()) return true;
+  const auto runs = runner.get("simulating stiffer grains", plan.jobs, 0);
+  if (!runs) return false;
+  outcome.stiffness =
+      check_stiffness(problem, outcome.best.values, joined(outcome.runs, *runs), outcome.fit);
+  return true;
+}
+
 constexpr double kNormal95 = 1.96;
 
 /// What softening did to the readings, where rounds softened.
@@ -174,6 +195,20 @@ void note_softening(const Problem& problem, StudyOutcome& outcome) {
         "it. Softness changed the reading by {:+.2g} ± {:.2g} {} (95 %), which the fit takes out.",
         fitted.name, part, decades * fitted.softening_shift->mean,
         kNormal95 * decades * fitted.softening_shift->uncertainty, fitted.unit));
+  }
+}
+
+/// Readings that are not those of real grains.
+void note_stiffness(StudyOutcome& outcome) {
+  for (const StiffnessCheck& check : outcome.stiffness) {
+    if (check.verdict != AgreementVerdict::disagrees) continue;
+    outcome.notes.push_back(fmt::format(
+        "{}: grains {:.3g} times stiffer change the reading by {:+.3g} {} (95 %: {:.3g} to "
+        "{:.3g}), "
+        "the bench's mean is known within {:.2g}: the study's grains are too soft, and its "
+        "coefficients make up for that. Fix: a larger stiffness_factor for this experiment.",
+        check.name, check.stiffness, check.change, check.unit, check.interval.low,
+        check.interval.high, check.limit));
   }
 }
 
@@ -217,11 +252,13 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
     if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
     judge_family(problem, outcome);
     if (!predict(problem, runner, outcome)) return std::nullopt;
+    if (!stiffen(problem, budget, runner, outcome)) return std::nullopt;
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }
   note_checks(problem, outcome);
   note_softening(problem, outcome);
+  note_stiffness(outcome);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();
   outcome.reused = runner.reused();

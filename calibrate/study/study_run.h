@@ -6,6 +6,7 @@
 
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/prediction.h"
+#include "calibrate/fit/stiffness_check.h"
 #include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_context.h"
@@ -30,6 +31,7 @@ struct StudyOutcome {
   std::vector<SurrogateCheck> surrogates;  ///< what was expected of that check before
   std::vector<CheckedSet> family;          ///< those simulated that still fit
   std::vector<Prediction> predictions;     ///< of what was held out
+  std::vector<StiffnessCheck> stiffness;   ///< of softened experiments that the budget allows for
   std::vector<Run> runs;                   ///< those that the fit was made from
   std::vector<Run> checks;                 ///< those of the last check
   std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs

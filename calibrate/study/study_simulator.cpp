@@ -1,5 +1,6 @@
 #include "calibrate/study/study_simulator.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -28,7 +29,7 @@ StudySimulator::StudySimulator(dem::Study study, dem::ClumpFile grain,
 RunSpec StudySimulator::spec(const Job& job) const {
   const dem::Experiment experiment = dem::experiment_named(job.experiment).experiment;
   RunSpec spec = spec_of(study_, experiment, grain_, heap_views_);
-  spec.model.stiffness_factor *= job.relative_stiffness;
+  spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.relative_stiffness);
   for (std::size_t k = 0; k < names_.size(); ++k) {
     coefficient_named(names_[k], spec.model) = job.values.at(k);
   }

@@ -107,6 +107,29 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
       calibrate::kDrawnSets));
 }
 
+/// What softening leaves open.
+void add_stiffness(const calibrate::JointResult& joint, Page& page) {
+  if (joint.stiffness_checks.empty()) return;
+  Table table({{.heading = "stiffer grains"},
+               number_column("stiffness"),
+               number_column("change"),
+               {.heading = "95 % interval"},
+               number_column("limit"),
+               {.heading = "verdict"}});
+  for (const calibrate::StiffnessCheck& check : joint.stiffness_checks) {
+    table.add_row({check.unit.empty() ? check.name : fmt::format("{} [{}]", check.name, check.unit),
+                   fmt::format("× {:.3g}", check.stiffness), number(check.change),
+                   fmt::format("{} … {}", number(check.interval.low), number(check.interval.high)),
+                   number(check.limit), name_of(check.verdict)});
+  }
+  page.add_gap();
+  page.add(table);
+  page.add(
+      "(what grains stiffer than the study's change in a reading, at these coefficients; limit: "
+      "the "
+      "half-width of the 95 % interval of the bench's mean)");
+}
+
 void add_family(const calibrate::JointResult& joint, Page& page) {
   if (joint.equivalence_family.empty()) return;
   std::vector<Column> columns(joint.parameters.size(), number_column(""));
@@ -170,6 +193,7 @@ std::string joint_table(const calibrate::JointResult& joint,
   page.add("(± is the standard uncertainty of the mean; simulated with fresh seeds)");
   add_agreement(joint, page);
   add_predictions(joint, page);
+  add_stiffness(joint, page);
   add_family(joint, page);
   add_advice(joint, page);
   add_additions(joint, page);

@@ -81,8 +81,11 @@ BudgetColumn budget_column(const BudgetPlan& budget, const Pace& pace, int jobs)
   for (const calibrate::ExperimentEstimate& estimate : budget.estimates) {
     const double run_s = estimate.run_s * pace.at(estimate.experiment);
     fit_s += estimate.fit_runs * run_s;
-    checks_s += estimate.check_runs * estimate.check_run_s * pace.at(estimate.experiment);
-    column.runs.push_back(fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs));
+    checks_s +=
+        (estimate.check_runs * estimate.check_run_s + estimate.stiff_runs * estimate.stiff_run_s) *
+        pace.at(estimate.experiment);
+    column.runs.push_back(
+        fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs + estimate.stiff_runs));
   }
   column.time = duration((fit_s + checks_s) / jobs);
   return column;

@@ -150,6 +150,20 @@ Prediction held_out_roll() {
           .verdict = AgreementVerdict::cannot_tell};
 }
 
+StiffnessCheck stiffer_drop() {
+  return {.name = "drop",
+          .unit = "mm",
+          .stiffness = 10,
+          .change = -1.5,
+          .uncertainty = .5,
+          .interval = {-2.75, -.25},
+          .chance = .03,
+          .limit = 1.25,
+          .runs = 5,
+          .failed_runs = 1,
+          .verdict = AgreementVerdict::cannot_tell};
+}
+
 Candidate constant_torque() {
   return {.name = "constant_torque",
           .means = .5,
@@ -172,6 +186,7 @@ StudyResult joint_result() {
                     .rounds = 2,
                     .values = {.4, .3}},
       .held_out = {held_out_roll()},
+      .stiffness_checks = {stiffer_drop()},
       .chi2 = .5,
       .correlation = {{1, .25}, {.25, 1}},
       .reading_correlation = {{1}},

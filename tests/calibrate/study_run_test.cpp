@@ -132,6 +132,42 @@ TEST_F(StudyRun, WhatIsHeldOutIsPredictedAndNotFitted) {
   EXPECT_THAT(outcome->fit.parameters[1].advice, HasSubstr("fit the tilt experiment too"));
 }
 
+TEST_F(StudyRun, SoftenedExperimentsAreSimulatedWithStifferGrainsAtTheEnd) {
+  const std::vector<std::string> softened = {"experiment.drop.stiffness_factor = 0.25"};
+  const Problem problem = small_problem(read(softened));
+  EXPECT_EQ(problem.experiments[0].real_stiffness, 4);
+  EXPECT_EQ(problem.experiments[1].real_stiffness, 1);
+  const auto outcome = run("softened", 2, -1, softened);
+  ASSERT_TRUE(outcome);
+  ASSERT_THAT(outcome->stiffness, SizeIs(1));
+  const StiffnessCheck& drop = outcome->stiffness[0];
+  EXPECT_EQ(drop.name, "drop");
+  EXPECT_EQ(drop.stiffness, 4) << "as stiff as real grains, no stiffer";
+  EXPECT_EQ(drop.runs, 6);
+  EXPECT_LT(std::abs(drop.change), .5) << "restitution does not depend on stiffness";
+  EXPECT_EQ(drop.verdict, AgreementVerdict::agrees);
+  for (const auto& known : outcome->runs)
+    EXPECT_LE(known.job.relative_stiffness, 1) << "none is fitted";
+  EXPECT_THAT(run("real", 2)->stiffness, IsEmpty());
+}
+
+TEST_F(StudyRun, WhereTheBudgetAllowsForNoStifferGrainsThatIsSaid) {
+  const dem::Study study = read({"experiment.drop.stiffness_factor = 0.25"});
+  Problem problem = small_problem(study);
+  problem.settings.budget_s = 1.5;
+  Budget many = budget();
+  many.verification_repeats = 60;
+  StudySimulator simulator = simulator_of(study);
+  const RunFolder runs(folder_.path() / "dear");
+  ThreadExecutor executor(simulator, 2);
+  const std::atomic<bool> is_interrupted = false;
+  const auto outcome = run_study(problem, many, {simulator, runs, executor, is_interrupted});
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->stiffness, IsEmpty());
+  EXPECT_THAT(outcome->notes,
+              Contains(HasSubstr("drop: it is not known what its stiffness_factor")));
+}
+
 TEST_F(StudyRun, SomethingMustBeLeftToFit) {
   const dem::Study study =
       read({"experiment.tilt.held_out = true", "experiment.drop.held_out = true"});

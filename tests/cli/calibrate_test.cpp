@@ -100,6 +100,21 @@ TEST_F(Calibrate, PredictsWhatIsHeldOut) {
   EXPECT_EQ(run({"study.toml", "--set", "experiment.tilt.held_out = 1"}).exit_code, 2);
 }
 
+TEST_F(Calibrate, ShowsWhatStifferGrainsChange) {
+  const std::string softened = "experiment.drop.stiffness_factor = 0.25";
+  const Finished done = run({"study.toml", "--set", softened, "--json", "result.json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("stiffer grains"), HasSubstr("× 4")));
+  const json result = json::parse(text("result.json"));
+  ASSERT_EQ(result["stiffness_checks"].size(), 1U);
+  EXPECT_EQ(result["stiffness_checks"][0]["name"], "drop");
+  EXPECT_EQ(result["stiffness_checks"][0]["verdict"], "agrees");
+  const Finished dry = run({"study.toml", "--dry-run"});
+  const Finished soft = run({"study.toml", "--set", softened, "--dry-run"});
+  EXPECT_NE(dry.out.substr(dry.out.find("drop"), 30), soft.out.substr(soft.out.find("drop"), 30))
+      << "stiffer grains are among the simulations that it counts";
+}
+
 TEST_F(Calibrate, RefusesRollingModelsThatCannotBeWeighed) {
   const Finished done =
       run({"study.toml", "--rolling-models", "constant_torque,sliding", "--method", "paper",

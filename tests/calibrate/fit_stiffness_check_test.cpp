@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/fit/prediction.h"
+#include "calibrate/fit/stiffness_check.h"
+#include "calibrate/fit/verification.h"
+#include "tests/calibrate/fake_simulator.h"
+#include "tests/support/error_of.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+
+Experiment& experiment_of(Problem& problem, const std::string& name) {
+  return *std::ranges::find(problem.experiments, name, &Experiment::name);
+}
+
+/// Everything measured; the real grains of one experiment are stiffer than the study's.
+Problem softening(const std::string& experiment, double real_stiffness = 1000,
+                  std::uint64_t seed = 1) {
+  Problem problem = fake::problem(kTruth, seed);
+  problem.settings.budget_s = 1e6;
+  experiment_of(problem, experiment).real_stiffness = real_stiffness;
+  return problem;
+}
+
+void hold_out(const std::string& experiment, Problem& problem) {
+  for (const Observable& observable : problem.observables) {
+    if (observable.experiment == experiment) problem.held_out.push_back(observable);
+  }
+  std::erase_if(problem.observables,
+                [&](const Observable& observable) { return observable.experiment == experiment; });
+}
+
+/// As much of a fit as a check needs; it knows nothing of the scatter of runs.
+JointFit fit_of(const Problem& problem) {
+  JointFit fit;
+  for (const Observable& observable : problem.observables) {
+    FittedObservable& fitted = fit.observables.emplace_back();
+    fitted.measured_uncertainty = standard_uncertainty(observable);
+    fit.surrogates.emplace_back().runs = 2;
+  }
+  return fit;
+}
+
+std::vector<StiffnessCheck> checks_of(const Problem& problem, int repeats) {
+  fake::Runs runs = fake::run_all(plan_stiffness(problem, kTruth, repeats).jobs);
+  for (Run& run : fake::run_all(verification_jobs(problem, kTruth, repeats, 0))) {
+    runs.push_back(std::move(run));
+  }
+  return check_stiffness(problem, kTruth, runs, fit_of(problem));
+}
+
+TEST(StiffnessCheck, OnlySoftenedExperimentsAreSimulatedTenTimesStiffer) {
+  EXPECT_THAT(plan_stiffness(fake::problem(kTruth, 1), kTruth, 6).jobs, IsEmpty());
+  const StiffnessPlan plan = plan_stiffness(softening("heap"), kTruth, 6);
+  ASSERT_THAT(plan.jobs, SizeIs(6));
+  std::set<std::uint64_t> seeds;
+  for (const Job& job : plan.jobs) {
+    EXPECT_EQ(job.experiment, "heap");
+    EXPECT_EQ(job.relative_stiffness, 10);
+    EXPECT_EQ(job.values, kTruth);
+    seeds.insert(job.seed);
+  }
+  EXPECT_THAT(seeds, SizeIs(6));
+  EXPECT_NEAR(plan.run_s, 6 * 25 * std::sqrt(10), 1e-9) << "a step is shorter by the root";
+}
+
+TEST(StiffnessCheck, NoGrainIsStifferThanTheRealOnes) {
+  const StiffnessPlan plan = plan_stiffness(softening("tilt", 4), kTruth, 6);
+  ASSERT_THAT(plan.jobs, SizeIs(1)) << "without chance one run is enough";
+  EXPECT_EQ(plan.jobs[0].relative_stiffness, 4);
+}
+
+TEST(StiffnessCheck, SeedsAreThoseOfNoOtherRun) {
+  Problem problem = softening("heap");
+  std::set<std::uint64_t> taken;
+  for (int set = 0; set < 12; ++set) {
+    for (const Job& job : verification_jobs(problem, kTruth, 8, set)) taken.insert(job.seed);
+  }
+  hold_out("heap", problem);
+  JointFit fit;
+  fit.drawn.assign(kDrawnSets, kTruth);
+  for (const Job& job : prediction_jobs(problem, fit)) taken.insert(job.seed);
+  for (const Job& job : plan_stiffness(problem, kTruth, 6).jobs) {
+    EXPECT_FALSE(taken.contains(job.seed));
+  }
+}
+
+TEST(StiffnessCheck, WhatIsTooDearForTheBudgetIsNamedAndTheCheaperOnesAreSimulated) {
+  Problem problem = softening("heap");
+  experiment_of(problem, "roll").real_stiffness = 10;
+  problem.settings.budget_s = 1000;
+  const StiffnessPlan plan = plan_stiffness(problem, kTruth, 6);
+  EXPECT_THAT(plan.too_dear, ElementsAre("heap"));
+  ASSERT_THAT(plan.jobs, SizeIs(6));
+  EXPECT_EQ(plan.jobs[0].experiment, "roll");
+  EXPECT_THAT(check_stiffness(problem, kTruth, fake::run_all(plan.jobs), fit_of(problem)),
+              SizeIs(1));
+}
+
+TEST(StiffnessCheck, IntervalsHoldTheChangeAsOftenAsTheySay) {
+  constexpr int kStudies = 300;
+  int held = 0, seen = 0;
+  for (int seed = 1; seed <= kStudies; ++seed) {
+    const auto checks =
+        checks_of(softening("heap", 1000, static_cast<std::uint64_t>(1000 * seed)), 5);
+    ASSERT_THAT(checks, SizeIs(1));
+    const Interval& interval = checks[0].interval;
+    held += interval.low <= -fake::kSofteningShift && -fake::kSofteningShift <= interval.high;
+    seen += checks[0].verdict == AgreementVerdict::disagrees;
+    EXPECT_NE(checks[0].verdict, AgreementVerdict::agrees) << "the change is five times the limit";
+  }
+  EXPECT_NEAR(held, .95 * kStudies, 12);
+  EXPECT_GT(seen, .9 * kStudies) << "2.5 degrees, of which single heaps scatter by .7";
+}
+
+TEST(StiffnessCheck, WhatDoesNotChangeIsShownToBeWithinTheLimitOrCannotBeTold) {
+  Problem problem = softening("roll");
+  std::ranges::find(problem.observables, "roll", &Observable::name)->n = 40;
+  EXPECT_EQ(checks_of(problem, 5).at(0).verdict, AgreementVerdict::cannot_tell);
+  const StiffnessCheck check = checks_of(problem, 400).at(0);
+  EXPECT_EQ(check.verdict, AgreementVerdict::agrees);
+  EXPECT_EQ(check.runs, 400);
+  EXPECT_GT(check.limit, check.interval.high);
+}
+
+TEST(StiffnessCheck, WithoutChanceTheChangeIsExact) {
+  const StiffnessCheck check = checks_of(softening("tilt"), 5).at(0);
+  EXPECT_EQ(check.change, 0);
+  EXPECT_EQ(check.uncertainty, 0);
+  EXPECT_EQ(check.verdict, AgreementVerdict::agrees);
+}
+
+TEST(StiffnessCheck, WhatIsHeldOutIsSimulatedAsStiffAsTheStudyToo) {
+  Problem problem = softening("heap");
+  hold_out("heap", problem);
+  EXPECT_THAT(plan_stiffness(problem, kTruth, 6).jobs, SizeIs(12));
+  const StiffnessCheck check = checks_of(problem, 6).at(0);
+  EXPECT_EQ(check.name, "heap");
+  EXPECT_NEAR(check.change, -fake::kSofteningShift, 1.5);
+}
+
+TEST(StiffnessCheck, StifferGrainsThatGiveNoReadingDisagree) {
+  const Problem problem = softening("heap");
+  fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 5, 0));
+  for (const Job& job : plan_stiffness(problem, kTruth, 5).jobs) {
+    runs.push_back({job, {}, "the grains stay in the tube"});
+  }
+  const StiffnessCheck never = check_stiffness(problem, kTruth, runs, fit_of(problem)).at(0);
+  EXPECT_EQ(never.verdict, AgreementVerdict::disagrees);
+  EXPECT_EQ(never.failed_runs, 5);
+  EXPECT_TRUE(std::isnan(never.change));
+}
+
+TEST(StiffnessCheck, RealGrainsAreNoSofterThanTheStudys) {
+  const Problem problem = softening("heap", .5);
+  EXPECT_THAT(error_of([&] { require_sound(problem); }), HasSubstr("real_stiffness = 0.5"));
+}
+
+}  // namespace
+}  // namespace repose::calibrate
