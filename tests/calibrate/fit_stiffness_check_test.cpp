@@ -112,9 +112,8 @@ TEST(StiffnessCheck, WhatIsTooDearForTheBudgetIsNamedAndTheCheaperOnesAreSimulat
 TEST(StiffnessCheck, IntervalsHoldTheChangeAsOftenAsTheySay) {
   constexpr int kStudies = 300;
   int held = 0, seen = 0;
-  for (int seed = 1; seed <= kStudies; ++seed) {
-    const auto checks =
-        checks_of(softening("heap", 1000, static_cast<std::uint64_t>(1000 * seed)), 5);
+  for (std::uint64_t seed = 1; seed <= kStudies; ++seed) {
+    const auto checks = checks_of(softening("heap", 1000, 1000 * seed), 5);
     ASSERT_THAT(checks, SizeIs(1));
     const Interval& interval = checks[0].interval;
     held += interval.low <= -fake::kSofteningShift && -fake::kSofteningShift <= interval.high;
