@@ -16,7 +16,7 @@ using ErrorList = std::vector<std::string>;
 
 void check_parameter(const Parameter& parameter, ErrorList& errors) {
   const std::string& name = parameter.name;
-  if (name.empty()) errors.push_back("a parameter has no name. Fix: name it");
+  if (name.empty()) errors.emplace_back("a parameter has no name. Fix: name it");
   if (!std::isfinite(parameter.min) || !std::isfinite(parameter.max)) {
     errors.push_back(fmt::format("{}: min = {}, max = {} are not both numbers. Fix: give both",
                                  name, parameter.min, parameter.max));
@@ -188,10 +188,10 @@ void check_settings(const Problem& problem, ErrorList& errors) {
 std::vector<std::string> errors_of(const Problem& problem) {
   ErrorList errors;
   if (problem.parameters.empty()) {
-    errors.push_back("no parameter is sought. Fix: give at least one its bounds");
+    errors.emplace_back("no parameter is sought. Fix: give at least one its bounds");
   }
   if (problem.observables.empty()) {
-    errors.push_back("nothing was measured. Fix: give at least one observable");
+    errors.emplace_back("nothing was measured. Fix: give at least one observable");
   }
   check_names(problem.parameters, "parameters", errors);
   check_names(problem.experiments, "experiments", errors);
