@@ -103,6 +103,7 @@ std::optional<StiffnessCheck> check_of(const Problem& problem, const std::vector
   StiffnessCheck check{.name = observable.name,
                        .unit = observable.unit,
                        .stiffness = stiffness,
+                       .stiffness_factor = stiffness / experiment.real_stiffness,
                        .change = kNone,
                        .uncertainty = kNone,
                        .interval = {kNone, kNone},

@@ -14,13 +14,14 @@ namespace repose::calibrate {
 struct StiffnessCheck {
   std::string name;
   std::string unit;
-  double stiffness = 1;    ///< of the stiffer grains, as a multiple of the study's
-  double change = 0;       ///< of the mean: stiffer less the study's
-  double uncertainty = 0;  ///< standard uncertainty of the change
-  Interval interval;       ///< 95 %
-  double chance = 0;       ///< of so large a change by chance
-  double limit = 0;        ///< half-width of the measured mean's 95 % interval
-  int runs = 0;            ///< of stiffer grains, with a reading
+  double stiffness = 1;         ///< of the stiffer grains, as a multiple of the study's
+  double stiffness_factor = 1;  ///< the same as a part of the real one
+  double change = 0;            ///< of the mean: stiffer less the study's
+  double uncertainty = 0;       ///< standard uncertainty of the change
+  Interval interval;            ///< 95 %
+  double chance = 0;            ///< of so large a change by chance
+  double limit = 0;             ///< half-width of the measured mean's 95 % interval
+  int runs = 0;                 ///< of stiffer grains, with a reading
   int failed_runs = 0;
   /// agrees: the change is shown to be within the limit. disagrees: it is more than chance makes.
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;

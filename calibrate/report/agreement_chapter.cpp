@@ -173,7 +173,7 @@ Table stiffness_table(const JointResult& joint) {
   Table table{.name = "stiffness_checks",
               .title = "Stiffer grains at the same coefficients",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
-                                   {.name = "stiffness, × the study's", .unit = {}},
+                                   {.name = "stiffness factor", .unit = {}},
                                    {.name = "change", .unit = {}},
                                    {.name = "95 % from", .unit = {}},
                                    {.name = "95 % to", .unit = {}},
@@ -182,7 +182,7 @@ Table stiffness_table(const JointResult& joint) {
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}}};
   for (const StiffnessCheck& check : joint.stiffness_checks) {
-    table.data.add({axis_of_observable(check.name, check.unit), cell(check.stiffness),
+    table.data.add({axis_of_observable(check.name, check.unit), cell(check.stiffness_factor),
                     cell(check.change), cell(check.interval.low), cell(check.interval.high),
                     cell(100 * check.chance), cell(check.limit), name_of(check.verdict)});
   }

@@ -157,6 +157,7 @@ void fields(Io& io, Held<Io, StiffnessCheck>& check) {
   io("name", check.name);
   io("unit", check.unit);
   io("stiffness", check.stiffness);
+  io("stiffness_factor", check.stiffness_factor);
   io("change", check.change);
   io("uncertainty", check.uncertainty);
   io("interval", check.interval);

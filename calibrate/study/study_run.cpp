@@ -203,12 +203,13 @@ void note_stiffness(StudyOutcome& outcome) {
   for (const StiffnessCheck& check : outcome.stiffness) {
     if (check.verdict != AgreementVerdict::disagrees) continue;
     outcome.notes.push_back(fmt::format(
-        "{}: grains {:.3g} times stiffer change the reading by {:+.3g} {} (95 %: {:.3g} to "
-        "{:.3g}), "
-        "the bench's mean is known within {:.2g}: the study's grains are too soft, and its "
-        "coefficients make up for that. Fix: a larger stiffness_factor for this experiment.",
-        check.name, check.stiffness, check.change, check.unit, check.interval.low,
-        check.interval.high, check.limit));
+        "{}: the study's grains are too soft for this reading, and the coefficients make up for "
+        "it: "
+        "with a stiffness_factor of {:.3g} it changes by {:+.3g} {} (95 %: {:.3g} to {:.3g}), and "
+        "the bench's mean is known within {:.2g}. Fix: stiffness_factor = {:.3g}, and calibrate "
+        "again.",
+        check.name, check.stiffness_factor, check.change, check.unit, check.interval.low,
+        check.interval.high, check.limit, check.stiffness_factor));
   }
 }
 

@@ -111,22 +111,21 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
 void add_stiffness(const calibrate::JointResult& joint, Page& page) {
   if (joint.stiffness_checks.empty()) return;
   Table table({{.heading = "stiffer grains"},
-               number_column("stiffness"),
+               number_column("factor"),
                number_column("change"),
                {.heading = "95 % interval"},
                number_column("limit"),
                {.heading = "verdict"}});
   for (const calibrate::StiffnessCheck& check : joint.stiffness_checks) {
     table.add_row({check.unit.empty() ? check.name : fmt::format("{} [{}]", check.name, check.unit),
-                   fmt::format("× {:.3g}", check.stiffness), number(check.change),
+                   fmt::format("{:.3g}", check.stiffness_factor), number(check.change),
                    fmt::format("{} … {}", number(check.interval.low), number(check.interval.high)),
                    number(check.limit), name_of(check.verdict)});
   }
   page.add_gap();
   page.add(table);
   page.add(
-      "(what grains stiffer than the study's change in a reading, at these coefficients; limit: "
-      "the "
+      "(what a larger stiffness_factor changes in a reading, at these coefficients; limit: the "
       "half-width of the 95 % interval of the bench's mean)");
 }
 

@@ -147,6 +147,7 @@ TEST(StiffnessCheck, WhatIsHeldOutIsSimulatedAsStiffAsTheStudyToo) {
   EXPECT_THAT(plan_stiffness(problem, kTruth, 6).jobs, SizeIs(12));
   const StiffnessCheck check = checks_of(problem, 6).at(0);
   EXPECT_EQ(check.name, "heap");
+  EXPECT_NEAR(check.stiffness_factor, .01, 1e-12) << "ten times that of the study, 0.001";
   EXPECT_NEAR(check.change, -fake::kSofteningShift, 1.5);
 }
 

@@ -154,6 +154,7 @@ StiffnessCheck stiffer_drop() {
   return {.name = "drop",
           .unit = "mm",
           .stiffness = 10,
+          .stiffness_factor = .1,
           .change = -1.5,
           .uncertainty = .5,
           .interval = {-2.75, -.25},
