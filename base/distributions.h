@@ -4,6 +4,9 @@
 /// own: the library that computes them takes long to compile.
 namespace repose::base {
 
+/// A normal variable lies within so many standard deviations of its mean 95 times in 100.
+inline constexpr double kNormal95 = 1.959963984540054;
+
 /// The t below which a variable of `df` > 0 degrees of freedom lies with `probability` (0 ... 1).
 double student_t_quantile(double probability, double df);
 

@@ -13,7 +13,7 @@
 namespace repose::base {
 namespace {
 
-constexpr mode_t kAsUsual = 0666;  // less what the process's mask takes away
+constexpr mode_t kForAll = 0666;  // less what the process's mask takes away
 
 struct flock whole_file() {
   struct flock lock {};
@@ -32,7 +32,7 @@ std::string owner_of(int descriptor) {
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file)
-    : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAsUsual)) {
+    : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kForAll)) {
   if (descriptor_ < 0) {
     throw std::invalid_argument(
         fmt::format("{}: cannot be written ({}). Fix: choose a writable folder, or free "

@@ -35,10 +35,6 @@ fs::path place_of(const fs::path& file) {
   return place;
 }
 
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 /// With what the names of a file's parts begin. Names have 255 bytes at most.
 std::string part_beginning(const fs::path& file) {
   constexpr std::size_t kMost = 200;
@@ -101,6 +97,10 @@ void remove_leftovers(const fs::path& folder,
 }
 
 }  // namespace
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 PartFile::PartFile(const fs::path& file) : file_(place_of(file)) {
   while (descriptor_ < 0) {

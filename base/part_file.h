@@ -6,6 +6,9 @@
 
 namespace repose::base {
 
+/// The folder that a file is in; the present one where its name says none.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 /// A file that is being written beside the place that it is for. Put into that place it replaces
 /// the earlier file at once, with its rights; otherwise it goes away. A process that was killed
 /// leaves it there, unlocked, for remove_leftovers().

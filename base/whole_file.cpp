@@ -8,18 +8,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/part_file.h"
+
 namespace repose::base {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const fs::path& file, const std::string& what, const char* fix) {
-  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
-}
-
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
 
 /// Devices and pipes (/dev/null, a named pipe) are written to; renaming would replace them. So are
 /// names of open streams such as /dev/stdout, whatever these are.
@@ -64,6 +58,10 @@ std::error_code write_to_device(const fs::path& file, std::span<const std::byte>
 }
 
 }  // namespace
+
+void refuse(const fs::path& file, const std::string& what, const std::string& fix) {
+  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
+}
 
 std::unique_ptr<PartFile> part_of(const fs::path& file) {
   check_place(file);

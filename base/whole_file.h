@@ -16,6 +16,10 @@
 /// the rights of the earlier file stay.
 namespace repose::base {
 
+/// @throws std::invalid_argument  "FILE: what. Fix: ..."
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what,
+                         const std::string& fix);
+
 /// More than this no file that is read whole may have, unless its reader allows less.
 inline constexpr std::uintmax_t kLargestFile_bytes = std::uintmax_t{1} << 30;
 

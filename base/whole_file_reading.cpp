@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& fix) {
-  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
-}
-
 [[noreturn]] void refuse_unreadable(const fs::path& file, int error) {
   refuse(file, fmt::format("cannot be read ({})", std::generic_category().message(error)),
          "correct the name, or get permission to read it.");

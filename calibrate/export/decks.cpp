@@ -6,25 +6,23 @@
 
 namespace repose::calibrate {
 
-using dem::Experiment;
-
 bool has_decks(ExportTarget target, const dem::Protocol& protocol) {
   const bool is_edem = target == ExportTarget::edem;
   const bool is_liggghts = target == ExportTarget::liggghts;
   switch (dem::entry_of(protocol).experiment) {
-    case Experiment::drop:
-    case Experiment::tilt:
-    case Experiment::roll:
+    case dem::Experiment::drop:
+    case dem::Experiment::tilt:
+    case dem::Experiment::roll:
       return true;
-    case Experiment::heap:
+    case dem::Experiment::heap:
       return target != ExportTarget::lammps;
-    case Experiment::fill:
+    case dem::Experiment::fill:
       return is_edem || (is_liggghts && !std::get<dem::FillProtocol>(protocol).taps);
-    case Experiment::pendulum:
-    case Experiment::drop_on_grains:
-    case Experiment::tilt_on_grains:
-    case Experiment::roll_on_grains:
-    case Experiment::draw_down:
+    case dem::Experiment::pendulum:
+    case dem::Experiment::drop_on_grains:
+    case dem::Experiment::tilt_on_grains:
+    case dem::Experiment::roll_on_grains:
+    case dem::Experiment::draw_down:
       break;
   }
   return is_liggghts || is_edem;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error_list.h"
+#include "base/units.h"
 #include "base/version.h"
 #include "calibrate/export/decks.h"
 #include "calibrate/study/coefficients.h"
@@ -21,11 +22,8 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-
 /// How far short of sliding the plate begins to turn, degrees.
 constexpr double kTiltLead_deg = 3;
-constexpr double kDegree = std::numbers::pi / 180;
 /// A grain without rolling friction that its shape alone brings to rest.
 constexpr double kLongestFlat_m = 20;
 
@@ -71,23 +69,23 @@ double ExportFacts::ball_density_kg_m3() const {
   return mass_kg() / dem::sphere_shape(grain().spheres.front().radius).volume_m3;
 }
 
-std::vector<Experiment> ExportFacts::experiments() const {
-  std::vector<Experiment> there;
+std::vector<dem::Experiment> ExportFacts::experiments() const {
+  std::vector<dem::Experiment> there;
   for (const auto& [experiment, described] : study_.experiments) {
     if (has_deck(experiment)) there.push_back(experiment);
   }
   return there;
 }
 
-std::vector<Experiment> ExportFacts::left_out() const {
-  std::vector<Experiment> others;
+std::vector<dem::Experiment> ExportFacts::left_out() const {
+  std::vector<dem::Experiment> others;
   for (const auto& [experiment, described] : study_.experiments) {
     if (!has_deck(experiment)) others.push_back(experiment);
   }
   return others;
 }
 
-bool ExportFacts::has_deck(Experiment experiment) const {
+bool ExportFacts::has_deck(dem::Experiment experiment) const {
   const auto found = study_.experiments.find(experiment);
   return found != study_.experiments.end() && has_decks(target_, found->second.protocol);
 }
@@ -97,11 +95,11 @@ bool ExportFacts::has_grain_contacts() const {
                      [](const auto& one) { return dem::has_grain_contacts(one.first); });
 }
 
-double ExportFacts::stiffness(Experiment experiment) const {
+double ExportFacts::stiffness(dem::Experiment experiment) const {
   return dem::model_for(study_, experiment).stiffness_factor;
 }
 
-dem::ContactTable ExportFacts::contacts(Experiment experiment) const {
+dem::ContactTable ExportFacts::contacts(dem::Experiment experiment) const {
   const dem::Model model = dem::model_for(study_, experiment);
   return dem::model_setup(model, grain(), {dem::study_wall(dem::Plane{})}, 1).contacts;
 }
@@ -115,7 +113,7 @@ std::vector<TouchingPose> ExportFacts::drop_poses() const {
   return poses;
 }
 
-double ExportFacts::longest_drop_s(Experiment drop) const {
+double ExportFacts::longest_drop_s(dem::Experiment drop) const {
   return 2 * speed_m_s(drop) / dem::kStandardGravity_m_s2 +
          4 * std::sqrt(2 * grain().reach_m() / dem::kStandardGravity_m_s2);
 }

@@ -10,40 +10,38 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-
 /// Other programs do not average the first and last step of an impact as ours does.
 constexpr double kTimestepFraction = .5;
 
 /// That gives the speed of the fastest impact that an experiment may see.
-double fall_m(const ExportFacts& facts, Experiment experiment) {
+double fall_m(const ExportFacts& facts, dem::Experiment experiment) {
   const dem::Study& study = facts.study();
   const double reach = facts.grain().reach_m();
   switch (experiment) {
-    case Experiment::drop:
+    case dem::Experiment::drop:
       return study.protocol<dem::DropProtocol>().height_m;
-    case Experiment::tilt:
+    case dem::Experiment::tilt:
       return .01 * reach;
-    case Experiment::roll: {
+    case dem::Experiment::roll: {
       const dem::RollProtocol& roll = study.protocol<dem::RollProtocol>();
       return reach + roll.release_m * std::sin(roll.incline_deg * std::numbers::pi / 180);
     }
-    case Experiment::drop_on_grains:
+    case dem::Experiment::drop_on_grains:
       return study.protocol<dem::GrainDropProtocol>().height_m;
-    case Experiment::tilt_on_grains:
-    case Experiment::roll_on_grains:
+    case dem::Experiment::tilt_on_grains:
+    case dem::Experiment::roll_on_grains:
       return dem::diameter_m(facts.grain());
-    case Experiment::fill: {
+    case dem::Experiment::fill: {
       const dem::FillProtocol& fill = study.protocol<dem::FillProtocol>();
       return fill.tube_height_m + fill.pour_m;
     }
-    case Experiment::pendulum:
+    case dem::Experiment::pendulum:
       return dem::release_height_m(study.protocol<dem::PendulumProtocol>());
-    case Experiment::draw_down: {
+    case dem::Experiment::draw_down: {
       const dem::DrawDownProtocol& boxes = study.protocol<dem::DrawDownProtocol>();
       return boxes.fill_m + boxes.drop_m;
     }
-    case Experiment::heap:
+    case dem::Experiment::heap:
       break;
   }
   return 8 * reach;  // grains that rain into a tube
@@ -51,21 +49,21 @@ double fall_m(const ExportFacts& facts, Experiment experiment) {
 
 }  // namespace
 
-double ExportFacts::speed_m_s(Experiment experiment) const {
+double ExportFacts::speed_m_s(dem::Experiment experiment) const {
   return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m(*this, experiment));
 }
 
-double ExportFacts::timestep_s(Experiment experiment) const {
+double ExportFacts::timestep_s(dem::Experiment experiment) const {
   dem::Model model = dem::model_for(study_, experiment);
   model.timestep_fraction = kTimestepFraction;
   model.timestep_s = {};
   dem::ClumpShape shape = grain();
-  if (experiment == Experiment::tilt) shape = tilt_body();
-  if (experiment == Experiment::tilt_on_grains) {
+  if (experiment == dem::Experiment::tilt) shape = tilt_body();
+  if (experiment == dem::Experiment::tilt_on_grains) {
     shape = dem::bonded_shape(shape, study_.protocol<dem::GrainTiltProtocol>().bonded);
   }
   std::vector<dem::Wall> walls;
-  if (experiment != Experiment::pendulum) walls.push_back(dem::study_wall(dem::Plane{}));
+  if (experiment != dem::Experiment::pendulum) walls.push_back(dem::study_wall(dem::Plane{}));
   return dem::model_setup(model, shape, walls, speed_m_s(experiment)).timestep_s;
 }
 

@@ -11,13 +11,11 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-
 /// Of the rolling spring, as in `elastic_plastic` (dem/THEORY.md): a fraction of the critical one.
 constexpr double kRollingDamping = .3;
 
-ExportedFile material_file(const ExportFacts& facts, const Conversions& conversions) {
-  const Experiment any = facts.experiments().front();
+ExportedFile lammps_material_file(const ExportFacts& facts, const Conversions& conversions) {
+  const dem::Experiment any = facts.experiments().front();
   const dem::ContactTable contacts = facts.contacts(any);
   const dem::ContactLaw& wall = contacts.law(dem::kGrainMaterial, dem::kWallMaterial);
   DeckFields fields = common_fields(facts);
@@ -33,7 +31,7 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
   return {.name = "material.lmp", .text = filled("lammps/material.lmp", fields)};
 }
 
-DeckFields deck_fields(const ExportFacts& facts, Experiment experiment, bool is_sphere) {
+DeckFields lammps_fields(const ExportFacts& facts, dem::Experiment experiment, bool is_sphere) {
   const dem::ContactTable contacts = facts.contacts(experiment);
   const double radius = facts.grain().spheres.front().radius;
   const double mass = facts.mass_kg();
@@ -93,14 +91,14 @@ void add_body(const std::string& name, const dem::ClumpShape& shape, double mass
 void add_drop(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
   const double reach = facts.grain().reach_m();
-  const double speed = facts.speed_m_s(Experiment::drop);
-  DeckFields fields = deck_fields(facts, Experiment::drop, facts.is_sphere());
+  const double speed = facts.speed_m_s(dem::Experiment::drop);
+  DeckFields fields = lammps_fields(facts, dem::Experiment::drop, facts.is_sphere());
   fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
   fields.set("GRAINS", protocol.grains);
   fields.set("ROOM", protocol.height_m + 10 * reach);
   fields.set("TOP", protocol.height_m + 10 * reach);
-  fields.set("STEPS",
-             steps(facts.longest_drop_s(Experiment::drop), facts.timestep_s(Experiment::drop)));
+  fields.set("STEPS", steps(facts.longest_drop_s(dem::Experiment::drop),
+                            facts.timestep_s(dem::Experiment::drop)));
   int number = 0;
   for (const TouchingPose& pose : facts.drop_poses()) {
     fields.add_section("POSE").set("NUMBER", ++number);
@@ -117,8 +115,8 @@ void add_tilt(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const dem::ClumpShape body = facts.tilt_body();
   const TouchingPose pose = facts.tilt_pose();
-  const double timestep = facts.timestep_s(Experiment::tilt);
-  DeckFields fields = deck_fields(facts, Experiment::tilt, body.spheres.size() == 1);
+  const double timestep = facts.timestep_s(dem::Experiment::tilt);
+  DeckFields fields = lammps_fields(facts, dem::Experiment::tilt, body.spheres.size() == 1);
   fields.set("BONDED", protocol.bonded);
   fields.set("RATE", protocol.rate_deg_s);
   fields.set("BEGIN", facts.tilt_begin_deg());
@@ -134,8 +132,8 @@ void add_roll(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Vector normal = dem::incline_of(protocol).normal;
   const double reach = facts.grain().reach_m();
-  const double timestep = facts.timestep_s(Experiment::roll);
-  DeckFields fields = deck_fields(facts, Experiment::roll, facts.is_sphere());
+  const double timestep = facts.timestep_s(dem::Experiment::roll);
+  DeckFields fields = lammps_fields(facts, dem::Experiment::roll, facts.is_sphere());
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
   fields.set("INCLINE", protocol.incline_deg);
   fields.set("NORMAL_X", normal.x());
@@ -155,10 +153,10 @@ void add_roll(const ExportFacts& facts, std::vector<ExportedFile>& files) {
 }  // namespace
 
 std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversions& conversions) {
-  std::vector<ExportedFile> files = {material_file(facts, conversions)};
-  if (facts.has(Experiment::drop)) add_drop(facts, files);
-  if (facts.has(Experiment::tilt)) add_tilt(facts, files);
-  if (facts.has(Experiment::roll)) add_roll(facts, files);
+  std::vector<ExportedFile> files = {lammps_material_file(facts, conversions)};
+  if (facts.has(dem::Experiment::drop)) add_drop(facts, files);
+  if (facts.has(dem::Experiment::tilt)) add_tilt(facts, files);
+  if (facts.has(dem::Experiment::roll)) add_roll(facts, files);
   return files;
 }
 

@@ -12,8 +12,6 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-
 constexpr double kHard_pa = 1e9;
 constexpr double kSoft_pa = 5e6;
 constexpr int kTubeSides = 96;
@@ -22,7 +20,7 @@ void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
   const dem::Study& study = facts.study();
   double softest = HUGE_VAL;
   double hardest = 0;
-  for (const Experiment experiment : facts.experiments()) {
+  for (const dem::Experiment experiment : facts.experiments()) {
     for (const dem::Material* material :
          {&study.model.grain_material, &study.model.wall_material}) {
       const double young = material->young_modulus_pa * facts.stiffness(experiment);
@@ -85,7 +83,7 @@ ExportedFile grain_file(const ExportFacts& facts) {
 
 ExportedFile drop_on_wall_file(const ExportFacts& facts) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
-  return drop_file(facts, {.experiment = Experiment::drop,
+  return drop_file(facts, {.experiment = dem::Experiment::drop,
                            .ground = "a wall",
                            .section = "WALL",
                            .height_m = protocol.height_m,
@@ -96,9 +94,9 @@ ExportedFile tilt_file(const ExportFacts& facts) {
   const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const dem::ClumpShape body = facts.tilt_body();
   const TouchingPose pose = facts.tilt_pose();
-  const double timestep = facts.timestep_s(Experiment::tilt);
+  const double timestep = facts.timestep_s(dem::Experiment::tilt);
   const double begin = facts.tilt_begin_deg();
-  DeckFields fields = deck_fields(facts, Experiment::tilt);
+  DeckFields fields = deck_fields(facts, dem::Experiment::tilt);
   set_body(body, facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(pose.orientation, fields);
   fields.set("BONDED", protocol.bonded);
@@ -115,8 +113,8 @@ ExportedFile roll_file(const ExportFacts& facts) {
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Grain start = facts.roll_start();
   const double reach = facts.grain().reach_m();
-  const double timestep = facts.timestep_s(Experiment::roll);
-  DeckFields fields = deck_fields(facts, Experiment::roll);
+  const double timestep = facts.timestep_s(dem::Experiment::roll);
+  DeckFields fields = deck_fields(facts, dem::Experiment::roll);
   set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(start.orientation, fields);
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
@@ -137,14 +135,14 @@ ExportedFile roll_file(const ExportFacts& facts) {
 ExportedFile heap_file(const ExportFacts& facts) {
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double reach = facts.grain().reach_m();
-  const double timestep = facts.timestep_s(Experiment::heap);
+  const double timestep = facts.timestep_s(dem::Experiment::heap);
   const double tube_m3 = std::numbers::pi / 4 * protocol.tube_diameter_m *
                          protocol.tube_diameter_m * protocol.tube_height_m;
   const int grains = grains_in_heap(facts);
   constexpr double kLoose = .12;  // of a column that random insertion fills without trouble
   const double column =
       grains * facts.grain().volume_m3 / (kLoose * tube_m3) * protocol.tube_height_m;
-  DeckFields fields = deck_fields(facts, Experiment::heap);
+  DeckFields fields = deck_fields(facts, dem::Experiment::heap);
   mark_shape(facts.is_sphere(), fields);
   fields.set("GRAINS", grains);
   fields.set("LIFT", protocol.lift_speed_m_s);
@@ -167,21 +165,21 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
                                      grain_file(facts),
                                      place_file(facts, "place.lig", facts.is_sphere()),
                                      {.name = "clump.txt", .text = spheres_text(facts.grain())}};
-  if (facts.has(Experiment::drop)) files.push_back(drop_on_wall_file(facts));
-  if (facts.has(Experiment::tilt)) {
+  if (facts.has(dem::Experiment::drop)) files.push_back(drop_on_wall_file(facts));
+  if (facts.has(dem::Experiment::tilt)) {
     const bool is_sphere =
         facts.is_sphere() && facts.study().protocol<dem::TiltProtocol>().bonded == 1;
     files.push_back(tilt_file(facts));
     files.push_back(place_file(facts, "place_body.lig", is_sphere));
     files.push_back({.name = "body.txt", .text = spheres_text(facts.tilt_body())});
   }
-  if (facts.has(Experiment::roll)) {
+  if (facts.has(dem::Experiment::roll)) {
     files.push_back(roll_file(facts));
     files.push_back({.name = "incline.stl",
                      .text = incline_stl(facts.study().protocol<dem::RollProtocol>(),
                                          facts.grain().reach_m())});
   }
-  if (facts.has(Experiment::heap)) {
+  if (facts.has(dem::Experiment::heap)) {
     files.push_back(heap_file(facts));
     files.push_back({.name = "tube.stl",
                      .text = tube_stl(facts.study().protocol<dem::HeapProtocol>(), kTubeSides)});

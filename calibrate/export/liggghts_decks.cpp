@@ -8,8 +8,6 @@
 
 namespace repose::calibrate {
 
-using dem::Experiment;
-
 double density_kg_m3(const ExportFacts& facts, bool is_sphere) {
   return is_sphere ? facts.ball_density_kg_m3() : facts.study().model.grain_material.density_kg_m3;
 }
@@ -35,7 +33,7 @@ void mark_shape(bool is_sphere, DeckFields& fields) {
   fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
 }
 
-DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
+DeckFields deck_fields(const ExportFacts& facts, dem::Experiment experiment) {
   DeckFields fields = common_fields(facts);
   fields.set("STIFFNESS", facts.stiffness(experiment));
   fields.set("TIMESTEP", facts.timestep_s(experiment));

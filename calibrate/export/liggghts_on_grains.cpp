@@ -11,22 +11,19 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-using dem::Vector;
-
 /// How far about its place a grain may come to touch the bed, in its reaches.
 constexpr double kAround = 8;
 /// In which grains that fall into the hollows of a bed come to rest.
 constexpr double kSettle_s = .5;
 
 /// The part of a bed, which repeats itself, about a place: a square, that place at its origin.
-std::vector<dem::ClumpSphere> bed_about(const dem::SphereBed& bed, const Vector& place,
+std::vector<dem::ClumpSphere> bed_about(const dem::SphereBed& bed, const dem::Vector& place,
                                         double half_m) {
   std::vector<dem::ClumpSphere> near;
   for (const dem::FixedSphere& sphere : bed.spheres) {
     for (const int column : {-1, 0, 1}) {
       for (const int row : {-1, 0, 1}) {
-        Vector at = sphere.centre - place;
+        dem::Vector at = sphere.centre - place;
         at.x() += bed.tile * (column - std::round(at.x() / bed.tile));
         at.y() += bed.tile * (row - std::round(at.y() / bed.tile));
         if (std::abs(at.x()) > half_m || std::abs(at.y()) > half_m) continue;
@@ -37,7 +34,7 @@ std::vector<dem::ClumpSphere> bed_about(const dem::SphereBed& bed, const Vector&
   return near;
 }
 
-ExportedFile bed_file(const ExportFacts& facts, Experiment experiment, int number,
+ExportedFile bed_file(const ExportFacts& facts, dem::Experiment experiment, int number,
                       const std::vector<dem::ClumpSphere>& spheres) {
   DeckFields fields = common_fields(facts);
   fields.set("DENSITY", facts.study().model.grain_material.density_kg_m3);
@@ -63,7 +60,7 @@ std::vector<ExportedFile> drop_files(const ExportFacts& facts) {
   const dem::SphereBed bed = dem::glued_bed(grain, protocol.coverage, random);
   const double top = dem::top_m(bed);
   const double apart = dem::drop_spacing_m(protocol.height_m, grain.reach_m());
-  DropDeck deck{.experiment = Experiment::drop_on_grains,
+  DropDeck deck{.experiment = dem::Experiment::drop_on_grains,
                 .ground = "a board covered with glued grains",
                 .section = "BED",
                 .height_m = protocol.height_m,
@@ -73,7 +70,7 @@ std::vector<ExportedFile> drop_files(const ExportFacts& facts) {
     const dem::Quaternion pose = random.orientation();
     const double x = random.between(0, bed.tile) + apart * (k - 1);
     const double y = random.between(0, bed.tile);
-    const double height = top + dem::reach_towards(grain, pose, -Vector::UnitZ());
+    const double height = top + dem::reach_towards(grain, pose, -dem::Vector::UnitZ());
     deck.poses.push_back({.orientation = pose, .height_m = height});
     files.push_back(
         bed_file(facts, deck.experiment, k, bed_about(bed, {x, y, 0}, kAround * grain.reach_m())));
@@ -84,7 +81,7 @@ std::vector<ExportedFile> drop_files(const ExportFacts& facts) {
 
 /// Bodies of grains on a board that tilts.
 struct TiltDeck {
-  Experiment experiment = Experiment::tilt_on_grains;
+  dem::Experiment experiment = dem::Experiment::tilt_on_grains;
   int bonded = 1;
   double rate_deg_s = 0;
   int places = 1;
@@ -94,8 +91,8 @@ struct TiltDeck {
 };
 
 /// As our simulation does it, see dem/experiment/tilt_on_grains.cpp.
-ExportedFile tilt_file(const ExportFacts& facts, const TiltDeck& deck, const dem::ClumpShape& body,
-                       double height_m) {
+ExportedFile tilt_on_grains_file(const ExportFacts& facts, const TiltDeck& deck,
+                                 const dem::ClumpShape& body, double height_m) {
   constexpr double kLook_s = .002;
   constexpr double kStill = .01;  // of sqrt(g d)
   const std::string name = name_of(deck.experiment);
@@ -133,20 +130,21 @@ std::vector<ExportedFile> tilt_files(const ExportFacts& facts, const TiltDeck& d
     files.push_back(bed_file(facts, deck.experiment, k, bed_about(bed, {down, across, 0}, half)));
   }
   const double height =
-      dem::top_m(bed) + dem::reach_towards(body, dem::lying_pose(grain), -Vector::UnitZ());
-  files.push_back(tilt_file(facts, deck, body, height));
+      dem::top_m(bed) + dem::reach_towards(body, dem::lying_pose(grain), -dem::Vector::UnitZ());
+  files.push_back(tilt_on_grains_file(facts, deck, body, height));
   return files;
 }
 
 std::vector<ExportedFile> row_files(const ExportFacts& facts) {
   const dem::GrainTiltProtocol& protocol = facts.study().protocol<dem::GrainTiltProtocol>();
-  std::vector<ExportedFile> files = tilt_files(facts, {.experiment = Experiment::tilt_on_grains,
-                                                       .bonded = protocol.bonded,
-                                                       .rate_deg_s = protocol.rate_deg_s,
-                                                       .places = protocol.places,
-                                                       .coverage = protocol.coverage,
-                                                       .place_file = "place_row.lig",
-                                                       .body_file = "row.txt"});
+  std::vector<ExportedFile> files =
+      tilt_files(facts, {.experiment = dem::Experiment::tilt_on_grains,
+                         .bonded = protocol.bonded,
+                         .rate_deg_s = protocol.rate_deg_s,
+                         .places = protocol.places,
+                         .coverage = protocol.coverage,
+                         .place_file = "place_row.lig",
+                         .body_file = "row.txt"});
   files.push_back(place_file(facts, "place_row.lig", facts.is_sphere() && protocol.bonded == 1));
   files.push_back(
       {.name = "row.txt", .text = spheres_text(dem::bonded_shape(facts.grain(), protocol.bonded))});
@@ -155,7 +153,7 @@ std::vector<ExportedFile> row_files(const ExportFacts& facts) {
 
 std::vector<ExportedFile> single_files(const ExportFacts& facts) {
   const dem::GrainRollProtocol& protocol = facts.study().protocol<dem::GrainRollProtocol>();
-  return tilt_files(facts, {.experiment = Experiment::roll_on_grains,
+  return tilt_files(facts, {.experiment = dem::Experiment::roll_on_grains,
                             .bonded = 1,
                             .rate_deg_s = protocol.rate_deg_s,
                             .places = protocol.places,
@@ -172,9 +170,9 @@ void add(std::vector<ExportedFile> more, std::vector<ExportedFile>& files) {
 
 std::vector<ExportedFile> liggghts_files_on_grains(const ExportFacts& facts) {
   std::vector<ExportedFile> files;
-  if (facts.has_deck(Experiment::drop_on_grains)) add(drop_files(facts), files);
-  if (facts.has_deck(Experiment::tilt_on_grains)) add(row_files(facts), files);
-  if (facts.has_deck(Experiment::roll_on_grains)) add(single_files(facts), files);
+  if (facts.has_deck(dem::Experiment::drop_on_grains)) add(drop_files(facts), files);
+  if (facts.has_deck(dem::Experiment::tilt_on_grains)) add(row_files(facts), files);
+  if (facts.has_deck(dem::Experiment::roll_on_grains)) add(single_files(facts), files);
   return files;
 }
 

@@ -4,8 +4,6 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-
 void add_pair(const dem::HangingPair& pair, int number, DeckFields& fields) {
   DeckFields& own = fields.add_section("PAIR");
   own.set("NUMBER", number);
@@ -23,11 +21,11 @@ void add_pair(const dem::HangingPair& pair, int number, DeckFields& fields) {
 /// Pairs in the poses of our run with the study's first seed, each on its own.
 ExportedFile pendulum_file(const ExportFacts& facts) {
   const dem::PendulumProtocol& protocol = facts.study().protocol<dem::PendulumProtocol>();
-  const double timestep = facts.timestep_s(Experiment::pendulum);
+  const double timestep = facts.timestep_s(dem::Experiment::pendulum);
   const double speed = dem::swing_speed_m_s(protocol);
   const double reach = facts.grain().reach_m();
   const double reach_s = reach / speed;
-  DeckFields fields = deck_fields(facts, Experiment::pendulum);
+  DeckFields fields = deck_fields(facts, dem::Experiment::pendulum);
   mark_shape(facts.is_sphere(), fields);
   fields.set("STRING", protocol.string_m);
   fields.set("STRING_MM", 1e3 * protocol.string_m);
@@ -49,7 +47,7 @@ ExportedFile pendulum_file(const ExportFacts& facts) {
 
 std::vector<ExportedFile> liggghts_files_of_pairs(const ExportFacts& facts) {
   std::vector<ExportedFile> files;
-  if (facts.has_deck(Experiment::pendulum)) files.push_back(pendulum_file(facts));
+  if (facts.has_deck(dem::Experiment::pendulum)) files.push_back(pendulum_file(facts));
   return files;
 }
 

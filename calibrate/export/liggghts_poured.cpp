@@ -10,8 +10,6 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-
 /// Reaches of a grain over the rim, from where grains are poured.
 constexpr double kHeaped = 5;
 
@@ -80,8 +78,9 @@ ExportedFile fill_file(const ExportFacts& facts) {
                     .floor_m = 0,
                     .rim_m = protocol.tube_height_m,
                     .spout_m = protocol.tube_height_m + protocol.pour_m};
-  DeckFields fields = deck_fields(facts, Experiment::fill);
-  set_pouring(pouring_of(tube, facts.grain()), reach, facts.timestep_s(Experiment::fill), fields);
+  DeckFields fields = deck_fields(facts, dem::Experiment::fill);
+  set_pouring(pouring_of(tube, facts.grain()), reach, facts.timestep_s(dem::Experiment::fill),
+              fields);
   fields.set("POUR_MM", 1e3 * protocol.pour_m);
   fields.set("TUBE_RADIUS", radius);
   fields.set("RIM", tube.rim_m);
@@ -113,14 +112,14 @@ ExportedFile draw_down_file(const ExportFacts& facts) {
   constexpr double kFall = 4;  // reaches, as of our rain
   constexpr double kPart_s = 1;
   const dem::DrawDownProtocol& protocol = facts.study().protocol<dem::DrawDownProtocol>();
-  const double timestep = facts.timestep_s(Experiment::draw_down);
+  const double timestep = facts.timestep_s(dem::Experiment::draw_down);
   const double reach = facts.grain().reach_m();
   const double floor_m = dem::upper_floor_m(protocol), rim_m = floor_m + protocol.fill_m;
   const Vessel box{.section_m2 = protocol.length_m * protocol.depth_m,
                    .floor_m = floor_m,
                    .rim_m = rim_m,
                    .spout_m = rim_m + (kHeaped + kFall) * reach};
-  DeckFields fields = deck_fields(facts, Experiment::draw_down);
+  DeckFields fields = deck_fields(facts, dem::Experiment::draw_down);
   set_pouring(pouring_of(box, facts.grain()), reach, timestep, fields);
   mark_shape(facts.is_sphere(), fields);
   fields.set("SLOT_MM", 1e3 * protocol.slot_m);
@@ -139,8 +138,8 @@ ExportedFile draw_down_file(const ExportFacts& facts) {
 }  // namespace
 
 std::vector<ExportedFile> liggghts_files_of_poured_grains(const ExportFacts& facts) {
-  const bool is_filled = facts.has_deck(Experiment::fill);
-  const bool is_drawn_down = facts.has_deck(Experiment::draw_down);
+  const bool is_filled = facts.has_deck(dem::Experiment::fill);
+  const bool is_drawn_down = facts.has_deck(dem::Experiment::draw_down);
   std::vector<ExportedFile> files;
   if (is_filled || is_drawn_down) files.push_back(pour_file(facts));
   if (is_filled) files.push_back(fill_file(facts));

@@ -11,13 +11,10 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::RollingModel;
-using dem::Vector;
-
 constexpr int kDirections = 4000;
 
 /// Where a plane across `direction` touches the clump, per radius of the sphere that it touches.
-double arm_ratio_along(const dem::ClumpShape& grain, const Vector& direction) {
+double arm_ratio_along(const dem::ClumpShape& grain, const dem::Vector& direction) {
   const auto reach = [&](const dem::ClumpSphere& sphere) {
     return direction.dot(sphere.centre) + sphere.radius;
   };
@@ -28,7 +25,7 @@ double arm_ratio_along(const dem::ClumpShape& grain, const Vector& direction) {
 }
 
 /// The k-th of kDirections that are spread evenly over all.
-Vector any_direction(int k) {
+dem::Vector any_direction(int k) {
   const double turn = std::numbers::pi * (3 - std::sqrt(5.0)) * k;
   const double z = 1 - (2 * k + 1.0) / kDirections;
   const double across = std::sqrt(1 - z * z);
@@ -36,10 +33,10 @@ Vector any_direction(int k) {
 }
 
 /// The k-th of those across the long axis.
-Vector lying_direction(const dem::ClumpShape& grain, int k) {
+dem::Vector lying_direction(const dem::ClumpShape& grain, int k) {
   const double turn = 2 * std::numbers::pi * k / kDirections;
   const dem::Quaternion lying = dem::lying_pose(grain);  // the long axis along y
-  return lying.conjugate() * Vector(std::cos(turn), 0, std::sin(turn));
+  return lying.conjugate() * dem::Vector(std::cos(turn), 0, std::sin(turn));
 }
 
 bool has_equal_radii(const dem::ClumpShape& grain) {
@@ -114,19 +111,19 @@ RollingConversion from_relative_spin(ExportTarget target, Partner partner,
   return converted;
 }
 
-void add_spring_limits(ExportTarget target, RollingModel model, RollingConversion& converted) {
+void add_spring_limits(ExportTarget target, dem::RollingModel model, RollingConversion& converted) {
   if (has_rolling_spring(target)) {
     converted.fidelity = std::max(converted.fidelity, Fidelity::close);
     converted.limits +=
         "Their torque comes from a spring that yields at the limit: the same while the grain rolls "
         "one way. Its stiffness is fixed, that of our elastic-plastic spring on a wall under the "
         "grain's own weight. ";
-  } else if (model == RollingModel::elastic_plastic && target == ExportTarget::edem) {
+  } else if (model == dem::RollingModel::elastic_plastic && target == ExportTarget::edem) {
     converted.fidelity = Fidelity::approximate;
     converted.limits +=
         "Their standard rolling friction has no spring: the same while the grain rolls, another "
         "way to rest. ";
-  } else if (model == RollingModel::constant_torque && target == ExportTarget::liggghts) {
+  } else if (model == dem::RollingModel::constant_torque && target == ExportTarget::liggghts) {
     converted.limits +=
         "Theirs leaves out spin about the contact's normal, and trembles about rest where ours "
         "stops dead. ";
@@ -138,7 +135,7 @@ void add_spring_limits(ExportTarget target, RollingModel model, RollingConversio
 ArmRatio arm_ratio(const dem::ClumpShape& grain, Partner partner) {
   ArmRatio ratio{.mean = 0, .low = HUGE_VAL, .high = 0};
   for (int k = 0; k < kDirections; ++k) {
-    const Vector direction =
+    const dem::Vector direction =
         partner == Partner::wall ? lying_direction(grain, k) : any_direction(k);
     const double own = arm_ratio_along(grain, direction);
     ratio.mean += own / kDirections;
@@ -148,12 +145,12 @@ ArmRatio arm_ratio(const dem::ClumpShape& grain, Partner partner) {
   return ratio;
 }
 
-RollingConversion convert_rolling(ExportTarget target, RollingModel model, Partner partner,
+RollingConversion convert_rolling(ExportTarget target, dem::RollingModel model, Partner partner,
                                   const dem::ClumpShape& grain) {
   RollingConversion converted;
-  if (model == RollingModel::none) return converted;
+  if (model == dem::RollingModel::none) return converted;
   const bool is_edem = target == ExportTarget::edem;
-  if (model == RollingModel::constant_torque) {
+  if (model == dem::RollingModel::constant_torque) {
     if (is_edem) return converted;
     converted = from_own_spin(target, partner, grain);
   } else {
@@ -164,27 +161,27 @@ RollingConversion convert_rolling(ExportTarget target, RollingModel model, Partn
   return converted;
 }
 
-std::string rolling_law(RollingModel model) {
+std::string rolling_law(dem::RollingModel model) {
   switch (model) {
-    case RollingModel::none:
+    case dem::RollingModel::none:
       return "no rolling friction";
-    case RollingModel::constant_torque:
+    case dem::RollingModel::constant_torque:
       return "torque on each body mu_r F times its own distance from centre of mass to contact, "
              "against its own spin";
-    case RollingModel::relative_constant_torque:
+    case dem::RollingModel::relative_constant_torque:
       return "torque mu_r F R* on both bodies, against their relative spin";
-    case RollingModel::elastic_plastic:
+    case dem::RollingModel::elastic_plastic:
       break;
   }
   return "torque of a rolling spring up to mu_r F R* on both bodies, against their relative "
          "rotation";
 }
 
-std::string rolling_law(ExportTarget target, RollingModel model) {
+std::string rolling_law(ExportTarget target, dem::RollingModel model) {
   switch (target) {
     case ExportTarget::liggghts:
-      if (model == RollingModel::none) return "no rolling model";
-      return model == RollingModel::elastic_plastic
+      if (model == dem::RollingModel::none) return "no rolling model";
+      return model == dem::RollingModel::elastic_plastic
                  ? "epsd: rolling spring, up to mu_r F R*, against the relative rotation"
                  : "cdt: mu_r F R* against the relative spin, F without the damper's part";
     case ExportTarget::lammps:

@@ -12,21 +12,19 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Vector;
-
 /// Gathers triangles.
 class Stl {
  public:
-  void add(const Vector& a, const Vector& b, const Vector& c) {
-    const Vector normal = (b - a).cross(c - a).normalized();
+  void add(const dem::Vector& a, const dem::Vector& b, const dem::Vector& c) {
+    const dem::Vector normal = (b - a).cross(c - a).normalized();
     text_ += fmt::format("facet normal {} {} {}\nouter loop\n", normal.x(), normal.y(), normal.z());
-    for (const Vector& corner : {a, b, c}) {
+    for (const dem::Vector& corner : {a, b, c}) {
       text_ += fmt::format("vertex {} {} {}\n", corner.x(), corner.y(), corner.z());
     }
     text_ += "endloop\nendfacet\n";
   }
   /// A flat four-sided face, its corners in order.
-  void add(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+  void add(const dem::Vector& a, const dem::Vector& b, const dem::Vector& c, const dem::Vector& d) {
     add(a, b, c);
     add(a, c, d);
   }
@@ -61,7 +59,7 @@ std::string tube_stl(const dem::HeapProtocol& protocol, int sides) {
   const double outer = inner + protocol.tube_thickness_m;
   const auto at = [&](int side, double radius, double height) {
     const double turn = 2 * std::numbers::pi * side / sides;
-    return Vector(radius * std::cos(turn), radius * std::sin(turn), height);
+    return dem::Vector(radius * std::cos(turn), radius * std::sin(turn), height);
   };
   const double top = protocol.tube_height_m;
   Stl stl;
@@ -77,14 +75,14 @@ std::string tube_stl(const dem::HeapProtocol& protocol, int sides) {
 std::string plate_stl(const dem::HeapProtocol& protocol) {
   const double half = .5 * protocol.plate_m;
   const double below = -protocol.plate_thickness_m;
-  const std::array<Vector, 4> top = {
+  const std::array<dem::Vector, 4> top = {
       {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}}};
   Stl stl;
   stl.add(top[0], top[1], top[2], top[3]);
   for (std::size_t k = 0; k < top.size(); ++k) {
-    const Vector& from = top[k];
-    const Vector& to = top[(k + 1) % top.size()];
-    const Vector down(0, 0, below);
+    const dem::Vector& from = top[k];
+    const dem::Vector& to = top[(k + 1) % top.size()];
+    const dem::Vector down(0, 0, below);
     stl.add(from, from + down, to + down, to);
   }
   return stl.text("plate");

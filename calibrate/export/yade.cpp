@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/rolling.h"
 #include "calibrate/export/targets.h"
@@ -13,13 +14,9 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
-
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// The real pair, neither softened nor needing a value between grains where there is no heap.
 dem::ContactTable real_contacts(const ExportFacts& facts) {
-  const Experiment any = facts.experiments().front();
+  const dem::Experiment any = facts.experiments().front();
   dem::Model model = dem::model_for(facts.study(), any);
   model.stiffness_factor = 1;
   const dem::Wall wall = dem::study_wall(dem::Plane{});
@@ -41,7 +38,7 @@ void set_pair(const std::string& prefix, const std::string& pair, const ExportFa
   fields.set(prefix + "_KROT", rolling_stiffness(law, facts.mass_kg(), radius));
 }
 
-ExportedFile grain_file(const ExportFacts& facts, const Conversions& conversions) {
+ExportedFile yade_grain_file(const ExportFacts& facts, const Conversions& conversions) {
   const dem::Study& study = facts.study();
   const dem::ContactTable contacts = real_contacts(facts);
   const dem::ContactLaw& wall = contacts.law(dem::kGrainMaterial, dem::kWallMaterial);
@@ -66,25 +63,25 @@ ExportedFile grain_file(const ExportFacts& facts, const Conversions& conversions
   return {.name = "grain.py", .text = filled("yade/grain.py", fields)};
 }
 
-DeckFields deck_fields(const ExportFacts& facts, Experiment experiment) {
+DeckFields yade_fields(const ExportFacts& facts, dem::Experiment experiment) {
   DeckFields fields = common_fields(facts);
   fields.set("STIFFNESS", facts.stiffness(experiment));
   fields.set("TIMESTEP", facts.timestep_s(experiment));
   return fields;
 }
 
-ExportedFile drop_file(const ExportFacts& facts) {
+ExportedFile yade_drop_file(const ExportFacts& facts) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
-  const double speed = facts.speed_m_s(Experiment::drop);
+  const double speed = facts.speed_m_s(dem::Experiment::drop);
   const double reach = facts.grain().reach_m();
-  DeckFields fields = deck_fields(facts, Experiment::drop);
+  DeckFields fields = yade_fields(facts, dem::Experiment::drop);
   fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
   fields.set("GRAINS", protocol.grains);
   fields.set("SPEED", speed);
   fields.set("SPACING", 8 * (protocol.height_m + reach));
   fields.set("EVERY", 5);
-  fields.set("STEPS",
-             steps(facts.longest_drop_s(Experiment::drop), facts.timestep_s(Experiment::drop)));
+  fields.set("STEPS", steps(facts.longest_drop_s(dem::Experiment::drop),
+                            facts.timestep_s(dem::Experiment::drop)));
   for (const TouchingPose& pose : facts.drop_poses()) {
     DeckFields& own = fields.add_section("POSE");
     own.set("HEIGHT", pose.height_m);
@@ -93,11 +90,11 @@ ExportedFile drop_file(const ExportFacts& facts) {
   return {.name = "drop.py", .text = filled("yade/drop.py", fields)};
 }
 
-ExportedFile tilt_file(const ExportFacts& facts) {
+ExportedFile yade_tilt_file(const ExportFacts& facts) {
   const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const TouchingPose pose = facts.tilt_pose();
   const double begin = facts.tilt_begin_deg();
-  DeckFields fields = deck_fields(facts, Experiment::tilt);
+  DeckFields fields = yade_fields(facts, dem::Experiment::tilt);
   add_balls(facts.tilt_body(), fields);
   set_body(facts.tilt_body(), facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(pose.orientation, fields);
@@ -105,17 +102,17 @@ ExportedFile tilt_file(const ExportFacts& facts) {
   fields.set("RATE", protocol.rate_deg_s);
   fields.set("BEGIN", begin);
   fields.set("HEIGHT", pose.height_m);
-  fields.set("STEPS",
-             steps(.1 + (90 - begin) / protocol.rate_deg_s, facts.timestep_s(Experiment::tilt)));
+  fields.set("STEPS", steps(.1 + (90 - begin) / protocol.rate_deg_s,
+                            facts.timestep_s(dem::Experiment::tilt)));
   return {.name = "tilt.py", .text = filled("yade/tilt.py", fields)};
 }
 
-ExportedFile roll_file(const ExportFacts& facts) {
+ExportedFile yade_roll_file(const ExportFacts& facts) {
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Grain start = facts.roll_start();
-  const double timestep = facts.timestep_s(Experiment::roll);
+  const double timestep = facts.timestep_s(dem::Experiment::roll);
   const double length = 4 * (protocol.release_m + 10 * facts.grain().reach_m());
-  DeckFields fields = deck_fields(facts, Experiment::roll);
+  DeckFields fields = yade_fields(facts, dem::Experiment::roll);
   set_pose(start.orientation, fields);
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
   fields.set("INCLINE", protocol.incline_deg);
@@ -130,12 +127,12 @@ ExportedFile roll_file(const ExportFacts& facts) {
   return {.name = "roll.py", .text = filled("yade/roll.py", fields)};
 }
 
-ExportedFile heap_file(const ExportFacts& facts) {
+ExportedFile yade_heap_file(const ExportFacts& facts) {
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
-  const double timestep = facts.timestep_s(Experiment::heap);
+  const double timestep = facts.timestep_s(dem::Experiment::heap);
   const double reach = facts.grain().reach_m();
   const int grains = grains_in_heap(facts);
-  DeckFields fields = deck_fields(facts, Experiment::heap);
+  DeckFields fields = yade_fields(facts, dem::Experiment::heap);
   fields.set("GRAINS", grains);
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
@@ -154,11 +151,11 @@ ExportedFile heap_file(const ExportFacts& facts) {
 }  // namespace
 
 std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions& conversions) {
-  std::vector<ExportedFile> files = {grain_file(facts, conversions)};
-  if (facts.has(Experiment::drop)) files.push_back(drop_file(facts));
-  if (facts.has(Experiment::tilt)) files.push_back(tilt_file(facts));
-  if (facts.has(Experiment::roll)) files.push_back(roll_file(facts));
-  if (facts.has(Experiment::heap)) files.push_back(heap_file(facts));
+  std::vector<ExportedFile> files = {yade_grain_file(facts, conversions)};
+  if (facts.has(dem::Experiment::drop)) files.push_back(yade_drop_file(facts));
+  if (facts.has(dem::Experiment::tilt)) files.push_back(yade_tilt_file(facts));
+  if (facts.has(dem::Experiment::roll)) files.push_back(yade_roll_file(facts));
+  if (facts.has(dem::Experiment::heap)) files.push_back(yade_heap_file(facts));
   return files;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kReadings = 10;         // taken of what is advised
 constexpr double kWorthwhile = .3;       // share of the variance that it takes away
-constexpr std::size_t kFewest = 8;       // runs to learn a reading from
+constexpr std::size_t kFewestRuns = 8;   // runs to learn a reading from
 constexpr double kMostlySurrogate = .5;  // surrogate variance over measured
 constexpr int kMoreReadings = 4;         // times as many: half the uncertainty
 constexpr double kSeen = 2;              // sigma from bound to bound: less, and runs show nothing
@@ -73,7 +73,7 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
 void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& reading,
                                const std::vector<Run>& runs, std::vector<Unmeasured>& all) const {
   const TrainingSet training_set = training_set_of(problem_, experiment, reading, runs);
-  if (training_set.readings.size() < kFewest) return;
+  if (training_set.readings.size() < kFewestRuns) return;
   const Surrogate surrogate(training_set, {}, false);
   if (surrogate.constant()) return;
   Unmeasured unmeasured{.experiment = experiment.name, .reading = reading};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace repose::calibrate {
 
 /// Seeds of checks begin here; a study never has so many jobs.
 inline constexpr std::uint64_t kFirstCheckSeed = 1'000'000'000;
+
+/// Of a test, before it is shared between its observables.
+inline constexpr double kLevel = .05;
+/// What is not known.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The readings of one observable in the fresh runs of one set of parameters.
 struct CheckSample {

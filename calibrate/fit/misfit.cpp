@@ -14,12 +14,11 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
-constexpr double kRobust = 2;       // differences beyond so many sigma count less, when asked for
-constexpr double kPull = .1;        // per box width: to the middle among equals
-constexpr double kDistrust = .1;    // to where the surrogate is sure, among equals
-constexpr double kFailure = 4;      // a half chance of failure alone is beyond 3.84
-constexpr std::size_t kFewest = 3;  // readings to learn from
+constexpr double kRobust = 2;     // differences beyond so many sigma count less, when asked for
+constexpr double kPull = .1;      // per box width: to the middle among equals
+constexpr double kDistrust = .1;  // to where the surrogate is sure, among equals
+constexpr double kFailure = 4;    // a half chance of failure alone is beyond 3.84
+constexpr std::size_t kFewestToLearn = 3;  // readings to learn from
 
 /// Cauchy's loss as a residual: its square is c^2 log(1 + z^2 / c^2). Returns its slope, too.
 std::pair<double, double> robust_residual(double z) {
@@ -61,7 +60,7 @@ std::string too_few(const Observable& observable, std::size_t readings,
 
 double few_readings_factor(const Observable& observable) {
   if (!observable.sd) return 1;
-  return base::student_t_quantile(.975, observable.n - 1) / kNormal95;
+  return base::student_t_quantile(.975, observable.n - 1) / base::kNormal95;
 }
 
 Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
@@ -72,7 +71,7 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     const Observable& observable = problem.observables[i];
     const TrainingSet training_set = training_set_of(
         problem, experiment_named(problem, observable.experiment), observable.reading, runs);
-    if (training_set.readings.size() < kFewest) {
+    if (training_set.readings.size() < kFewestToLearn) {
       if (!errors.empty()) errors += '\n';
       errors += too_few(observable, training_set.readings.size(), runs);
       continue;

@@ -15,8 +15,6 @@ namespace {
 /// Checks of sets of parameters have seeds up to some millions above kFirstCheckSeed.
 constexpr std::uint64_t kFirstPredictionSeed = kFirstCheckSeed + 500'000'000;
 constexpr std::size_t kFewestSets = 3;  // two say nothing of their scatter
-constexpr double kLevel = .05;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 int repeats_of(const Experiment& experiment) {
   return experiment.is_stochastic ? kPredictionRepeats : 1;
@@ -77,14 +75,14 @@ SetMeans means_of(const Problem& problem, const JointFit& fit, const Observable&
   return sets;
 }
 
-double mean_of(const std::vector<double>& values) {
+double average_of(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
 double variance_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
+  const double mean = average_of(values);
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   return squares / static_cast<double>(values.size() - 1);
@@ -144,7 +142,7 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
   const double between = variance_of(sets.means);
   const auto count = static_cast<double>(sets.means.size());
   const double by_coefficients = std::max(0., between - sets.run_variance() * sets.per_set);
-  prediction.predicted = mean_of(sets.means);
+  prediction.predicted = average_of(sets.means);
   prediction.coefficients_sd = std::sqrt(by_coefficients);
   prediction.run_sd = std::sqrt(sets.run_variance());
   prediction.uncertainty = std::sqrt(by_coefficients + between / count);

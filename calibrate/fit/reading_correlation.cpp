@@ -9,8 +9,8 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr std::size_t kFewest = 5;  // runs with both readings
-constexpr double kMost = .95;       // of a correlation: two readings are never quite one
+constexpr std::size_t kFewestPairs = 5;  // runs with both readings
+constexpr double kMostCorrelated = .95;  // of a correlation: two readings are never quite one
 
 using Errors = std::map<std::size_t, double>;  // by run
 
@@ -42,7 +42,7 @@ std::optional<Correlation> correlation_of(const Errors& one, const Errors& other
     ab += error * found->second;
     ++runs;
   }
-  if (runs < kFewest || !(aa * bb > 0)) return std::nullopt;
+  if (runs < kFewestPairs || !(aa * bb > 0)) return std::nullopt;
   return Correlation{std::clamp(ab / std::sqrt(aa * bb), -1., 1.), runs};
 }
 
@@ -80,7 +80,7 @@ std::vector<std::vector<double>> reading_correlation_of(const Problem& problem,
         all[own[a]][own[b]] = found->value;
       }
     }
-    const double kept = squares > 0 ? std::clamp(1 - variances / squares, 0., kMost) : 0;
+    const double kept = squares > 0 ? std::clamp(1 - variances / squares, 0., kMostCorrelated) : 0;
     for (std::size_t a = 0; a < own.size(); ++a) {
       for (std::size_t b = a + 1; b < own.size(); ++b) {
         all[own[a]][own[b]] *= kept;

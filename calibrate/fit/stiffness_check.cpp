@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 #include "base/distributions.h"
@@ -13,12 +12,10 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr std::uint64_t kFirstStiffnessSeed = kFirstCheckSeed + 700'000'000;  // predictions: + 500'
+constexpr std::uint64_t kFirstStiffnessSeed = kFirstCheckSeed + 700'000'000;
 constexpr double kStiffer = 10;
 constexpr double kMostOfBudget = .2;
-constexpr double kLevel = .05;
 constexpr double kInterval = .975;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// 1 where the study's grains are as stiff as real ones.
 double stiffness_of(const Experiment& experiment) {

@@ -65,12 +65,11 @@ Surrogate::Surrogate(const TrainingSet& training_set, const std::optional<Surrog
 /// is expected at their places: 1 - H = noise^2 K^-1.
 double Surrogate::factor_of_few_runs() const {
   if (!training_set_.is_stochastic) return 1;
-  constexpr double kNormal95 = 1.959963984540054;
   constexpr double kFewest = 3;  // fewer would say more about the prior of the noise than of it
   const double noise = process_->noise_sd();
   double df = 0;
   for (const LeaveOneOut& one : process_->leave_one_out()) df += noise * noise / (one.sd * one.sd);
-  return base::student_t_quantile(.975, std::max(df, kFewest)) / kNormal95;
+  return base::student_t_quantile(.975, std::max(df, kFewest)) / base::kNormal95;
 }
 
 /// Standard deviation, known before any run, of what a decade of softness adds to w.

@@ -1,7 +1,6 @@
 #include "calibrate/fit/surrogate_check.h"
 
 #include <cmath>
-#include <limits>
 
 #include "calibrate/fit/agreement.h"
 #include "calibrate/fit/check_sample.h"
@@ -10,9 +9,7 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kLevel = .05;
-constexpr double kMatters = .5;  // of the uncertainty of measurement
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMattersInUncertainty = .5;  // of the uncertainty of measurement
 
 SurrogateCheck check_of(const Problem& problem, const JointFit& fit, std::size_t i,
                         const CheckSample& sample) {
@@ -33,7 +30,7 @@ SurrogateCheck check_of(const Problem& problem, const JointFit& fit, std::size_t
       difference_of(simulated, {check.predicted, check.uncertainty, surrogate_df});
   check.chance = chance_of(difference);
   check.misses = check.chance < kLevel / static_cast<double>(fit.observables.size()) &&
-                 std::abs(difference.value) > kMatters * fitted.measured_uncertainty;
+                 std::abs(difference.value) > kMattersInUncertainty * fitted.measured_uncertainty;
   return check;
 }
 

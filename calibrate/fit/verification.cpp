@@ -18,10 +18,8 @@ namespace repose::calibrate {
 namespace {
 
 constexpr std::uint64_t kSeedsPerSet = 1'000'000;
-constexpr double kLevel = .05;
 constexpr double kCheapFraction = .25;  // of the time that the dearest experiment's repeats take
 constexpr int kMostRepeats = 30;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Cheap experiments are repeated as often as hardly lengthens the check.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/distributions.h"
 #include "calibrate/fit/failure_risk.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/surrogate.h"
@@ -18,7 +19,6 @@ constexpr std::size_t kEvery = 5;   // of the plausible sets is a material
 constexpr std::size_t kFewest = 8;  // runs to learn a reading from
 // Of the runs nearby: more, and the experiment gives no reading of a material.
 constexpr double kMostFail = .5;
-constexpr double kNormal95 = 1.959963984540054;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -137,7 +137,7 @@ Outlook Foresight::with(const std::vector<std::size_t>& experiments) const {
     const Eigen::MatrixXd covariance = inverse(precision);
     for (std::size_t j = 0; j < dimensions; ++j) {
       const auto place = static_cast<Eigen::Index>(j);
-      const double half = kNormal95 * std::sqrt(std::max(0., covariance(place, place)));
+      const double half = base::kNormal95 * std::sqrt(std::max(0., covariance(place, place)));
       const double low = std::max(0., materials_[k][j] - half);
       const double high = std::min(1., materials_[k][j] + half);
       widths[j].push_back(high - low);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -10,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "calibrate/experiment/picture_angles.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/heap_model.h"
@@ -26,7 +26,6 @@
 namespace repose::calibrate::report {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kViews_deg = {0.0, 60.0, 120.0};
 constexpr double kNothing_deg = 360;        // farther off than any angle
 constexpr std::size_t kFewPhotographs = 6;  // that fit on half a page

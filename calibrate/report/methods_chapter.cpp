@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/distributions.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 
@@ -146,14 +147,14 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
 
 /// Nothing is said where no run was softer than the study.
 void add_softening(const JointResult& joint, Methods& methods) {
-  constexpr double kNormal95 = 1.96;
   std::string shifts;
   for (const ResultObservable& observable : joint.observables) {
     if (!observable.softening_shift) continue;
-    shifts += fmt::format(
-        "{}{} {} ± {} {}", shifts.empty() ? "" : ", ", shortened(spaced(observable.name)),
-        shown(observable.softening_shift->mean, 2),
-        shown(kNormal95 * observable.softening_shift->uncertainty, 2), unit_shown(observable.unit));
+    shifts +=
+        fmt::format("{}{} {} ± {} {}", shifts.empty() ? "" : ", ",
+                    shortened(spaced(observable.name)), shown(observable.softening_shift->mean, 2),
+                    shown(base::kNormal95 * observable.softening_shift->uncertainty, 2),
+                    unit_shown(observable.unit));
   }
   if (shifts.empty()) return;
   const auto softer = std::ranges::count_if(

@@ -7,6 +7,7 @@
 
 #include "base/csv.h"
 #include "base/error_list.h"
+#include "base/part_file.h"
 #include "base/whole_file.h"
 #include "calibrate/start/new_study.h"
 
@@ -15,15 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 /// A folder that goes away with the object, unless it got its name.
 class FolderToBe {
  public:
   explicit FolderToBe(const fs::path& folder) : folder_(folder) {
-    std::string name = (folder_of(folder) / ".repose-new-XXXXXX").string();
+    std::string name = (base::folder_of(folder) / ".repose-new-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
       const std::error_code error(errno, std::generic_category());
       throw std::invalid_argument(
@@ -71,9 +68,9 @@ void check_new_places(const fs::path& file) {
                                "another name for the study, or move it away.",
                                place.string()));
   }
-  errors.require(fs::is_directory(folder_of(file), ignored),
+  errors.require(fs::is_directory(base::folder_of(file), ignored),
                  fmt::format("{}: there is no folder {}. Fix: make it, or correct the name.",
-                             file.string(), folder_of(file).string()));
+                             file.string(), base::folder_of(file).string()));
   errors.throw_if_any();
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/distributions.h"
 #include "calibrate/study/bench_setting.h"
 
 namespace repose::calibrate {
@@ -48,7 +49,6 @@ void read_row(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
 }
 
 dem::Study with_films(dem::Study study, const std::vector<FilmReading>& films) {
-  constexpr double kNormal95 = 1.96;
   for (auto& [experiment, described] : study.experiments) {
     const std::string name = dem::name_of(experiment);
     dem::Measured& measured = described.measured;
@@ -60,7 +60,7 @@ dem::Study with_films(dem::Study study, const std::vector<FilmReading>& films) {
     }
     if (measured.videos.empty() || measured.values.empty()) continue;
     const auto count = static_cast<double>(measured.values.size());
-    measured.value_uncertainty = std::sqrt(squares / count) / kNormal95;
+    measured.value_uncertainty = std::sqrt(squares / count) / base::kNormal95;
   }
   return study;
 }

@@ -7,16 +7,16 @@
 namespace repose::calibrate {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
-Json json_of(const Job& job) {
+PlainJson json_of(const Job& job) {
   return {{"experiment", job.experiment},
           {"values", job.values},
           {"seed", job.seed},
           {"relative_stiffness", job.relative_stiffness}};
 }
 
-Job job_in(const Json& json) {
+Job job_in(const PlainJson& json) {
   return {.experiment = json.at("experiment"),
           .values = json.at("values"),
           .seed = json.at("seed"),
@@ -27,14 +27,14 @@ Job job_in(const Json& json) {
 
 std::string text_of(const Job& job) { return json_of(job).dump(); }
 
-Job job_in(const std::string& text) { return job_in(Json::parse(text)); }
+Job job_in(const std::string& text) { return job_in(PlainJson::parse(text)); }
 
 std::string text_of(const SimulatedJob& done) {
-  return Json{{"job", json_of(done.job)}, {"run", run_text(done.run)}}.dump();
+  return PlainJson{{"job", json_of(done.job)}, {"run", run_text(done.run)}}.dump();
 }
 
 SimulatedJob simulated_job_in(const std::string& text) {
-  const Json json = Json::parse(text);
+  const PlainJson json = PlainJson::parse(text);
   std::optional<SimulatedRun> run = run_in(json.at("run").get<std::string>());
   if (!run)
     throw std::runtime_error(

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/distributions.h"
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/profile.h"
 #include "calibrate/fit/propose.h"
@@ -165,11 +166,14 @@ bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
              StudyOutcome& outcome) {
   const StiffnessPlan plan =
       plan_stiffness(problem, outcome.best.values, budget.verification_repeats);
+  const bool is_largest = budget.settings.budget_s >= budget_named("standard").settings.budget_s;
   for (const std::string& experiment : plan.too_dear) {
     outcome.notes.push_back(fmt::format(
         "{}: it is not known what its stiffness_factor does to its readings: stiffer grains would "
-        "take more than a fifth of this budget. A larger budget simulates them.",
-        experiment));
+        "take more than a fifth of this budget. Fix: {}.",
+        experiment,
+        is_largest ? "simulate it at these coefficients with a larger stiffness_factor"
+                   : "the budget standard"));
   }
   if (plan.jobs.empty()) return true;
   const auto runs = runner.get("simulating stiffer grains", plan.jobs, 0);
@@ -178,8 +182,6 @@ bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
       check_stiffness(problem, outcome.best.values, joined(outcome.runs, *runs), outcome.fit);
   return true;
 }
-
-constexpr double kNormal95 = 1.96;
 
 /// What softening did to the readings, where rounds softened.
 void note_softening(const Problem& problem, StudyOutcome& outcome) {
@@ -194,7 +196,7 @@ void note_softening(const Problem& problem, StudyOutcome& outcome) {
         "of "
         "it. Softness changed the reading by {:+.2g} ± {:.2g} {} (95 %), which the fit takes out.",
         fitted.name, part, decades * fitted.softening_shift->mean,
-        kNormal95 * decades * fitted.softening_shift->uncertainty, fitted.unit));
+        base::kNormal95 * decades * fitted.softening_shift->uncertainty, fitted.unit));
   }
 }
 
@@ -202,6 +204,13 @@ void note_softening(const Problem& problem, StudyOutcome& outcome) {
 void note_stiffness(StudyOutcome& outcome) {
   for (const StiffnessCheck& check : outcome.stiffness) {
     if (check.verdict != AgreementVerdict::disagrees) continue;
+    if (check.runs == 0) {
+      outcome.notes.push_back(fmt::format(
+          "{}: with a stiffness_factor of {:.3g} no run has this reading, and the study's softer "
+          "grains do. Fix: stiffness_factor = {:.3g}, and calibrate again.",
+          check.name, check.stiffness_factor, check.stiffness_factor));
+      continue;
+    }
     outcome.notes.push_back(fmt::format(
         "{}: the study's grains are too soft for this reading, and the coefficients make up for "
         "it: "
@@ -222,7 +231,7 @@ void note_checks(const Problem& problem, StudyOutcome& outcome) {
         "{:.4g}, by chance in {:.2g} % of cases only. These runs are in the fit now; a larger "
         "budget "
         "would show how well it knows the rest.",
-        check.observable, check.predicted, kNormal95 * check.uncertainty, check.simulated,
+        check.observable, check.predicted, base::kNormal95 * check.uncertainty, check.simulated,
         100 * check.chance));
   }
   const PredictedSet& checked = outcome.fit.asked.front();

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/file_pattern.h"
+#include "base/part_file.h"
 #include "cli/common/option_value.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/made_here.h"
@@ -117,7 +118,7 @@ void add_matching(const fs::path& pattern, FileList& list) {
     std::error_code ignored;
     return base::matches(file.filename().string(), pattern) && !fs::is_directory(file, ignored);
   };
-  const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+  const fs::path folder = base::folder_of(pattern);
   add_files(pattern, folder, is_wanted,
             "no file has such a name. Fix: correct the pattern; * stands for any letters and ? for "
             "one, in names of files and not of folders.",

@@ -13,9 +13,9 @@ namespace repose::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Lengths = std::array<std::optional<double>, 2>;
+using BothLengths = std::array<std::optional<double>, 2>;
 
-/// Lengths in the unit of the file: mm where the comparison has metres.
+/// BothLengths in the unit of the file: mm where the comparison has metres.
 class LengthJson {
  public:
   explicit LengthJson(vision::LengthUnit unit) : per_unit_(shown_per_unit(unit)) {}
@@ -23,10 +23,10 @@ class LengthJson {
   Json operator()(const std::optional<double>& length) const {
     return length ? Json(*length * per_unit_) : Json(nullptr);
   }
-  Json operator()(const Lengths& lengths) const {
+  Json operator()(const BothLengths& lengths) const {
     return {(*this)(lengths[0]), (*this)(lengths[1])};
   }
-  Json difference(const Lengths& lengths) const {
+  Json difference(const BothLengths& lengths) const {
     if (!lengths[0] || !lengths[1]) return nullptr;
     return (*lengths[0] - *lengths[1]) * per_unit_;
   }
@@ -36,10 +36,6 @@ class LengthJson {
 };
 
 Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json degrees(const std::optional<double>& angle_rad) {
-  return angle_rad ? Json(rounded_degrees(*angle_rad)) : Json(nullptr);
-}
 
 Json side_json(const vision::SideComparison& side, const LengthJson& length) {
   Json json{{"compared", name_of(side.cover)},

@@ -10,32 +10,33 @@
 
 #include "cli/common/degrees.h"
 #include "cli/common/table.h"
+#include "cli/compare/angle_cells.h"
 #include "cli/compare/compare_names.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
 
-using Cell = std::optional<double>;
-using Cells = std::array<Cell, 2>;
+using Angle = std::optional<double>;
+using Cells = std::array<Angle, 2>;
 
 /// Lengths as they are shown: in mm, or in % without a scale.
 class Lengths {
  public:
   explicit Lengths(vision::LengthUnit unit) : is_metric_(unit == vision::LengthUnit::metre) {}
 
-  std::string cell(const Cell& length) const {
+  std::string cell(const Angle& length) const {
     if (!length) return kNothing;
     const std::string text = fmt::format("{:.2f}", *length * (is_metric_ ? 1000 : 100));
     return text == "-0.00" ? "0.00" : text;
   }
-  std::vector<std::string> row(std::string_view name, const std::array<Cell, 3>& lengths) const {
+  std::vector<std::string> row(std::string_view name, const std::array<Angle, 3>& lengths) const {
     return {fmt::format("{} [{}]", name, unit()), cell(lengths[0]), cell(lengths[1]),
             cell(lengths[2])};
   }
   /// A length of each heap, and the first minus the second.
   std::vector<std::string> pair_row(std::string_view name, const Cells& pair) const {
-    const Cell difference = pair[0] && pair[1] ? Cell(*pair[0] - *pair[1]) : std::nullopt;
+    const Angle difference = pair[0] && pair[1] ? Angle(*pair[0] - *pair[1]) : std::nullopt;
     return row(name, {pair[0], pair[1], difference});
   }
   const char* unit() const { return is_metric_ ? "mm" : "%"; }
@@ -54,22 +55,7 @@ Table comparison_table(const std::array<const char*, 4>& headings) {
   return Table(std::move(columns));
 }
 
-std::string fraction(const Cell& cell) { return cell ? fmt::format("{:.3f}", *cell) : kNothing; }
-
-std::string angle_cell(const Cell& angle_rad, const Cell& uncertainty_rad) {
-  if (!angle_rad) return kNothing;
-  return fmt::format("{:.2f} ± {:.2f}", to_degrees(*angle_rad),
-                     to_degrees(uncertainty_rad.value_or(0)));
-}
-
-std::string difference_cell(const vision::AngleDifference& angle) {
-  const double half_width = (angle.interval_rad[1] - angle.interval_rad[0]) / 2;
-  return angle_cell(angle.difference_rad, half_width);
-}
-
-std::string difference_cell(const std::optional<vision::AngleDifference>& angle) {
-  return angle ? difference_cell(*angle) : kNothing;
-}
+std::string fraction(const Angle& cell) { return cell ? fmt::format("{:.3f}", *cell) : kNothing; }
 
 std::string verdict_text(const std::optional<vision::AngleDifference>& angle, double margin_rad) {
   if (!angle) return "cannot tell: an angle is refused. The outlines are compared all the same.";

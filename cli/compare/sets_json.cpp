@@ -12,10 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json degrees(const std::optional<double>& angle_rad) {
-  return angle_rad ? Json(rounded_degrees(*angle_rad)) : Json(nullptr);
-}
-
 Json heaps_json(const HeapSource& source, const std::vector<vision::SeenHeap>& heaps,
                 const vision::SetOfHeaps& set) {
   Json json = Json::array();

@@ -4,18 +4,11 @@
 
 #include "cli/common/degrees.h"
 #include "cli/common/page.h"
+#include "cli/compare/angle_cells.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
-
-using Cell = std::optional<double>;
-
-std::string angle_cell(const Cell& angle_rad, const Cell& uncertainty_rad) {
-  if (!angle_rad) return kNothing;
-  if (!uncertainty_rad) return fmt::format("{:.2f}", to_degrees(*angle_rad));
-  return fmt::format("{:.2f} ± {:.2f}", to_degrees(*angle_rad), to_degrees(*uncertainty_rad));
-}
 
 std::string verdict_text(const vision::SetComparison& comparison, double margin_rad) {
   const double margin = to_degrees(margin_rad);
@@ -36,11 +29,6 @@ std::string verdict_text(const vision::SetComparison& comparison, double margin_
                         *comparison.heaps_to_tell);
   }
   return text;
-}
-
-std::string difference_cell(const std::optional<vision::AngleDifference>& angle) {
-  if (!angle) return kNothing;
-  return angle_cell(angle->difference_rad, (angle->interval_rad[1] - angle->interval_rad[0]) / 2);
 }
 
 Table means_table(const ComparePlan& plan, const vision::SetComparison& comparison) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
@@ -17,8 +17,6 @@
 
 namespace repose::cli {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void read_view(const std::string& text, RenderPlan& plan) {
   if (text == "xz") return;

@@ -9,14 +9,13 @@
 #include "dem/experiment/draw_down_boxes.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
+#include "dem/experiment/heap_settling.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
 namespace {
 
-/// For slopes that creep: as long as a heap is given.
-constexpr double kLongestSettling_s = 5;
 constexpr double kLongestFlow_s = 60;
 /// Shares of the run when the gate opens, and of the flow.
 constexpr double kFilled = .35;

@@ -14,7 +14,7 @@ namespace repose::dem {
 namespace {
 
 /// Grains across and upwards that a bulk has at least.
-constexpr double kFewest = 4;
+constexpr double kFewestInBox = 4;
 /// Grains that a slot is wide at least. Source: To, Lai and Pak (2001), Jamming of granular flow in
 /// a two-dimensional hopper, Physical Review Letters 86, 71: outlets of five diameters and more
 /// hardly ever jam, in two dimensions, which a slot is nearest to.
@@ -33,14 +33,14 @@ void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::ErrorLi
   };
   at_least("slot_m", protocol.slot_m, kSlot * grain_m,
            fmt::format("{:g} grain lengths, or grains arch over it", kSlot), "a wider slot");
-  at_least("depth_m", protocol.depth_m, kFewest * grain_m,
-           fmt::format("{:g} grain lengths, or the panes carry the slopes", kFewest),
+  at_least("depth_m", protocol.depth_m, kFewestInBox * grain_m,
+           fmt::format("{:g} grain lengths, or the panes carry the slopes", kFewestInBox),
            "a deeper box");
-  at_least("fill_m", protocol.fill_m, kFewest * grain_m,
-           fmt::format("{:g} grain lengths, or no slope is left to measure", kFewest),
+  at_least("fill_m", protocol.fill_m, kFewestInBox * grain_m,
+           fmt::format("{:g} grain lengths, or no slope is left to measure", kFewestInBox),
            "a higher fill");
-  at_least("length_m", protocol.length_m, protocol.slot_m + 2 * kFewest * grain_m,
-           fmt::format("the slot and {:g} grain lengths on either side of it", kFewest),
+  at_least("length_m", protocol.length_m, protocol.slot_m + 2 * kFewestInBox * grain_m,
+           fmt::format("the slot and {:g} grain lengths on either side of it", kFewestInBox),
            "a longer box or a narrower slot");
   // A heap that spreads from wall to wall is as high as its share of the fill and its own slope
   // over half a slot, which the two slopes above lack: at 45 degrees this much.

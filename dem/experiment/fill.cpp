@@ -20,7 +20,7 @@ namespace repose::dem {
 namespace {
 
 /// Grains across and upwards that a bulk has at least.
-constexpr double kFewest = 4;
+constexpr double kFewestInTube = 4;
 
 double volume_m3(const FillProtocol& protocol) {
   const double radius = .5 * protocol.tube_diameter_m;
@@ -32,10 +32,10 @@ void check_sizes(const FillProtocol& protocol, double grain_m, base::ErrorList& 
     errors.require(std::isfinite(value) && value >= least,
                    fmt::format("fill.{} is {:g}. Rule: {:g} grains or more, {:.4g} m: narrower and "
                                "lower tubes hold grains at their walls alone. Fix: {}.",
-                               name, value, kFewest, least, fix));
+                               name, value, kFewestInTube, least, fix));
   };
-  at_least("tube_diameter_m", protocol.tube_diameter_m, kFewest * grain_m, "a wider tube");
-  at_least("tube_height_m", protocol.tube_height_m, kFewest * grain_m, "a taller tube");
+  at_least("tube_diameter_m", protocol.tube_diameter_m, kFewestInTube * grain_m, "a wider tube");
+  at_least("tube_height_m", protocol.tube_height_m, kFewestInTube * grain_m, "a taller tube");
   errors.require(
       std::isfinite(protocol.pour_m) && protocol.pour_m > 0,
       fmt::format("fill.pour_m is {:g}. Rule: above 0. Fix: the height of the spout over "

@@ -3,14 +3,6 @@
 #include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
-namespace {
-
-/// For heaps that creep: with the lift, about the 8 s that a bench heap is given before its picture
-/// is taken. In the tube it is enough too: the tube holds what creeps.
-constexpr double kLongestSettling_s = 5;
-
-}  // namespace
-
 void begin_settling(ExperimentRun& run, HeapStage stage) {
   HeapProgress& progress = run.progress();
   progress.stage = stage;

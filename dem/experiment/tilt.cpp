@@ -17,9 +17,6 @@ namespace repose::dem {
 namespace {
 
 constexpr int kPlate = 0;
-constexpr double kSteepest_deg = 89;
-/// The onset comes out within .01 degrees up to here, and half a degree low at 50.
-constexpr double kFastest_deg_s = 10;
 /// How long before it slides or tips the plate begins to turn, and how far short of that at least.
 constexpr double kLead_s = .375;
 constexpr double kLeastLead_deg = .5;
@@ -30,7 +27,7 @@ constexpr double kMaxSlip = .1;
 constexpr double kReportedSlip_m = .5e-3;
 /// A body that has turned by this much against the plate tips or rolls.
 constexpr double kTipped_deg = 5;
-constexpr double kLongestSettling_s = 2;
+constexpr double kLongestGrainSettling_s = 2;
 
 void check(const Model& model, const TiltProtocol& protocol) {
   base::ErrorList errors;
@@ -92,16 +89,16 @@ double onset_deg(const Slide& slide) {
 }
 
 /// Lays the body on the plate at its first angle and waits until it rests there.
-void settle(ExperimentRun& run, double begin_deg) {
+void settle_grain(ExperimentRun& run, double begin_deg) {
   RestTest rest(run.simulation().setup());
   const std::int64_t steps = run.steps_of(rest.interval_s());
   while (!rest.is_at_rest(run.simulation())) {
-    if (run.simulation().time_s() > kLongestSettling_s) {
+    if (run.simulation().time_s() > kLongestGrainSettling_s) {
       throw NoReading(
           fmt::format("tilt: the body does not lie still on the plate at {:.2f} degrees "
                       "in {:g} s: it rolls, or it slides from the start. Fix: bond 2 "
                       "grains or more, and begin at 0 degrees.",
-                      begin_deg, kLongestSettling_s));
+                      begin_deg, kLongestGrainSettling_s));
     }
     run.advance(steps);
   }
@@ -163,7 +160,7 @@ void show_tilt(const Model& model, const TiltProtocol& protocol, const ClumpShap
   const Vector place(-kArm * model.grain.reach_m(), 0,
                      reach_towards(body, lying, -Vector::UnitZ()));
   run.simulation().add({.position = slope(protocol.start_deg) * place, .orientation = orientation});
-  settle(run, protocol.start_deg);
+  settle_grain(run, protocol.start_deg);
   const double begin_s = run.simulation().time_s();
   const Quaternion lay = turn_on_plate(run.simulation(), kPlate, 0);
   run.simulation().set_motions(
@@ -204,7 +201,7 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
   const Quaternion orientation = slope(begin_deg) * lying;
   run.simulation().add(
       {.position = normal * reach_towards(body, orientation, -normal), .orientation = orientation});
-  settle(run, begin_deg);
+  settle_grain(run, begin_deg);
   const Slide slide = slide_off(run, model.grain, begin_deg, protocol.rate_deg_s);
   return run.finish(
       onset_deg(slide), seed,

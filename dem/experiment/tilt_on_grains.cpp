@@ -22,10 +22,8 @@ namespace {
 
 constexpr int kBoard = 0;
 constexpr int kBed = 1;
-constexpr double kSteepest_deg = 89;
-constexpr double kFastest_deg_s = 10;
 constexpr int kMostBonded = 10;
-constexpr double kLongestSettling_s = 5;
+constexpr double kLongestBedSettling_s = 5;
 /// Shifts down the slope, in diameters of a grain: a body moves, and has set off for good.
 constexpr double kShift = .1;
 constexpr double kSetOff = 1;
@@ -119,11 +117,11 @@ class TiltRun {
     RestTest rest(run_.simulation().setup());
     const std::int64_t steps = run_.steps_of(rest.interval_s());
     while (!rest.is_at_rest(run_.simulation())) {
-      if (run_.simulation().time_s() > kLongestSettling_s) {
+      if (run_.simulation().time_s() > kLongestBedSettling_s) {
         throw NoReading(fmt::format(
             "{}: the grains do not come to rest on the level plate in {:g} s. Fix: a rolling "
             "friction above 0.",
-            tilting_.name, kLongestSettling_s));
+            tilting_.name, kLongestBedSettling_s));
       }
       run_.advance(steps);
     }

@@ -11,7 +11,7 @@
 namespace repose::dem {
 namespace {
 
-[[noreturn]] void refuse(const std::string& array, const std::string& what) {
+[[noreturn]] void refuse_array(const std::string& array, const std::string& what) {
   throw std::invalid_argument(fmt::format("array {} {}", array, what));
 }
 
@@ -44,7 +44,8 @@ void append(std::vector<double>& values, const Quaternion& quaternion) {
 
 template <typename Number>
 Number ArrayStream<Number>::take() {
-  if (is_at_end()) refuse(name_, fmt::format("ends after {} values, too soon", values_.size()));
+  if (is_at_end())
+    refuse_array(name_, fmt::format("ends after {} values, too soon", values_.size()));
   return values_[at_++];
 }
 template class ArrayStream<double>;
@@ -56,7 +57,7 @@ Vector take_vector(NumberStream& numbers) {
   const double y = numbers.take();
   const Vector vector(x, y, numbers.take());
   if (!(vector.cwiseAbs().maxCoeff() <= kMost)) {
-    refuse(numbers.name(), fmt::format("holds a number beyond {:g}", kMost));
+    refuse_array(numbers.name(), fmt::format("holds a number beyond {:g}", kMost));
   }
   return vector;
 }
@@ -67,7 +68,7 @@ Quaternion take_quaternion(NumberStream& numbers) {
   const Vector v = take_vector(numbers);
   const Quaternion quaternion(w, v.x(), v.y(), v.z());
   if (!(std::abs(quaternion.norm() - 1) < kTolerance)) {
-    refuse(numbers.name(), "holds an orientation that is not of unit length");
+    refuse_array(numbers.name(), "holds an orientation that is not of unit length");
   }
   return quaternion;
 }
@@ -75,13 +76,14 @@ Quaternion take_quaternion(NumberStream& numbers) {
 int take_index(IntegerStream& integers, std::size_t end) {
   const std::int64_t index = integers.take();
   if (index < 0 || std::cmp_greater_equal(index, end)) {
-    refuse(integers.name(), fmt::format("holds {}, must be 0 or more and below {}", index, end));
+    refuse_array(integers.name(),
+                 fmt::format("holds {}, must be 0 or more and below {}", index, end));
   }
   return static_cast<int>(index);
 }
 
 void check_end(bool is_at_end, const std::string& name) {
-  if (!is_at_end) refuse(name, "has more values than belong to it");
+  if (!is_at_end) refuse_array(name, "has more values than belong to it");
 }
 
 bool ArrayReader::has(const std::string& name) const {
@@ -94,11 +96,12 @@ const std::vector<Value>& ArrayReader::find(const std::string& name, int compone
   const std::string full = prefix_ + name;
   const auto array = std::find_if(arrays_.begin(), arrays_.end(),
                                   [&full](const VtkArray& one) { return one.name == full; });
-  if (array == arrays_.end()) refuse(full, "is missing");
+  if (array == arrays_.end()) refuse_array(full, "is missing");
   const auto* values = std::get_if<std::vector<Value>>(&array->values);
-  if (values == nullptr) refuse(full, "is of the wrong type");
+  if (values == nullptr) refuse_array(full, "is of the wrong type");
   if (array->components != components) {
-    refuse(full, fmt::format("has {} components, must have {}", array->components, components));
+    refuse_array(full,
+                 fmt::format("has {} components, must have {}", array->components, components));
   }
   return *values;
 }
@@ -107,7 +110,7 @@ NumberStream ArrayReader::numbers(const std::string& name, int components) const
   const auto& values = find<double>(name, components);
   if (std::any_of(values.begin(), values.end(),
                   [](double value) { return !std::isfinite(value); })) {
-    refuse(prefix_ + name, "holds a value that is not a finite number");
+    refuse_array(prefix_ + name, "holds a value that is not a finite number");
   }
   return {prefix_ + name, values};
 }

@@ -16,10 +16,10 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr const char* kFix = "give a .vtp file that repose wrote, unchanged.";
+constexpr const char* kReadingFix = "give a .vtp file that repose wrote, unchanged.";
 
-[[noreturn]] void refuse(const std::string& file, const std::string& what) {
-  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file, what, kFix));
+[[noreturn]] void refuse_file(const std::string& file, const std::string& what) {
+  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file, what, kReadingFix));
 }
 
 template <typename Number>
@@ -63,7 +63,7 @@ class Parser {
     const pugi::xml_node data = child(root, "PolyData");
     const pugi::xml_node piece = child(data, "Piece");
     const auto count = count_in(piece.attribute("NumberOfPoints"));
-    if (!count) refuse(file_, "NumberOfPoints is not a whole number");
+    if (!count) refuse_file(file_, "NumberOfPoints is not a whole number");
     VtkPoints result;
     result.field_arrays = arrays(child(data, "FieldData"));
     result.point_arrays = arrays(child(piece, "PointData"));
@@ -72,7 +72,7 @@ class Parser {
     check_count(positions, *count);
     const auto* numbers = std::get_if<std::vector<double>>(&positions.values);
     if (numbers == nullptr || positions.components != 3) {
-      refuse(file_, "the points are not three Float64 each");
+      refuse_file(file_, "the points are not three Float64 each");
     }
     result.positions = *numbers;
     return result;
@@ -81,7 +81,7 @@ class Parser {
  private:
   pugi::xml_node child(const pugi::xml_node& node, const char* name) const {
     const pugi::xml_node found = node.child(name);
-    if (!found) refuse(file_, fmt::format("it has no <{}>", name));
+    if (!found) refuse_file(file_, fmt::format("it has no <{}>", name));
     return found;
   }
 
@@ -98,14 +98,14 @@ class Parser {
     result.name = element.attribute("Name").value();
     result.components = element.attribute("NumberOfComponents").as_int(1);
     if (std::string_view(element.attribute("format").value()) != "binary") {
-      refuse(file_, fmt::format("array {} is not in format \"binary\"", result.name));
+      refuse_file(file_, fmt::format("array {} is not in format \"binary\"", result.name));
     }
     result.values = values(element, result.name);
     if (result.components < 1 ||
         size_of(result.values) % static_cast<std::size_t>(result.components) != 0) {
-      refuse(file_,
-             fmt::format("array {} has {} values, which is not a multiple of its {} components",
-                         result.name, size_of(result.values), result.components));
+      refuse_file(
+          file_, fmt::format("array {} has {} values, which is not a multiple of its {} components",
+                             result.name, size_of(result.values), result.components));
     }
     return result;
   }
@@ -114,29 +114,30 @@ class Parser {
     const auto bytes = base::bytes_of_base64(element.child_value());
     std::uint64_t promised = 0;
     if (!bytes || bytes->size() < sizeof promised) {
-      refuse(file_, fmt::format("array {} is not base64, or is truncated", name));
+      refuse_file(file_, fmt::format("array {} is not base64, or is truncated", name));
     }
     std::memcpy(&promised, bytes->data(), sizeof promised);
     const auto content = std::span(*bytes).subspan(sizeof promised);
     if (promised != content.size()) {
-      refuse(file_, fmt::format("array {} says it has {} bytes and has {}", name, promised,
-                                content.size()));
+      refuse_file(file_, fmt::format("array {} says it has {} bytes and has {}", name, promised,
+                                     content.size()));
     }
     const std::string_view type = element.attribute("type").value();
     if (type == "String") return texts_in(content);
     if (content.size() % sizeof(double) != 0) {
-      refuse(file_, fmt::format("array {} ends within a number", name));
+      refuse_file(file_, fmt::format("array {} ends within a number", name));
     }
     if (type == "Float64") return numbers_in<double>(content);
     if (type == "Int64") return numbers_in<std::int64_t>(content);
-    refuse(file_, fmt::format("array {} is of type {}, not Float64, Int64 or String", name, type));
+    refuse_file(file_,
+                fmt::format("array {} is of type {}, not Float64, Int64 or String", name, type));
   }
 
   void check_count(const VtkArray& values, std::size_t points) const {
     const std::size_t tuples = size_of(values.values) / static_cast<std::size_t>(values.components);
     if (tuples != points) {
-      refuse(file_,
-             fmt::format("array {} is for {} points, there are {}", values.name, tuples, points));
+      refuse_file(file_, fmt::format("array {} is for {} points, there are {}", values.name, tuples,
+                                     points));
     }
   }
 
@@ -150,15 +151,16 @@ VtkPoints parse_vtk(const std::string& file, std::string_view text) {
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   const pugi::xml_node root = document.child("VTKFile");
   if (!result) {
-    refuse(file, fmt::format("no whole XML file: {} at byte {} of {}", result.description(),
-                             result.offset, text.size()));
+    refuse_file(file, fmt::format("no whole XML file: {} at byte {} of {}", result.description(),
+                                  result.offset, text.size()));
   }
   const std::string_view type = root.attribute("type").value();
   const std::string_view order = root.attribute("byte_order").value();
   const std::string_view header = root.attribute("header_type").value();
   if (type != "PolyData" || order != "LittleEndian" || header != "UInt64" ||
       root.attribute("compressor")) {
-    refuse(file, "no VTK PolyData file as repose writes them (little endian, UInt64, not packed)");
+    refuse_file(file,
+                "no VTK PolyData file as repose writes them (little endian, UInt64, not packed)");
   }
   return Parser(file).points(root);
 }

@@ -3,7 +3,7 @@
 namespace repose::dem {
 namespace {
 
-std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+std::vector<ProtocolKey> keys_of_draw_down(Protocol& protocol) {
   auto& draw_down = std::get<DrawDownProtocol>(protocol);
   return {length_key("length_mm", "500", draw_down.length_m),
           length_key("depth_mm", "150", draw_down.depth_m),
@@ -12,7 +12,7 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
           length_key("drop_mm", "250", draw_down.drop_m)};
 }
 
-double cost_s(const Model& model, const Protocol& protocol) {
+double cost_of_draw_down_s(const Model& model, const Protocol& protocol) {
   // Filling, flow and coming to rest.
   constexpr double kPacked = .6, kSimulated_s = 4, kFallSpeed_m_s = 2;
   const auto& draw_down = std::get<DrawDownProtocol>(protocol);
@@ -45,7 +45,7 @@ ExperimentEntry draw_down_entry() {
           .sheet = {.test = "draw_down", .value = "discharged_percent", .protocol = {}},
           .is_usual = false,
           .usual = DrawDownProtocol{},
-          .keys = keys_of,
+          .keys = keys_of_draw_down,
           .run =
               [](const Model& model, const Protocol& protocol, std::uint64_t seed,
                  const ProgressReport& report, const RunRecord& record) {
@@ -54,7 +54,7 @@ ExperimentEntry draw_down_entry() {
               },
           .possible = [](const Model& /*model*/,
                          const Protocol& /*protocol*/) { return from_to(0, 100); },
-          .cost_s = cost_s};
+          .cost_s = cost_of_draw_down_s};
 }
 
 }  // namespace repose::dem

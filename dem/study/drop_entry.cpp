@@ -4,19 +4,19 @@
 namespace repose::dem {
 namespace {
 
-std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+std::vector<ProtocolKey> keys_of_drop(Protocol& protocol) {
   auto& drop = std::get<DropProtocol>(protocol);
   return {length_key("height_mm", "500", drop.height_m),
           count_key("grains", "10", kMaxGrains, drop.grains)};
 }
 
 /// From lying flat below to standing above, beside the height of the fall.
-Range possible(const Model& model, const Protocol& protocol) {
+Range possible_drop(const Model& model, const Protocol& protocol) {
   const double height_m = std::get<DropProtocol>(protocol).height_m;
   return from_to(0, 1e3 * (height_m + 2 * model.grain.reach_m()));
 }
 
-double cost_s(const Model& /*model*/, const Protocol& protocol) {
+double cost_of_drop_s(const Model& /*model*/, const Protocol& protocol) {
   return kImpact_s * std::get<DropProtocol>(protocol).grains;
 }
 
@@ -42,14 +42,14 @@ ExperimentEntry drop_entry() {
               [](const Protocol& protocol) { return std::get<DropProtocol>(protocol).grains; },
           .softening_effect = "rebounds less than one with the real stiffness",
           .usual = DropProtocol{},
-          .keys = keys_of,
+          .keys = keys_of_drop,
           .run =
               [](const Model& model, const Protocol& protocol, std::uint64_t seed,
                  const ProgressReport& report, const RunRecord& record) {
                 return run_drop(model, std::get<DropProtocol>(protocol), seed, report, record);
               },
-          .possible = possible,
-          .cost_s = cost_s};
+          .possible = possible_drop,
+          .cost_s = cost_of_drop_s};
 }
 
 }  // namespace repose::dem

@@ -6,7 +6,7 @@
 namespace repose::dem {
 namespace {
 
-std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+std::vector<ProtocolKey> keys_of_fill(Protocol& protocol) {
   auto& fill = std::get<FillProtocol>(protocol);
   ProtocolKey tap = length_key("tap_mm", "3", fill.tap_m);
   tap.needs = "taps";
@@ -16,7 +16,7 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
           count_key("taps", "50", kMostTaps, fill.taps, "none"), tap};
 }
 
-double cost_s(const Model& model, const Protocol& protocol) {
+double cost_of_fill_s(const Model& model, const Protocol& protocol) {
   constexpr double kPacked = .6, kRises_m_s = .13, kFallSpeed_m_s = 2, kTap_s = .1;
   const auto& fill = std::get<FillProtocol>(protocol);
   const double radius = fill.tube_diameter_m / 2;
@@ -46,7 +46,7 @@ ExperimentEntry fill_entry() {
           .sheet = {.test = "fill", .value = "bulk_density_kg_m3", .protocol = {}},
           .is_usual = false,
           .usual = FillProtocol{},
-          .keys = keys_of,
+          .keys = keys_of_fill,
           .run =
               [](const Model& model, const Protocol& protocol, std::uint64_t seed,
                  const ProgressReport& report, const RunRecord& record) {
@@ -56,7 +56,7 @@ ExperimentEntry fill_entry() {
               [](const Model& model, const Protocol& /*protocol*/) {
                 return from_to(0, model.grain_material.density_kg_m3);
               },
-          .cost_s = cost_s};
+          .cost_s = cost_of_fill_s};
 }
 
 }  // namespace repose::dem

@@ -7,7 +7,7 @@
 namespace repose::dem {
 namespace {
 
-std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+std::vector<ProtocolKey> keys_of_heap(Protocol& protocol) {
   auto& heap = std::get<HeapProtocol>(protocol);
   return {length_key("tube_diameter_mm", "100", heap.tube_diameter_m),
           length_key("tube_height_mm", "400", heap.tube_height_m),
@@ -26,7 +26,7 @@ double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {
   return heap.grains ? std::min<double>(*heap.grains, full) : full;
 }
 
-double cost_s(const Model& model, const Protocol& protocol) {
+double cost_of_heap_s(const Model& model, const Protocol& protocol) {
   // Once the tube is a diameter up, what is left in it falls out.
   constexpr double kFillAndSettle_s = 1.5, kFallSpeed_m_s = 2;
   const auto& heap = std::get<HeapProtocol>(protocol);
@@ -61,7 +61,7 @@ ExperimentEntry heap_entry() {
           .is_pictured = true,
           .is_filmed = true,
           .usual = HeapProtocol{},
-          .keys = keys_of,
+          .keys = keys_of_heap,
           .run =
               [](const Model& model, const Protocol& protocol, std::uint64_t seed,
                  const ProgressReport& report, const RunRecord& record) {
@@ -75,7 +75,7 @@ ExperimentEntry heap_entry() {
               },
           .possible = [](const Model& /*model*/,
                          const Protocol& /*protocol*/) { return from_to(-90, 90); },
-          .cost_s = cost_s};
+          .cost_s = cost_of_heap_s};
 }
 
 }  // namespace repose::dem

@@ -4,14 +4,14 @@
 namespace repose::dem {
 namespace {
 
-std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+std::vector<ProtocolKey> keys_of_pendulum(Protocol& protocol) {
   auto& pendulum = std::get<PendulumProtocol>(protocol);
   return {length_key("string_mm", "300", pendulum.string_m),
           number_key("release_deg", "30", above(0, 90), pendulum.release_deg),
           count_key("pairs", "10", kMaxGrains / 2, pendulum.pairs)};
 }
 
-double cost_s(const Model& /*model*/, const Protocol& protocol) {
+double cost_of_pendulum_s(const Model& /*model*/, const Protocol& protocol) {
   return kImpact_s * std::get<PendulumProtocol>(protocol).pairs;
 }
 
@@ -36,7 +36,7 @@ ExperimentEntry pendulum_entry() {
               [](const Protocol& protocol) { return std::get<PendulumProtocol>(protocol).pairs; },
           .softening_effect = "swings less far than one with the real stiffness",
           .usual = PendulumProtocol{},
-          .keys = keys_of,
+          .keys = keys_of_pendulum,
           .run =
               [](const Model& model, const Protocol& protocol, std::uint64_t seed,
                  const ProgressReport& report, const RunRecord& record) {
@@ -45,7 +45,7 @@ ExperimentEntry pendulum_entry() {
               },
           .possible = [](const Model& /*model*/,
                          const Protocol& /*protocol*/) { return from_to(0, 90); },
-          .cost_s = cost_s};
+          .cost_s = cost_of_pendulum_s};
 }
 
 }  // namespace repose::dem

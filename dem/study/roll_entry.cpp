@@ -3,7 +3,7 @@
 namespace repose::dem {
 namespace {
 
-std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+std::vector<ProtocolKey> keys_of_roll(Protocol& protocol) {
   constexpr Range kSlope{.from = 0, .to = 90, .excludes_from = true, .excludes_to = true};
   auto& roll = std::get<RollProtocol>(protocol);
   return {number_key("incline_deg", "20", kSlope, roll.incline_deg),
@@ -12,12 +12,12 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
 }
 
 /// Nothing limits how far it may roll but the fit, see kMostReading.
-Range possible(const Model& model, const Protocol& protocol) {
+Range possible_roll(const Model& model, const Protocol& protocol) {
   const double release_m = std::get<RollProtocol>(protocol).release_m;
   return {.from = -1e3 * (release_m + 2 * model.grain.reach_m())};
 }
 
-double cost_s(const Model& model, const Protocol& /*protocol*/) {
+double cost_of_roll_s(const Model& model, const Protocol& /*protocol*/) {
   constexpr double kSpeed_m_s = 1, kRun_s = 2;
   return step_on_wall_s(model, 1) * kRun_s / course_timestep_s(model, kSpeed_m_s);
 }
@@ -44,14 +44,14 @@ ExperimentEntry roll_entry() {
                 .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},
       .is_filmed = true,
       .usual = RollProtocol{},
-      .keys = keys_of,
+      .keys = keys_of_roll,
       .run =
           [](const Model& model, const Protocol& protocol, std::uint64_t seed,
              const ProgressReport& report, const RunRecord& record) {
             return run_roll(model, std::get<RollProtocol>(protocol), seed, report, record);
           },
-      .possible = possible,
-      .cost_s = cost_s};
+      .possible = possible_roll,
+      .cost_s = cost_of_roll_s};
 }
 
 }  // namespace repose::dem

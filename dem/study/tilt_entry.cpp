@@ -3,7 +3,7 @@
 namespace repose::dem {
 namespace {
 
-std::vector<ProtocolKey> keys_of(Protocol& protocol) {
+std::vector<ProtocolKey> keys_of_tilt(Protocol& protocol) {
   constexpr int kMaxBonded = 100;
   auto& tilt = std::get<TiltProtocol>(protocol);
   return {count_key("bonded", "2", kMaxBonded, tilt.bonded),
@@ -11,7 +11,7 @@ std::vector<ProtocolKey> keys_of(Protocol& protocol) {
           number_key("start_deg", "0", from_to_below(0, 90), tilt.start_deg)};
 }
 
-double cost_s(const Model& model, const Protocol& protocol) {
+double cost_of_tilt_s(const Model& model, const Protocol& protocol) {
   constexpr double kSpeed_m_s = 1, kRun_s = .7;
   const int bonded = std::get<TiltProtocol>(protocol).bonded;
   return step_on_wall_s(model, bonded) * kRun_s / course_timestep_s(model, kSpeed_m_s);
@@ -38,7 +38,7 @@ ExperimentEntry tilt_entry() {
           // A hand or a worn motor does not keep it, and the angle hardly depends on it.
           .filmed_settings = {{"rate_deg_s", "rate_deg_s", .2}},
           .usual = TiltProtocol{},
-          .keys = keys_of,
+          .keys = keys_of_tilt,
           .run =
               [](const Model& model, const Protocol& protocol, std::uint64_t seed,
                  const ProgressReport& report, const RunRecord& record) {
@@ -46,7 +46,7 @@ ExperimentEntry tilt_entry() {
               },
           .possible = [](const Model& /*model*/,
                          const Protocol& /*protocol*/) { return from_to(0, 90); },
-          .cost_s = cost_s};
+          .cost_s = cost_of_tilt_s};
 }
 
 }  // namespace repose::dem

@@ -8,8 +8,6 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kGravity = kStandardGravity_m_s2;
-
 /// Of equal balls, as far from each other as in a large tile.
 Wall bed_of(const std::vector<Vector>& centres) {
   SphereBed bed{.spheres = {}, .tile = 100 * kBallRadius_m};
@@ -63,7 +61,7 @@ void ball_leaves_its_hollow(Trial& trial) {
     const Quaternion tilt(Eigen::AngleAxisd(kStart, Vector::UnitY()));
     bed.pose.orientation = tilt;
     setup.walls = {bed};
-    setup.gravity = {0, 0, -kGravity};
+    setup.gravity = {0, 0, -kStandardGravity_m_s2};
     Simulation simulation = trial.simulate(setup, .1);
     simulation.add(
         {.position = tilt * Vector(0, 0, std::sqrt(2. / 3) * across), .orientation = tilt});

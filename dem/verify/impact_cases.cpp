@@ -10,7 +10,7 @@
 namespace repose::dem {
 namespace {
 
-constexpr const char* kChungOoi = "Chung & Ooi (2011); Hertz";
+constexpr const char* kChungOoiHertz = "Chung & Ooi (2011); Hertz";
 
 /// Overlap, force and duration are those of a Hertz contact, within .5 %.
 struct HertzImpact {
@@ -31,21 +31,24 @@ void expect_hertz(Trial& trial, const HertzImpact& expected, const Collision& me
 
 /// T1: two equal spheres meet head-on.
 VerifyCase equal_spheres(const Material& material, const HertzImpact& expected) {
-  return {
-      .name = "T1 two spheres, " + material.name, .source = kChungOoi, .run = [=](Trial& trial) {
-        constexpr double kRadius = .01;
-        constexpr double kSpeed = 10;
-        Simulation simulation =
-            trial.simulate(scene_of(sphere_shape(kRadius), material, material, {}), 2 * kSpeed);
-        simulation.add({.position = {0, 0, kRadius}, .velocity = {0, 0, -kSpeed}});
-        simulation.add({.position = {0, 0, -kRadius}, .velocity = {0, 0, kSpeed}});
-        expect_hertz(trial, expected, collide(simulation, Vector::UnitZ(), kRadius));
-      }};
+  return {.name = "T1 two spheres, " + material.name,
+          .source = kChungOoiHertz,
+          .run = [=](Trial& trial) {
+            constexpr double kRadius = .01;
+            constexpr double kSpeed = 10;
+            Simulation simulation =
+                trial.simulate(scene_of(sphere_shape(kRadius), material, material, {}), 2 * kSpeed);
+            simulation.add({.position = {0, 0, kRadius}, .velocity = {0, 0, -kSpeed}});
+            simulation.add({.position = {0, 0, -kRadius}, .velocity = {0, 0, kSpeed}});
+            expect_hertz(trial, expected, collide(simulation, Vector::UnitZ(), kRadius));
+          }};
 }
 
 /// T2: a sphere on a rigid wall.
 VerifyCase rigid_wall(const Material& material, const HertzImpact& expected) {
-  return {.name = "T2 rigid wall, " + material.name, .source = kChungOoi, .run = [=](Trial& trial) {
+  return {.name = "T2 rigid wall, " + material.name,
+          .source = kChungOoiHertz,
+          .run = [=](Trial& trial) {
             const Material rigid{
                 .name = "rigid", .density_kg_m3 = 1, .young_modulus_pa = 1e20, .poisson_ratio = .3};
             const SimulationSetup setup = scene_of(sphere_shape(.1), material, rigid, {});

@@ -8,7 +8,6 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kGravity = kStandardGravity_m_s2;
 constexpr double kRestitution = .5;  // damps what the start stirs up
 
 /// A sphere set down sliding: slip ends after 2 u0 / (7 mu g), with 5/7 of the speed.
@@ -17,7 +16,7 @@ void slip_to_roll(Trial& trial) {
   for (const double friction : {.2, .4, .6, .8, 1.0}) {
     SimulationSetup setup = ball_scene({.restitution = kRestitution, .sliding_friction = friction});
     setup.walls = {tilted_plane(0)};
-    setup.gravity = {0, 0, -kGravity};
+    setup.gravity = {0, 0, -kStandardGravity_m_s2};
     Simulation simulation = trial.simulate(setup, kSpeed);
     Grain ball = resting_sphere(setup, 0);
     ball.velocity.x() = kSpeed;
@@ -30,7 +29,7 @@ void slip_to_roll(Trial& trial) {
     for (; slip() > 0; simulation.advance(1)) before = slip();
     const double part = before / (before - slip());
     const double time = simulation.time_s() - (1 - part) * simulation.setup().timestep_s;
-    const double expected = 2 * kSpeed / (7 * friction * kGravity);
+    const double expected = 2 * kSpeed / (7 * friction * kStandardGravity_m_s2);
     trial.expect(fmt::format("slip ends at mu {:.1f}, ms", friction), 1e3 * expected, 1e3 * time,
                  .01 * 1e3 * expected);
     while (simulation.time_s() < 10 * expected) simulation.advance(1);
@@ -49,7 +48,7 @@ void sphere_on_incline(Trial& trial) {
   for (const double friction : {.05, .1, .2, .5, 1.0}) {
     SimulationSetup setup = ball_scene({.restitution = kRestitution, .sliding_friction = friction});
     setup.walls = {tilted_plane(kTilt)};
-    setup.gravity = {0, 0, -kGravity};
+    setup.gravity = {0, 0, -kStandardGravity_m_s2};
     Simulation simulation = trial.simulate(setup, .1);
     simulation.add(resting_sphere(setup, kTilt));
     const auto speed_at = [&](double time) {
@@ -60,9 +59,10 @@ void sphere_on_incline(Trial& trial) {
     const double start = speed_at(kTime);
     const double start_s = simulation.time_s();
     const double gained = speed_at(2 * kTime) - start;
-    const double expected = std::tan(kTilt) <= 3.5 * friction
-                                ? 5.0 / 7 * kGravity * std::sin(kTilt)
-                                : kGravity * (std::sin(kTilt) - friction * std::cos(kTilt));
+    const double expected =
+        std::tan(kTilt) <= 3.5 * friction
+            ? 5.0 / 7 * kStandardGravity_m_s2 * std::sin(kTilt)
+            : kStandardGravity_m_s2 * (std::sin(kTilt) - friction * std::cos(kTilt));
     trial.expect(fmt::format("acceleration at mu {:.2f}, m/s2", friction), expected,
                  gained / (simulation.time_s() - start_s), .002 * expected);
   }
@@ -81,7 +81,7 @@ void block_on_tilting_plate(Trial& trial) {
         scene_of(block, soft, soft, {.restitution = .1, .sliding_friction = friction});
     const double start = std::atan(friction) - kStart;
     setup.walls = {tilted_plane(start)};
-    setup.gravity = {0, 0, -kGravity};
+    setup.gravity = {0, 0, -kStandardGravity_m_s2};
     Simulation simulation = trial.simulate(setup, .05);
     Grain grain;
     const Vector up(std::sin(start), 0, std::cos(start));

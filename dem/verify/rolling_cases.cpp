@@ -9,15 +9,13 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kGravity = kStandardGravity_m_s2;
-
 /// A rolling ball with resistance mu_r on a plane, let go with some speed down the slope.
 Simulation rolling_ball(Trial& trial, RollingModel model, double rolling_friction, double tilt,
                         double speed) {
   SimulationSetup setup = ball_scene(
       {.restitution = .5, .sliding_friction = 1, .rolling_friction = rolling_friction}, model);
   setup.walls = {tilted_plane(tilt)};
-  setup.gravity = {0, 0, -kGravity};
+  setup.gravity = {0, 0, -kStandardGravity_m_s2};
   Simulation simulation = trial.simulate(setup, .1);
   Grain ball = resting_sphere(setup, tilt);
   ball.velocity = speed * downhill(tilt);
@@ -43,7 +41,7 @@ double acceleration(Simulation& simulation, double tilt, double from_s, double t
 void decays_on_plane(Trial& trial, RollingModel model) {
   for (const double friction : {.01, .05}) {
     Simulation simulation = rolling_ball(trial, model, friction, 0, .2);
-    const double expected = 5.0 / 7 * friction * kGravity;
+    const double expected = 5.0 / 7 * friction * kStandardGravity_m_s2;
     trial.expect(fmt::format("deceleration at mu_r {:.2f}, m/s2", friction), expected,
                  -acceleration(simulation, 0, .1, .3), .005 * expected);
   }
@@ -81,8 +79,9 @@ void holds_on_incline(Trial& trial, RollingModel model) {
   for (const double fraction : {.5, .95, 1.2}) {
     const double tilt = std::atan(fraction * kFriction);
     Simulation simulation = rolling_ball(trial, model, kFriction, tilt, 0);
-    const double expected =
-        fraction < 1 ? 0 : 5.0 / 7 * kGravity * (std::sin(tilt) - kFriction * std::cos(tilt));
+    const double expected = fraction < 1 ? 0
+                                         : 5.0 / 7 * kStandardGravity_m_s2 *
+                                               (std::sin(tilt) - kFriction * std::cos(tilt));
     trial.expect(fmt::format("acceleration at tan(tilt) = {:.2f} mu_r, m/s2", fraction), expected,
                  acceleration(simulation, tilt, .2, .4), fraction < 1 ? 1e-4 : .01 * expected);
     // The type A torque of the relative model lets it creep, the slower the shorter the step.

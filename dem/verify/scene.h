@@ -1,12 +1,9 @@
 #pragma once
 
-#include <numbers>
-
+#include "base/units.h"
 #include "dem/engine/simulation.h"
 
 namespace repose::dem {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 class Trial;
 

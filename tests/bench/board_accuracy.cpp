@@ -15,6 +15,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "base/units.h"
 #include "tests/bench/board_subjects.h"
 #include "tests/bench/median.h"
 #include "vision/camera/sized_heap.h"
@@ -23,8 +24,6 @@ namespace repose::bench {
 namespace {
 
 using vision::Estimate;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Errors of one number over many pictures.
 struct Tally {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "base/units.h"
 #include "render/film/film.h"
 #include "tests/bench/median.h"
 #include "tests/support/drawn_heap_film.h"
@@ -25,8 +25,6 @@
 
 namespace repose::bench {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Row {
   double truth_deg = 0;

@@ -1,7 +1,6 @@
 #include "tests/bench/heap_race.h"
 
 #include <cmath>
-#include <ctime>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
 #include "render/scene/scene.h"
+#include "tests/bench/cpu_time.h"
 #include "tests/bench/liggghts_race.h"
 #include "tests/peers/liggghts.h"
 #include "tests/support/places.h"
@@ -23,8 +23,6 @@ using dem::Vector;
 
 constexpr int kViews = 18;
 constexpr double kTheirStep = 1.25;
-
-double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// The inside of a tube as an STL file.
 std::string tube_file(double radius_m, double height_m) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 
 #include "dem/experiment/experiment.h"
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
+#include "tests/bench/cpu_time.h"
 #include "tests/bench/packing.h"
 #include "tests/support/places.h"
 
@@ -16,12 +16,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kFew = 500;
-constexpr double kClumpStepsARun = 2e6;
-
-double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+constexpr double kOwnStepsARun = 2e6;
 
 std::int64_t steps_for(int clumps) {
-  return std::max<std::int64_t>(5, static_cast<std::int64_t>(kClumpStepsARun) / clumps);
+  return std::max<std::int64_t>(5, static_cast<std::int64_t>(kOwnStepsARun) / clumps);
 }
 
 double clump_step_ns(dem::Simulation& simulation) {

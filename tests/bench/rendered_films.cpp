@@ -33,7 +33,7 @@ struct Reading {
   vision::Estimate read;
 };
 
-struct Row {
+struct FilmRow {
   unsigned seed = 0;
   std::string setting;
   std::string reason = {};  ///< of no reading
@@ -186,11 +186,12 @@ std::vector<double> restitutions_of(const std::vector<render::Scene>& scenes, do
   return restitutions;
 }
 
-Row drop_row(double frames_per_s, unsigned seed) {
+FilmRow drop_row(double frames_per_s, unsigned seed) {
   Chance chance(seed);
   const dem::Model model = model_of(chance, false);
   const dem::DropProtocol protocol{.height_m = chance.between(.15, .25), .grains = 1};
-  Row row{.seed = seed, .setting = fmt::format("restitution {:.3f}", model.grain_wall.restitution)};
+  FilmRow row{.seed = seed,
+              .setting = fmt::format("restitution {:.3f}", model.grain_wall.restitution)};
   Recorder recorder;
   run_drop(model, protocol, seed, {}, recorder.record(5e-4));
   const auto film =
@@ -206,7 +207,7 @@ Row drop_row(double frames_per_s, unsigned seed) {
   return row;
 }
 
-Row roll_row(double frames_per_s, bool has_scale, unsigned seed) {
+FilmRow roll_row(double frames_per_s, bool has_scale, unsigned seed) {
   Chance chance(seed);
   const bool is_clump = chance.one_of(3);
   dem::Model model = model_of(chance, is_clump);
@@ -217,9 +218,9 @@ Row roll_row(double frames_per_s, bool has_scale, unsigned seed) {
   const double angle = protocol.incline_deg * std::numbers::pi / 180;
   model.grain_wall.rolling_friction =
       protocol.release_m * std::sin(angle) / (far_m + protocol.release_m * std::cos(angle));
-  Row row{.seed = seed,
-          .setting = fmt::format("{} of {:.1f} mm on {:.1f} deg", is_clump ? "clump" : "ball",
-                                 2e3 * model.grain.reach_m(), protocol.incline_deg)};
+  FilmRow row{.seed = seed,
+              .setting = fmt::format("{} of {:.1f} mm on {:.1f} deg", is_clump ? "clump" : "ball",
+                                     2e3 * model.grain.reach_m(), protocol.incline_deg)};
   Recorder recorder;
   const dem::Repeat repeat = run_roll(model, protocol, seed, {}, recorder.record(2e-3));
   if (repeat.value < 0) {
@@ -246,15 +247,15 @@ Row roll_row(double frames_per_s, bool has_scale, unsigned seed) {
   return row;
 }
 
-Row tilt_row(double frames_per_s, unsigned seed) {
+FilmRow tilt_row(double frames_per_s, unsigned seed) {
   Chance chance(seed);
   const bool is_clump = chance.one_of(3);
   const dem::Model model = model_of(chance, is_clump);
   const dem::TiltProtocol protocol{.bonded = 2 + (chance.one_of(2) ? 1 : 0),
                                    .rate_deg_s = chance.between(2, 5)};
-  Row row{.seed = seed,
-          .setting = fmt::format("{} {} at {:.1f} deg/s", protocol.bonded,
-                                 is_clump ? "clumps" : "balls", protocol.rate_deg_s)};
+  FilmRow row{.seed = seed,
+              .setting = fmt::format("{} {} at {:.1f} deg/s", protocol.bonded,
+                                     is_clump ? "clumps" : "balls", protocol.rate_deg_s)};
   Recorder recorder;
   dem::Repeat repeat;
   try {
@@ -272,7 +273,7 @@ Row tilt_row(double frames_per_s, unsigned seed) {
   return row;
 }
 
-void print_row(const Row& row) {
+void print_film(const FilmRow& row) {
   std::string line = fmt::format("  seed {}, {}:", row.seed, row.setting);
   for (const Reading& reading : row.readings) {
     line += fmt::format(" {:.4g} read {:.4g} +- {:.2g}{}", reading.truth, reading.read.value,
@@ -285,10 +286,10 @@ void print_row(const Row& row) {
 
 /// Of a film's first reading; intervals of all of them.
 void print(const std::string& what, const char* unit, bool is_relative,
-           const std::vector<Row>& rows) {
+           const std::vector<FilmRow>& rows) {
   std::vector<double> errors;
   int held = 0, all = 0, flagged = 0;
-  for (const Row& row : rows) {
+  for (const FilmRow& row : rows) {
     flagged += row.is_flagged ? 1 : 0;
     for (const Reading& reading : row.readings) {
       const double off = std::abs(reading.read.value - reading.truth);
@@ -311,11 +312,11 @@ void print(const std::string& what, const char* unit, bool is_relative,
 }
 
 template <typename Make>
-std::vector<Row> rows_of(int films, unsigned first_seed, bool prints_each, const Make& make) {
-  std::vector<Row> rows(static_cast<std::size_t>(films));
+std::vector<FilmRow> rows_of(int films, unsigned first_seed, bool prints_each, const Make& make) {
+  std::vector<FilmRow> rows(static_cast<std::size_t>(films));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
     rows[k] = make(first_seed + static_cast<unsigned>(k));
-    if (prints_each || rows[k].readings.empty()) print_row(rows[k]);
+    if (prints_each || rows[k].readings.empty()) print_film(rows[k]);
   });
   return rows;
 }

@@ -21,7 +21,7 @@ namespace {
 using testing::DrawnTilt;
 using vision::TiltTrack;
 
-struct Row {
+struct TiltRow {
   DrawnTilt drawn;
   TiltTrack track;
 };
@@ -61,7 +61,7 @@ DrawnTilt random_tilt(double frames_per_s, unsigned seed) {
   return tilt;
 }
 
-Row row_of(const DrawnTilt& drawn) {
+TiltRow row_of(const DrawnTilt& drawn) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "tilt.mp4";
   render::Film film(file, drawn.frames_per_s);
@@ -70,7 +70,7 @@ Row row_of(const DrawnTilt& drawn) {
   return {drawn, vision::track_tilt(file)};
 }
 
-void print_row(const Row& row) {
+void print_tilt(const TiltRow& row) {
   const TiltTrack& track = row.track;
   fmt::print("  seed {}: {:.2f} at {:.2f}/s, ", row.drawn.seed, row.drawn.onset_deg,
              row.drawn.rate_deg_s);
@@ -89,14 +89,14 @@ void print_row(const Row& row) {
 }  // namespace
 
 void print_tilt_accuracy(double frames_per_s, int films, unsigned first_seed, bool prints_each) {
-  std::vector<Row> rows(static_cast<std::size_t>(films));
+  std::vector<TiltRow> rows(static_cast<std::size_t>(films));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
     rows[k] = row_of(random_tilt(frames_per_s, first_seed + static_cast<unsigned>(k)));
-    if (prints_each || !rows[k].track.has_reading) print_row(rows[k]);
+    if (prints_each || !rows[k].track.has_reading) print_tilt(rows[k]);
   });
   std::vector<double> errors;
   int held = 0, flagged = 0;
-  for (const Row& row : rows) {
+  for (const TiltRow& row : rows) {
     if (!row.track.has_reading) continue;
     const double off = std::abs(row.track.angle_deg.value - row.drawn.onset_deg);
     errors.push_back(off);

@@ -18,7 +18,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 constexpr double kRad = std::numbers::pi / 180;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string row_name(std::size_t number) {
   return std::string("row ").append(std::to_string(number));
@@ -32,8 +31,8 @@ std::vector<BenchReading> readings(const std::vector<std::vector<double>>& rows)
   return readings;
 }
 
-std::string error_of(BenchTest test, const std::vector<std::vector<double>>& rows) {
-  return repose::error_of([&] { evaluate_bench(test, readings(rows)); });
+std::string bench_error(BenchTest test, const std::vector<std::vector<double>>& rows) {
+  return error_of([&] { evaluate_bench(test, readings(rows)); });
 }
 
 TEST(BenchFormulas, HazelnutStudysMeansGiveItsCoefficients) {
@@ -133,38 +132,41 @@ TEST(Bench, SizesGiveDiameterAndSphericity) {
 }
 
 TEST(Bench, ImpossibleReadingsAreRefusedAllAtOnce) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(
-      error_of(BenchTest::restitution, {{500, 510}, {500, 9}, {0, 9}, {500, -1}, {kNan, 1}}),
+      bench_error(BenchTest::restitution, {{500, 510}, {500, 9}, {0, 9}, {500, -1}, {kNan, 1}}),
       AllOf(HasSubstr("row 1: rebound_mm = 510 is more than drop_mm = 500"),
             HasSubstr("row 3: drop_mm = 0"), HasSubstr("row 4: rebound_mm = -1"),
             HasSubstr("row 5: drop_mm = nan")));
-  EXPECT_THAT(error_of(BenchTest::sliding, {{90}, {0}, {120}}),
+  EXPECT_THAT(bench_error(BenchTest::sliding, {{90}, {0}, {120}}),
               AllOf(HasSubstr("row 1: angle_deg = 90"), HasSubstr("row 2: angle_deg = 0"),
                     HasSubstr("row 3: angle_deg = 120")));
-  EXPECT_THAT(error_of(BenchTest::rolling, {{20, -1, 5}, {95, 150, 300}}),
+  EXPECT_THAT(bench_error(BenchTest::rolling, {{20, -1, 5}, {95, 150, 300}}),
               AllOf(HasSubstr("released_mm = -1"), HasSubstr("incline_deg = 95")));
-  EXPECT_THAT(error_of(BenchTest::poisson, {{10, 1, 10, .5}, {10, 1, 10, -1.2}, {10, 11, 10, 1}}),
-              AllOf(HasSubstr("row 1: Poisson's ratio would be 0.5"),
-                    HasSubstr("row 2: Poisson's ratio would be -1.2"),
-                    HasSubstr("row 3: shortening_mm = 11")));
-  EXPECT_THAT(error_of(BenchTest::density, {{3, 40, 39}, {3, 0, 3000}}),
+  EXPECT_THAT(
+      bench_error(BenchTest::poisson, {{10, 1, 10, .5}, {10, 1, 10, -1.2}, {10, 11, 10, 1}}),
+      AllOf(HasSubstr("row 1: Poisson's ratio would be 0.5"),
+            HasSubstr("row 2: Poisson's ratio would be -1.2"),
+            HasSubstr("row 3: shortening_mm = 11")));
+  EXPECT_THAT(bench_error(BenchTest::density, {{3, 40, 39}, {3, 0, 3000}}),
               AllOf(HasSubstr("no liquid was displaced"), HasSubstr("no grain is")));
-  EXPECT_THAT(error_of(BenchTest::young, {{10, 2, 5, 5}}), HasSubstr("compression_mm = 5"));
-  EXPECT_THAT(error_of(BenchTest::size, {{10, 12, 9}}), HasSubstr("not the longest"));
-  EXPECT_THAT(error_of(BenchTest::pendulum, {{30, 31}, {30, -1}}),
+  EXPECT_THAT(bench_error(BenchTest::young, {{10, 2, 5, 5}}), HasSubstr("compression_mm = 5"));
+  EXPECT_THAT(bench_error(BenchTest::size, {{10, 12, 9}}), HasSubstr("not the longest"));
+  EXPECT_THAT(bench_error(BenchTest::pendulum, {{30, 31}, {30, -1}}),
               AllOf(HasSubstr("swing_deg = 31 is more than release_deg = 30"),
                     HasSubstr("swing_deg = -1")));
-  EXPECT_THAT(error_of(BenchTest::fill, {{-5}}), HasSubstr("bulk_density_kg_m3 = -5"));
-  EXPECT_THAT(error_of(BenchTest::draw_down, {{0}, {100}}),
+  EXPECT_THAT(bench_error(BenchTest::fill, {{-5}}), HasSubstr("bulk_density_kg_m3 = -5"));
+  EXPECT_THAT(bench_error(BenchTest::draw_down, {{0}, {100}}),
               AllOf(HasSubstr("row 1: discharged_percent = 0"),
                     HasSubstr("row 2: discharged_percent = 100")));
-  EXPECT_THAT(error_of(BenchTest::size, {}), HasSubstr("no readings"));
-  EXPECT_THAT(error_of(BenchTest::size, {{1, 2}}), HasSubstr("2 values are given for 3 columns"));
+  EXPECT_THAT(bench_error(BenchTest::size, {}), HasSubstr("no readings"));
+  EXPECT_THAT(bench_error(BenchTest::size, {{1, 2}}),
+              HasSubstr("2 values are given for 3 columns"));
 }
 
 TEST(Bench, AuxeticAndBouncelessGrainsArePossible) {
-  EXPECT_EQ(error_of(BenchTest::poisson, {{10, 1, 10, -.3}}), "");
-  EXPECT_EQ(error_of(BenchTest::restitution, {{500, 0}, {500, 500}}), "");
+  EXPECT_EQ(bench_error(BenchTest::poisson, {{10, 1, 10, -.3}}), "");
+  EXPECT_EQ(bench_error(BenchTest::restitution, {{500, 0}, {500, 500}}), "");
 }
 
 }  // namespace

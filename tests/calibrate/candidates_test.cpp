@@ -12,8 +12,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr int kReadings = 10;
-constexpr int kRuns = 41;
+constexpr int kHeapReadings = 10;
+constexpr int kHeapRuns = 41;
 
 /// One observable, whose mean is met up to what chance does in `chance` of all cases.
 JointResult joint_with(double chance, double bench_sd, double simulated_sd) {
@@ -22,11 +22,11 @@ JointResult joint_with(double chance, double bench_sd, double simulated_sd) {
   joint.surrogates.resize(1);
   ResultObservable& heap = joint.observables.front();
   heap.measured_sd = bench_sd;
-  heap.measured_uncertainty = bench_sd / std::sqrt(kReadings);
+  heap.measured_uncertainty = bench_sd / std::sqrt(kHeapReadings);
   heap.sd_assumed = false;
   heap.predicted_sd = simulated_sd;
   heap.verification.runs = 3;
-  joint.surrogates.front().runs = kRuns;
+  joint.surrogates.front().runs = kHeapRuns;
   joint.agreement.chance = chance;
   return joint;
 }

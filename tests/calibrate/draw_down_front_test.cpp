@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -11,13 +10,12 @@
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "calibrate/experiment/heap_views.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Balls of 4 mm whose tops lie on a line over a floor.
 void add_under(render::Scene& scene, double floor_m, double from_m, double to_m,

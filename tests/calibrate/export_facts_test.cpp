@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-dem::Study hazelnuts() {
+dem::Study hazelnuts_to_fit() {
   dem::Study study;
   study.model = dem::test::clump_bench();
   study.experiments[dem::Experiment::drop].protocol = dem::DropProtocol{};
@@ -24,7 +24,7 @@ dem::Study hazelnuts() {
   return study;
 }
 
-std::string errors_of(const dem::Study& study, const std::vector<FittedValue>& fitted) {
+std::string facts_error(const dem::Study& study, const std::vector<FittedValue>& fitted) {
   return error_of(
       [&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted, ExportTarget::liggghts); });
 }
@@ -32,30 +32,32 @@ std::string errors_of(const dem::Study& study, const std::vector<FittedValue>& f
 constexpr const char* kRestitution = "contact.particle_wall.restitution";
 
 TEST(ExportFacts, TakeTheFittedValues) {
-  const ExportFacts facts(hazelnuts(), dem::test::spheroid_clump(3),
+  const ExportFacts facts(hazelnuts_to_fit(), dem::test::spheroid_clump(3),
                           {{.name = kRestitution, .value = .42}}, ExportTarget::liggghts);
   EXPECT_EQ(facts.study().model.grain_wall.restitution, .42);
   EXPECT_EQ(facts.study().model.grain_wall.sliding_friction, .39);
 }
 
 TEST(ExportFacts, RefuseACoefficientWithoutAValue) {
-  EXPECT_THAT(errors_of(hazelnuts(), {}), AllOf(HasSubstr(kRestitution), HasSubstr("Fix: ")));
-  dem::Study study = hazelnuts();
+  EXPECT_THAT(facts_error(hazelnuts_to_fit(), {}),
+              AllOf(HasSubstr(kRestitution), HasSubstr("Fix: ")));
+  dem::Study study = hazelnuts_to_fit();
   study.particle_particle.sliding_friction.min = .1;
   study.particle_particle.sliding_friction.max = .9;
   const std::vector<FittedValue> fitted = {{.name = kRestitution, .value = .42}};
-  EXPECT_EQ(errors_of(study, fitted), "") << "grains touch each other in heaps only";
+  EXPECT_EQ(facts_error(study, fitted), "") << "grains touch each other in heaps only";
   study.experiments[dem::Experiment::heap].protocol = dem::HeapProtocol{};
-  EXPECT_THAT(errors_of(study, fitted),
+  EXPECT_THAT(facts_error(study, fitted),
               AllOf(HasSubstr("particle_particle.sliding_friction"), Not(HasSubstr(kRestitution))));
 }
 
 TEST(ExportFacts, RefuseUnknownNamesAndNumbersThatAreNone) {
-  EXPECT_THAT(errors_of(hazelnuts(), {{.name = "contact.love", .value = 1}}),
+  EXPECT_THAT(facts_error(hazelnuts_to_fit(), {{.name = "contact.love", .value = 1}}),
               HasSubstr("contact.love"));
-  EXPECT_THAT(errors_of(hazelnuts(), {{.name = kRestitution,
-                                       .value = std::numeric_limits<double>::quiet_NaN()}}),
-              HasSubstr(kRestitution));
+  EXPECT_THAT(
+      facts_error(hazelnuts_to_fit(),
+                  {{.name = kRestitution, .value = std::numeric_limits<double>::quiet_NaN()}}),
+      HasSubstr(kRestitution));
 }
 
 // Johnson (1985), eqs. 4.24 and 7.43, forwards.

@@ -41,7 +41,7 @@ StudyExport exported(const dem::Study& study, ExportTarget target, bool approxim
                       {.target = target, .takes_approximate = approximate});
 }
 
-std::string text_of(const StudyExport& made, const std::string& name) {
+std::string file_text(const StudyExport& made, const std::string& name) {
   for (const ExportedFile& file : made.files) {
     if (file.name == name) return file.text;
   }
@@ -64,7 +64,7 @@ TEST(ExportStudy, EachProgramHasItsDecksAndAReadme) {
   for (const auto& [target, names] : expected) {
     const StudyExport made = exported(hazelnuts(), target);
     for (const std::string& name : names) EXPECT_THAT(names_of(made), Contains(name));
-    EXPECT_THAT(text_of(made, "README.txt"),
+    EXPECT_THAT(file_text(made, "README.txt"),
                 AllOf(HasSubstr(kWallRolling), HasSubstr("What does not carry over")));
     EXPECT_THAT(made.conversions, SizeIs(6));
     for (const ExportedFile& file : made.files) {
@@ -83,8 +83,8 @@ TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
   EXPECT_THAT(names_of(made), AllOf(Contains("drop.lig"), Not(Contains("heap.lig")),
                                     Not(Contains("roll.lig")), Not(Contains("tube.stl"))));
   EXPECT_THAT(made.conversions, SizeIs(3)) << "grains touch each other in heaps only";
-  EXPECT_THAT(text_of(made, "README.txt"), HasSubstr("The study has no heaps."));
-  EXPECT_THAT(text_of(exported(hazelnuts(), ExportTarget::edem), "README.txt"),
+  EXPECT_THAT(file_text(made, "README.txt"), HasSubstr("The study has no heaps."));
+  EXPECT_THAT(file_text(exported(hazelnuts(), ExportTarget::edem), "README.txt"),
               HasSubstr("Young's moduli times 0.01."));
 }
 
@@ -93,7 +93,7 @@ TEST(ExportStudy, WhatHasNoDeckIsNamed) {
   study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
   study.experiments[dem::Experiment::draw_down].protocol = dem::DrawDownProtocol{};
   const auto left_out = [&](ExportTarget target) {
-    const std::string readme = text_of(exported(study, target), "README.txt");
+    const std::string readme = file_text(exported(study, target), "README.txt");
     const std::string before = "Experiments of the study without a deck: ";
     const std::size_t place = readme.find(before);
     if (place == std::string::npos) return std::string();
@@ -121,12 +121,12 @@ TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
         "roll_on_grains_bed_1.lig", "fill.lig", "grain.lig", "pour.lig", "draw_down.lig",
         "slotted_floor.stl", "gate.stl"}) {
     EXPECT_THAT(names_of(made), Contains(name));
-    EXPECT_THAT(text_of(made, name), AllOf(Not(HasSubstr("{{")), Not(HasSubstr("nan"))));
+    EXPECT_THAT(file_text(made, name), AllOf(Not(HasSubstr("{{")), Not(HasSubstr("nan"))));
   }
   study.experiments[dem::Experiment::fill].protocol = dem::FillProtocol{.taps = 30};
   const StudyExport tapped = exported(study, ExportTarget::liggghts);
   EXPECT_THAT(names_of(tapped), Not(Contains("fill.lig")));
-  EXPECT_THAT(text_of(tapped, "README.txt"), HasSubstr("without a deck: fill."));
+  EXPECT_THAT(file_text(tapped, "README.txt"), HasSubstr("without a deck: fill."));
 }
 
 TEST(ExportStudy, AStudyWithoutAnyDeckIsRefused) {
@@ -146,7 +146,7 @@ TEST(ExportStudy, CoefficientsBetweenGrainsAreThoseOfTheStudy) {
   study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
   study.model.grain_grain.restitution = .77;
   study.model.grain_wall.restitution = .33;
-  EXPECT_THAT(text_of(exported(study, ExportTarget::liggghts), "material.lig"),
+  EXPECT_THAT(file_text(exported(study, ExportTarget::liggghts), "material.lig"),
               HasSubstr("coefficientRestitution peratomtypepair 2 0.77 0.33 0.33 0.33"));
 }
 
@@ -173,7 +173,7 @@ TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
   for (const auto& [target, file] : {std::pair(ExportTarget::liggghts, "drop.lig"),
                                      {ExportTarget::yade, "grain.py"},
                                      {ExportTarget::edem, "values.csv"}}) {
-    const std::string text = text_of(exported(study, target), file);
+    const std::string text = file_text(exported(study, target), file);
     EXPECT_THAT(text, AllOf(HasSubstr(digits(mass)), HasSubstr(digits(inertia.x())),
                             HasSubstr(digits(inertia.z()))))
         << file;
@@ -185,8 +185,8 @@ TEST(ExportStudy, InertiaTurnsWithTheGrainForLammps) {
   const dem::Study study = hazelnuts();
   const double mass = 851 * study.model.grain.volume_m3;
   for (int grain = 1; grain <= 3; ++grain) {
-    std::istringstream words(text_of(exported(study, ExportTarget::lammps),
-                                     "drop_grain_" + std::to_string(grain) + ".txt"));
+    std::istringstream words(file_text(exported(study, ExportTarget::lammps),
+                                       "drop_grain_" + std::to_string(grain) + ".txt"));
     double bodies = 0, number = 0, own_mass = 0, x = 0, y = 0, z = 0, xx = 0, yy = 0, zz = 0;
     words >> bodies >> number >> own_mass >> x >> y >> z >> xx >> yy >> zz;
     EXPECT_NEAR(own_mass, mass, 1e-12);
@@ -232,7 +232,7 @@ TEST(ExportStudy, WhatTheDataDidNotDetermineIsSaidInTheDeckAndAsAWarning) {
   ASSERT_THAT(made.warnings, SizeIs(1));
   EXPECT_THAT(made.warnings[0], AllOf(HasSubstr("particle_particle.restitution"),
                                       HasSubstr("undetermined"), HasSubstr("0.05 to 0.9")));
-  EXPECT_THAT(text_of(made, "material.lig"), HasSubstr("undetermined"));
+  EXPECT_THAT(file_text(made, "material.lig"), HasSubstr("undetermined"));
 }
 
 // A name may hold what ends a line, a comment or a string of some program.

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/fit/random.h"
 
 namespace repose::calibrate::fake {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kReadings = 10;
 
 /// A seed of everything that makes a job, so that no two share their chance. FNV-1a.

@@ -12,6 +12,9 @@ namespace repose::calibrate::fake {
 /// Restitution, sliding and rolling friction: of grain and wall, then of grain and grain.
 std::vector<Parameter> parameters();
 
+/// Values of these that are to be found again.
+inline const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+
 /// drop, tilt, roll depend on the first three parameters, heap on all six; costs as on one core.
 std::vector<Experiment> experiments();
 
@@ -36,7 +39,7 @@ Runs run_all(const std::vector<Job>& jobs, bool jams = false);
 std::vector<Observable> measured(const std::vector<double>& truth, std::uint64_t seed);
 
 /// All of the above in one problem.
-Problem problem(const std::vector<double>& truth, std::uint64_t seed);
+Problem problem(const std::vector<double>& truth = kTruth, std::uint64_t seed = 1);
 
 /// Runs whatever is proposed until nothing more is.
 Runs study(const Problem& problem, bool jams = false);

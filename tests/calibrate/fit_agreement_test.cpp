@@ -162,7 +162,7 @@ TEST(Agreement, AToleranceMustBeAboveZero) {
   Problem problem = plates({0}, 1).problem;
   problem.observables[0].tolerance = 0;
   EXPECT_THAT(errors_of(problem),
-              testing::Contains(testing::HasSubstr("tolerance = 0 must be a number above 0")));
+              ::testing::Contains(::testing::HasSubstr("tolerance = 0 must be a number above 0")));
 }
 
 }  // namespace

@@ -11,20 +11,20 @@
 namespace repose::calibrate {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
-const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+using fake::kTruth;
 
 bool holds(const FittedParameter& parameter, double value) {
   return parameter.interval.low <= value && value <= parameter.interval.high;
 }
 
 /// One study of the whole made-up bench for all tests that only look at it.
-class JointFitOfTheBench : public testing::Test {
+class JointFitOfTheBench : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     problem_ = new Problem(fake::problem(kTruth, 1));
@@ -129,8 +129,8 @@ TEST_F(JointFitOfTheBench, CurvesAndSurfacesPassThroughTheFit) {
     const double there =
         curve.simulated[k - 1] + fraction * (curve.simulated[k] - curve.simulated[k - 1]);
     EXPECT_NEAR(there, observable.simulated, .03 * std::abs(observable.simulated));
-    EXPECT_THAT(curve.uncertainty, testing::Each(testing::Gt(0)));
-    EXPECT_THAT(curve.scatter, testing::Each(testing::Ge(0)));
+    EXPECT_THAT(curve.uncertainty, ::testing::Each(::testing::Gt(0)));
+    EXPECT_THAT(curve.scatter, ::testing::Each(::testing::Ge(0)));
   }
   const ResponseSurface& surface = fit_->surfaces.back();
   ASSERT_EQ(surface.simulated.size(), surface.y.size());
@@ -213,8 +213,8 @@ TEST(JointFit, ATargetOutOfReachIsToldWithTheRangeAndTheBoundThatLimitsIt) {
   EXPECT_NEAR(fit.observables[0].reachable.low, 5, .2);
   EXPECT_NEAR(fit.observables[0].reachable.high, 40, .2);
   EXPECT_LT(fit.observables[0].difference_sigma, -10);
-  EXPECT_THAT(fit.warnings, Contains(testing::AllOf(HasSubstr("cannot be reached"),
-                                                    HasSubstr("friction = 0.8"))));
+  EXPECT_THAT(fit.warnings, Contains(::testing::AllOf(HasSubstr("cannot be reached"),
+                                                      HasSubstr("friction = 0.8"))));
   EXPECT_THAT(fit.warnings, Contains(HasSubstr("no parameter set fits all measurements")));
 }
 

@@ -15,9 +15,9 @@
 namespace repose::calibrate {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+using fake::kTruth;
 
 /// Prior, failures and all.
 Problem full_problem(bool robust) {
@@ -156,7 +156,7 @@ TEST(Misfit, AReadingThatNoRunHasIsNamedWithThoseThereAre) {
   Problem problem = full_problem(false);
   problem.observables[3].reading = "hight_mm";
   EXPECT_THAT(error_of([&] { misfit_of(problem, false); }),
-              testing::AllOf(HasSubstr("heap: 0 of "), HasSubstr("\"base_radius_mm\"")));
+              ::testing::AllOf(HasSubstr("heap: 0 of "), HasSubstr("\"base_radius_mm\"")));
 }
 
 TEST(Misfit, RunsOfAnotherProblemAreRefused) {

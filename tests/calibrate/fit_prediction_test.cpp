@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+using fake::kTruth;
 
 /// Everything measured at the truth; one experiment is held out.
 Problem holding_out(const std::string& experiment, std::uint64_t seed = 1) {

@@ -14,11 +14,9 @@
 namespace repose::calibrate {
 namespace {
 
-using testing::IsEmpty;
+using ::testing::IsEmpty;
 
-const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
-
-Problem quick() { return fake::problem(kTruth, 1); }
+using fake::kTruth;
 
 std::vector<Job> of(const std::string& experiment, const std::vector<Job>& jobs) {
   std::vector<Job> some;
@@ -38,7 +36,7 @@ double cost(const Problem& problem, const fake::Runs& runs) {
 }
 
 TEST(Propose, TheFirstRoundFillsTheBoundsAndRepeatsSomePlaces) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   const std::vector<Job> drops = of("drop", propose(problem, {}));
   ASSERT_GE(drops.size(), 12);
   std::set<std::uint64_t> seeds;
@@ -58,7 +56,7 @@ TEST(Propose, TheFirstRoundFillsTheBoundsAndRepeatsSomePlaces) {
 }
 
 TEST(Propose, DependsOnWhatIsDoneNotOnItsOrder) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   fake::Runs runs = fake::run_all(propose(problem, {}));
   const std::vector<Job> second = propose(problem, runs);
   EXPECT_FALSE(second.empty());
@@ -68,7 +66,7 @@ TEST(Propose, DependsOnWhatIsDoneNotOnItsOrder) {
 }
 
 TEST(Propose, AsksAgainForWhatIsMissingInTheRound) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   const std::vector<Job> first = propose(problem, {});
   fake::Runs runs = fake::run_all(first);
   runs.erase(runs.begin() + 3, runs.begin() + 5);
@@ -76,7 +74,7 @@ TEST(Propose, AsksAgainForWhatIsMissingInTheRound) {
 }
 
 TEST(Propose, RunsFromElsewhereChangeNothing) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   fake::Runs runs = fake::run_all(propose(problem, {}));
   const std::vector<Job> second = propose(problem, runs);
   runs.push_back(fake::run({"heap", kTruth, 123456}));
@@ -85,7 +83,7 @@ TEST(Propose, RunsFromElsewhereChangeNothing) {
 
 TEST(Propose, EndsWithinItsBudgetAndNeverRunsAJobTwice) {
   for (const double budget_s : {400., 800.}) {
-    Problem problem = quick();
+    Problem problem = fake::problem();
     problem.settings.budget_s = budget_s;
     const fake::Runs runs = fake::study(problem);
     EXPECT_LE(cost(problem, runs), budget_s);
@@ -97,13 +95,13 @@ TEST(Propose, EndsWithinItsBudgetAndNeverRunsAJobTwice) {
 }
 
 TEST(Propose, KeepsToTheMostJobs) {
-  Problem problem = quick();
+  Problem problem = fake::problem();
   problem.settings.max_jobs = 60;
   EXPECT_LE(fake::study(problem).size(), 60);
 }
 
 TEST(Propose, LaterHeapsStandOnWallsThatTheOtherExperimentsLeavePlausible) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   const std::vector<Job> second = of("heap", propose(problem, fake::run_all(propose(problem, {}))));
   ASSERT_GE(second.size(), 3);
   // In the first round one in thirty would be.
@@ -115,7 +113,7 @@ TEST(Propose, LaterHeapsStandOnWallsThatTheOtherExperimentsLeavePlausible) {
 }
 
 TEST(Propose, ExperimentsThatAreKnownWellGetNoMoreRuns) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   EXPECT_THAT(of("tilt", propose(problem, fake::run_all(propose(problem, {})))), IsEmpty());
 }
 
@@ -132,7 +130,7 @@ TEST(Propose, EndsEarlyWhenNothingMovesAnyMore) {
 }
 
 TEST(Propose, FailedRunsCountAsDone) {
-  Problem problem = quick();
+  Problem problem = fake::problem();
   problem.settings.budget_s = 700;
   const fake::Runs runs = fake::study(problem, true);
   EXPECT_TRUE(
@@ -141,26 +139,26 @@ TEST(Propose, FailedRunsCountAsDone) {
 }
 
 TEST(Propose, AllFailedIsAErrorThatSaysWhy) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   fake::Runs runs = fake::run_all(propose(problem, {}));
   for (auto& run : runs) {
     if (run.job.experiment == "heap") run = {run.job, {}, "the grains stay in the tube"};
   }
   EXPECT_THAT(error_of([&] { propose(problem, runs); }),
-              testing::HasSubstr("the grains stay in the tube"));
+              ::testing::HasSubstr("the grains stay in the tube"));
 }
 
 TEST(Propose, ReadingsWithWhichAFitWouldNeverEndAreRefused) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   fake::Runs runs = fake::run_all(propose(problem, {}));
   runs.front().readings["value"] = 1e200;
   EXPECT_THAT(error_of([&] { propose(problem, runs); }),
-              AllOf(testing::HasSubstr("its reading \"value\" is 1e+200"),
-                    testing::HasSubstr("Rule: at most 1e+09"), testing::HasSubstr("Fix:")));
+              AllOf(::testing::HasSubstr("its reading \"value\" is 1e+200"),
+                    ::testing::HasSubstr("Rule: at most 1e+09"), ::testing::HasSubstr("Fix:")));
 }
 
 TEST(Propose, EndsWhenItIsInterruptedAndOnlyThen) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   const fake::Runs runs = fake::run_all(propose(problem, {}));
   const std::vector<Job> next = propose(problem, runs);
   std::atomic<bool> is_interrupted = false;

@@ -28,7 +28,7 @@ TEST(Sequence, AnyStretchOfItFillsACubeAndKeepsItsPointsApart) {
       }
       points.push_back(x);
     }
-    EXPECT_THAT(counts, testing::Each(testing::Ge(4)));
+    EXPECT_THAT(counts, ::testing::Each(::testing::Ge(4)));
     EXPECT_GT(least, .15);  // points at random come as near as .03
   }
 }

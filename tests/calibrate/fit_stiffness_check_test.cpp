@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
+using fake::kTruth;
 
 Experiment& experiment_of(Problem& problem, const std::string& name) {
   return *std::ranges::find(problem.experiments, name, &Experiment::name);
@@ -43,7 +43,7 @@ void hold_out(const std::string& experiment, Problem& problem) {
 }
 
 /// As much of a fit as a check needs; it knows nothing of the scatter of runs.
-JointFit fit_of(const Problem& problem) {
+JointFit fit_for_check(const Problem& problem) {
   JointFit fit;
   for (const Observable& observable : problem.observables) {
     FittedObservable& fitted = fit.observables.emplace_back();
@@ -58,7 +58,7 @@ std::vector<StiffnessCheck> checks_of(const Problem& problem, int repeats) {
   for (Run& run : fake::run_all(verification_jobs(problem, kTruth, repeats, 0))) {
     runs.push_back(std::move(run));
   }
-  return check_stiffness(problem, kTruth, runs, fit_of(problem));
+  return check_stiffness(problem, kTruth, runs, fit_for_check(problem));
 }
 
 TEST(StiffnessCheck, OnlySoftenedExperimentsAreSimulatedTenTimesStiffer) {
@@ -105,7 +105,7 @@ TEST(StiffnessCheck, WhatIsTooDearForTheBudgetIsNamedAndTheCheaperOnesAreSimulat
   EXPECT_THAT(plan.too_dear, ElementsAre("heap"));
   ASSERT_THAT(plan.jobs, SizeIs(6));
   EXPECT_EQ(plan.jobs[0].experiment, "roll");
-  EXPECT_THAT(check_stiffness(problem, kTruth, fake::run_all(plan.jobs), fit_of(problem)),
+  EXPECT_THAT(check_stiffness(problem, kTruth, fake::run_all(plan.jobs), fit_for_check(problem)),
               SizeIs(1));
 }
 
@@ -157,7 +157,7 @@ TEST(StiffnessCheck, StifferGrainsThatGiveNoReadingDisagree) {
   for (const Job& job : plan_stiffness(problem, kTruth, 5).jobs) {
     runs.push_back({job, {}, "the grains stay in the tube"});
   }
-  const StiffnessCheck never = check_stiffness(problem, kTruth, runs, fit_of(problem)).at(0);
+  const StiffnessCheck never = check_stiffness(problem, kTruth, runs, fit_for_check(problem)).at(0);
   EXPECT_EQ(never.verdict, AgreementVerdict::disagrees);
   EXPECT_EQ(never.failed_runs, 5);
   EXPECT_TRUE(std::isnan(never.change));

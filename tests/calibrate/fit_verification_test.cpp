@@ -13,12 +13,10 @@
 namespace repose::calibrate {
 namespace {
 
-const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
-
-Problem quick() { return fake::problem(kTruth, 1); }
+using fake::kTruth;
 
 TEST(Verification, JobsHaveSeedsOfTheirOwn) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   std::set<std::uint64_t> seeds;
   for (const Job& job : propose(problem, {})) seeds.insert(job.seed);
   const std::vector<Job> best = verification_jobs(problem, kTruth, 5, 0);
@@ -49,7 +47,7 @@ TEST(Verification, TheTruthIsCalledWrongAsRarelyAsItShould) {
 }
 
 TEST(Verification, GivesBothMeansWithTheirUncertainties) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   const Verification result =
       verify(problem, kTruth, fake::run_all(verification_jobs(problem, kTruth, 8, 0)));
   ASSERT_EQ(result.observables.size(), 4);
@@ -59,7 +57,7 @@ TEST(Verification, GivesBothMeansWithTheirUncertainties) {
 }
 
 TEST(Verification, AFewRepeatsThatHappenToAgreeAreNotTrustedOverTheFit) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   const fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 2, 0));
   JointFit fit;
   fit.observables.resize(problem.observables.size());
@@ -77,7 +75,7 @@ TEST(Verification, AFewRepeatsThatHappenToAgreeAreNotTrustedOverTheFit) {
 }
 
 TEST(Verification, AnotherMaterialDoesNot) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   std::vector<double> other = kTruth;
   other[5] = .15;
   const Verification result =
@@ -88,7 +86,7 @@ TEST(Verification, AnotherMaterialDoesNot) {
 }
 
 TEST(Verification, OnlyFreshRunsAtTheSetCount) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 3, 0));
   auto used = runs.front();
   used.job.seed = 1;
@@ -98,7 +96,7 @@ TEST(Verification, OnlyFreshRunsAtTheSetCount) {
 }
 
 TEST(Verification, RunsAreAsStiffAsTheStudyAndSofterOnesDoNotCount) {
-  Problem problem = quick();
+  Problem problem = fake::problem();
   problem.experiments.back().relative_stiffness = .01;
   fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 3, 0));
   for (const auto& run : runs) EXPECT_EQ(run.job.relative_stiffness, 1);
@@ -117,7 +115,7 @@ TEST(Verification, RunsAreAsStiffAsTheStudyAndSofterOnesDoNotCount) {
 }
 
 TEST(Verification, ASetThatGivesNoReadingDisagrees) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 3, 0));
   for (auto& run : runs) {
     if (run.job.experiment == "heap") run = {run.job, {}, "the grains stay in the tube"};
@@ -163,7 +161,7 @@ TEST(SurrogateCheck, TellsWhoMissedItsOwnCheck) {
 }
 
 TEST(SurrogateCheck, AMissThatTheBenchCouldNotSeeIsNone) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   const fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 8, 0));
   JointFit fit = fit_that_expects(problem, 0);
   fit.observables[1].simulated += .3 * fit.observables[1].measured_uncertainty;
@@ -174,7 +172,7 @@ TEST(SurrogateCheck, AMissThatTheBenchCouldNotSeeIsNone) {
 }
 
 TEST(Verification, RefusesWhatCannotBeChecked) {
-  const Problem problem = quick();
+  const Problem problem = fake::problem();
   EXPECT_THROW(verification_jobs(problem, {.1}, 5, 0), std::invalid_argument);
   EXPECT_THROW(verification_jobs(problem, kTruth, 1, 0), std::invalid_argument);
   EXPECT_THROW(verification_jobs(problem, kTruth, 5, -1), std::invalid_argument);

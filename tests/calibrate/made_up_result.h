@@ -1,5 +1,7 @@
 #pragma once
 
+#include <variant>
+
 #include "calibrate/result/result.h"
 
 // Small results of both methods, with every field that a result may have.
@@ -10,5 +12,8 @@ StudyResult joint_result();
 
 /// One sweep of four levels, solved at 2, and a surface over two factors.
 StudyResult published_result();
+
+/// What the joint method found, to be changed.
+inline JointResult& joint_in(StudyResult& result) { return std::get<JointResult>(result.found); }
 
 }  // namespace repose::calibrate::test

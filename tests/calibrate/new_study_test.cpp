@@ -17,7 +17,6 @@
 namespace repose::calibrate {
 namespace {
 
-using dem::Experiment;
 using repose::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
@@ -28,7 +27,7 @@ const GrainKind& grain(std::string_view name) {
   throw std::invalid_argument(std::string(name));
 }
 
-NewStudy study_of(const GrainKind& kind, std::vector<Experiment> experiments) {
+NewStudy study_of(const GrainKind& kind, std::vector<dem::Experiment> experiments) {
   NewStudy study{.grain = kind,
                  .plate = plate_kinds()[0],
                  .sizes_mm = kind.sizes,
@@ -39,8 +38,8 @@ NewStudy study_of(const GrainKind& kind, std::vector<Experiment> experiments) {
   return study;
 }
 
-const std::vector<Experiment> kAll = {Experiment::drop, Experiment::tilt, Experiment::roll,
-                                      Experiment::heap};
+const std::vector<dem::Experiment> kAll = {dem::Experiment::drop, dem::Experiment::tilt,
+                                           dem::Experiment::roll, dem::Experiment::heap};
 
 class NewStudyTest : public ::testing::Test {
  protected:
@@ -89,7 +88,7 @@ TEST_F(NewStudyTest, AsksForNothingButItsReadings) {
 }
 
 TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
-  const dem::Study study = written(study_of(grain("wheat"), {Experiment::tilt}));
+  const dem::Study study = written(study_of(grain("wheat"), {dem::Experiment::tilt}));
   EXPECT_TRUE(study.particle_wall.sliding_friction.is_sought());
   EXPECT_FALSE(study.particle_wall.restitution.is_sought());
   EXPECT_FALSE(study.particle_particle.sliding_friction.is_sought());
@@ -99,8 +98,8 @@ TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
 }
 
 TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
-  const dem::Study study =
-      written(study_of(grain("pea"), {Experiment::tilt_on_grains, Experiment::roll_on_grains}));
+  const dem::Study study = written(
+      study_of(grain("pea"), {dem::Experiment::tilt_on_grains, dem::Experiment::roll_on_grains}));
   EXPECT_TRUE(study.particle_particle.sliding_friction.is_sought());
   EXPECT_FALSE(study.particle_particle.restitution.is_sought());
   EXPECT_FALSE(study.particle_wall.sliding_friction.is_sought());
@@ -109,17 +108,18 @@ TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
 
 TEST_F(NewStudyTest, SoftensNoExperimentWhoseReadingThatWouldChange) {
   const dem::Study study =
-      written(study_of(grain("pea"), {Experiment::drop_on_grains, Experiment::tilt_on_grains,
-                                      Experiment::pendulum}));
-  EXPECT_LT(dem::model_for(study, Experiment::tilt_on_grains).stiffness_factor, 1);
-  EXPECT_EQ(dem::model_for(study, Experiment::drop_on_grains).stiffness_factor, 1);
-  EXPECT_EQ(dem::model_for(study, Experiment::pendulum).stiffness_factor, 1);
+      written(study_of(grain("pea"), {dem::Experiment::drop_on_grains,
+                                      dem::Experiment::tilt_on_grains, dem::Experiment::pendulum}));
+  EXPECT_LT(dem::model_for(study, dem::Experiment::tilt_on_grains).stiffness_factor, 1);
+  EXPECT_EQ(dem::model_for(study, dem::Experiment::drop_on_grains).stiffness_factor, 1);
+  EXPECT_EQ(dem::model_for(study, dem::Experiment::pendulum).stiffness_factor, 1);
 }
 
 TEST_F(NewStudyTest, BoxesOfADrawDownSuitTheGrains) {
   for (const GrainKind& kind : grain_kinds()) {
     const auto boxes = std::get<dem::DrawDownProtocol>(
-        usual_experiment(dem::entry_of(Experiment::draw_down), {.grain_mm = kind.sizes}).protocol);
+        usual_experiment(dem::entry_of(dem::Experiment::draw_down), {.grain_mm = kind.sizes})
+            .protocol);
     const double longest_m = *std::max_element(kind.sizes.begin(), kind.sizes.end()) / 1000;
     EXPECT_GE(boxes.slot_m, 5 * longest_m) << kind.name;
     EXPECT_GE(boxes.depth_m, 6 * longest_m) << kind.name;

@@ -31,7 +31,7 @@ using ::testing::Lt;
 // Two parameters from 0 to 1. Experiments read 100 and what they add for these.
 constexpr double kBase = 100, kSlope = 40, kScatter = .05;
 
-double reading_of(const std::string& experiment, const std::vector<double>& values) {
+double expected_reading(const std::string& experiment, const std::vector<double>& values) {
   const double a = values[0], b = values[1];
   if (experiment == "first" || experiment == "jams") return kBase + kSlope * a;
   if (experiment == "second") return kBase + kSlope * b;
@@ -63,7 +63,7 @@ std::vector<Run> runs_of(const Problem& problem) {
         run.failure = "it jams";
       } else {
         run.readings["value"] =
-            reading_of(experiment.name, run.job.values) + kScatter * random.normal();
+            expected_reading(experiment.name, run.job.values) + kScatter * random.normal();
       }
       runs.push_back(run);
     }

@@ -1,11 +1,11 @@
 #include "calibrate/experiment/position_angle.h"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/sphere_heap.h"
 
@@ -18,8 +18,6 @@ using repose::testing::sphere_frustum;
 using ::testing::IsEmpty;
 using ::testing::Key;
 using ::testing::UnorderedElementsAre;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 PositionAngle angle_of(const std::vector<ClumpSphere>& heap, int views = 18) {
   return position_angle(dem::heap_envelopes(heap, views));

@@ -22,7 +22,7 @@ using repose::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-const std::string kStudy = test::kSoftBall + R"([contact.particle_wall]
+const std::string kPublishedStudy = test::kSoftBall + R"([contact.particle_wall]
 restitution = { min = 0.05, max = 0.9 }
 sliding_friction = { min = 0.1, max = 0.8 }
 rolling_friction = { min = 0.01, max = 0.2 }
@@ -70,7 +70,8 @@ class FormulaExecutor : public Executor {
 class PublishedMethod : public ::testing::Test {
  protected:
   std::optional<PublishedOutcome> calibrate(const std::vector<std::string>& settings = {}) {
-    const dem::Study study = dem::read_study(folder_.write("study.toml", kStudy), settings);
+    const dem::Study study =
+        dem::read_study(folder_.write("study.toml", kPublishedStudy), settings);
     const dem::ClumpFile grain = dem::build_grain(study.grain);
     const Problem problem = problem_of(study, grain, budget_named("quick")).problem;
     const StudySimulator simulator(study, grain, problem.parameters, 0);

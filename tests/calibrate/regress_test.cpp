@@ -33,8 +33,8 @@ RunTable line(const std::vector<double>& levels, const std::vector<double>& resp
   return table;
 }
 
-std::string error_of(const RunTable& table, SurfaceModel model) {
-  return repose::error_of([&] { regress(table, model); });
+std::string regression_error(const RunTable& table, SurfaceModel model) {
+  return error_of([&] { regress(table, model); });
 }
 
 TEST(Regression, HazelnutStudysCoefficientsErrorsAndPValues) {
@@ -246,7 +246,7 @@ TEST(Regression, ARunThatAloneHoldsATermHasNoPredictedR2) {
 TEST(Regression, AllErrorsAreNamedAtOnce) {
   RunTable table = line({1, 1, 1}, {5, 5, 5});
   table.factors = {{"x", 0, 2}};
-  const std::string error = error_of(table, SurfaceModel::quadratic);
+  const std::string error = regression_error(table, SurfaceModel::quadratic);
   EXPECT_THAT(error, AllOf(HasSubstr("line.csv: x is 1 in every run"),
                            HasSubstr("line.csv: y is 5 in every run"),
                            HasSubstr("3 runs for the 3 terms")));
@@ -254,28 +254,29 @@ TEST(Regression, AllErrorsAreNamedAtOnce) {
 
 TEST(Regression, WhatTheDesignCannotTellApartIsNamed) {
   const RunTable two_levels = line({-1, -1, 1, 1, -1, 1}, {1, 2, 3, 4, 2, 3});
-  EXPECT_THAT(error_of(two_levels, SurfaceModel::quadratic),
+  EXPECT_THAT(regression_error(two_levels, SurfaceModel::quadratic),
               AllOf(HasSubstr("cannot tell"), HasSubstr("Fix: ")));
-  EXPECT_EQ(error_of(two_levels, SurfaceModel::linear), "");
+  EXPECT_EQ(regression_error(two_levels, SurfaceModel::linear), "");
 
   // Steepest ascent: the factors go up together.
   RunTable together = line({0, .1, .2, .3, .4}, {1, 2, 4, 3, 5});
   together.factors = {{"a", 0, .4}, {"b", 0, .04}};
   together.levels.push_back({0, .01, .02, .03, .04});
-  EXPECT_THAT(error_of(together, SurfaceModel::linear),
+  EXPECT_THAT(regression_error(together, SurfaceModel::linear),
               AllOf(HasSubstr("cannot tell"), Not(HasSubstr("constant"))));
 }
 
 TEST(Regression, NumbersThatAreNoneAreRefused) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(error_of(line({0, 1, 2, 3}, {1, kNan, 2, 3}), SurfaceModel::linear),
+  EXPECT_THAT(regression_error(line({0, 1, 2, 3}, {1, kNan, 2, 3}), SurfaceModel::linear),
               HasSubstr("y has values that are not finite"));
-  EXPECT_THAT(error_of(line({0, 1, kNan, 3}, {1, 1, 2, 3}), SurfaceModel::linear),
+  EXPECT_THAT(regression_error(line({0, 1, kNan, 3}, {1, 1, 2, 3}), SurfaceModel::linear),
               HasSubstr("x has values that are not finite"));
-  EXPECT_THAT(error_of(line({0, 1}, {1}), SurfaceModel::linear), HasSubstr("2 values for 1 runs"));
+  EXPECT_THAT(regression_error(line({0, 1}, {1}), SurfaceModel::linear),
+              HasSubstr("2 values for 1 runs"));
   RunTable empty;
   empty.name = "empty";
-  EXPECT_THAT(error_of(empty, SurfaceModel::quadratic), HasSubstr("0 factors"));
+  EXPECT_THAT(regression_error(empty, SurfaceModel::quadratic), HasSubstr("0 factors"));
 }
 
 }  // namespace

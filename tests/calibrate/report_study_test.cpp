@@ -19,6 +19,7 @@ namespace repose::calibrate::report {
 namespace {
 
 using repose::testing::TemporaryFolder;
+using test::joint_in;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -42,7 +43,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 /// What stands before the scripts: text, tables, pictures.
-std::string shown(const Report& report) {
+std::string page_of(const Report& report) {
   return report.html.substr(0, report.html.find("<script type=\"application/json\""));
 }
 
@@ -57,8 +58,6 @@ std::string table_in(const Report& report, const std::string& name) {
   }
   return "no " + name;
 }
-
-JointResult& joint_in(StudyResult& result) { return std::get<JointResult>(result.found); }
 
 class StudyReport : public ::testing::Test {
  protected:
@@ -77,7 +76,7 @@ TEST_F(StudyReport, ShowsTheHeapOfTheLastCheckAndNoOther) {
   const auto heap_with = [&](double restitution) {
     dem::write_state(folder_.path() / "heap.vtp", heap,
                      fmt::format(R"({{"particle_wall": {{"restitution": {}}}}})", restitution));
-    return shown(made());
+    return page_of(made());
   };
   const auto is_other = HasSubstr("(heap.vtp) has different coefficients and is not shown");
   EXPECT_THAT(heap_with(joint.agreement.values.front()),
@@ -86,7 +85,7 @@ TEST_F(StudyReport, ShowsTheHeapOfTheLastCheckAndNoOther) {
 }
 
 TEST_F(StudyReport, BeginsWithTheAnswer) {
-  const std::string page = shown(study_report(result_));
+  const std::string page = page_of(study_report(result_));
   EXPECT_THAT(page, HasSubstr("1 of 2 coefficients are determined"));
   EXPECT_THAT(page,
               HasSubstr("fresh seeds, it cannot be told whether bench and simulation agree."));
@@ -99,7 +98,7 @@ TEST_F(StudyReport, BeginsWithTheAnswer) {
 }
 
 TEST_F(StudyReport, WhatIsForCheckingComesAfterTheAnswerInAnAppendix) {
-  const std::string page = shown(study_report(result_));
+  const std::string page = page_of(study_report(result_));
   const std::size_t appendix = page.find("id=\"appendix\"");
   ASSERT_NE(appendix, std::string::npos);
   for (const char* first : {"id=\"answer\"", "id=\"agreement\"", "id=\"limits\""}) {
@@ -118,7 +117,7 @@ TEST_F(StudyReport, ShowsEachCurveOnceTheMostTellingBeforeTheAppendix) {
   joint.observables[1].name = "tilt";
   flat.observable = 1;
   joint.responses.push_back(flat);
-  const std::string page = shown(study_report(result_));
+  const std::string page = page_of(study_report(result_));
   const std::size_t appendix = page.find("id=\"appendix\"");
   EXPECT_LT(page.find("id=\"chart-response_drop_particle_wall_restitution\""), appendix);
   const std::size_t other = page.find("id=\"chart-response_tilt_particle_wall_restitution\"");
@@ -128,7 +127,7 @@ TEST_F(StudyReport, ShowsEachCurveOnceTheMostTellingBeforeTheAppendix) {
 
 TEST_F(StudyReport, PlusMinusIsTheHalfWidthOfThe95PercentInterval) {
   const Report report = study_report(result_);
-  EXPECT_THAT(shown(report), Not(HasSubstr("± sd")));
+  EXPECT_THAT(page_of(report), Not(HasSubstr("± sd")));
   // Four readings of sd 1: 3.18 times .5, by Student. Three checks: 4.30 times .3. The fit: 1.96
   // times .2.
   EXPECT_THAT(table_in(report, "agreement.csv"),
@@ -150,22 +149,22 @@ TEST_F(StudyReport, ShowsNothingThatNoBenchCanRead) {
 }
 
 TEST_F(StudyReport, SaysPhotographOnlyWhereThereAreSome) {
-  const std::string without = shown(study_report(result_));
+  const std::string without = page_of(study_report(result_));
   EXPECT_THAT(without, Not(HasSubstr("hotograph")));
-  const std::string with = shown(study_report(
+  const std::string with = page_of(study_report(
       result_, {{.file = "/nowhere/heap.jpg", .status = "ok", .angle_deg = 23.1, .reason = {}}}));
   EXPECT_THAT(with, HasSubstr("was measured in photographs and in silhouettes"));
 }
 
 TEST_F(StudyReport, WithoutHeapsSaysNothingOfThem) {
   result_.provenance.stiffness_factor = {{"drop", 1}};
-  EXPECT_THAT(shown(study_report(result_)),
+  EXPECT_THAT(page_of(study_report(result_)),
               AllOf(Not(HasSubstr("id=\"heaps\"")), Not(HasSubstr("angle of repose")),
                     Not(HasSubstr("heap.vtp")), Not(HasSubstr("A heap"))));
 }
 
 TEST_F(StudyReport, IsOneFileThatFetchesNothing) {
-  const std::string page = shown(study_report(result_));
+  const std::string page = page_of(study_report(result_));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
   EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
@@ -212,10 +211,10 @@ TEST_F(StudyReport, NamesCannotInjectMarkup) {
   joint_in(result_).parameters[0].name = hostile;
   joint_in(result_).regressions[0].observable = hostile;
   const Report report = study_report(result_);
-  EXPECT_THAT(shown(report), Not(HasSubstr("<script>")));
-  EXPECT_THAT(shown(report), Not(HasSubstr("<img src=x")));
-  EXPECT_THAT(shown(report), Not(HasSubstr("<b>bold")));
-  EXPECT_THAT(shown(report), HasSubstr("&lt;script&gt;"));
+  EXPECT_THAT(page_of(report), Not(HasSubstr("<script>")));
+  EXPECT_THAT(page_of(report), Not(HasSubstr("<img src=x")));
+  EXPECT_THAT(page_of(report), Not(HasSubstr("<b>bold")));
+  EXPECT_THAT(page_of(report), HasSubstr("&lt;script&gt;"));
   EXPECT_THAT(data_of(report).substr(1), Not(HasSubstr("<")));
   for (const CsvFile& file : report.tables) {
     EXPECT_THAT(file.name, Not(::testing::ContainsRegex("[^A-Za-z0-9_.]")));
@@ -227,7 +226,7 @@ TEST_F(StudyReport, LongNamesAreShortened) {
   joint_in(result_).parameters[0].name = std::string(10'000, 'n');
   const Report report = study_report(result_);
   const std::string much(300, 'n');
-  EXPECT_EQ(shown(report).find(much), std::string::npos);
+  EXPECT_EQ(page_of(report).find(much), std::string::npos);
   EXPECT_EQ(data_of(report).find(much), std::string::npos);
 }
 
@@ -260,9 +259,10 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
   }
   folder_.write("runs/damaged.json", std::string("{\"simulated\": "));
   const Report report = made();
-  EXPECT_THAT(shown(report), HasSubstr("Unfinished: this study has no result yet"));
-  EXPECT_THAT(shown(report), HasSubstr("2 simulations are complete"));
-  EXPECT_THAT(shown(report), HasSubstr("repose calibrate nuts.toml --budget standard --set a.b=1"));
+  EXPECT_THAT(page_of(report), HasSubstr("Unfinished: this study has no result yet"));
+  EXPECT_THAT(page_of(report), HasSubstr("2 simulations are complete"));
+  EXPECT_THAT(page_of(report),
+              HasSubstr("repose calibrate nuts.toml --budget standard --set a.b=1"));
   EXPECT_EQ(table_in(report, "simulations.csv"),
             "experiment,simulations,without a reading\ndrop,2,0\n");
   EXPECT_THAT(table_in(report, "response_drop_particle_wall_restitution.csv"),
@@ -272,20 +272,20 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
 TEST_F(StudyReport, ResultsOfAnotherStudyAreNotShown) {
   folder_.write("study.json", replaced(kRecord, "abc", "changed"));
   write_result(result_);
-  EXPECT_THAT(shown(made()), AllOf(HasSubstr("Unfinished"), HasSubstr("is from another study"),
-                                   Not(HasSubstr("coefficients are determined"))));
+  EXPECT_THAT(page_of(made()), AllOf(HasSubstr("Unfinished"), HasSubstr("is from another study"),
+                                     Not(HasSubstr("coefficients are determined"))));
 }
 
 TEST_F(StudyReport, PicturesThatAreGoneAreSaid) {
   const Report report = study_report(
       result_, {{.file = "/nowhere/<b>heap.jpg", .status = "ok", .angle_deg = 23.1, .reason = {}}});
-  EXPECT_THAT(shown(report), HasSubstr("The photograph &lt;b&gt;heap.jpg cannot be shown"));
+  EXPECT_THAT(page_of(report), HasSubstr("The photograph &lt;b&gt;heap.jpg cannot be shown"));
 }
 
 TEST_F(StudyReport, ThePublishedMethodHasItsOwnChapters) {
   const Report report = study_report(test::published_result());
-  EXPECT_THAT(shown(report), AllOf(HasSubstr("point estimates without intervals"),
-                                   HasSubstr("Steepest ascent"), HasSubstr("a ridge")));
+  EXPECT_THAT(page_of(report), AllOf(HasSubstr("point estimates without intervals"),
+                                     HasSubstr("Steepest ascent"), HasSubstr("a ridge")));
   const std::string csv = table_in(report, "sweep_particle_wall_restitution.csv");
   EXPECT_THAT(csv, HasSubstr("simulated runs,2,4,,\n"));
   EXPECT_THAT(csv, HasSubstr("parabola,1.5,2.25,,\n"));

@@ -15,6 +15,7 @@
 namespace repose::calibrate {
 namespace {
 
+using test::joint_in;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -24,8 +25,6 @@ using ::testing::ThrowsMessage;
 const std::string kName = "FOLDER/result.json";
 
 std::vector<StudyResult> both() { return {test::joint_result(), test::published_result()}; }
-
-JointResult& joint_in(StudyResult& result) { return std::get<JointResult>(result.found); }
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -144,7 +143,7 @@ struct MadeUpStudy {
   StudyOutcome outcome;
 };
 
-MadeUpStudy plate() {
+MadeUpStudy plate_study() {
   MadeUpStudy made;
   made.record.method = "joint";
   made.record.budget = budget_named("quick");
@@ -173,7 +172,7 @@ MadeUpStudy plate() {
 }
 
 TEST(Result, SetsThatFailedTheirCheckAreNotAmongTheEquallyGoodOnes) {
-  MadeUpStudy made = plate();
+  MadeUpStudy made = plate_study();
   Verification check = made.outcome.best;
   check.values = {.45};
   check.verdict = AgreementVerdict::disagrees;
@@ -186,7 +185,7 @@ TEST(Result, SetsThatFailedTheirCheckAreNotAmongTheEquallyGoodOnes) {
 }
 
 TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
-  const MadeUpStudy made = plate();
+  const MadeUpStudy made = plate_study();
   StudyResult result = result_of(made.record, made.problem, made.outcome);
   const JointResult& joint = joint_in(result);
   ASSERT_THAT(joint.parameters, SizeIs(1));

@@ -17,7 +17,7 @@ namespace {
 using repose::testing::TemporaryFolder;
 
 /// Soft grains of two spheres, rough enough for a heap of 240 that can be seen: some seconds.
-constexpr const char* kStudy = R"([particle]
+constexpr const char* kStudyOfAllExperiments = R"([particle]
 size_mm = [22.5, 18.2, 17.5]
 spheres = 2
 density_kg_m3 = 850
@@ -68,17 +68,17 @@ drop_mm = 175
 )";
 
 /// Ten digits, none beyond the ninth decimal: there the libraries of two machines may differ.
-std::string rounded(double value) {
+std::string ten_digits(double value) {
   return fmt::format("{:.9e}", std::abs(value) < 1e-9 ? 0 : value);
 }
 
 std::string line_of(const SimulatedRun& run) {
-  std::string line = "value " + rounded(run.value);
+  std::string line = "value " + ten_digits(run.value);
   // Drawing and measuring differ in edge pixels from one kind of processor to the next.
   const auto seen = [](double value) { return fmt::format("{:.2f}", value); };
   for (const auto& [name, value] : run.readings) {
     const bool is_seen = name == "upper_angle_deg" || name == "lower_angle_deg";
-    line += ' ' + name + ' ' + (is_seen ? seen(value) : rounded(value));
+    line += ' ' + name + ' ' + (is_seen ? seen(value) : ten_digits(value));
   }
   if (!run.views.empty()) line += " seen " + seen(value_of(run));
   return line;
@@ -86,7 +86,8 @@ std::string line_of(const SimulatedRun& run) {
 
 TEST(SimulatorVersion, IsRaisedWhenWhatASimulationGivesHasChanged) {
   const TemporaryFolder folder;
-  const dem::Study study = dem::read_study(folder.write("study.toml", std::string(kStudy)));
+  const dem::Study study =
+      dem::read_study(folder.write("study.toml", std::string(kStudyOfAllExperiments)));
   const NamedGrain grain(dem::build_grain(study.grain));
   std::vector<std::string> lines, others;
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {

@@ -21,6 +21,7 @@ namespace repose::calibrate {
 namespace {
 
 using repose::testing::TemporaryFolder;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -165,7 +166,12 @@ TEST_F(StudyRun, WhereTheBudgetAllowsForNoStifferGrainsThatIsSaid) {
   ASSERT_TRUE(outcome);
   EXPECT_THAT(outcome->stiffness, IsEmpty());
   EXPECT_THAT(outcome->notes,
-              Contains(HasSubstr("drop: it is not known what its stiffness_factor")));
+              Contains(AllOf(HasSubstr("drop: it is not known what its stiffness_factor"),
+                             HasSubstr("Fix: the budget standard"))));
+  many.settings.budget_s = budget_named("standard").settings.budget_s;
+  const auto standard = run_study(problem, many, {simulator, runs, executor, is_interrupted});
+  ASSERT_TRUE(standard);
+  EXPECT_THAT(standard->notes, Contains(HasSubstr("Fix: simulate it at these coefficients")));
 }
 
 TEST_F(StudyRun, SomethingMustBeLeftToFit) {

@@ -15,8 +15,8 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string error_of(const std::string& text, const std::vector<std::string>& columns = {}) {
-  return repose::error_of([&] { numbers_of(parse_table("runs.csv", text), columns); });
+std::string table_error(const std::string& text, const std::vector<std::string>& columns = {}) {
+  return error_of([&] { numbers_of(parse_table("runs.csv", text), columns); });
 }
 
 std::vector<double> column(const std::string& text, const std::string& name) {
@@ -45,10 +45,10 @@ TEST(Table, SpreadsheetsHabitsAreUnderstood) {
 }
 
 TEST(Table, PointsThatMayPartThousandsAreRefusedBesideDecimalCommas) {
-  EXPECT_THAT(error_of("a;b\n987,5;1\n1.012;2\n", {"a", "b"}),
+  EXPECT_THAT(table_error("a;b\n987,5;1\n1.012;2\n", {"a", "b"}),
               AllOf(HasSubstr("runs.csv:3: a is \"1.012\", which may mean thousands: line 2"),
                     HasSubstr("Fix: ")));
-  EXPECT_THAT(error_of("a;b\n1;0,5\n-12.345.678;2\n", {"a", "b"}), HasSubstr("runs.csv:3"));
+  EXPECT_THAT(table_error("a;b\n1;0,5\n-12.345.678;2\n", {"a", "b"}), HasSubstr("runs.csv:3"));
   EXPECT_THAT(column("a;b\n0.125;1,5\n12.5;2\n", "a"), ElementsAre(.125, 12.5));
   EXPECT_THAT(column("a;b\n1.012;1\n", "a"), ElementsAre(1.012));
   EXPECT_THAT(column("a;b\n1.012;nut, small\n", "a"), ElementsAre(1.012));
@@ -60,28 +60,28 @@ TEST(Table, OfManyErrorsTheFirstTenAreListed) {
     cells += "x,1\n";
     ragged += "1\n";
   }
-  for (const std::string& error : {error_of(cells, {"a", "b"}), error_of(ragged)}) {
+  for (const std::string& error : {table_error(cells, {"a", "b"}), table_error(ragged)}) {
     EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 10);
     EXPECT_THAT(error, HasSubstr("\nand 990 more of this kind"));
   }
 }
 
 TEST(Table, BytesThatAreNoLettersAreRefused) {
-  EXPECT_THAT(error_of(std::string("a,b\n1\0x,2\n", 10), {"a"}),
+  EXPECT_THAT(table_error(std::string("a,b\n1\0x,2\n", 10), {"a"}),
               AllOf(HasSubstr("runs.csv:2: holds a byte that is no letter (number 0)"),
                     HasSubstr("CSV UTF-8")));
-  EXPECT_THAT(error_of("a,b\n\x1b[2J,2\n"), HasSubstr("number 27"));
+  EXPECT_THAT(table_error("a,b\n\x1b[2J,2\n"), HasSubstr("number 27"));
 }
 
 TEST(Table, EveryRaggedLineIsNamed) {
-  EXPECT_THAT(error_of("a,b\n1,2\n1\n1,2,3\n"),
+  EXPECT_THAT(table_error("a,b\n1,2\n1\n1,2,3\n"),
               AllOf(HasSubstr("runs.csv:3: the row has 1 cells, the header 2"),
                     HasSubstr("runs.csv:4: the row has 3 cells")));
 }
 
 TEST(Table, EveryCellThatIsNoNumberIsNamed) {
   const std::string error =
-      error_of("a,b\n1,nan\nx,2\n,3\n4,inf\n1e999,5\n1 2,6\n", {"a", "b", "c"});
+      table_error("a,b\n1,nan\nx,2\n,3\n4,inf\n1e999,5\n1 2,6\n", {"a", "b", "c"});
   for (const char* part :
        {"runs.csv:2: b is \"nan\"", "runs.csv:3: a is \"x\"", "runs.csv:4: a is \"\"",
         "runs.csv:5: b is \"inf\"", "runs.csv:6: a is \"1e999\"", "runs.csv:7: a is \"1 2\"",
@@ -91,23 +91,24 @@ TEST(Table, EveryCellThatIsNoNumberIsNamed) {
 }
 
 TEST(Table, AMistypedColumnIsGuessed) {
-  EXPECT_THAT(error_of("angle_deg,mu\n1,2\n", {"angel_deg"}), HasSubstr("Did you mean angle_deg?"));
+  EXPECT_THAT(table_error("angle_deg,mu\n1,2\n", {"angel_deg"}),
+              HasSubstr("Did you mean angle_deg?"));
 }
 
 TEST(Table, WhatIsNoTableIsRefused) {
-  EXPECT_THAT(error_of(""), HasSubstr("runs.csv: is empty"));
-  EXPECT_THAT(error_of("\n \n"), HasSubstr("runs.csv: is empty"));
-  EXPECT_THAT(error_of("a,b\n"), HasSubstr("no rows"));
-  EXPECT_THAT(error_of("a,,a\n1,2,3\n"),
+  EXPECT_THAT(table_error(""), HasSubstr("runs.csv: is empty"));
+  EXPECT_THAT(table_error("\n \n"), HasSubstr("runs.csv: is empty"));
+  EXPECT_THAT(table_error("a,b\n"), HasSubstr("no rows"));
+  EXPECT_THAT(table_error("a,,a\n1,2,3\n"),
               AllOf(HasSubstr("column 2 has no name"), HasSubstr("two columns are called a")));
-  EXPECT_THAT(error_of("a,b\n\"1,2\n"), HasSubstr("quotation mark"));
-  EXPECT_THAT(error_of("a,b\n1\"2,3\n"), HasSubstr("runs.csv:2: a quotation mark"));
+  EXPECT_THAT(table_error("a,b\n\"1,2\n"), HasSubstr("quotation mark"));
+  EXPECT_THAT(table_error("a,b\n1\"2,3\n"), HasSubstr("runs.csv:2: a quotation mark"));
 }
 
 TEST(Table, FilesThatCannotBeReadAreNamed) {
   const testing::TemporaryFolder folder;
   for (const auto& file : {folder.path(), folder.path() / "missing.csv"}) {
-    EXPECT_THAT(repose::error_of([&] { read_table(file); }),
+    EXPECT_THAT(error_of([&] { read_table(file); }),
                 AllOf(HasSubstr(file.string()), HasSubstr("Fix: ")));
   }
   EXPECT_EQ(read_table(folder.write("a.csv", std::string("x\n1\n"))).rows.size(), 1U);

@@ -18,6 +18,11 @@ namespace repose::testing {
 using nlohmann::json;
 using Words = std::vector<std::string>;
 
+inline Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 /// Runs of one command, in a folder of their own.
 class CommandTest : public ::testing::Test {
  protected:

@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 /// A heap four grains high that is poured in seconds.
-constexpr const char* kStudy = R"([particle]
+constexpr const char* kComparedStudy = R"([particle]
 size_mm = [18, 18, 18]
 spheres = 1
 density_kg_m3 = 850
@@ -84,7 +84,7 @@ TEST_F(CompareOfSets, JsonHoldsEveryHeap) {
 }
 
 TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
-  folder_.write("study.toml", std::string(kStudy));
+  folder_.write("study.toml", std::string(kComparedStudy));
   ASSERT_EQ(run_repose(folder_, {"simulate", "heap", "study.toml", "--repeats", "2", "--views", "0",
                                  "--out", "heaps"})
                 .exit_code,

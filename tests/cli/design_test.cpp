@@ -15,7 +15,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-auto lines_in(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+auto count_of_lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
 struct DesignCommand : CommandTest {
   DesignCommand() : CommandTest({"design"}) {}
@@ -26,7 +26,7 @@ TEST_F(DesignCommand, PrintsNaturalLevelsInStandardOrder) {
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, StartsWith("run,point,e,mu\n1,cube,0.1,0.2\n2,cube,0.3,0.2\n"));
   EXPECT_THAT(done.out, HasSubstr("9,centre,0.2,0.3\n"));
-  EXPECT_EQ(lines_in(done.out), 1 + 4 + 4 + 6);
+  EXPECT_EQ(count_of_lines(done.out), 1 + 4 + 4 + 6);
   EXPECT_THAT(done.err, IsEmpty());
 }
 
@@ -54,7 +54,7 @@ TEST_F(DesignCommand, WritesAFile) {
                              "c=0:1", "--out", "runs.csv"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, IsEmpty());
-  EXPECT_EQ(lines_in(text("runs.csv")), 16);
+  EXPECT_EQ(count_of_lines(text("runs.csv")), 16);
 }
 
 TEST_F(DesignCommand, AscentFollowsTheSlopeOfEarlierRuns) {

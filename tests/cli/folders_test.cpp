@@ -72,11 +72,6 @@ constexpr const char* kWall =
     "contact.particle_wall={restitution=0.5,sliding_friction=0.4,rolling_friction=0.01}";
 const Words kDrop = {"simulate", "drop", "study.toml", "--set", kWall};
 
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 TEST_F(Folders, CalibrateDoesNotTakeOverAFolderOfTheUsers) {
   for (const char* name : {"own/study.toml", "own/clump.json", "own/study.json", "own/result.json",
                            "own/heap.vtp", "own/other.txt"}) {

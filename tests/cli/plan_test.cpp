@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// Grains whose restitution alone is sought, and few of them wherever there are many.
-const std::string kStudy = calibrate::test::kSoftBall + R"([contact.particle_wall]
+const std::string kPlannedStudy = calibrate::test::kSoftBall + R"([contact.particle_wall]
 restitution = 0.5
 sliding_friction = 0.3
 rolling_friction = 0.05
@@ -28,7 +28,7 @@ grains = 4
 
 class Plan : public CommandTest {
  protected:
-  Plan() : CommandTest({"plan"}) { folder_.write("study.toml", kStudy); }
+  Plan() : CommandTest({"plan"}) { folder_.write("study.toml", kPlannedStudy); }
 };
 
 TEST_F(Plan, NamesTheExperimentThatTellsWhatIsSoughtWithItsLinesForTheStudy) {

@@ -15,11 +15,6 @@ using ::testing::IsEmpty;
 
 const Words kNut = {"--size-mm", "22.48,18.23,17.46", "--tip", ".5"};
 
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 struct ShapeCommand : CommandTest {
   ShapeCommand() : CommandTest({"shape"}) {}
 };

@@ -15,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// A heap five grains high of soft, rough grains: some seconds of work.
-constexpr const char* kStudy = R"([particle]
+constexpr const char* kPicturedStudy = R"([particle]
 size_mm = [22.5, 18.2, 17.5]
 spheres = 2
 density_kg_m3 = 850
@@ -44,7 +44,7 @@ lift_speed_mm_s = 150
 class SimulatePictures : public CommandTest {
  protected:
   SimulatePictures() : CommandTest({"simulate", "heap", "study.toml"}) {
-    folder_.write("study.toml", std::string(kStudy));
+    folder_.write("study.toml", std::string(kPicturedStudy));
   }
 
   json timeless(Words words) const {
@@ -89,7 +89,7 @@ TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
 class SimulateDrawDown : public CommandTest {
  protected:
   SimulateDrawDown() : CommandTest({"simulate", "draw_down", "study.toml", "--out", "runs"}) {
-    folder_.write("study.toml", std::string(kStudy) + R"([experiment.draw_down]
+    folder_.write("study.toml", std::string(kPicturedStudy) + R"([experiment.draw_down]
 length_mm = 350
 depth_mm = 92
 slot_mm = 160

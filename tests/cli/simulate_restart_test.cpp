@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 /// A heap of a second's work.
-constexpr const char* kStudy = R"([particle]
+constexpr const char* kStoppedStudy = R"([particle]
 size_mm = [22.5, 18.2, 17.5]
 spheres = 2
 density_kg_m3 = 850
@@ -50,7 +50,7 @@ lift_speed_mm_s = 100
 class SimulateRestart : public CommandTest {
  protected:
   SimulateRestart() : CommandTest({"simulate"}) {
-    folder_.write("study.toml", std::string(kStudy));
+    folder_.write("study.toml", std::string(kStoppedStudy));
   }
 
   /// Presses Ctrl-C when `frame` of a repeat is there; the exit code.
@@ -213,7 +213,7 @@ TEST_F(SimulateRestart, RunsAreFoundAgainInAnotherStudy) {
   const std::size_t before = stored(".json").size();
   ASSERT_EQ(before, 2U);
   // Another file, and with it another study, but the same drops.
-  folder_.write("other.toml", std::string(kStudy) + "[simulation]\nseed = 1\n");
+  folder_.write("other.toml", std::string(kStoppedStudy) + "[simulation]\nseed = 1\n");
   one[1] = "other.toml";
   std::filesystem::remove(path("runs/run.json"));
   const Finished again = run(one);

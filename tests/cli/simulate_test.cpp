@@ -24,7 +24,7 @@ using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
 /// Soft, two spheres to a grain, short ways: a run takes a fraction of a second.
-constexpr const char* kStudy = R"([particle]
+constexpr const char* kSimulatedStudy = R"([particle]
 size_mm = [22.5, 18.2, 17.5]
 spheres = 2
 density_kg_m3 = 850
@@ -53,7 +53,9 @@ grains = 40
 
 class Simulate : public CommandTest {
  protected:
-  Simulate() : CommandTest({"simulate"}) { folder_.write("study.toml", std::string(kStudy)); }
+  Simulate() : CommandTest({"simulate"}) {
+    folder_.write("study.toml", std::string(kSimulatedStudy));
+  }
 
   json timeless(const Words& words) const { return without_times(result(words)); }
 };

@@ -11,8 +11,8 @@
 namespace repose::dem {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 constexpr int kGrains = 16;
 
@@ -37,7 +37,7 @@ void expect_same(const Simulation& one, const Simulation& other) {
   }
 }
 
-class RollingModels : public testing::TestWithParam<RollingModel> {};
+class RollingModels : public ::testing::TestWithParam<RollingModel> {};
 
 TEST_P(RollingModels, TwoThreadsGiveTheSameBytes) {
   SimulationSetup setup = packing_setup(GetParam());
@@ -61,9 +61,9 @@ TEST_P(RollingModels, RestartFromACheckpointContinuesBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RollingModels,
-                         testing::Values(RollingModel::none, RollingModel::constant_torque,
-                                         RollingModel::relative_constant_torque,
-                                         RollingModel::elastic_plastic));
+                         ::testing::Values(RollingModel::none, RollingModel::constant_torque,
+                                           RollingModel::relative_constant_torque,
+                                           RollingModel::elastic_plastic));
 
 TEST(Checkpoint, IsTakenRightAfterAGrainWasTakenOut) {
   Simulation simulation = loose_packing(packing_setup(), kGrains);

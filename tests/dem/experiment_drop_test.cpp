@@ -7,7 +7,7 @@
 namespace repose::dem {
 namespace {
 
-class SphereDrop : public testing::TestWithParam<double> {};
+class SphereDrop : public ::testing::TestWithParam<double> {};
 
 TEST_P(SphereDrop, ReboundsByTheSquareOfItsRestitution) {
   Model model = test::sphere_bench();
@@ -22,7 +22,7 @@ TEST_P(SphereDrop, ReboundsByTheSquareOfItsRestitution) {
   EXPECT_EQ(repeat.readings.at("never_rose"), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Drop, SphereDrop, testing::Values(.05, .1, .3, .5, .9));
+INSTANTIATE_TEST_SUITE_P(Drop, SphereDrop, ::testing::Values(.05, .1, .3, .5, .9));
 
 TEST(Drop, ClumpsReboundLessThanSpheresAndScatter) {
   const Repeat repeat = run_drop(test::clump_bench(), {.height_m = .5, .grains = 6}, 1);

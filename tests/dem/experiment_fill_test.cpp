@@ -11,17 +11,17 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Balls of 20 mm, soft so that runs are short.
-Model balls() {
+Model balls_to_fill() {
   Model model = test::sphere_bench();
   model.grain = sphere_shape(.01);
   model.grain_material = {"ball", 1000, 1e6, .3};
   return model;
 }
 
-constexpr FillProtocol kTube{.tube_diameter_m = .15, .tube_height_m = .15};
+constexpr FillProtocol kTubeToFill{.tube_diameter_m = .15, .tube_height_m = .15};
 
 TEST(FilledTube, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
-  const Repeat repeat = run_fill(balls(), kTube, 1);
+  const Repeat repeat = run_fill(balls_to_fill(), kTubeToFill, 1);
   const double grain_kg = 1000 * 4.0 / 3 * std::numbers::pi * 1e-6;
   const double tube_m3 = std::numbers::pi / 4 * .15 * .15 * .15;
   const double grains = repeat.readings.at("grains");
@@ -29,33 +29,35 @@ TEST(FilledTube, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
   EXPECT_NEAR(repeat.readings.at("mass_g"), 1e3 * grains * grain_kg, 1e-9);
   EXPECT_NEAR(repeat.readings.at("solid_fraction"), repeat.value / 1000, 1e-12);
   for (int k = 0; k < repeat.state->grain_count(); ++k) {
-    if (repeat.state->is_present(k)) EXPECT_LT(repeat.state->grain(k).position.z(), .15);
+    if (!repeat.state->is_present(k)) continue;
+    EXPECT_LT(repeat.state->grain(k).position.z(), .15);
   }
 }
 
 TEST(FilledTubes, BallsPackAsPouredBallsDo) {
-  Model model = balls();
+  Model model = balls_to_fill();
   model.grain_material.young_modulus_pa = 1e7;
   // Poured loosely into a tube of 7.5 diameters balls fill .568 of it (Zou and Yu 1995, Chemical
   // Engineering Science 50, 1504); a tube as low as this one lacks half a layer at its bottom.
-  EXPECT_NEAR(run_fill(model, kTube, 1).readings.at("solid_fraction"), .568 * (1 - .01 / .15), .03);
+  EXPECT_NEAR(run_fill(model, kTubeToFill, 1).readings.at("solid_fraction"), .568 * (1 - .01 / .15),
+              .03);
 }
 
 TEST(FilledTubes, FrictionMakesLooserPackings) {
-  Model smooth = balls(), rough = balls();
+  Model smooth = balls_to_fill(), rough = balls_to_fill();
   smooth.grain_grain = {.3, .05, .01};
   rough.grain_grain = {.3, .8, .3};
-  EXPECT_LT(run_fill(rough, kTube, 1).value, run_fill(smooth, kTube, 1).value - 20);
+  EXPECT_LT(run_fill(rough, kTubeToFill, 1).value, run_fill(smooth, kTubeToFill, 1).value - 20);
 }
 
 TEST(FilledTubes, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
-  FillProtocol tube = kTube;
+  FillProtocol tube = kTubeToFill;
   tube.tap_m = .01;
-  const Repeat poured = run_fill(balls(), tube, 1);
+  const Repeat poured = run_fill(balls_to_fill(), tube, 1);
   tube.taps = 1;
-  const Repeat once = run_fill(balls(), tube, 1);
+  const Repeat once = run_fill(balls_to_fill(), tube, 1);
   tube.taps = 4;
-  const Repeat often = run_fill(balls(), tube, 1);
+  const Repeat often = run_fill(balls_to_fill(), tube, 1);
   EXPECT_EQ(poured.readings.count("hausner_ratio"), 0U);
   EXPECT_GT(once.readings.at("hausner_ratio"), 1);
   EXPECT_GT(often.readings.at("hausner_ratio"), once.readings.at("hausner_ratio"));
@@ -66,7 +68,8 @@ TEST(FilledTubes, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
 }
 
 TEST(FilledTube, ItsLevelIsAtTheRimGiveOrTakeAGrain) {
-  const double level_mm = run_fill(balls(), kTube, 1).readings.at("filling_height_mm");
+  const double level_mm =
+      run_fill(balls_to_fill(), kTubeToFill, 1).readings.at("filling_height_mm");
   EXPECT_GT(level_mm, 130);
   EXPECT_LT(level_mm, 155);
 }
@@ -90,34 +93,36 @@ TEST(FillingHeight, SpheresBeyondTheTubeCountAsFarAsTheyReachIn) {
 }
 
 TEST(FilledTube, IsTheSameAtAnyNumberOfThreads) {
-  Model two = balls();
+  Model two = balls_to_fill();
   two.threads = 2;
-  const Repeat one = run_fill(balls(), kTube, 3);
-  EXPECT_TRUE(test::same_state(*one.state, *run_fill(two, kTube, 3).state));
+  const Repeat one = run_fill(balls_to_fill(), kTubeToFill, 3);
+  EXPECT_TRUE(test::same_state(*one.state, *run_fill(two, kTubeToFill, 3).state));
 }
 
 TEST(FilledTube, TellsEveryErrorAtOnce) {
   EXPECT_THAT(error_of([] {
-                run_fill(balls(), {.tube_diameter_m = .03, .tube_height_m = .02, .pour_m = 0}, 1);
+                run_fill(balls_to_fill(),
+                         {.tube_diameter_m = .03, .tube_height_m = .02, .pour_m = 0}, 1);
               }),
               AllOf(HasSubstr("fill.tube_diameter_m is 0.03"), HasSubstr("4 grains or more"),
                     HasSubstr("fill.tube_height_m is 0.02"), HasSubstr("fill.pour_m is 0")));
   EXPECT_THAT(error_of([] {
-                FillProtocol tapped = kTube;
+                FillProtocol tapped = kTubeToFill;
                 tapped.taps = 0;
                 tapped.tap_m = .2;
-                run_fill(balls(), tapped, 1);
+                run_fill(balls_to_fill(), tapped, 1);
               }),
               AllOf(HasSubstr("fill.taps is 0"), HasSubstr("fill.tap_m is 0.2"),
                     HasSubstr("at most the tube's height, 0.15")));
-  EXPECT_THAT(error_of([] { run_fill(balls(), {.tube_diameter_m = 9, .tube_height_m = 9}, 1); }),
-              HasSubstr("Rule: at most 100000. Fix: a smaller tube"));
+  EXPECT_THAT(
+      error_of([] { run_fill(balls_to_fill(), {.tube_diameter_m = 9, .tube_height_m = 9}, 1); }),
+      HasSubstr("Rule: at most 100000. Fix: a smaller tube"));
 }
 
 TEST(FilledTube, GrainsThatAreTooSoftStopTheRun) {
-  Model soft = balls();
+  Model soft = balls_to_fill();
   soft.grain_material.young_modulus_pa = 1e3;
-  EXPECT_THROW(run_fill(soft, kTube, 1), UnstableRun);
+  EXPECT_THROW(run_fill(soft, kTubeToFill, 1), UnstableRun);
 }
 
 }  // namespace

@@ -8,15 +8,6 @@
 namespace repose::dem {
 namespace {
 
-/// Soft spheres that make a heap, and a small tube of them.
-Model soft_bench() {
-  Model model = test::sphere_bench();
-  model.stiffness_factor = 1e-3;
-  model.grain_wall = {.31, .5, .2};
-  model.grain_grain = {.11, .5, .2};
-  return model;
-}
-
 HeapProtocol small_tube() {
   HeapProtocol protocol;
   protocol.tube_diameter_m = .07;
@@ -27,7 +18,7 @@ HeapProtocol small_tube() {
 }
 
 TEST(Heap, FillsTheTubeAndLiftsItOff) {
-  const Repeat repeat = run_heap(soft_bench(), small_tube(), 1);
+  const Repeat repeat = run_heap(test::soft_bench(), small_tube(), 1);
   const auto& readings = repeat.readings;
   // Spheres of 19.3 mm in a tube of 70 mm fill it by .40 to .60.
   const double fraction = readings.at("grains") * 3.746e-6 / (std::numbers::pi * .035 * .035 * .1);
@@ -48,7 +39,7 @@ TEST(Heap, FillsTheTubeAndLiftsItOff) {
 }
 
 TEST(Heap, SameSeedSameBytesOnAnyNumberOfThreads) {
-  Model model = soft_bench();
+  Model model = test::soft_bench();
   HeapProtocol protocol = small_tube();
   protocol.tube_diameter_m = .08;
   protocol.tube_height_m = .06;
@@ -63,7 +54,7 @@ TEST(Heap, SameSeedSameBytesOnAnyNumberOfThreads) {
 TEST(Heap, TakesAsManyGrainsAsAskedFor) {
   HeapProtocol protocol = small_tube();
   protocol.grains = 12;
-  const Repeat repeat = run_heap(soft_bench(), protocol, 1);
+  const Repeat repeat = run_heap(test::soft_bench(), protocol, 1);
   EXPECT_EQ(repeat.readings.at("grains"), 12);
   EXPECT_EQ(repeat.readings.at("no_heap"), 1);
 }
@@ -72,7 +63,7 @@ TEST(Heap, RefusesMoreGrainsThanFitAndSaysHowManyDo) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .05;
   protocol.grains = 100000;
-  const std::string message = error_of([&] { run_heap(soft_bench(), protocol, 1); });
+  const std::string message = error_of([&] { run_heap(test::soft_bench(), protocol, 1); });
   EXPECT_NE(message.find("heap.grains is 100000"), std::string::npos) << message;
   EXPECT_NE(message.find("at most what fits into the tube, 2"), std::string::npos) << message;
 }
@@ -80,13 +71,13 @@ TEST(Heap, RefusesMoreGrainsThanFitAndSaysHowManyDo) {
 TEST(Heap, RefusesMoreGrainsThanAMachineHolds) {
   HeapProtocol protocol = small_tube();
   protocol.grains = 10'000'000;
-  const std::string many = error_of([&] { run_heap(soft_bench(), protocol, 1); });
+  const std::string many = error_of([&] { run_heap(test::soft_bench(), protocol, 1); });
   EXPECT_NE(many.find("heap.grains is 10000000. Rule: 1 to 100000"), std::string::npos) << many;
   protocol.grains.reset();
   protocol.tube_diameter_m = protocol.plate_m / 2;
   protocol.tube_height_m = 100;
   protocol.lift_speed_m_s = 1;
-  Model dust = soft_bench();
+  Model dust = test::soft_bench();
   dust.grain = sphere_shape(1e-4);
   const std::string full = error_of([&] { run_heap(dust, protocol, 1); });
   EXPECT_NE(full.find("the tube holds about"), std::string::npos) << full;
@@ -97,13 +88,13 @@ TEST(Heap, TakesThoseThatFitWhereFewerWillDo) {
   protocol.tube_height_m = .05;
   protocol.grains = 100000;
   protocol.may_be_fewer = true;
-  const double grains = run_heap(soft_bench(), protocol, 1).readings.at("grains");
+  const double grains = run_heap(test::soft_bench(), protocol, 1).readings.at("grains");
   EXPECT_GT(grains, 2);
   EXPECT_LT(grains, 1000);
 }
 
 TEST(Heap, GrainsThatFallOffTheEdgeAreCounted) {
-  Model model = soft_bench();
+  Model model = test::soft_bench();
   model.grain_wall = {.31, .2, .05};
   model.grain_grain = {.11, .1, .05};
   HeapProtocol protocol = small_tube();
@@ -118,12 +109,13 @@ TEST(Heap, GrainsThatHangInTheTubeAreNoReading) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .06;
   // Of this seed three spheres make an arch, and go up with the tube.
-  const std::string message = error_of<NoReading>([&] { run_heap(soft_bench(), protocol, 3); });
+  const std::string message =
+      error_of<NoReading>([&] { run_heap(test::soft_bench(), protocol, 3); });
   EXPECT_NE(message.find("hang in the tube"), std::string::npos) << message;
 }
 
 TEST(Heap, RougherGrainsHeapHigher) {
-  Model model = soft_bench();
+  Model model = test::soft_bench();
   const Repeat rough = run_heap(model, small_tube(), 1);
   model.grain_wall = {.31, .2, .02};
   model.grain_grain = {.11, .1, .01};
@@ -133,7 +125,7 @@ TEST(Heap, RougherGrainsHeapHigher) {
 
 TEST(Heap, MayBeBrokenOff) {
   int reports = 0;
-  EXPECT_THROW(run_heap(soft_bench(), small_tube(), 1,
+  EXPECT_THROW(run_heap(test::soft_bench(), small_tube(), 1,
                         [&](double fraction, const Simulation&) {
                           EXPECT_GE(fraction, 0);
                           EXPECT_LE(fraction, 1);
@@ -151,7 +143,7 @@ TEST(Heap, TellsEveryErrorAtOnce) {
   protocol.lift_speed_m_s = 0;
   protocol.plate_m = -1;
   protocol.grains = 0;
-  const std::string message = error_of([&] { run_heap(soft_bench(), protocol, 1); });
+  const std::string message = error_of([&] { run_heap(test::soft_bench(), protocol, 1); });
   for (const char* name :
        {"heap.tube_diameter_m is 0.015. Rule: wider than a grain", "heap.tube_height_m",
         "heap.tube_thickness_m", "heap.lift_speed_m_s", "heap.plate_m", "heap.grains"}) {
@@ -162,14 +154,14 @@ TEST(Heap, TellsEveryErrorAtOnce) {
 TEST(Heap, RefusesATubeWiderThanThePlate) {
   HeapProtocol protocol;
   protocol.plate_m = .1;
-  const std::string message = error_of([&] { run_heap(soft_bench(), protocol, 1); });
+  const std::string message = error_of([&] { run_heap(test::soft_bench(), protocol, 1); });
   EXPECT_NE(message.find("stands on the plate"), std::string::npos) << message;
 }
 
 TEST(Heap, RefusesALiftThatNeverEnds) {
   HeapProtocol protocol;
   protocol.lift_speed_m_s = 1e-6;
-  EXPECT_THROW(run_heap(soft_bench(), protocol, 1), std::invalid_argument);
+  EXPECT_THROW(run_heap(test::soft_bench(), protocol, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -20,6 +20,15 @@ inline Model sphere_bench() {
   return model;
 }
 
+/// Soft spheres that make a heap, and creep.
+inline Model soft_bench() {
+  Model model = sphere_bench();
+  model.stiffness_factor = 1e-3;
+  model.grain_wall = {.31, .5, .2};
+  model.grain_grain = {.11, .5, .2};
+  return model;
+}
+
 /// Spheres on the long axis (x) of a spheroid, each the largest inside it.
 inline ClumpShape spheroid_clump(int count) {
   const double a = 11.24e-3;

@@ -9,7 +9,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class PendulumBalls : public testing::TestWithParam<double> {};
+class PendulumBalls : public ::testing::TestWithParam<double> {};
 
 TEST_P(PendulumBalls, SwingAsHighAsMomentumAndRestitutionSay) {
   Model model = test::sphere_bench();
@@ -23,7 +23,7 @@ TEST_P(PendulumBalls, SwingAsHighAsMomentumAndRestitutionSay) {
               repeat.readings.at("rise_mm"), 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pendulum, PendulumBalls, testing::Values(.05, .3, .5, .8, 1));
+INSTANTIATE_TEST_SUITE_P(Pendulum, PendulumBalls, ::testing::Values(.05, .3, .5, .8, 1));
 
 TEST(Pendulum, FrictionBetweenBallsHasNoEffect) {
   Model model = test::sphere_bench();

@@ -12,16 +12,8 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// Soft spheres that creep, in a small tube: a heap of a second's work.
-Model soft_bench() {
-  Model model = test::sphere_bench();
-  model.stiffness_factor = 1e-3;
-  model.grain_wall = {.31, .5, .2};
-  model.grain_grain = {.11, .5, .2};
-  return model;
-}
-
-HeapProtocol small_tube() {
+/// With soft spheres a heap of a second's work.
+HeapProtocol tube_on_small_plate() {
   HeapProtocol protocol;
   protocol.tube_diameter_m = .07;
   protocol.tube_height_m = .1;
@@ -30,7 +22,7 @@ HeapProtocol small_tube() {
   return protocol;
 }
 
-std::string bits(const Repeat& repeat) { return state_text(*repeat.state, "{}"); }
+std::string bits_of_end(const Repeat& repeat) { return state_text(*repeat.state, "{}"); }
 
 /// Some of the restart points of each stage, as a file would hold them.
 std::map<HeapStage, std::vector<HeapRestart>> restart_points(Repeat& whole) {
@@ -41,7 +33,7 @@ std::map<HeapStage, std::vector<HeapRestart>> restart_points(Repeat& whole) {
   record.save_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
     points[progress.stage].push_back({simulation.setup(), simulation.checkpoint(), progress});
   };
-  whole = run_heap(soft_bench(), small_tube(), 1, {}, record);
+  whole = run_heap(test::soft_bench(), tube_on_small_plate(), 1, {}, record);
   return points;
 }
 
@@ -52,10 +44,11 @@ TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
        {HeapStage::rain, HeapStage::settle_in_tube, HeapStage::lift, HeapStage::settle}) {
     ASSERT_TRUE(points.contains(stage)) << "stage " << static_cast<int>(stage);
     const std::vector<HeapRestart>& of_stage = points.at(stage);
-    Model model = soft_bench();
+    Model model = test::soft_bench();
     model.threads = stage == HeapStage::lift ? 2 : 1;
-    const Repeat resumed = resume_heap(model, small_tube(), 1, of_stage.at(of_stage.size() / 2));
-    EXPECT_EQ(bits(resumed), bits(whole)) << "stage " << static_cast<int>(stage);
+    const Repeat resumed =
+        resume_heap(model, tube_on_small_plate(), 1, of_stage.at(of_stage.size() / 2));
+    EXPECT_EQ(bits_of_end(resumed), bits_of_end(whole)) << "stage " << static_cast<int>(stage);
     EXPECT_EQ(resumed.envelopes.back().height_m, whole.envelopes.back().height_m);
     EXPECT_EQ(resumed.readings, whole.readings);
     EXPECT_EQ(resumed.steps, whole.steps);
@@ -65,7 +58,7 @@ TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
 
 TEST(HeapRestart, GoesOnFromWithinALongStretch) {
   // So many grains' steps lie between two looks that some are taken within a stretch.
-  Model model = soft_bench();
+  Model model = test::soft_bench();
   model.stiffness_factor = 1e-2;
   Repeat whole;
   RunRecord record;
@@ -76,19 +69,20 @@ TEST(HeapRestart, GoesOnFromWithinALongStretch) {
       within.push_back({simulation.setup(), simulation.checkpoint(), progress});
     }
   };
-  whole = run_heap(model, small_tube(), 1, {}, record);
+  whole = run_heap(model, tube_on_small_plate(), 1, {}, record);
   ASSERT_THAT(within, Not(IsEmpty()));
-  EXPECT_EQ(bits(resume_heap(model, small_tube(), 1, within.front())), bits(whole));
+  EXPECT_EQ(bits_of_end(resume_heap(model, tube_on_small_plate(), 1, within.front())),
+            bits_of_end(whole));
 }
 
 TEST(HeapRestart, IsKeptWhenTheRunIsBrokenOff) {
   int saved = 0;
   RunRecord record;
   record.save_restart = [&](const Simulation&, const HeapProgress&) { ++saved; };
-  EXPECT_THROW(
-      run_heap(
-          soft_bench(), small_tube(), 1, [](double, const Simulation&) { return false; }, record),
-      Interrupted);
+  EXPECT_THROW(run_heap(
+                   test::soft_bench(), tube_on_small_plate(), 1,
+                   [](double, const Simulation&) { return false; }, record),
+               Interrupted);
   EXPECT_EQ(saved, 1);
 }
 
@@ -111,7 +105,8 @@ TEST(Frames, AreTakenAtTheirTimesToAStep) {
   Frames frames;
   // Less than the time between two reports, and no multiple of the time step.
   const double interval_s = 1.2345e-3;
-  const Repeat repeat = run_heap(soft_bench(), small_tube(), 1, {}, frames.record(interval_s));
+  const Repeat repeat =
+      run_heap(test::soft_bench(), tube_on_small_plate(), 1, {}, frames.record(interval_s));
   ASSERT_EQ(frames.times_s.size(), 2U) << "filling, then lift and settling";
   for (const auto& times_s : frames.times_s) {
     ASSERT_GT(times_s.size(), 100U);
@@ -126,9 +121,9 @@ TEST(Frames, AreTakenAtTheirTimesToAStep) {
 TEST(Frames, DoNotShowInTheResult) {
   Frames frames;
   const RollProtocol roll{.release_m = .02};
-  const Repeat watched = run_roll(soft_bench(), roll, 1, {}, frames.record(1e-9));
-  const Repeat alone = run_roll(soft_bench(), roll, 1);
-  EXPECT_EQ(bits(watched), bits(alone));
+  const Repeat watched = run_roll(test::soft_bench(), roll, 1, {}, frames.record(1e-9));
+  const Repeat alone = run_roll(test::soft_bench(), roll, 1);
+  EXPECT_EQ(bits_of_end(watched), bits_of_end(alone));
   EXPECT_EQ(watched.steps, alone.steps);
   ASSERT_EQ(frames.times_s.size(), 1U);
   EXPECT_EQ(frames.times_s[0].size(), static_cast<std::size_t>(alone.steps) + 1)

@@ -21,7 +21,7 @@ struct RollCase {
   double liggghts_mm;  ///< the same run there
 };
 
-class SphereRoll : public testing::TestWithParam<RollCase> {};
+class SphereRoll : public ::testing::TestWithParam<RollCase> {};
 
 TEST_P(SphereRoll, GoesAsFarAsInAnotherEngine) {
   Model model = test::sphere_bench();
@@ -34,8 +34,8 @@ TEST_P(SphereRoll, GoesAsFarAsInAnotherEngine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Roll, SphereRoll,
-                         testing::Values(RollCase{.04, 1013}, RollCase{.08, 437},
-                                         RollCase{.17, 135}));
+                         ::testing::Values(RollCase{.04, 1013}, RollCase{.08, 437},
+                                           RollCase{.17, 135}));
 
 TEST(Roll, WhatTheCornerTakesIsSmallOnAGentleSlope) {
   Model model = test::sphere_bench();

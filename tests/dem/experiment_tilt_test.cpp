@@ -9,7 +9,7 @@ namespace {
 
 double friction_deg(double friction) { return std::atan(friction) * 180 / std::numbers::pi; }
 
-class TiltFriction : public testing::TestWithParam<double> {};
+class TiltFriction : public ::testing::TestWithParam<double> {};
 
 TEST_P(TiltFriction, IsTheAngleOfSliding) {
   Model model = test::clump_bench();
@@ -20,7 +20,7 @@ TEST_P(TiltFriction, IsTheAngleOfSliding) {
   EXPECT_NEAR(repeat.readings.at("half_mm_slip_deg"), friction_deg(GetParam()) + .4, .05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tilt, TiltFriction, testing::Values(.1, .39, .8));
+INSTANTIATE_TEST_SUITE_P(Tilt, TiltFriction, ::testing::Values(.1, .39, .8));
 
 TEST(Tilt, SpheresAndClumpsAlike) {
   EXPECT_NEAR(run_tilt(test::sphere_bench(), {}, 1).value, friction_deg(.39), .02);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTimestep = 1e-6;
 
-Law<double> law_of(double restitution, double friction) {
+Law<double> glass_law(double restitution, double friction) {
   const Material glass{
       .name = "glass", .density_kg_m3 = 2500, .young_modulus_pa = 6e10, .poisson_ratio = .24};
   const PairCoefficients pair{.restitution = restitution, .sliding_friction = friction};
@@ -39,7 +39,7 @@ double tangential_stiffness(const Touch<double>& touch, const Law<double>& law) 
 }
 
 TEST(ContactForce, NormalPushIsHertzs) {
-  const Law<double> law = law_of(1, 0);
+  const Law<double> law = glass_law(1, 0);
   Springs<double> springs;
   const ContactForce<double> force = contact_force(touch_of(1e-6), law, kTimestep, springs);
   EXPECT_DOUBLE_EQ(force.normal,
@@ -48,7 +48,7 @@ TEST(ContactForce, NormalPushIsHertzs) {
 }
 
 TEST(ContactForce, DoublingOverlapMultipliesForceBy2Root2) {
-  const Law<double> law = law_of(1, 0);
+  const Law<double> law = glass_law(1, 0);
   Springs<double> springs;
   const double one = contact_force(touch_of(1e-6), law, kTimestep, springs).normal;
   const double two = contact_force(touch_of(2e-6), law, kTimestep, springs).normal;
@@ -56,7 +56,7 @@ TEST(ContactForce, DoublingOverlapMultipliesForceBy2Root2) {
 }
 
 TEST(ContactForce, ModuliAreThoseOfThePair) {
-  const Law<double> law = law_of(1, 0);
+  const Law<double> law = glass_law(1, 0);
   EXPECT_NEAR(law.reduced_young, 6e10 / (2 * (1 - .24 * .24)), 1);
   EXPECT_NEAR(law.reduced_shear, 6e10 / (4 * (2 - .24) * (1 + .24)), 1);
 }
@@ -65,13 +65,13 @@ TEST(ContactForce, FastPartingDoesNotPull) {
   Touch<double> touch = touch_of(1e-6);
   touch.velocity.z = 100;  // b flies off
   Springs<double> springs;
-  const ContactForce<double> force = contact_force(touch, law_of(.1, .5), kTimestep, springs);
+  const ContactForce<double> force = contact_force(touch, glass_law(.1, .5), kTimestep, springs);
   EXPECT_EQ(force.normal, 0);
   EXPECT_EQ(force.total.squared_norm(), 0);
 }
 
 TEST(ContactForce, SmallSlipStretchesMindlinsSpring) {
-  const Law<double> law = law_of(1, 1);
+  const Law<double> law = glass_law(1, 1);
   const Touch<double> touch = touch_of(1e-6);
   Springs<double> springs;
   const ContactForce<double> force = slide(touch, {1e-9, 0, 0}, law, springs);
@@ -81,7 +81,7 @@ TEST(ContactForce, SmallSlipStretchesMindlinsSpring) {
 }
 
 TEST(ContactForce, SlidingStopsAtCoulombsLimit) {
-  const Law<double> law = law_of(.5, .3);
+  const Law<double> law = glass_law(.5, .3);
   Springs<double> springs;
   const ContactForce<double> force = slide(touch_of(1e-6), {3e-5, 4e-5, 0}, law, springs);
   EXPECT_NEAR(std::hypot(force.total.x, force.total.y), .3 * force.normal, 1e-12);
@@ -94,12 +94,12 @@ TEST(ContactForce, DamperDoesNotPassCoulombsLimit) {
   Touch<double> touch = touch_of(1e-6);
   touch.velocity.x = 1e3;
   Springs<double> springs;
-  const ContactForce<double> force = contact_force(touch, law_of(.2, .3), kTimestep, springs);
+  const ContactForce<double> force = contact_force(touch, glass_law(.2, .3), kTimestep, springs);
   EXPECT_NEAR(std::hypot(force.total.x, force.total.y), .3 * force.normal, 1e-12);
 }
 
 TEST(ContactForce, UnloadingShrinksTheSpringAndLoadingLeavesIt) {
-  const Law<double> law = law_of(1, 1);
+  const Law<double> law = glass_law(1, 1);
   Springs<double> springs;
   slide(touch_of(4e-6), {1e-9, 0, 0}, law, springs);
   const double stretched = springs.tangential.x;
@@ -110,7 +110,7 @@ TEST(ContactForce, UnloadingShrinksTheSpringAndLoadingLeavesIt) {
 }
 
 TEST(ContactForce, SpringTurnsWithTheContact) {
-  const Law<double> law = law_of(1, 1);
+  const Law<double> law = glass_law(1, 1);
   Springs<double> springs;
   slide(touch_of(1e-6), {3e-9, 4e-9, 0}, law, springs);
   const double size = std::sqrt(springs.tangential.squared_norm());
@@ -122,7 +122,7 @@ TEST(ContactForce, SpringTurnsWithTheContact) {
 }
 
 TEST(ContactForce, SpringTurnsWithSpinAboutTheNormal) {
-  const Law<double> law = law_of(1, 1);
+  const Law<double> law = glass_law(1, 1);
   Springs<double> springs;
   slide(touch_of(1e-6), {1e-9, 0, 0}, law, springs);
   Touch twisting = touch_of(1e-6);
@@ -134,7 +134,7 @@ TEST(ContactForce, SpringTurnsWithSpinAboutTheNormal) {
 
 /// Work that a contact gives out on a closed path of (overlap, slip), in small steps.
 double work_given(const std::vector<Eigen::Vector2d>& corners) {
-  const Law<double> law = law_of(1, 10);
+  const Law<double> law = glass_law(1, 10);
   Springs<double> springs;
   double work = 0;
   constexpr int kSteps = 2000;
@@ -157,7 +157,7 @@ TEST(ContactForce, NoCycleOfLoadAndSlipMakesEnergy) {
   constexpr double kHigh = 4e-6;
   constexpr double kSlip = 1e-7;
   const double scale = kSlip * kSlip;  // of the spring's energy, times its stiffness
-  const double stiffness = tangential_stiffness(touch_of(kHigh), law_of(1, 10));
+  const double stiffness = tangential_stiffness(touch_of(kHigh), glass_law(1, 10));
   const double unloaded_sheared =
       work_given({{kHigh, 0}, {kHigh, kSlip}, {kLow, kSlip}, {kLow, 0}, {kHigh, 0}});
   const double loaded_sheared =

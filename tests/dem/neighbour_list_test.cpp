@@ -11,10 +11,10 @@ namespace repose::dem {
 namespace {
 
 /// Grain, sphere, other grain or -1 - wall, its sphere or facet.
-using Touching = std::set<std::tuple<int, int, int, int>>;
+using TouchingSet = std::set<std::tuple<int, int, int, int>>;
 
-Touching listed(const Simulation& simulation) {
-  Touching all;
+TouchingSet listed(const Simulation& simulation) {
+  TouchingSet all;
   for (const ContactState& contact : simulation.contacts()) {
     all.insert({contact.grain_a, contact.sphere_a, contact.grain_b, contact.sphere_b});
   }
@@ -45,8 +45,8 @@ void for_each_sphere(const Simulation& simulation, const Visit& visit) {
 }
 
 /// Every sphere against every other one and every wall.
-Touching brute_force(const Simulation& simulation) {
-  Touching all;
+TouchingSet brute_force(const Simulation& simulation) {
+  TouchingSet all;
   WallSet walls(simulation.setup().walls);
   walls.move_to(simulation.time_s());
   for_each_sphere(simulation, [&](int a, int sphere_a, const Vector& centre_a, double radius_a) {
@@ -69,7 +69,7 @@ TEST(NeighbourList, EveryTouchingPairIsFoundWhileGrainsFallAndSettle) {
   std::size_t most = 0;
   for (int k = 0; k < 150; ++k) {
     simulation.advance(97);
-    const Touching expected = brute_force(simulation);
+    const TouchingSet expected = brute_force(simulation);
     EXPECT_EQ(listed(simulation), expected) << "step " << simulation.step();
     most = std::max(most, expected.size());
   }
@@ -89,7 +89,7 @@ TEST(NeighbourList, EveryTouchingPairIsFoundInOverlappingHeaps) {
       simulation.add(grain);
     }
     EXPECT_THROW(simulation.advance(1), UnstableRun);  // no run has overlaps like these
-    const Touching expected = brute_force(simulation);
+    const TouchingSet expected = brute_force(simulation);
     EXPECT_EQ(listed(simulation), expected);
     EXPECT_GT(expected.size(), 20U);
   }
@@ -119,7 +119,7 @@ TEST(NeighbourList, FastWallIsNotMissed) {
   bool struck = false;
   for (int k = 0; k < 800; ++k) {
     simulation.advance(10);
-    const Touching expected = brute_force(simulation);
+    const TouchingSet expected = brute_force(simulation);
     ASSERT_EQ(listed(simulation), expected) << "step " << simulation.step();
     struck = struck || !expected.empty();
   }

@@ -65,7 +65,7 @@ TEST(Restitution, OutOfRangeIsRefused) {
     EXPECT_THROW(damping_factor(e), std::invalid_argument) << e;
   }
   EXPECT_THAT(error_of([] { damping_factor(1.5); }),
-              testing::AllOf(testing::HasSubstr("1.5"), testing::HasSubstr("Fix:")));
+              ::testing::AllOf(::testing::HasSubstr("1.5"), ::testing::HasSubstr("Fix:")));
 }
 
 // Why the factor is worked out anew: with the pull cut off, the textbook's returns too much.

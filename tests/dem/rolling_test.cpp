@@ -10,9 +10,9 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kTimestep = 1e-6;
+constexpr double kRollingTimestep = 1e-6;
 
-Law<double> law_of(double rolling_friction) {
+Law<double> rolling_law(double rolling_friction) {
   Law<double> law = {};
   law.reduced_young = 1e9;
   law.rolling_friction = rolling_friction;
@@ -30,51 +30,54 @@ Roll<double> roll_of(const Vec3<double>& spin) {
 }
 
 TEST(Rolling, RelativeTorqueIsCoefficientTimesForceTimesReducedRadius) {
-  const Vec3<double> torque = relative_constant_torque(roll_of({0, 8, 0}), law_of(.1), kTimestep);
+  const Vec3<double> torque =
+      relative_constant_torque(roll_of({0, 8, 0}), rolling_law(.1), kRollingTimestep);
   EXPECT_NEAR(torque.y, -.1 * 2 * .005, 1e-15);
   EXPECT_EQ(torque.x, 0);
 }
 
 TEST(Rolling, RelativeTorqueLeavesSpinAboutTheNormalAlone) {
-  const Vec3<double> torque = relative_constant_torque(roll_of({3, 0, 4}), law_of(.1), kTimestep);
+  const Vec3<double> torque =
+      relative_constant_torque(roll_of({3, 0, 4}), rolling_law(.1), kRollingTimestep);
   EXPECT_NEAR(torque.x, -.1 * 2 * .005 * 3 / 5, 1e-15);
   EXPECT_EQ(torque.z, 0);
 }
 
 TEST(Rolling, RelativeTorqueNeverTakesMoreSpinThanThereIs) {
   const Roll<double> slow = roll_of({1e-9, 0, 0});
-  const Vec3<double> torque = relative_constant_torque(slow, law_of(.1), kTimestep);
-  EXPECT_LE(std::abs(torque.x) * kTimestep / slow.reduced_inertia, 1e-9);
-  EXPECT_EQ(relative_constant_torque(roll_of({}), law_of(.1), kTimestep).squared_norm(), 0);
+  const Vec3<double> torque = relative_constant_torque(slow, rolling_law(.1), kRollingTimestep);
+  EXPECT_LE(std::abs(torque.x) * kRollingTimestep / slow.reduced_inertia, 1e-9);
+  EXPECT_EQ(relative_constant_torque(roll_of({}), rolling_law(.1), kRollingTimestep).squared_norm(),
+            0);
 }
 
 TEST(Rolling, ElasticPlasticSpringHasItsStiffness) {
-  const Law<double> law = law_of(.1);
+  const Law<double> law = rolling_law(.1);
   const Roll<double> roll = roll_of({1e-3, 0, 0});
   Vec3<double> spring;
-  elastic_plastic_torque(roll, law, kTimestep, spring);
+  elastic_plastic_torque(roll, law, kRollingTimestep, spring);
   const double a = std::sqrt(roll.reduced_radius * roll.overlap);
   const double normal = 4.0 / 3 * law.reduced_young * a;
   const double stiffness = 2.25 * normal * std::pow(.1 * roll.reduced_radius, 2);
-  EXPECT_NEAR(spring.x, -stiffness * 1e-3 * kTimestep, 1e-12 * stiffness * 1e-9);
+  EXPECT_NEAR(spring.x, -stiffness * 1e-3 * kRollingTimestep, 1e-12 * stiffness * 1e-9);
 }
 
 TEST(Rolling, ElasticPlasticTorqueYieldsAtTheLimitAndSpringsBack) {
-  const Law<double> law = law_of(.1);
+  const Law<double> law = rolling_law(.1);
   Vec3<double> spring;
   Vec3<double> torque;
   for (int k = 0; k < 100; ++k) {
-    torque = elastic_plastic_torque(roll_of({1e5, 0, 0}), law, kTimestep, spring);
+    torque = elastic_plastic_torque(roll_of({1e5, 0, 0}), law, kRollingTimestep, spring);
   }
   EXPECT_NEAR(torque.x, -.1 * .005 * 2, 1e-15);
-  const Vec3<double> held = elastic_plastic_torque(roll_of({}), law, kTimestep, spring);
+  const Vec3<double> held = elastic_plastic_torque(roll_of({}), law, kRollingTimestep, spring);
   EXPECT_NEAR(held.x, -.1 * .005 * 2, 1e-15);  // a type A model would let go here
 }
 
 TEST(Rolling, ElasticPlasticTorqueHasNoPartAboutTheNormal) {
   Vec3<double> spring = {0, 1e-6, 1e-6};
   const Vec3<double> torque =
-      elastic_plastic_torque(roll_of({1, 2, 30}), law_of(.1), kTimestep, spring);
+      elastic_plastic_torque(roll_of({1, 2, 30}), rolling_law(.1), kRollingTimestep, spring);
   EXPECT_EQ(torque.z, 0);
   EXPECT_EQ(spring.z, 0);
 }

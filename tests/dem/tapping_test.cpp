@@ -10,7 +10,7 @@
 namespace repose::dem {
 namespace {
 
-constexpr HeapProtocol kTube{
+constexpr HeapProtocol kTubeToTap{
     .tube_diameter_m = .1, .tube_height_m = .1, .plate_m = .12, .grains = {}};
 constexpr double kTap_m = .01, kRestitution = .7;
 
@@ -18,7 +18,7 @@ constexpr double kTap_m = .01, kRestitution = .7;
 ExperimentRun with_a_ball(const Observers& observers) {
   Model model = test::sphere_bench();
   model.grain_wall.restitution = kRestitution;
-  HeapProtocol tube = kTube;
+  HeapProtocol tube = kTubeToTap;
   tube.grains = 1;
   ExperimentRun run = empty_tube(model, tube, observers);
   pour(run, tube, 1);

@@ -14,7 +14,7 @@
 namespace repose::dem {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 SimulationSetup ball_on_plane(double friction) {
   SimulationSetup setup = ball_scene({.restitution = .5, .sliding_friction = friction});

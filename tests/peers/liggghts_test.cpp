@@ -14,7 +14,6 @@
 namespace repose::testing {
 namespace {
 
-using dem::kDegree;
 using dem::RollingModel;
 using dem::Vector;
 

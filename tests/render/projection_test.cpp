@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "render/scene/view.h"
 #include "tests/render/drawn.h"
 #include "tests/support/nut_heap.h"
@@ -16,8 +17,6 @@ using repose::testing::nut_heap;
 using repose::testing::sphere_scene;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// At (0, -2, 0.1), looking along +y; 36 mm to a picture's width makes the focal length the width.
 PerspectiveCamera plain_camera() { return {.position_m = {0, -2, .1}, .focal_mm = 36}; }

@@ -10,11 +10,7 @@
 #include "tests/support/drawn_film.h"
 
 namespace repose::testing {
-namespace {
-
-constexpr double kGravity_mm_s2 = 9806.65;
-
-}  // namespace
+namespace {}  // namespace
 
 double DrawnDrop::height_mm(double time_s) const {
   double t = time_s - release_s;

@@ -7,6 +7,7 @@
 /// What drawn films of grains have in common. Frames are drawn in floating point.
 namespace repose::testing {
 
+inline constexpr double kGravity_mm_s2 = 9806.65;
 inline constexpr double kFloorPart = .88;  ///< of the picture's height, where the floor begins
 
 /// A wall with a soft pattern and a floor of another colour.

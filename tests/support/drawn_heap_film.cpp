@@ -72,7 +72,7 @@ void draw_timer(cv::Mat& frame, double time_s) {
   cv::putText(frame, text, {8, 22}, cv::FONT_HERSHEY_SIMPLEX, .6, cv::Scalar::all(250), 2);
 }
 
-void draw_hand(cv::Mat& frame, double part) {
+void draw_passing_hand(cv::Mat& frame, double part) {
   const double reach = .45 * part * frame.cols;
   cv::ellipse(frame, cv::Point2d(frame.cols, .45 * frame.rows),
               cv::Size(cvRound(reach), cvRound(.13 * frame.rows)), 0, 0, 360,
@@ -103,7 +103,7 @@ std::vector<vision::Picture> DrawnHeapFilm::pictures() const {
     if (now_s < grows_s) draw_stream(frame, layers.foot, number);
     if (has_timer) draw_timer(frame, now_s);
     const double hand = now_s - grows_s - rests_s;
-    if (hand_s > 0 && hand >= 0) draw_hand(frame, (hand + 1 / frames_per_s) / hand_s);
+    if (hand_s > 0 && hand >= 0) draw_passing_hand(frame, (hand + 1 / frames_per_s) / hand_s);
     if (flicker > 0) light(frame, flicker, number);
     const auto seed = static_cast<unsigned>(scene.seed * 7919 + static_cast<unsigned>(number));
     frames_drawn.push_back(noisy_picture(frame, noise, seed));

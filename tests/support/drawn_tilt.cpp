@@ -7,13 +7,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/units.h"
 #include "tests/support/drawn_film.h"
 
 namespace repose::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kGravity_mm_s2 = 9806.65;
 constexpr double kApart = 1.8;  ///< of bonded balls, in radii
 
 /// Way down the plate after the onset: the weight along the plate less the friction in motion,

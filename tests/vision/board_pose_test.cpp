@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/heap_random.h"
 #include "vision/camera/heap_view.h"
@@ -12,7 +13,6 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNormal95 = 1.96;
 
 const testing::BoardCamera kCamera;

@@ -21,10 +21,10 @@ const cv::Scalar kHeap{60, 90, 120};
 const cv::Scalar kPlate{110, 105, 100};
 
 /// A picture of polygons and what a perfect threshold of it says: dark is inside.
-struct Scene {
+struct PaintedScene {
   cv::Mat3b picture = cv::Mat3b(kRows, kCols, cv::Vec3b(220, 220, 220));
 
-  Scene& paint(const Corners& corners, const cv::Scalar& colour) {
+  PaintedScene& paint(const Corners& corners, const cv::Scalar& colour) {
     std::vector<cv::Point> fine;  // sixteenths of a pixel; OpenCV's pixel centres are whole
     for (const cv::Point2d& p : corners) {
       fine.emplace_back(cvRound((p.x - 0.5) * 16), cvRound((p.y - 0.5) * 16));
@@ -43,7 +43,7 @@ struct Scene {
   std::vector<Body> bodies() const { return find_bodies(segmentation(), work()); }
 };
 
-const Corners kTriangle = {{120, 300}, {300, 190}, {480, 300}};
+const Corners kTriangleCorners = {{120, 300}, {300, 190}, {480, 300}};
 
 Corners rectangle(double x, double y, double width, double height) {
   return {{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
@@ -59,7 +59,7 @@ Corners turned(Corners corners, double angle_rad) {
 }
 
 TEST(FindBodies, AHeapStandsOnItsBase) {
-  const auto bodies = Scene().paint(kTriangle, kHeap).bodies();
+  const auto bodies = PaintedScene().paint(kTriangleCorners, kHeap).bodies();
   ASSERT_EQ(bodies.size(), 1);
   EXPECT_NEAR(bodies[0].ground.y(300), 300, 1);
   EXPECT_NEAR(bodies[0].ground.tilt_rad(), 0, 0.05 * kDegree);
@@ -70,15 +70,16 @@ TEST(FindBodies, AHeapStandsOnItsBase) {
 
 TEST(FindBodies, ATiltedBaseIsATiltedGround) {
   for (const double tilt_deg : {-4.0, 3.0}) {
-    const auto bodies = Scene().paint(turned(kTriangle, tilt_deg * kDegree), kHeap).bodies();
+    const auto bodies =
+        PaintedScene().paint(turned(kTriangleCorners, tilt_deg * kDegree), kHeap).bodies();
     ASSERT_EQ(bodies.size(), 1);
     EXPECT_NEAR(bodies[0].ground.tilt_rad(), tilt_deg * kDegree, 0.1 * kDegree);
   }
 }
 
 TEST(FindBodies, HolesAreFilled) {
-  const Scene whole = Scene().paint(kTriangle, kHeap);
-  Scene holed = whole;
+  const PaintedScene whole = PaintedScene().paint(kTriangleCorners, kHeap);
+  PaintedScene holed = whole;
   holed.paint(rectangle(290, 240, 30, 20), kBackdrop);
   EXPECT_EQ(cv::countNonZero(holed.bodies().at(0).mask != whole.bodies().at(0).mask), 0);
 }
@@ -86,7 +87,7 @@ TEST(FindBodies, HolesAreFilled) {
 TEST(FindBodies, HolesAreFilledInABodyAtTheFrameAndNothingElse) {
   // A half heap against the frame's left side: the backdrop is in one piece only above it.
   const Corners half = {{-5, 300}, {-5, 120}, {300, 300}};
-  Scene scene;
+  PaintedScene scene;
   scene.paint(half, kHeap).paint(rectangle(5, 220, 20, 20), kBackdrop);
   const auto bodies = scene.bodies();
   ASSERT_EQ(bodies.size(), 1);
@@ -98,7 +99,7 @@ TEST(FindBodies, HolesAreFilledInABodyAtTheFrameAndNothingElse) {
 TEST(FindBodies, ThePlateIsCutOff) {
   // The segmentation takes the plate for heap; left and right of the heap it is bare.
   const Corners strip = rectangle(-5, 300, kCols + 10, 30);
-  const auto bodies = Scene().paint(strip, kPlate).paint(kTriangle, kHeap).bodies();
+  const auto bodies = PaintedScene().paint(strip, kPlate).paint(kTriangleCorners, kHeap).bodies();
   ASSERT_EQ(bodies.size(), 1);
   EXPECT_NEAR(bodies[0].ground.y(300), 300, 1);
   EXPECT_EQ(cv::countNonZero(bodies[0].mask.rowRange(302, kRows)), 0);
@@ -108,9 +109,9 @@ TEST(FindBodies, ThePlateIsCutOff) {
 
 TEST(FindBodies, ATiltedPlateIsCutOffAlongItsEdge) {
   const double tilt = 2 * kDegree;
-  const auto bodies = Scene()
+  const auto bodies = PaintedScene()
                           .paint(turned(rectangle(-50, 300, kCols + 100, 30), tilt), kPlate)
-                          .paint(turned(kTriangle, tilt), kHeap)
+                          .paint(turned(kTriangleCorners, tilt), kHeap)
                           .bodies();
   ASSERT_FALSE(bodies.empty());
   EXPECT_NEAR(bodies[0].ground.tilt_rad(), tilt, 0.1 * kDegree);
@@ -119,7 +120,7 @@ TEST(FindBodies, ATiltedPlateIsCutOffAlongItsEdge) {
 TEST(FindBodies, AnApronOfTheHeapsMaterialIsNotTheGround) {
   // The same shape as heap and plate, but all of it grains, on a plate that is told from them.
   const Corners apron = rectangle(-5, 290, kCols + 10, 14);
-  const auto bodies = Scene()
+  const auto bodies = PaintedScene()
                           .paint(rectangle(-5, 304, kCols + 10, 40), {200, 200, 200})
                           .paint(apron, kHeap)
                           .paint({{120, 292}, {300, 182}, {480, 292}}, kHeap)
@@ -130,7 +131,8 @@ TEST(FindBodies, AnApronOfTheHeapsMaterialIsNotTheGround) {
 
 TEST(FindBodies, AReflectionsAxisIsTheGround) {
   const Corners image = {{120, 300}, {300, 410}, {480, 300}};
-  const auto bodies = Scene().paint(image, {120, 135, 150}).paint(kTriangle, kHeap).bodies();
+  const auto bodies =
+      PaintedScene().paint(image, {120, 135, 150}).paint(kTriangleCorners, kHeap).bodies();
   ASSERT_EQ(bodies.size(), 1);
   EXPECT_TRUE(bodies[0].ground.mirrored);
   EXPECT_FALSE(bodies[0].ground.bow) << "the base is not seen";
@@ -142,19 +144,20 @@ TEST(FindBodies, AReflectionsAxisIsTheGround) {
 TEST(FindBodies, AnEdgeThatTheHeapCrossesIsBehindIt) {
   const Corners table = rectangle(-5, 300, kCols + 10, 110);
   const Corners lower = {{90, 320}, {300, 190}, {510, 320}};
-  const auto bodies = Scene().paint(table, kPlate).paint(lower, kHeap).bodies();
+  const auto bodies = PaintedScene().paint(table, kPlate).paint(lower, kHeap).bodies();
   ASSERT_EQ(bodies.size(), 1);
   EXPECT_NEAR(bodies[0].ground.y(300), 300, 1);
   EXPECT_TRUE(bodies[0].ground.behind);
 
-  const auto standing = Scene().paint(table, kPlate).paint(kTriangle, kHeap).bodies();
+  const auto standing = PaintedScene().paint(table, kPlate).paint(kTriangleCorners, kHeap).bodies();
   ASSERT_EQ(standing.size(), 1);
   EXPECT_FALSE(standing[0].ground.behind);
 }
 
 TEST(FindBodies, WhatRunsOutOfTheFrameDoesNotTiltTheGround) {
   // Haze joins the left foot to the frame's lower edge, 20 pixels below the base.
-  Scene scene = Scene().paint(kTriangle, kHeap).paint(rectangle(-5, 290, 140, 30), kHeap);
+  PaintedScene scene =
+      PaintedScene().paint(kTriangleCorners, kHeap).paint(rectangle(-5, 290, 140, 30), kHeap);
   scene.picture = scene.picture.rowRange(0, 320).clone();
   const auto bodies = scene.bodies();
   ASSERT_EQ(bodies.size(), 1);
@@ -163,7 +166,7 @@ TEST(FindBodies, WhatRunsOutOfTheFrameDoesNotTiltTheGround) {
 }
 
 TEST(FindBodies, AnExcludedBoxDoesNotTiltTheGround) {
-  const Scene scene = Scene().paint(turned(kTriangle, 1 * kDegree), kHeap);
+  const PaintedScene scene = PaintedScene().paint(turned(kTriangleCorners, 1 * kDegree), kHeap);
   const WorkingPicture work = working_picture(picture_of(scene.picture), {{130, 285, 150, 40}});
   const auto bodies = find_bodies(scene.segmentation(), work);
   ASSERT_EQ(bodies.size(), 1);
@@ -172,7 +175,7 @@ TEST(FindBodies, AnExcludedBoxDoesNotTiltTheGround) {
 }
 
 TEST(FindBodies, AHeapCutByTheFramesLowerEdgeHasAGroundOfUnknownTilt) {
-  Scene scene = Scene().paint(turned(kTriangle, 2 * kDegree), kHeap);
+  PaintedScene scene = PaintedScene().paint(turned(kTriangleCorners, 2 * kDegree), kHeap);
   scene.picture = scene.picture.rowRange(0, 280).clone();
   const auto bodies = scene.bodies();
   ASSERT_EQ(bodies.size(), 1);
@@ -182,7 +185,7 @@ TEST(FindBodies, AHeapCutByTheFramesLowerEdgeHasAGroundOfUnknownTilt) {
 }
 
 /// The silhouette of a cone seen from above: hull of its apex and its base's ellipse.
-Corners cone_seen_from(double pitch_rad) {
+Corners cone_corners(double pitch_rad) {
   constexpr double kRadius = 200;
   const double height = kRadius * std::tan(30 * kDegree);
   std::vector<cv::Point2f> points = {{300, static_cast<float>(280 - height * std::cos(pitch_rad))}};
@@ -198,7 +201,7 @@ Corners cone_seen_from(double pitch_rad) {
 
 TEST(FindBodies, ABowedBaseTellsTheCamerasPitch) {
   for (const double pitch_deg : {6.0, 12.0, 20.0}) {
-    const auto bodies = Scene().paint(cone_seen_from(pitch_deg * kDegree), kHeap).bodies();
+    const auto bodies = PaintedScene().paint(cone_corners(pitch_deg * kDegree), kHeap).bodies();
     ASSERT_EQ(bodies.size(), 1);
     // The rim's far half shows up to the flanks' feet: an arc a little longer than the near half.
     EXPECT_NEAR(pitch_from_bow(bodies[0].ground.bow.value()) / kDegree, pitch_deg, 0.1 * pitch_deg);
@@ -206,7 +209,7 @@ TEST(FindBodies, ABowedBaseTellsTheCamerasPitch) {
 }
 
 TEST(FindBodies, LargestComesFirst) {
-  const auto bodies = Scene()
+  const auto bodies = PaintedScene()
                           .paint({{20, 300}, {60, 270}, {100, 300}}, kHeap)
                           .paint({{200, 300}, {380, 190}, {560, 300}}, kHeap)
                           .bodies();
@@ -215,11 +218,11 @@ TEST(FindBodies, LargestComesFirst) {
   EXPECT_EQ(bodies[1].mask(290, 60), 255);
 }
 
-TEST(FindBodies, NothingInsideHasNoBody) { EXPECT_TRUE(Scene().bodies().empty()); }
+TEST(FindBodies, NothingInsideHasNoBody) { EXPECT_TRUE(PaintedScene().bodies().empty()); }
 
 TEST(LargestRegion, IsTakenAsItIs) {
   const Corners strip = rectangle(-5, 300, kCols + 10, 30);
-  const Scene scene = Scene().paint(strip, kPlate).paint(kTriangle, kHeap);
+  const PaintedScene scene = PaintedScene().paint(strip, kPlate).paint(kTriangleCorners, kHeap);
   const Body body = largest_region(scene.segmentation(), scene.work());
   EXPECT_EQ(body.mask(315, 10), 255) << "the plate belongs to it";
   EXPECT_EQ(body.ground.slope, 0);
@@ -227,23 +230,23 @@ TEST(LargestRegion, IsTakenAsItIs) {
 }
 
 TEST(LargestRegion, IsEmptyWhereThereIsNone) {
-  const Scene nothing;
+  const PaintedScene nothing;
   EXPECT_TRUE(largest_region(nothing.segmentation(), nothing.work()).mask.empty());
 }
 
 TEST(BodyOn, KeepsTheGroundThatIsKnown) {
-  const Scene scene = Scene().paint(kTriangle, kHeap);
+  const PaintedScene scene = PaintedScene().paint(kTriangleCorners, kHeap);
   Body known = scene.bodies().at(0);
   static_cast<PictureLine&>(known.ground) = {280, 0};
   const Body again = body_on(known, scene.segmentation(), scene.work());
   EXPECT_EQ(again.ground.y(300), 280);
   EXPECT_GT(cv::countNonZero(again.mask), 0);
   EXPECT_EQ(cv::countNonZero(again.mask.rowRange(281, kRows)), 0);
-  EXPECT_TRUE(body_on(known, Scene().segmentation(), scene.work()).mask.empty());
+  EXPECT_TRUE(body_on(known, PaintedScene().segmentation(), scene.work()).mask.empty());
 }
 
 TEST(CountStrays, CountsSmallThingsOnTheGround) {
-  Scene scene = Scene().paint(kTriangle, kHeap);
+  PaintedScene scene = PaintedScene().paint(kTriangleCorners, kHeap);
   const Body body = scene.bodies().at(0);
   EXPECT_EQ(count_strays(body, scene.segmentation(), scene.work()), 0);
   scene.paint(rectangle(40, 290, 10, 10), kHeap)

@@ -11,7 +11,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kWidth = 640;
+constexpr int kSmallWidth = 640;
 
 Choice choice_of(const cv::Mat& picture) { return choose_reading(work_of(picture), {}); }
 
@@ -27,7 +27,7 @@ cv::Mat blurred(const cv::Mat& picture, double sigma_px) {
 }
 
 TEST(Score, IsHigherForASharpEdgeThanForASoftOne) {
-  const auto heap = drawn("silhouette", 1, kWidth);
+  const auto heap = drawn("silhouette", 1, kSmallWidth);
   const Reading sharp = reading_of(mat_of(heap.picture));
   const Reading soft = reading_of(blurred(mat_of(heap.picture), 6));
   EXPECT_GT(sharp.score, 0.55) << "nothing is clearer than a silhouette";
@@ -36,7 +36,7 @@ TEST(Score, IsHigherForASharpEdgeThanForASoftOne) {
 }
 
 TEST(Score, IsHigherForAStrongEdgeThanForAFaintOne) {
-  const auto heap = drawn("silhouette", 1, kWidth);
+  const auto heap = drawn("silhouette", 1, kSmallWidth);
   const cv::Mat strong = mat_of(heap.picture);
   const cv::Mat faint = strong * 0.02 + cv::Scalar::all(120);
   EXPECT_LT(reading_of(faint).edge_contrast, reading_of(strong).edge_contrast);
@@ -61,7 +61,7 @@ TEST(Reading, AngleIsTheMeanOfTheSidesThatExist) {
 }
 
 TEST(ChooseReading, SegmentationsAgreeOnAClearPicture) {
-  const Choice choice = choice_of(mat_of(drawn("clean", 2, kWidth).picture));
+  const Choice choice = choice_of(mat_of(drawn("clean", 2, kSmallWidth).picture));
   EXPECT_GT(choice.best.score, 0.55);
   EXPECT_LT(choice.disagreement_rad, 0.3 * kDegree);
   EXPECT_LT(choice.left_disagreement_rad, 0.5 * kDegree);
@@ -146,7 +146,7 @@ TEST(ChooseReading, APlateThatCarriesAHeapIsNoHeap) {
 }
 
 TEST(ChooseReading, AnUprightBodyIsSaidToBeOne) {
-  const Choice choice = choice_of(mat_of(drawn("column", 1, kWidth).picture));
+  const Choice choice = choice_of(mat_of(drawn("column", 1, kSmallWidth).picture));
   EXPECT_FALSE(choice.best.has_flank());
   EXPECT_TRUE(choice.best.left.vertical || choice.best.right.vertical);
 }

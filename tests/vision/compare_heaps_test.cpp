@@ -16,8 +16,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr double kExact = 1e-9;
-
 CompareOptions scaled(double first_m_per_px, double second_m_per_px) {
   CompareOptions options;
   options.scale = {PictureScale{.length_m = first_m_per_px},

@@ -5,22 +5,19 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/vision/measured_triangles.h"
+#include "tests/vision/plain_picture.h"
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
 namespace {
 
-Picture plain(std::uint8_t brightness) {
-  Picture picture = blank_picture(1000, 700);
-  std::fill(picture.bgr.begin(), picture.bgr.end(), brightness);
-  return picture;
-}
+Picture plain_backdrop(std::uint8_t brightness) { return plain_picture(1000, 700, brightness); }
 
 Picture draw(const TriangleHeap& first, const TriangleHeap& second, std::uint8_t brightness = 90,
              const CompareOptions& options = {}) {
   const ReposeAngle a = measured(first), b = measured(second);
-  return draw_comparison(plain(brightness), a, compare_heaps(a, b, options),
+  return draw_comparison(plain_backdrop(brightness), a, compare_heaps(a, b, options),
                          {.titles = {"photo.jpg", "render.png"}, .margin_rad = 0.03});
 }
 
@@ -84,7 +81,7 @@ TEST(ComparisonOverlay, SameComparisonSameBytes) {
 TEST(ComparisonOverlay, NothingToDrawIsRefused) {
   const ReposeAngle heap = measured({});
   const HeapComparison refused = compare_heaps(heap, {});
-  EXPECT_THROW(draw_comparison(plain(90), heap, refused, {}), std::invalid_argument);
+  EXPECT_THROW(draw_comparison(plain_backdrop(90), heap, refused, {}), std::invalid_argument);
   EXPECT_THROW(draw_comparison({}, heap, compare_heaps(heap, heap), {}), std::invalid_argument);
 }
 

@@ -15,8 +15,6 @@ namespace {
 constexpr double kPixelIou = 0.97;
 constexpr double kPixelRmse = 1.5;
 
-ReposeAngle measured(const cv::Mat& picture) { return measure_repose_angle(picture_of(picture)); }
-
 testing::HeapScene scene(double left_rad = 0.45) {
   testing::HeapScene scene;
   scene.width = 800;
@@ -37,16 +35,17 @@ cv::Mat warped(const cv::Mat& picture, const cv::Mat& transform) {
   return result;
 }
 
-HeapComparison in_pixels(const cv::Mat& first, const cv::Mat& second, double second_scale = 1) {
+HeapComparison compare_in_pixels(const cv::Mat& first, const cv::Mat& second,
+                                 double second_scale = 1) {
   CompareOptions options;
   options.scale = {PictureScale{.length_m = 1}, PictureScale{.length_m = second_scale}};
-  return compare_heaps(measured(first), measured(second), options);
+  return compare_heaps(measured_in(first), measured_in(second), options);
 }
 
 double degrees(double rad) { return rad / kDegree; }
 
 TEST(ComparePictures, TheSamePictureIsTheSameHeap) {
-  const HeapComparison c = in_pixels(heap(), heap());
+  const HeapComparison c = compare_in_pixels(heap(), heap());
   EXPECT_EQ(c.iou, 1);
   EXPECT_EQ(c.profile_rmse, 0);
   EXPECT_EQ(c.angle->difference_rad, 0);
@@ -54,7 +53,7 @@ TEST(ComparePictures, TheSamePictureIsTheSameHeap) {
 
 TEST(ComparePictures, AShiftedPictureIsTheSameHeap) {
   const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, 25, 0, 1, -12);
-  const HeapComparison c = in_pixels(heap(), warped(heap(), shift));
+  const HeapComparison c = compare_in_pixels(heap(), warped(heap(), shift));
   EXPECT_GT(*c.iou, kPixelIou);
   EXPECT_LT(*c.profile_rmse, kPixelRmse);
   EXPECT_EQ(c.angle->verdict, Agreement::equivalent);
@@ -63,7 +62,7 @@ TEST(ComparePictures, AShiftedPictureIsTheSameHeap) {
 TEST(ComparePictures, ARolledCameraSeesTheSameHeap) {
   for (const double roll_deg : {-3.0, 2.0}) {
     const cv::Mat turn = cv::getRotationMatrix2D({400, 267}, roll_deg, 1);
-    const HeapComparison c = in_pixels(heap(), warped(heap(), turn));
+    const HeapComparison c = compare_in_pixels(heap(), warped(heap(), turn));
     EXPECT_GT(*c.iou, kPixelIou) << roll_deg;
     EXPECT_LT(std::abs(degrees(c.angle->difference_rad)), 0.3) << roll_deg;
     EXPECT_EQ(c.angle->verdict, Agreement::equivalent) << roll_deg;
@@ -73,8 +72,8 @@ TEST(ComparePictures, ARolledCameraSeesTheSameHeap) {
 TEST(ComparePictures, AnotherResolutionShowsTheSameHeap) {
   cv::Mat small;
   cv::resize(heap(), small, {}, 0.5, 0.5, cv::INTER_AREA);
-  for (const HeapComparison& c :
-       {in_pixels(heap(), small, 2), compare_heaps(measured(heap()), measured(small))}) {
+  for (const HeapComparison& c : {compare_in_pixels(heap(), small, 2),
+                                  compare_heaps(measured_in(heap()), measured_in(small))}) {
     EXPECT_GT(*c.iou, kPixelIou);
     EXPECT_EQ(c.angle->verdict, Agreement::equivalent);
   }
@@ -83,7 +82,7 @@ TEST(ComparePictures, AnotherResolutionShowsTheSameHeap) {
 TEST(ComparePictures, AMirroredPictureHasTheSidesSwapped) {
   cv::Mat mirrored;
   cv::flip(heap(0.6), mirrored, 1);
-  const HeapComparison c = in_pixels(heap(0.6), mirrored);
+  const HeapComparison c = compare_in_pixels(heap(0.6), mirrored);
   EXPECT_EQ(c.angle->verdict, Agreement::equivalent);
   EXPECT_NEAR(degrees(c.left.angle->difference_rad), -degrees(c.right.angle->difference_rad), 0.3);
   EXPECT_GT(std::abs(degrees(c.left.angle->difference_rad)), 3) << "the heap leans";
@@ -93,7 +92,7 @@ TEST(ComparePictures, AMirroredPictureHasTheSidesSwapped) {
 TEST(ComparePictures, APhotographAndItsSilhouetteAgree) {
   testing::HeapScene render_scene = scene();
   render_scene.style = testing::Style::silhouette;
-  const ReposeAngle photo = measured(heap());
+  const ReposeAngle photo = measured_in(heap());
   const ReposeAngle render = measure_repose_angle(testing::draw_heap(render_scene).picture);
   const HeapComparison c = compare_heaps(photo, render);
   EXPECT_GT(*c.iou, kPixelIou);
@@ -116,7 +115,7 @@ TEST(ComparePictures, TheIntervalHoldsTheTrueDifference) {
 TEST(ComparePictures, AFlankOutOfTheFrameLeavesTheRest) {
   const cv::Mat whole = heap();
   const cv::Mat cut = whole(cv::Rect(200, 0, 600, whole.rows)).clone();
-  const HeapComparison c = in_pixels(whole, cut);
+  const HeapComparison c = compare_in_pixels(whole, cut);
   EXPECT_NE(c.left.cover, Cover::whole);
   EXPECT_EQ(c.right.cover, Cover::whole);
   EXPECT_GT(*c.right.iou, kPixelIou);

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "tests/vision/measured_triangles.h"
 #include "vision/compare/heap_sets.h"
 #include "vision/drawing/heap_sets_figure.h"
@@ -15,8 +16,6 @@ namespace {
 
 using ::testing::SizeIs;
 
-constexpr double kExact = 1e-9;
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kMargin_rad = 2 * kDegree;
 
 /// A heap whose two sides have this angle, seen once.
@@ -31,11 +30,11 @@ std::vector<SeenHeap> heaps_of(const std::vector<double>& angles_deg) {
   return heaps;
 }
 
-SetComparison compare(const std::vector<double>& first, const std::vector<double>& second) {
+SetComparison compare_sets_of(const std::vector<double>& first, const std::vector<double>& second) {
   return compare_sets(heaps_of(first), heaps_of(second), kMargin_rad);
 }
 
-bool warns(const SetComparison& comparison, const std::string& code) {
+bool sets_warn(const SetComparison& comparison, const std::string& code) {
   return std::any_of(comparison.warnings.begin(), comparison.warnings.end(),
                      [&](const Warning& warning) { return warning.code == code; });
 }
@@ -44,7 +43,7 @@ TEST(CompareSets, TheIntervalIsWelchs) {
   // Means 22 and 25, sd 1 and 2, four heaps each: se = sqrt(1/4 + 4/4) = 1.118, df = 4.41.
   const double a = std::sqrt(0.75), b = 2 * a;
   const SetComparison c =
-      compare({22 - a, 22 - a, 22 + a, 22 + a}, {25 - b, 25 - b, 25 + b, 25 + b});
+      compare_sets_of({22 - a, 22 - a, 22 + a, 22 + a}, {25 - b, 25 - b, 25 + b, 25 + b});
   EXPECT_NEAR(*c.sets[0].mean_rad / kDegree, 22, kExact);
   EXPECT_NEAR(*c.sets[0].sd_rad / kDegree, 1, kExact);
   EXPECT_NEAR(*c.sets[0].uncertainty_rad / kDegree, 3.182446 / 2, 1e-6);
@@ -55,8 +54,8 @@ TEST(CompareSets, TheIntervalIsWelchs) {
 TEST(CompareSets, ManyHeapsOfOneMeanAreEquivalentAndFewCannotTell) {
   std::vector<double> many;
   for (int i = 0; i < 40; ++i) many.push_back(23 + (i % 2 == 0 ? 1.5 : -1.5));
-  EXPECT_EQ(compare(many, many).angle->verdict, Agreement::equivalent);
-  const SetComparison few = compare({21.5, 24.5, 23}, {21.5, 24.5, 23});
+  EXPECT_EQ(compare_sets_of(many, many).angle->verdict, Agreement::equivalent);
+  const SetComparison few = compare_sets_of({21.5, 24.5, 23}, {21.5, 24.5, 23});
   EXPECT_EQ(few.angle->verdict, Agreement::cannot_tell);
   // t(.975; 2n - 2) 1.5 sqrt(2 / n) <= 2 from n = 6 on: 1.93; for 5 it is 2.19.
   EXPECT_EQ(few.heaps_to_tell, 6);
@@ -65,25 +64,25 @@ TEST(CompareSets, ManyHeapsOfOneMeanAreEquivalentAndFewCannotTell) {
 TEST(CompareSets, ADifferenceNearTheMarginTakesMoreHeapsToTell) {
   // 1 deg apart: half-width 1 is needed. t(.975; 2n - 2) 1.5 sqrt(2 / n): 1.01 for n = 18, .98
   // for 19.
-  EXPECT_EQ(compare({21.5, 24.5, 23}, {22.5, 25.5, 24}).heaps_to_tell, 19);
+  EXPECT_EQ(compare_sets_of({21.5, 24.5, 23}, {22.5, 25.5, 24}).heaps_to_tell, 19);
 }
 
 TEST(CompareSets, MeansThatDifferByMoreThanHeapsDoAreDifferent) {
-  EXPECT_EQ(compare({20, 20.5, 21}, {27, 27.5, 28}).angle->verdict, Agreement::different);
+  EXPECT_EQ(compare_sets_of({20, 20.5, 21}, {27, 27.5, 28}).angle->verdict, Agreement::different);
 }
 
 TEST(CompareSets, OneHeapBorrowsTheScatterOfTheOtherSet) {
   // sd 1, n = 1 and 3: t(.975; 2) sqrt(1 + 1/3).
-  const SetComparison c = compare({25}, {22, 23, 24});
+  const SetComparison c = compare_sets_of({25}, {22, 23, 24});
   EXPECT_NEAR(c.angle->interval_rad[1] / kDegree, 2 + 4.302653 * std::sqrt(4.0 / 3), 1e-5);
-  EXPECT_TRUE(warns(c, "one_heap"));
+  EXPECT_TRUE(sets_warn(c, "one_heap"));
 }
 
 TEST(CompareSets, OneHeapEachSaysNothingOfTheirKinds) {
-  const SetComparison c = compare({25}, {22});
+  const SetComparison c = compare_sets_of({25}, {22});
   EXPECT_FALSE(c.angle);
   EXPECT_TRUE(c.iou);
-  EXPECT_TRUE(warns(c, "one_heap"));
+  EXPECT_TRUE(sets_warn(c, "one_heap"));
 }
 
 TEST(CompareSets, AHeapIsCountedOnceHoweverOftenItIsSeen) {
@@ -103,8 +102,8 @@ TEST(CompareSets, AHeapThatMostPicturesRefuseIsLeftOutAndSaid) {
   const SetComparison c = compare_sets(seen, heaps_of({21, 22}), kMargin_rad);
   EXPECT_EQ(c.sets[0].counted, 2);
   EXPECT_NEAR(*c.sets[0].mean_rad / kDegree, 21, kExact);
-  EXPECT_TRUE(warns(c, "heaps_without_angle"));
-  EXPECT_TRUE(warns(c, "pictures_without_outline"));
+  EXPECT_TRUE(sets_warn(c, "heaps_without_angle"));
+  EXPECT_TRUE(sets_warn(c, "pictures_without_outline"));
 }
 
 TEST(CompareSets, MeanOutlinesOfTrianglesAreExact) {
@@ -123,11 +122,11 @@ TEST(CompareSets, WithoutAScaleForEverySetOnlyShapesAreCompared) {
   EXPECT_EQ(c.unit, LengthUnit::root_area);
   EXPECT_NEAR(*c.iou, 1, 1e-3);
   EXPECT_FALSE(c.profile_mean);
-  EXPECT_TRUE(warns(c, "no_scale"));
+  EXPECT_TRUE(sets_warn(c, "no_scale"));
 }
 
 TEST(CompareSets, TheBandHoldsWhatLiesBetween) {
-  const SetComparison c = compare({20, 22, 24}, {20, 22, 24});
+  const SetComparison c = compare_sets_of({20, 22, 24}, {20, 22, 24});
   const MeanOutline& outline = c.sets[0].outline;
   ASSERT_THAT(outline.low, SizeIs(outline.mean.size()));
   for (std::size_t i = 0; i < outline.mean.size(); ++i) {
@@ -144,7 +143,7 @@ TEST(CompareSets, AnEmptySetIsRefused) {
 
 TEST(CompareSets, AFigureIsDrawnOfWhatThereIs) {
   const HeapSetsNotes notes{.titles = {"photos", "heaps"}, .margin_rad = kMargin_rad};
-  const Picture whole = draw_heap_sets(compare({20, 22, 24}, {21, 23, 24}), notes);
+  const Picture whole = draw_heap_sets(compare_sets_of({20, 22, 24}, {21, 23, 24}), notes);
   EXPECT_EQ(whole.width, 1400);
   std::vector<SeenHeap> refused = {SeenHeap{.views = {ReposeAngle{}}, .m_per_px = {}}};
   const Picture half =

@@ -12,7 +12,7 @@
 namespace repose::vision {
 namespace {
 
-Reading reading_of(const Profile& profile) {
+Reading fitted_reading(const Profile& profile) {
   Reading reading;
   reading.profile = profile;
   reading.left = fit_flank(profile, Side::left, {});
@@ -20,7 +20,7 @@ Reading reading_of(const Profile& profile) {
   return reading;
 }
 
-double named(const std::vector<NamedAngle>& angles, const std::string& name) {
+double angle_named(const std::vector<NamedAngle>& angles, const std::string& name) {
   for (const NamedAngle& angle : angles) {
     if (angle.name == name) return angle.angle_rad;
   }
@@ -29,7 +29,7 @@ double named(const std::vector<NamedAngle>& angles, const std::string& name) {
 }
 
 /// Feet at the profile's two ends.
-Profile triangle(double left_rad, double right_rad, double height) {
+Profile triangle_profile(double left_rad, double right_rad, double height) {
   const double left = height / std::tan(left_rad);
   const double right = height / std::tan(right_rad);
   return profile_of(static_cast<int>(left + right),
@@ -37,25 +37,27 @@ Profile triangle(double left_rad, double right_rad, double height) {
 }
 
 TEST(OtherDefinitions, AllAgreeOnATriangle) {
-  const auto angles = other_definitions(reading_of(triangle(25 * kDegree, 25 * kDegree, 150)));
+  const auto angles =
+      other_definitions(fitted_reading(triangle_profile(25 * kDegree, 25 * kDegree, 150)));
   // The profile's ends are half a column inside the feet.
-  EXPECT_NEAR(named(angles, "height_over_base"), 25 * kDegree, 0.1 * kDegree);
-  EXPECT_NEAR(named(angles, "half_height_tangent"), 25 * kDegree, 1e-6);
-  EXPECT_NEAR(named(angles, "whole_flank"), 25 * kDegree, 1e-6);
+  EXPECT_NEAR(angle_named(angles, "height_over_base"), 25 * kDegree, 0.1 * kDegree);
+  EXPECT_NEAR(angle_named(angles, "half_height_tangent"), 25 * kDegree, 1e-6);
+  EXPECT_NEAR(angle_named(angles, "whole_flank"), 25 * kDegree, 1e-6);
 }
 
 TEST(OtherDefinitions, AreMeansOfTheTwoSides) {
-  const auto angles = other_definitions(reading_of(triangle(20 * kDegree, 32 * kDegree, 150)));
-  EXPECT_NEAR(named(angles, "height_over_base"), 26 * kDegree, 0.1 * kDegree);
-  EXPECT_NEAR(named(angles, "half_height_tangent"), 26 * kDegree, 1e-6);
+  const auto angles =
+      other_definitions(fitted_reading(triangle_profile(20 * kDegree, 32 * kDegree, 150)));
+  EXPECT_NEAR(angle_named(angles, "height_over_base"), 26 * kDegree, 0.1 * kDegree);
+  EXPECT_NEAR(angle_named(angles, "half_height_tangent"), 26 * kDegree, 1e-6);
 }
 
 TEST(OtherDefinitions, ARoundedCrestLowersHeightOverBase) {
   Triangle shape{300, 150, 0.5, 0.5};
   const auto angles = other_definitions(
-      reading_of(profile_of(600, [&](double along) { return std::min(120.0, shape(along)); })));
-  EXPECT_NEAR(named(angles, "height_over_base"), std::atan(120.0 / 300), 0.1 * kDegree);
-  EXPECT_NEAR(named(angles, "half_height_tangent"), std::atan(0.5), 1e-6);
+      fitted_reading(profile_of(600, [&](double along) { return std::min(120.0, shape(along)); })));
+  EXPECT_NEAR(angle_named(angles, "height_over_base"), std::atan(120.0 / 300), 0.1 * kDegree);
+  EXPECT_NEAR(angle_named(angles, "half_height_tangent"), std::atan(0.5), 1e-6);
 }
 
 TEST(OtherDefinitions, AHollowToeLowersTheWholeFlankAlone) {
@@ -63,25 +65,25 @@ TEST(OtherDefinitions, AHollowToeLowersTheWholeFlankAlone) {
     const double h = Triangle{300, 150, 0.5, 0.5}(along);
     return h > 30 ? h : std::max(0.0, 30 - 0.25 * (std::abs(along - 300) - 240));
   };
-  const auto angles = other_definitions(reading_of(profile_of(700, hollow)));
-  EXPECT_NEAR(named(angles, "half_height_tangent"), std::atan(0.5), 1e-6);
-  EXPECT_LT(named(angles, "whole_flank"), std::atan(0.5) - 1 * kDegree);
+  const auto angles = other_definitions(fitted_reading(profile_of(700, hollow)));
+  EXPECT_NEAR(angle_named(angles, "half_height_tangent"), std::atan(0.5), 1e-6);
+  EXPECT_LT(angle_named(angles, "whole_flank"), std::atan(0.5) - 1 * kDegree);
 }
 
 TEST(OtherDefinitions, OneFlankIsEnough) {
   Profile half = profile_of(300, Triangle{0, 150, 1, 0.5});
-  const Reading reading = reading_of(half);
+  const Reading reading = fitted_reading(half);
   ASSERT_NE(reading.left.status, FlankStatus::ok);
   const auto angles = other_definitions(reading);
-  EXPECT_NEAR(named(angles, "height_over_base"), std::atan(0.5), 0.1 * kDegree);
-  EXPECT_NEAR(named(angles, "half_height_tangent"), std::atan(0.5), 1e-6);
+  EXPECT_NEAR(angle_named(angles, "height_over_base"), std::atan(0.5), 0.1 * kDegree);
+  EXPECT_NEAR(angle_named(angles, "half_height_tangent"), std::atan(0.5), 1e-6);
 }
 
 TEST(OtherDefinitions, NoFlankHasNone) { EXPECT_TRUE(other_definitions(Reading{}).empty()); }
 
 TEST(OtherDefinitions, SayWhatTheyAre) {
   std::set<std::string> names;
-  for (const auto& angle : other_definitions(reading_of(triangle(0.5, 0.5, 150)))) {
+  for (const auto& angle : other_definitions(fitted_reading(triangle_profile(0.5, 0.5, 150)))) {
     EXPECT_FALSE(angle.description.empty()) << angle.name;
     EXPECT_TRUE(names.insert(angle.name).second) << angle.name << " twice";
   }

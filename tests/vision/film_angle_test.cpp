@@ -7,16 +7,17 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <random>
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "render/film/film.h"
 #include "tests/support/drawn_heap_film.h"
 #include "tests/support/error_of.h"
 #include "tests/support/heap_picture.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/vision/warnings.h"
 
 namespace repose::vision {
 namespace {
@@ -27,12 +28,8 @@ using repose::testing::heap_truth;
 using repose::testing::small_heap;
 using repose::testing::TemporaryFolder;
 using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class FilmAngleOf : public ::testing::Test {
  protected:
@@ -55,19 +52,17 @@ double error_deg(const ReposeAngle& angle, const DrawnHeapFilm& film) {
   return std::abs(angle.angle_rad.value() - heap_truth(film.scene).mean_rad().value()) / kDegree;
 }
 
-void expect_truth(const FilmAngle& film, const DrawnHeapFilm& drawn) {
+void expect_heaps_angle(const FilmAngle& film, const DrawnHeapFilm& drawn) {
   ASSERT_TRUE(film.heap.angle.angle_rad) << film.heap.angle.reason;
   EXPECT_LT(error_deg(film.heap.angle, drawn), .3);
   EXPECT_LT(error_deg(film.heap.angle, drawn), film.heap.angle.uncertainty_rad.value() / kDegree);
 }
 
-auto has_warning(const char* code) { return Contains(Field(&Warning::code, code)); }
-
 TEST_F(FilmAngleOf, AHeapThatCameToRestIsThatOfItsLastSecond) {
   const DrawnHeapFilm drawn{.scene = small_heap(), .noise = 20};
   const std::vector<Picture> frames = drawn.pictures();
   const FilmAngle film = measure_film(write(frames, drawn.frames_per_s));
-  expect_truth(film, drawn);
+  expect_heaps_angle(film, drawn);
   EXPECT_EQ(film.heap.angle.status, MeasureStatus::ok);
   EXPECT_THAT(film.heap.angle.warnings, Not(has_warning("short_rest")));
   ASSERT_TRUE(film.stretch);
@@ -92,7 +87,7 @@ TEST_F(FilmAngleOf, ASceneWithFlickerATimerAndAHandAtTheEndIsThatBeforeTheHand) 
   const DrawnHeapFilm drawn{
       .scene = small_heap(4), .hand_s = .4, .flicker = .04, .has_timer = true};
   const FilmAngle film = measured(drawn);
-  expect_truth(film, drawn);
+  expect_heaps_angle(film, drawn);
   ASSERT_TRUE(film.stretch);
   EXPECT_NEAR(film.stretch->to_s, drawn.grows_s + drawn.rests_s, .17);
   EXPECT_THAT(film.heap.angle.warnings, AllOf(has_warning("moves_after"), has_warning("writing")));
@@ -125,7 +120,7 @@ TEST_F(FilmAngleOf, AHeapThatRestsAndThenGrowsOnIsRefused) {
 TEST_F(FilmAngleOf, AShortFilmAtRestIsMeasuredAndFlagged) {
   const DrawnHeapFilm drawn{.scene = small_heap(4), .grows_s = 0, .rests_s = .75};
   const FilmAngle film = measured(drawn);
-  expect_truth(film, drawn);
+  expect_heaps_angle(film, drawn);
   EXPECT_EQ(film.heap.angle.status, MeasureStatus::flagged);
   EXPECT_THAT(film.heap.angle.warnings, has_warning("short_rest"));
 }

@@ -17,11 +17,6 @@ using ::testing::AllOf;
 using ::testing::Ge;
 using ::testing::Le;
 
-constexpr double kLeft_rad = 20 * kDegree;
-constexpr double kRight_rad = 30 * kDegree;
-
-const Triangle kTriangle{350, 110, std::tan(kLeft_rad), std::tan(kRight_rad)};
-
 FlankFit fit(const Profile& profile, Side side, FlankOptions options = {}) {
   return fit_flank(profile, side, options);
 }

@@ -7,6 +7,7 @@
 
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/vision/plain_picture.h"
 #include "vision/film/film_reader.h"
 #include "vision/picture/picture.h"
 
@@ -25,12 +26,6 @@ std::vector<std::pair<std::string, std::int64_t>> listed(const TemporaryFolder& 
     names.emplace_back(frame.file.filename().string(), frame.place);
   }
   return names;
-}
-
-Picture grey(int width, int height, std::uint8_t level) {
-  return {.width = width,
-          .height = height,
-          .bgr = std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), level)};
 }
 
 TEST(FrameFiles, AreInTheOrderOfTheirNumbers) {
@@ -79,9 +74,9 @@ TEST(FrameFiles, WhatIsNoFilmIsRefused) {
 
 TEST(FilmReader, ReadsAFolderAtItsRateAndSkipsWhatIsMissing) {
   const TemporaryFolder folder;
-  write_picture(folder.path() / "f1.png", grey(20, 10, 10));
-  write_picture(folder.path() / "f2.png", grey(20, 10, 20));
-  write_picture(folder.path() / "f4.png", grey(20, 10, 40));
+  write_picture(folder.path() / "f1.png", plain_picture(20, 10, 10));
+  write_picture(folder.path() / "f2.png", plain_picture(20, 10, 20));
+  write_picture(folder.path() / "f4.png", plain_picture(20, 10, 40));
   FilmReader film({folder.path(), 50});
   EXPECT_EQ(film.claimed_frames(), 3);
   FilmFrame frame;
@@ -97,8 +92,8 @@ TEST(FilmReader, ReadsAFolderAtItsRateAndSkipsWhatIsMissing) {
 
 TEST(FilmReader, RefusesAFolderOfSeveralSizesOrWithoutARate) {
   const TemporaryFolder folder;
-  write_picture(folder.path() / "f1.png", grey(20, 10, 10));
-  write_picture(folder.path() / "f2.png", grey(20, 12, 20));
+  write_picture(folder.path() / "f1.png", plain_picture(20, 10, 10));
+  write_picture(folder.path() / "f2.png", plain_picture(20, 12, 20));
   EXPECT_THAT(error_of([&] {
                 FilmReader film({folder.path(), 50});
                 FilmFrame frame;

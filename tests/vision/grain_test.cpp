@@ -10,19 +10,6 @@
 namespace repose::vision {
 namespace {
 
-/// The region under a drawn heap's exact outline.
-cv::Mat1b mask_of(const testing::DrawnHeap& heap) {
-  std::vector<cv::Point> corners = {
-      {static_cast<int>(heap.ground.to.x), static_cast<int>(heap.ground.to.y)},
-      {static_cast<int>(heap.ground.from.x), static_cast<int>(heap.ground.from.y)}};
-  for (const Point& p : heap.outline) {
-    corners.emplace_back(static_cast<int>(p.x), static_cast<int>(p.y));
-  }
-  cv::Mat1b mask = cv::Mat1b::zeros(heap.picture.height, heap.picture.width);
-  cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{corners}, 255);
-  return mask;
-}
-
 TEST(GrainSize, IsWithinAThirdOnGeneratedPictures) {
   for (const char* condition : {"clean", "inverted_white", "uneven_light", "apron"}) {
     std::vector<double> ratios;

@@ -20,12 +20,12 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 /// Two drawn heaps beside each other.
-struct Pair {
+struct TwoHeaps {
   testing::DrawnHeap left = drawn("clean", 2, 640);
   testing::DrawnHeap right = drawn("dark", 1, 640);
   Picture picture;
 
-  Pair() {
+  TwoHeaps() {
     cv::Mat3b both(std::max(left.picture.height, right.picture.height), 1280, cv::Vec3b());
     mat_of(left.picture).copyTo(both(cv::Rect(0, 0, 640, left.picture.height)));
     mat_of(right.picture).copyTo(both(cv::Rect(640, 0, 640, right.picture.height)));
@@ -34,7 +34,7 @@ struct Pair {
 };
 
 TEST(Hints, ABoxIsTheWholePicture) {
-  const Pair pair;
+  const TwoHeaps pair;
   MeasureOptions options;
   options.hints.heap = Box{.x = 640, .y = 0, .width = 640, .height = pair.right.picture.height};
   const ReposeAngle inside = measure_repose_angle(pair.picture, options);
@@ -116,7 +116,7 @@ TEST(Hints, AMaskSaysItAll) {
 }
 
 TEST(Hints, APlaceOnTheHeapChoosesBetweenTwo) {
-  const Pair pair;
+  const TwoHeaps pair;
   for (const auto* heap : {&pair.left, &pair.right}) {
     const double shift = heap == &pair.left ? 0 : 640;
     const double middle = (heap->ground.from.x + heap->ground.to.x) / 2 + shift;

@@ -1,11 +1,11 @@
 #include "vision/camera/lens_fit.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/heap_random.h"
 
@@ -15,11 +15,10 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// Corners as the camera has them, with noise, without the picture: fast.
-BoardPicture picture_of(const testing::BoardCamera& camera, const testing::BoardPlace& place,
-                        double noise_px, std::uint64_t seed) {
+BoardPicture picture_of_corners(const testing::BoardCamera& camera,
+                                const testing::BoardPlace& place, double noise_px,
+                                std::uint64_t seed) {
   testing::Random random(seed);
   BoardPicture picture{.file = "board_" + std::to_string(seed) + ".jpg",
                        .width = camera.width,
@@ -48,16 +47,16 @@ std::vector<BoardPicture> pictures_of(const testing::BoardCamera& camera, int co
     const auto tilt = [&] { return random.uniform(-most_tilt_deg, most_tilt_deg) * kDegree; };
     const auto place = testing::placed_board(distance_mm * camera.direction(middle), tilt(), tilt(),
                                              random.uniform(-.2, .2));
-    pictures.push_back(picture_of(camera, place, noise_px, random.seed() % 1000));
+    pictures.push_back(picture_of_corners(camera, place, noise_px, random.seed() % 1000));
   }
   return pictures;
 }
 
-const testing::BoardCamera kCamera{
+const testing::BoardCamera kBarrelCamera{
     .focal_px = 1234, .centre_x_px = 651, .centre_y_px = 419, .k1 = -.12};
 
 TEST(LensFit, FindsTheLensThatTookThePictures) {
-  const LensFit fit = fit_lens(pictures_of(kCamera, 10, 35, .1, 1));
+  const LensFit fit = fit_lens(pictures_of(kBarrelCamera, 10, 35, .1, 1));
   ASSERT_NE(fit.status, MeasureStatus::refused) << fit.reason;
   EXPECT_NEAR(fit.lens.focal_px.value, 1234, 4);
   EXPECT_NEAR(fit.lens.centre_x_px.value, 651, 2.5);
@@ -71,11 +70,11 @@ TEST(LensFit, FindsTheLensThatTookThePictures) {
 }
 
 TEST(LensFit, TakesNoMoreCoefficientsThanThePicturesDetermine) {
-  const LensFit one = fit_lens(pictures_of(kCamera, 10, 35, .1, 2));
+  const LensFit one = fit_lens(pictures_of(kBarrelCamera, 10, 35, .1, 2));
   EXPECT_NE(one.lens.k1.value, 0);
   EXPECT_EQ(one.lens.k3.value, 0);
   EXPECT_EQ(one.lens.p1.value, 0);
-  testing::BoardCamera plain = kCamera;
+  testing::BoardCamera plain = kBarrelCamera;
   plain.k1 = 0;
   EXPECT_FALSE(fit_lens(pictures_of(plain, 10, 35, .1, 3)).lens.is_distorted());
 }
@@ -83,22 +82,22 @@ TEST(LensFit, TakesNoMoreCoefficientsThanThePicturesDetermine) {
 TEST(LensFit, IntervalsHoldTheTruth) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const LensFit fit = fit_lens(pictures_of(kCamera, 8, 35, .2, 100 + seed));
+    const LensFit fit = fit_lens(pictures_of(kBarrelCamera, 8, 35, .2, 100 + seed));
     const auto count = [&](const LensNumber& number, double truth) {
       ++all;
       held += std::abs(number.value - truth) <= number.uncertainty ? 1 : 0;
     };
-    count(fit.lens.focal_px, kCamera.focal_px);
-    count(fit.lens.centre_x_px, kCamera.centre_x_px);
-    count(fit.lens.centre_y_px, kCamera.centre_y_px);
-    count(fit.lens.k1, kCamera.k1);
+    count(fit.lens.focal_px, kBarrelCamera.focal_px);
+    count(fit.lens.centre_x_px, kBarrelCamera.centre_x_px);
+    count(fit.lens.centre_y_px, kBarrelCamera.centre_y_px);
+    count(fit.lens.k1, kBarrelCamera.k1);
   }
   EXPECT_EQ(all, 48);
   EXPECT_GE(held, 42);  // of 95 %, fewer than once in a hundred times by chance
 }
 
 TEST(LensFit, RefusesTooFewPicturesAndThoseWithoutABoard) {
-  std::vector<BoardPicture> pictures = pictures_of(kCamera, 6, 35, .1, 4);
+  std::vector<BoardPicture> pictures = pictures_of(kBarrelCamera, 6, 35, .1, 4);
   pictures[0].corners.clear();
   pictures[1].corners.resize(5);
   const LensFit fit = fit_lens(pictures);
@@ -111,7 +110,7 @@ TEST(LensFit, RefusesTooFewPicturesAndThoseWithoutABoard) {
 }
 
 TEST(LensFit, RefusesPicturesOfDifferentSizesByName) {
-  std::vector<BoardPicture> pictures = pictures_of(kCamera, 8, 35, .1, 5);
+  std::vector<BoardPicture> pictures = pictures_of(kBarrelCamera, 8, 35, .1, 5);
   std::swap(pictures[3].width, pictures[3].height);
   pictures[3].file = "upright.jpg";
   EXPECT_THAT(fit_lens(pictures).reason,
@@ -119,7 +118,7 @@ TEST(LensFit, RefusesPicturesOfDifferentSizesByName) {
 }
 
 TEST(LensFit, RefusesBoardsThatAllFaceTheSameWay) {
-  EXPECT_THAT(fit_lens(pictures_of(kCamera, 8, 3, .1, 6)).reason,
+  EXPECT_THAT(fit_lens(pictures_of(kBarrelCamera, 8, 3, .1, 6)).reason,
               HasSubstr("all boards face the same way"));
 }
 
@@ -127,13 +126,13 @@ TEST(LensFit, RefusesBoardsThatCoverLittle) {
   std::vector<BoardPicture> pictures;
   for (int i = 0; i < 8; ++i) {
     const auto place = testing::placed_board({0, 0, 1500}, .1 * i - .4, .3 - .08 * i, 0);
-    pictures.push_back(picture_of(kCamera, place, .1, static_cast<std::uint64_t>(i)));
+    pictures.push_back(picture_of_corners(kBarrelCamera, place, .1, static_cast<std::uint64_t>(i)));
   }
   EXPECT_THAT(fit_lens(pictures).reason, HasSubstr("cover only"));
 }
 
 TEST(LensFit, RefusesCornersThatNoLensPutsThere) {
-  std::vector<BoardPicture> pictures = pictures_of(kCamera, 8, 35, .1, 7);
+  std::vector<BoardPicture> pictures = pictures_of(kBarrelCamera, 8, 35, .1, 7);
   for (BoardPicture& picture : pictures) {  // a wavy sheet
     for (SeenCorner& corner : picture.corners) corner.place.y += 3 * (corner.number % 3 - 1);
   }

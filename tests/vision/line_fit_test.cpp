@@ -26,7 +26,7 @@ constexpr double kIntercept = 120;
 
 /// A flank's edge: 200 points that scatter by half a pixel around a line; of the lower half,
 /// `strays` are lifted by 5 to 40 pixels.
-Points flank(int strays, std::uint64_t seed) {
+Points flank_points(int strays, std::uint64_t seed) {
   testing::Random random(seed);
   Points points;
   for (int i = 0; i < 200; ++i) {
@@ -60,7 +60,7 @@ TEST(LineFits, GiveAnExactLineBack) {
 }
 
 TEST(LineFits, AgreeWhereNothingStrays) {
-  const Points points = flank(0, 1);
+  const Points points = flank_points(0, 1);
   // The biweight's loss of efficiency is 5 %: a small part of the slope's own error, 6e-4.
   EXPECT_NEAR(robust_line(points.x, points.y).slope, least_squares_line(points.x, points.y).slope,
               3e-4);
@@ -68,7 +68,7 @@ TEST(LineFits, AgreeWhereNothingStrays) {
 
 TEST(RobustLine, StraysMoveItLessThanHalfAsMuchAsTheLeastSquaresLine) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Points points = flank(60, seed);
+    const Points points = flank_points(60, seed);
     const double robust = robust_line(points.x, points.y).slope - kSlope;
     const double ordinary = least_squares_line(points.x, points.y).slope - kSlope;
     EXPECT_GT(ordinary, 0.04) << "2 degrees: the strays matter";
@@ -78,7 +78,7 @@ TEST(RobustLine, StraysMoveItLessThanHalfAsMuchAsTheLeastSquaresLine) {
 }
 
 TEST(RobustLine, AFewFarStraysDoNotMoveIt) {
-  Points points = flank(0, 1);
+  Points points = flank_points(0, 1);
   const double clean = robust_line(points.x, points.y).slope;
   for (std::size_t i = 180; i < 190; ++i) points.y[i] += 60;
   EXPECT_GT(least_squares_line(points.x, points.y).slope - clean, 0.05);
@@ -91,7 +91,7 @@ TEST(RobustLine, AFewFarStraysDoNotMoveIt) {
 TEST(RobustLine, ThirtyPercentStraysDoNotMoveItOnceTheScaleHasSettled) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     testing::Random random(seed + 100);
-    Points points = flank(0, seed);
+    Points points = flank_points(0, seed);
     for (std::size_t i = 0; i < 60; ++i) points.y[60 + i * 140 / 60] += random.uniform(5, 40);
     ASSERT_GT(least_squares_line(points.x, points.y).slope - kSlope, 0.03) << "2 degrees";
     // The slope's own error is 6e-4, and a third of the points is lost.
@@ -100,7 +100,7 @@ TEST(RobustLine, ThirtyPercentStraysDoNotMoveItOnceTheScaleHasSettled) {
 }
 
 TEST(RobustLine, KeepsTheR2OfTheLeastSquaresLine) {
-  const Points points = flank(60, 1);
+  const Points points = flank_points(60, 1);
   EXPECT_EQ(robust_line(points.x, points.y).r2, least_squares_line(points.x, points.y).r2);
 }
 

@@ -8,6 +8,8 @@
 /// Results of measuring triangles, made up instead of measured: their numbers are exact.
 namespace repose::vision {
 
+inline constexpr double kExact = 1e-9;  ///< what rounding may do to those numbers
+
 /// A heap with straight sides, in a picture [px].
 struct TriangleHeap {
   double left_base = 300;   ///< from the left foot to below the tip

@@ -17,8 +17,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const Triangle kTriangle{350, 110, std::tan(20 * kDegree), std::tan(30 * kDegree)};
-
 /// The part of a height function that is above the ground, `unit` long from point to point.
 template <class Height>
 Outline outline_of(Height height, double unit = 1, int columns = 700) {
@@ -35,8 +33,8 @@ Outline outline_of(Height height, double unit = 1, int columns = 700) {
 TEST(OutlineAngle, StraightFlanksAreExact) {
   const OutlineAngle angle = measure_outline(outline_of(kTriangle));
   ASSERT_TRUE(angle.left && angle.right);
-  EXPECT_NEAR(angle.left->angle_rad, 20 * kDegree, 1e-6);
-  EXPECT_NEAR(angle.right->angle_rad, 30 * kDegree, 1e-6);
+  EXPECT_NEAR(angle.left->angle_rad, kLeft_rad, 1e-6);
+  EXPECT_NEAR(angle.right->angle_rad, kRight_rad, 1e-6);
   EXPECT_NEAR(*angle.angle_rad(), 25 * kDegree, 1e-6);
   // From the middle of the highest part, which lies up to 3 % of the height down a side.
   EXPECT_NEAR(angle.left->foot + angle.right->foot,

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
+#include "tests/vision/plain_picture.h"
 #include "vision/drawing/lettering.h"
 #include "vision/picture/mat_of_picture.h"
 
@@ -20,14 +21,8 @@ using ::testing::Gt;
 using ::testing::Le;
 using ::testing::SizeIs;
 
-Picture plain(int width, int height, std::uint8_t brightness) {
-  Picture picture = blank_picture(width, height);
-  std::fill(picture.bgr.begin(), picture.bgr.end(), brightness);
-  return picture;
-}
-
 /// A triangle on a level ground line, both sides measured.
-ReposeAngle triangle(int width, int height) {
+ReposeAngle measured_triangle(int width, int height) {
   const double ground = 0.8 * height, top = 0.4 * height;
   const Point left{0.1 * width, ground}, right{0.9 * width, ground}, crest{0.5 * width, top};
   const auto part = [](Point from, Point to) {
@@ -58,7 +53,8 @@ cv::Vec3b pixel(const Picture& picture, double x, double y) {
 
 TEST(Overlay, SmallPicturesAreEnlargedAndLargeOnesReduced) {
   for (const auto& [given, drawn] : {std::pair(200, 800), {900, 900}, {6000, 2400}}) {
-    const Picture overlay = draw_overlay(plain(given, given / 2, 128), triangle(given, given / 2));
+    const Picture overlay =
+        draw_overlay(plain_picture(given, given / 2, 128), measured_triangle(given, given / 2));
     EXPECT_EQ(overlay.width, drawn);
     EXPECT_GT(overlay.height, drawn / 2) << "the caption is added below";
   }
@@ -67,8 +63,9 @@ TEST(Overlay, SmallPicturesAreEnlargedAndLargeOnesReduced) {
 TEST(Overlay, LinesShowOnAnyBackground) {
   constexpr int kWidth = 1000, kHeight = 700;
   for (const int brightness : {0, 128, 255}) {
-    const Picture overlay = draw_overlay(
-        plain(kWidth, kHeight, static_cast<std::uint8_t>(brightness)), triangle(kWidth, kHeight));
+    const Picture overlay =
+        draw_overlay(plain_picture(kWidth, kHeight, static_cast<std::uint8_t>(brightness)),
+                     measured_triangle(kWidth, kHeight));
     // Middle of the left flank's window, of the ground line: coloured, so not grey.
     for (const cv::Vec3b& colour :
          {pixel(overlay, 0.3 * kWidth, 0.6 * kHeight), pixel(overlay, 500, 0.8 * kHeight)}) {
@@ -79,41 +76,43 @@ TEST(Overlay, LinesShowOnAnyBackground) {
 }
 
 TEST(Overlay, TheHeapKeepsItsLightAndItsSurroundingsAreDimmed) {
-  const Picture overlay = draw_overlay(plain(1000, 700, 200), triangle(1000, 700));
+  const Picture overlay = draw_overlay(plain_picture(1000, 700, 200), measured_triangle(1000, 700));
   EXPECT_EQ(pixel(overlay, 500, 450), cv::Vec3b(200, 200, 200));
   EXPECT_LT(pixel(overlay, 500, 50)[0], 200);
 }
 
 TEST(Overlay, EveryWarningMakesTheCaptionHigher) {
-  ReposeAngle measured = triangle(900, 600);
-  const int height = draw_overlay(plain(900, 600, 90), measured).height;
+  ReposeAngle measured = measured_triangle(900, 600);
+  const int height = draw_overlay(plain_picture(900, 600, 90), measured).height;
   measured.status = MeasureStatus::flagged;
   measured.warnings = {{"few_grains", "The heap is only 8 grains high."}};
-  EXPECT_GT(draw_overlay(plain(900, 600, 90), measured).height, height);
+  EXPECT_GT(draw_overlay(plain_picture(900, 600, 90), measured).height, height);
 }
 
 TEST(Overlay, RefusedPicturesAreDrawnWithTheReason) {
   ReposeAngle refused;
   refused.reason = "no heap was found. Fix: take the picture from the side.";
-  const Picture overlay = draw_overlay(plain(900, 600, 90), refused);
+  const Picture overlay = draw_overlay(plain_picture(900, 600, 90), refused);
   EXPECT_EQ(pixel(overlay, 450, 300), cv::Vec3b(90, 90, 90)) << "nothing to draw";
   EXPECT_GT(overlay.height, 600);
 }
 
 TEST(Overlay, OddShapesAndLinesOutsideThePictureAreNoTrouble) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 3000), cv::Size(3000, 2)}) {
-    ReposeAngle measured = triangle(size.width, size.height);
+    ReposeAngle measured = measured_triangle(size.width, size.height);
     measured.left.line = Segment{{-500, 900}, {4000, -700}};
     measured.right.line = Segment{{5, 5}, {5, 5}};
     const Picture overlay = draw_overlay(
-        plain(size.width, size.height, 90), measured,
+        plain_picture(size.width, size.height, 90), measured,
         {.title = std::string(300, 'x'), .excluded = {{0, 0, size.width, size.height}}});
     EXPECT_GE(overlay.width, 640);
   }
 }
 
 TEST(Overlay, SamePictureSameBytes) {
-  const auto draw = [] { return draw_overlay(plain(700, 500, 90), triangle(700, 500)).bgr; };
+  const auto draw = [] {
+    return draw_overlay(plain_picture(700, 500, 90), measured_triangle(700, 500)).bgr;
+  };
   EXPECT_EQ(draw(), draw());
 }
 

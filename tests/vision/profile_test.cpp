@@ -17,23 +17,23 @@ using ::testing::ElementsAre;
 using ::testing::Gt;
 using ::testing::SizeIs;
 
-constexpr int kCols = 400;
-constexpr int kRows = 200;
-constexpr double kGround = 180;
+constexpr int kEdgeCols = 400;
+constexpr int kEdgeRows = 200;
+constexpr double kEdgeGround = 180;
 
 /// Everything a profile is read from, made of one upper edge y(x).
-struct Scene {
-  WorkingPicture work = work_of(cv::Mat3b(kRows, kCols, cv::Vec3b(200, 200, 200)));
-  Segmentation segmentation{"made", cv::Mat1f(kRows, kCols)};
+struct EdgeScene {
+  WorkingPicture work = work_of(cv::Mat3b(kEdgeRows, kEdgeCols, cv::Vec3b(200, 200, 200)));
+  Segmentation segmentation{"made", cv::Mat1f(kEdgeRows, kEdgeCols)};
   Body body;
 
   template <class EdgeY>
-  explicit Scene(EdgeY edge_y, PictureLine ground = {kGround, 0}) {
+  explicit EdgeScene(EdgeY edge_y, PictureLine ground = {kEdgeGround, 0}) {
     static_cast<PictureLine&>(body.ground) = ground;
-    body.mask = cv::Mat1b(kRows, kCols);
-    for (int col = 0; col < kCols; ++col) {
+    body.mask = cv::Mat1b(kEdgeRows, kEdgeCols);
+    for (int col = 0; col < kEdgeCols; ++col) {
       const double edge = edge_y(col + 0.5);
-      for (int row = 0; row < kRows; ++row) {
+      for (int row = 0; row < kEdgeRows; ++row) {
         segmentation.inside(row, col) = static_cast<float>(row + 0.5 - edge);
         body.mask(row, col) = row + 0.5 > edge && row + 0.5 < ground.y(col + 0.5) ? 255 : 0;
       }
@@ -44,7 +44,7 @@ struct Scene {
 
 /// 100 high on the ground line, 30 degrees to both sides.
 double heap_y(double x) {
-  return kGround - std::max(0.0, 100 - std::tan(30 * kDegree) * std::abs(x - 200));
+  return kEdgeGround - std::max(0.0, 100 - std::tan(30 * kDegree) * std::abs(x - 200));
 }
 
 double height_at(const Profile& profile, double along) {
@@ -56,8 +56,8 @@ double height_at(const Profile& profile, double along) {
 
 /// The heap on a thin layer, which reaches from one x to another.
 Profile with_layer(double height, double from, double to) {
-  return Scene([=](double x) {
-           return x < from || x > to ? heap_y(x) : std::min(heap_y(x), kGround - height);
+  return EdgeScene([=](double x) {
+           return x < from || x > to ? heap_y(x) : std::min(heap_y(x), kEdgeGround - height);
          })
       .profile();
 }
@@ -81,15 +81,15 @@ TEST(UpperProfile, KeepsLayersOfGrainsAndToes) {
 }
 
 TEST(UpperProfile, OfAStripAloneIsLeftAsItIs) {
-  const Profile profile = Scene([](double) { return kGround - 1.6; }).profile();
-  EXPECT_THAT(profile.along, SizeIs(kCols));
+  const Profile profile = EdgeScene([](double) { return kEdgeGround - 1.6; }).profile();
+  EXPECT_THAT(profile.along, SizeIs(kEdgeCols));
 }
 
 TEST(UpperProfile, HasTheEdgesHeightInEveryColumn) {
-  const Profile profile = Scene(heap_y).profile();
+  const Profile profile = EdgeScene(heap_y).profile();
   ASSERT_GT(profile.size(), 300);
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    EXPECT_NEAR(profile.height[i], kGround - heap_y(profile.along[i]), 1e-4);  // floats of 200
+    EXPECT_NEAR(profile.height[i], kEdgeGround - heap_y(profile.along[i]), 1e-4);  // floats of 200
   }
   EXPECT_NEAR(profile.along[profile.crest], 200, 1);
   // Smoothing over 9 columns, a fortieth, takes 1.3 off the tip.
@@ -100,31 +100,31 @@ TEST(UpperProfile, HasTheEdgesHeightInEveryColumn) {
 /// Light that a lens blurs over a pixel, cut at half its step, as segmentations are made.
 TEST(UpperProfile, FindsABlurredEdgeFinerThanAPixel) {
   for (double fraction = 0; fraction < 1; fraction += 0.1) {
-    Scene scene([&](double) { return 90 + fraction; });
-    for (int row = 0; row < kRows; ++row) {
+    EdgeScene scene([&](double) { return 90 + fraction; });
+    for (int row = 0; row < kEdgeRows; ++row) {
       const double depth = row + 0.5 - (90 + fraction);
       scene.segmentation.inside.row(row) =
           static_cast<float>(std::erf(depth / (0.8 * std::sqrt(2))));
     }
     const Profile profile = scene.profile();
-    ASSERT_THAT(profile.height, SizeIs(kCols));
-    EXPECT_THAT(profile.height, Each(::testing::DoubleNear(kGround - 90 - fraction, 0.05)));
+    ASSERT_THAT(profile.height, SizeIs(kEdgeCols));
+    EXPECT_THAT(profile.height, Each(::testing::DoubleNear(kEdgeGround - 90 - fraction, 0.05)));
   }
 }
 
 TEST(UpperProfile, IsMeasuredFromATiltedGround) {
   const PictureLine ground{150, std::tan(4 * kDegree)};
   // 50 above the ground line, square to it.
-  const Scene scene([&](double x) { return ground.y(x) - 50 / std::cos(4 * kDegree); }, ground);
+  const EdgeScene scene([&](double x) { return ground.y(x) - 50 / std::cos(4 * kDegree); }, ground);
   EXPECT_THAT(scene.profile().height, Each(::testing::DoubleNear(50, 1e-4)));
 }
 
 TEST(UpperProfile, ARulerInTheMiddleIsTakenOut) {
   const Profile profile =
-      Scene([](double x) { return x > 240 && x < 252 ? 5 : heap_y(x); }).profile();
+      EdgeScene([](double x) { return x > 240 && x < 252 ? 5 : heap_y(x); }).profile();
   EXPECT_NEAR(profile.crest_height, 100, 1.5);
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    EXPECT_NEAR(profile.height[i], kGround - heap_y(profile.along[i]), 1e-4);
+    EXPECT_NEAR(profile.height[i], kEdgeGround - heap_y(profile.along[i]), 1e-4);
   }
   EXPECT_EQ(height_at(profile, 246), -1) << "nothing is known of the ruler's columns";
   EXPECT_GT(height_at(profile, 230), 0);
@@ -134,21 +134,21 @@ TEST(UpperProfile, ARulerInTheMiddleIsTakenOut) {
 TEST(UpperProfile, AWallAtTheEndIsTakenOut) {
   for (const bool left : {false, true}) {
     const auto edge = [&](double x) {
-      return (left ? x < 30 : x > kCols - 30) ? 5 : std::min(heap_y(x), kGround - 20);
+      return (left ? x < 30 : x > kEdgeCols - 30) ? 5 : std::min(heap_y(x), kEdgeGround - 20);
     };
-    const Profile profile = Scene(edge).profile();
+    const Profile profile = EdgeScene(edge).profile();
     EXPECT_NEAR(profile.crest_height, 100, 1.5) << left;
-    EXPECT_NEAR(height_at(profile, left ? 45 : kCols - 45), 20, 1) << left;
-    EXPECT_EQ(height_at(profile, left ? 10 : kCols - 10), -1) << left;
+    EXPECT_NEAR(height_at(profile, left ? 45 : kEdgeCols - 45), 20, 1) << left;
+    EXPECT_EQ(height_at(profile, left ? 10 : kEdgeCols - 10), -1) << left;
   }
 }
 
 TEST(UpperProfile, AHeapsOwnEdgeIsKept) {
   // A half heap whose crest leans on a wall that is not seen: it begins with its full height.
   const auto half_heap = [](double x) {
-    return x < 80 ? kRows : kGround - std::max(0.0, 150 - 0.6 * (x - 80));
+    return x < 80 ? kEdgeRows : kEdgeGround - std::max(0.0, 150 - 0.6 * (x - 80));
   };
-  const Profile profile = Scene(half_heap).profile();
+  const Profile profile = EdgeScene(half_heap).profile();
   EXPECT_NEAR(profile.along.front(), 80.5, 1e-9);
   EXPECT_NEAR(profile.height.front(), 150, 1);
   EXPECT_NEAR(profile.crest_height, 150, 3);
@@ -156,44 +156,45 @@ TEST(UpperProfile, AHeapsOwnEdgeIsKept) {
 
 TEST(UpperProfile, SteepGrainsAreNoTower) {
   const auto grains = [](double x) {  // bumps of 12 px on a flank of 38 degrees
-    return kGround - std::max(0.0, 120 - 0.78 * std::abs(x - 200)) - 6 * std::sin(x / 4);
+    return kEdgeGround - std::max(0.0, 120 - 0.78 * std::abs(x - 200)) - 6 * std::sin(x / 4);
   };
-  EXPECT_GT(Scene(grains).profile().size(), 300);
+  EXPECT_GT(EdgeScene(grains).profile().size(), 300);
 }
 
 TEST(UpperProfile, TellsWhereTheBodyLeavesTheFrame) {
   const Profile left =
-      Scene([](double x) { return kGround - std::max(0.0, 90 - 0.5 * x); }).profile();
+      EdgeScene([](double x) { return kEdgeGround - std::max(0.0, 90 - 0.5 * x); }).profile();
   EXPECT_TRUE(left.leaves_frame_left);
   EXPECT_FALSE(left.leaves_frame_right || left.leaves_frame_top);
-  const Profile right =
-      Scene([](double x) { return kGround - std::max(0.0, 90 - 0.5 * (kCols - x)); }).profile();
+  const Profile right = EdgeScene([](double x) {
+                          return kEdgeGround - std::max(0.0, 90 - 0.5 * (kEdgeCols - x));
+                        }).profile();
   EXPECT_TRUE(right.leaves_frame_right);
   EXPECT_FALSE(right.leaves_frame_left || right.leaves_frame_top);
-  const Profile top = Scene([](double x) {
-                        return kGround - std::max(0.0, 220 - 1.3 * std::abs(x - 200));
+  const Profile top = EdgeScene([](double x) {
+                        return kEdgeGround - std::max(0.0, 220 - 1.3 * std::abs(x - 200));
                       }).profile();
   EXPECT_TRUE(top.leaves_frame_top);
   EXPECT_FALSE(top.leaves_frame_left || top.leaves_frame_right);
 }
 
 TEST(UpperProfile, AFlatCrestHasItsCrestInTheMiddle) {
-  const auto flat = [](double x) { return std::max(kGround - 60, heap_y(x)); };
-  EXPECT_NEAR(Scene(flat).profile().along[Scene(flat).profile().crest], 200, 1);
+  const auto flat = [](double x) { return std::max(kEdgeGround - 60, heap_y(x)); };
+  EXPECT_NEAR(EdgeScene(flat).profile().along[EdgeScene(flat).profile().crest], 200, 1);
 }
 
 TEST(UpperProfile, AnEdgeHiddenByAnExcludedBoxIsUnknown) {
-  Scene scene(heap_y);
+  EdgeScene scene(heap_y);
   scene.work.valid_mask(cv::Rect(150, 60, 20, 80)) = 0;
   scene.body.mask(cv::Rect(150, 60, 20, 80)) = 0;
   const Profile profile = scene.profile();
   EXPECT_EQ(height_at(profile, 160), -1);
   EXPECT_THAT(profile.height, Each(Gt(-1e-3)));
-  EXPECT_NEAR(height_at(profile, 140.5), kGround - heap_y(140.5), 1e-3);
+  EXPECT_NEAR(height_at(profile, 140.5), kEdgeGround - heap_y(140.5), 1e-3);
 }
 
 TEST(UpperProfile, NoBodyHasNone) {
-  EXPECT_EQ(Scene([](double) { return kRows + 1; }).profile().size(), 0);
+  EXPECT_EQ(EdgeScene([](double) { return kEdgeRows + 1; }).profile().size(), 0);
 }
 
 TEST(MovingAverage, IsNarrowerAtTheEnds) {

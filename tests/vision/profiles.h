@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/units.h"
 #include "vision/measure/profile.h"
 
 /// Upper edges made of exact lines.
@@ -40,5 +41,10 @@ struct Triangle {
     return std::max(0.0, crest_height - slope * std::abs(along - crest_along));
   }
 };
+
+/// A heap of unlike sides: their angles and its shape.
+inline constexpr double kLeft_rad = 20 * kDegree;
+inline constexpr double kRight_rad = 30 * kDegree;
+inline const Triangle kTriangle{350, 110, std::tan(kLeft_rad), std::tan(kRight_rad)};
 
 }  // namespace repose::vision

@@ -9,24 +9,24 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kGround = 320;
+constexpr int kGroundRow = 320;
 
-cv::Mat1b triangle(int half_base, int height) {
+cv::Mat1b triangle_mask(int half_base, int height) {
   cv::Mat1b mask = cv::Mat1b::zeros(400, 600);
   cv::fillPoly(mask,
-               std::vector<std::vector<cv::Point>>{{{300 - half_base, kGround - 1},
-                                                    {300, kGround - height},
-                                                    {300 + half_base, kGround - 1}}},
+               std::vector<std::vector<cv::Point>>{{{300 - half_base, kGroundRow - 1},
+                                                    {300, kGroundRow - height},
+                                                    {300 + half_base, kGroundRow - 1}}},
                255);
   return mask;
 }
 
 /// A brown heap before a grey backdrop, both noisy, in light that falls off by half to the right.
-struct Scene {
-  cv::Mat1b heap = triangle(200, 120);
+struct LitScene {
+  cv::Mat1b heap = triangle_mask(200, 120);
   WorkingPicture work;
 
-  Scene() {
+  LitScene() {
     testing::Random random(1);
     cv::Mat3b picture(heap.size());
     for (int row = 0; row < picture.rows; ++row) {
@@ -46,25 +46,20 @@ struct Scene {
 Body body_of(const cv::Mat1b& mask) {
   Body body;
   body.mask = mask;
-  body.ground.y_at_0 = kGround;
+  body.ground.y_at_0 = kGroundRow;
   return body;
 }
 
-double overlap(const cv::Mat1f& inside, const cv::Mat1b& heap) {
-  const cv::Mat1b found = inside > 0;
-  return static_cast<double>(cv::countNonZero(found & heap)) / cv::countNonZero(found | heap);
-}
-
 TEST(LearnedSegmentation, SeparatesTheHeapInFallingLight) {
-  const Scene scene;
+  const LitScene scene;
   EXPECT_GT(overlap(learned_segmentation(scene.work, body_of(scene.heap)).inside, scene.heap),
             0.97);
 }
 
 TEST(LearnedSegmentation, CorrectsABodyThatIsTooSmallOrTooLarge) {
-  const Scene scene;
+  const LitScene scene;
   for (const auto& [half_base, height] : {std::pair(185, 109), {214, 130}}) {
-    const cv::Mat1b wrong = triangle(half_base, height);
+    const cv::Mat1b wrong = triangle_mask(half_base, height);
     const double before = overlap(cv::Mat1f(wrong) - 1, scene.heap);
     const double after =
         overlap(learned_segmentation(scene.work, body_of(wrong)).inside, scene.heap);
@@ -73,15 +68,15 @@ TEST(LearnedSegmentation, CorrectsABodyThatIsTooSmallOrTooLarge) {
 }
 
 TEST(LearnedSegmentation, NothingIsInsideBelowTheGround) {
-  const Scene scene;
+  const LitScene scene;
   const Segmentation learned = learned_segmentation(scene.work, body_of(scene.heap));
-  EXPECT_EQ(cv::countNonZero(learned.inside.rowRange(kGround, 400) > 0), 0);
+  EXPECT_EQ(cv::countNonZero(learned.inside.rowRange(kGroundRow, 400) > 0), 0);
 }
 
 TEST(LearnedSegmentation, ExcludedPixelsTeachNothing) {
   const cv::Rect label(140, 225, 320, 100);  // grey as the backdrop, over most of the heap
   const auto overlap_beside_label = [&](bool exclude) {
-    Scene scene;
+    LitScene scene;
     cv::cvtColor(cv::Mat3f(label.size(), cv::Vec3f(0.6F, 0.6F, 0.6F)), scene.work.lab(label),
                  cv::COLOR_BGR2Lab);
     if (exclude) scene.work.valid_mask(label) = 0;
@@ -96,20 +91,20 @@ TEST(LearnedSegmentation, ExcludedPixelsTeachNothing) {
 }
 
 TEST(LearnedSegmentation, TooLittleToLearnFromHasNothingInside) {
-  const Scene scene;
-  const Segmentation learned = learned_segmentation(scene.work, body_of(triangle(4, 3)));
+  const LitScene scene;
+  const Segmentation learned = learned_segmentation(scene.work, body_of(triangle_mask(4, 3)));
   EXPECT_EQ(cv::countNonZero(learned.inside > 0), 0);
 }
 
 TEST(GrabCutSegmentation, FindsTheHeapFromARoughBody) {
-  const Scene scene;
-  const Segmentation cut = grabcut_segmentation(scene.work, body_of(triangle(170, 100)), 1);
+  const LitScene scene;
+  const Segmentation cut = grabcut_segmentation(scene.work, body_of(triangle_mask(170, 100)), 1);
   EXPECT_GT(overlap(cut.inside, scene.heap), 0.9);  // it works on a picture 2.5 times smaller
 }
 
 TEST(GrabCutSegmentation, SameSeedGivesTheSameBits) {
-  const Scene scene;
-  const Body rough = body_of(triangle(170, 100));
+  const LitScene scene;
+  const Body rough = body_of(triangle_mask(170, 100));
   const cv::Mat1f first = grabcut_segmentation(scene.work, rough, 3).inside;
   cv::theRNG().next();  // what others drew from the thread's generator does not matter
   const cv::Mat1f second = grabcut_segmentation(scene.work, rough, 3).inside;
@@ -117,7 +112,7 @@ TEST(GrabCutSegmentation, SameSeedGivesTheSameBits) {
 }
 
 TEST(GrabCutSegmentation, AFullOrEmptyBodyIsNotCut) {
-  const Scene scene;
+  const LitScene scene;
   Body none = body_of(cv::Mat1b::zeros(400, 600));
   EXPECT_EQ(cv::countNonZero(grabcut_segmentation(scene.work, none, 1).inside > 0), 0);
   Body full = body_of(cv::Mat1b(400, 600, 255));

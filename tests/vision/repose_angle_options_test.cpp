@@ -20,10 +20,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr int kWidth = 800;
-
-double deg(std::optional<double> angle_rad) { return angle_rad.value_or(NAN) / kDegree; }
-
 MeasureOptions window(double from, double to) {
   MeasureOptions options;
   options.window_from = from;
@@ -104,7 +100,7 @@ TEST(MeasureReposeAngle, ThrowsForABoxWhoseEndOverflows) {
 }
 
 TEST(MeasureReposeAngle, FitsTheWindowThatIsAskedFor) {
-  const auto heap = drawn("concave_toe", 1, kWidth);
+  const auto heap = drawn("concave_toe", 1, kUsualWidth);
   const ReposeAngle usual = measure_repose_angle(heap.picture);
   const ReposeAngle upper = measure_repose_angle(heap.picture, window(0.5, 0.9));
   EXPECT_THAT(upper.window, ElementsAre(0.5, 0.9));
@@ -117,10 +113,10 @@ TEST(MeasureReposeAngle, FitsTheWindowThatIsAskedFor) {
 }
 
 TEST(MeasureReposeAngle, LowWindowsLetTheToeIn) {
-  const auto heap = drawn("concave_toe", 1, kWidth);
+  const auto heap = drawn("concave_toe", 1, kUsualWidth);
   MeasureOptions low = window(0.0, 0.4);
   low.method = Method::paper;  // it leaves no apron out
-  const auto silhouette = drawn("silhouette", 1, kWidth);
+  const auto silhouette = drawn("silhouette", 1, kUsualWidth);
   EXPECT_LT(deg(measure_repose_angle(heap.picture, window(0.02, 0.5)).angle_rad),
             deg(measure_repose_angle(heap.picture).angle_rad));
   EXPECT_NEAR(deg(measure_repose_angle(silhouette.picture, low).angle_rad),
@@ -129,7 +125,7 @@ TEST(MeasureReposeAngle, LowWindowsLetTheToeIn) {
 
 TEST(MeasureReposeAngle, AnExcludedThingDoesNotMatter) {
   for (const char* condition : {"clean", "inverted_white"}) {
-    const auto heap = drawn(condition, 2, kWidth);
+    const auto heap = drawn(condition, 2, kUsualWidth);
     const ReposeAngle plain = measure_repose_angle(heap.picture);
     // A banner of the heap's own colour over the upper part of the backdrop.
     cv::Mat covered = mat_of(heap.picture).clone();
@@ -148,7 +144,7 @@ TEST(MeasureReposeAngle, AnExcludedThingDoesNotMatter) {
 }
 
 TEST(MeasureReposeAngle, ABoxOverPartOfAFlankLeavesTheRestToBeMeasured) {
-  const auto heap = drawn("clean", 2, kWidth);
+  const auto heap = drawn("clean", 2, kUsualWidth);
   const Segment flank = *heap.left_line;
   const Point middle{(flank.from.x + flank.to.x) / 2, (flank.from.y + flank.to.y) / 2};
   const Box box{static_cast<int>(middle.x) - 15, static_cast<int>(middle.y) - 15, 30, 30};
@@ -162,7 +158,7 @@ TEST(MeasureReposeAngle, ABoxOverPartOfAFlankLeavesTheRestToBeMeasured) {
 }
 
 TEST(MeasureReposeAngle, PitchIsTakenOutByTheFormula) {
-  const auto heap = drawn("clean", 2, kWidth);
+  const auto heap = drawn("clean", 2, kUsualWidth);
   const ReposeAngle level = measure_repose_angle(heap.picture);
   MeasureOptions options;
   options.camera_pitch_rad = 9 * kDegree;
@@ -181,7 +177,7 @@ ReposeAngle measured_with_pitch(const Picture& picture, double pitch_rad) {
 }
 
 TEST(MeasureReposeAngle, ThePitchsIntervalAllowsForANearCamera) {
-  const auto heap = drawn("clean", 2, kWidth);
+  const auto heap = drawn("clean", 2, kUsualWidth);
   const ReposeAngle level = measured_with_pitch(heap.picture, 0);
   const ReposeAngle pitched = measured_with_pitch(heap.picture, 9 * kDegree);
   const double rise = (heap.picture.height / 2. - level.crest->y) / (*level.base_px / 2);
@@ -196,7 +192,7 @@ TEST(MeasureReposeAngle, ThePitchsIntervalAllowsForANearCamera) {
 }
 
 TEST(MeasureReposeAngle, AnUntoldPitchsIntervalAllowsForACameraLevelledByEye) {
-  const auto heap = drawn("clean", 2, kWidth);  // level with its plate: the base is not seen
+  const auto heap = drawn("clean", 2, kUsualWidth);  // level with its plate: the base is not seen
   const ReposeAngle told = measured_with_pitch(heap.picture, 0);
   const ReposeAngle untold = measure_repose_angle(heap.picture);
   EXPECT_NEAR(*untold.uncertainty_rad - *told.uncertainty_rad,
@@ -205,7 +201,7 @@ TEST(MeasureReposeAngle, AnUntoldPitchsIntervalAllowsForACameraLevelledByEye) {
 }
 
 /// A dark cone before a pale backdrop, seen by a far camera that looks down.
-cv::Mat3b cone_seen_from(double angle_rad, double pitch_rad) {
+cv::Mat3b cone_picture(double angle_rad, double pitch_rad) {
   constexpr double kRadius = 220;
   constexpr double kSixteenth = 16;  // of a pixel; OpenCV's pixel centres are whole
   std::vector<cv::Point> points;
@@ -228,7 +224,7 @@ TEST(MeasureReposeAngle, TheIntervalHoldsWhatAnUntoldPitchDoesToABaseThatBows) {
   const double angle = 25 * kDegree;
   for (const double pitch_deg : {0.0, 3.0, 6.0, 9.0}) {
     const ReposeAngle result =
-        measure_repose_angle(picture_of(cone_seen_from(angle, pitch_deg * kDegree)));
+        measure_repose_angle(picture_of(cone_picture(angle, pitch_deg * kDegree)));
     ASSERT_TRUE(result.angle_rad) << result.reason;
     // The ellipse's far half shows beside the flanks' feet and hides a little of the bow.
     EXPECT_LE(std::abs(*result.angle_rad - angle), 1.1 * *result.uncertainty_rad) << pitch_deg;
@@ -241,7 +237,7 @@ TEST(MeasureReposeAngle, TheIntervalHoldsWhatAnUntoldPitchDoesToABaseThatBows) {
 
 TEST(PaperMethod, GivesTheTruthOfASilhouette) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const auto heap = drawn("silhouette", seed, kWidth);
+    const auto heap = drawn("silhouette", seed, kUsualWidth);
     MeasureOptions options;
     options.method = Method::paper;
     const ReposeAngle result = measure_repose_angle(heap.picture, options);

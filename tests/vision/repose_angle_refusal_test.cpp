@@ -63,14 +63,16 @@ TEST(Refusal, StripsAreReadWithoutHarm) {
   expect_refused(noise, "noisy strip");
 }
 
-struct Scene {
+struct UnfitScene {
   const char* condition;
   const char* says;  ///< part of the reason
 };
 
-std::ostream& operator<<(std::ostream& out, const Scene& scene) { return out << scene.condition; }
+std::ostream& operator<<(std::ostream& out, const UnfitScene& scene) {
+  return out << scene.condition;
+}
 
-class NotMeasurable : public ::testing::TestWithParam<Scene> {};
+class NotMeasurable : public ::testing::TestWithParam<UnfitScene> {};
 
 TEST_P(NotMeasurable, IsRefusedAndTheTroubleNamed) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -81,13 +83,14 @@ TEST_P(NotMeasurable, IsRefusedAndTheTroubleNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, NotMeasurable,
-                         ::testing::Values(Scene{"empty_plate", "no heap"},
-                                           Scene{"column", "upright"}, Scene{"ball", "heap"},
-                                           Scene{"oblique", "curved base"},
-                                           Scene{"wall_to_wall", "no heap"}),
+                         ::testing::Values(UnfitScene{"empty_plate", "no heap"},
+                                           UnfitScene{"column", "upright"},
+                                           UnfitScene{"ball", "heap"},
+                                           UnfitScene{"oblique", "curved base"},
+                                           UnfitScene{"wall_to_wall", "no heap"}),
                          [](const auto& p) { return std::string(p.param.condition); });
 
-bool warns_of(const ReposeAngle& result, const std::string& code) {
+bool angle_warns(const ReposeAngle& result, const std::string& code) {
   return std::any_of(result.warnings.begin(), result.warnings.end(),
                      [&](const Warning& warning) { return warning.code == code; });
 }
@@ -108,7 +111,7 @@ TEST(OneFlank, AHalfHeapHasTheOtherSideAbsent) {
     EXPECT_THAT(missing.reason, Not(::testing::IsEmpty()));
     EXPECT_EQ(result.angle_rad, seen.angle_rad);
     EXPECT_EQ(result.uncertainty_rad, seen.uncertainty_rad);
-    EXPECT_TRUE(warns_of(result, "one_flank"));
+    EXPECT_TRUE(angle_warns(result, "one_flank"));
   }
 }
 
@@ -120,7 +123,7 @@ TEST(OneFlank, AFlankOutOfTheFrameIsTruncated) {
     EXPECT_EQ(missing.status, FlankStatus::truncated);
     EXPECT_FALSE(missing.angle_rad);
     EXPECT_EQ(result.angle_rad, seen.angle_rad);
-    EXPECT_TRUE(warns_of(result, "flank_truncated"));
+    EXPECT_TRUE(angle_warns(result, "flank_truncated"));
   }
 }
 

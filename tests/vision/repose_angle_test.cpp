@@ -13,12 +13,6 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kWidth = 800;
-
-double deg(std::optional<double> angle_rad) { return angle_rad.value_or(NAN) / kDegree; }
-
-ReposeAngle measured(const cv::Mat& bgr) { return measure_repose_angle(picture_of(bgr)); }
-
 struct Promise {
   const char* condition;
   double tolerance_deg;  ///< of the mean angle
@@ -32,7 +26,7 @@ class Truth : public ::testing::TestWithParam<Promise> {};
 
 TEST_P(Truth, IsMetWithinToleranceAndInterval) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-    const auto heap = drawn(GetParam().condition, seed, kWidth);
+    const auto heap = drawn(GetParam().condition, seed, kUsualWidth);
     const ReposeAngle result = measure_repose_angle(heap.picture);
     ASSERT_TRUE(result.angle_rad && result.uncertainty_rad) << seed << ": " << result.reason;
     const double error_deg = deg(result.angle_rad) - deg(heap.mean_rad());
@@ -81,7 +75,7 @@ std::ostream& operator<<(std::ostream& out, const Subject& subject) {
 /// The ground as far as it enters the sides.
 TEST(ReposeAngle, SidesAreRightWhereASegmentationBleedsIntoThePlate) {
   for (const std::uint64_t seed : {3, 4}) {
-    const auto heap = drawn("asymmetric", seed, kWidth);
+    const auto heap = drawn("asymmetric", seed, kUsualWidth);
     const ReposeAngle result = measure_repose_angle(heap.picture);
     EXPECT_NEAR(deg(result.ground_tilt_rad), heap.ground_tilt_rad / kDegree, 0.15) << seed;
     EXPECT_NEAR(deg(result.left.angle_rad), deg(heap.left_rad), kSame_deg) << seed;
@@ -91,7 +85,7 @@ TEST(ReposeAngle, SidesAreRightWhereASegmentationBleedsIntoThePlate) {
 
 class Invariance : public ::testing::TestWithParam<Subject> {
  protected:
-  const testing::DrawnHeap heap_ = drawn(GetParam().condition, GetParam().seed, kWidth);
+  const testing::DrawnHeap heap_ = drawn(GetParam().condition, GetParam().seed, kUsualWidth);
   const cv::Mat picture_ = mat_of(heap_.picture);
   const ReposeAngle plain_ = measure_repose_angle(heap_.picture);
 };
@@ -99,7 +93,7 @@ class Invariance : public ::testing::TestWithParam<Subject> {
 TEST_P(Invariance, MirroredPictureHasItsSidesSwapped) {
   cv::Mat mirrored;
   cv::flip(picture_, mirrored, 1);
-  ReposeAngle result = measured(mirrored);
+  ReposeAngle result = measured_in(mirrored);
   std::swap(result.left, result.right);
   expect_same(result, plain_);
   EXPECT_NEAR(deg(result.ground_tilt_rad), -deg(plain_.ground_tilt_rad), 0.1);
@@ -109,7 +103,7 @@ TEST_P(Invariance, SizeDoesNotMatter) {
   for (const double scale : {0.5, 2.0}) {
     cv::Mat sized;
     cv::resize(picture_, sized, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
-    const ReposeAngle result = measured(sized);
+    const ReposeAngle result = measured_in(sized);
     expect_same(result, plain_);
     // A pixel of the half-sized picture; lengths are in the picture's own pixels.
     EXPECT_NEAR(result.height_px.value_or(0), scale * plain_.height_px.value_or(0), 2 * scale + 1);
@@ -123,7 +117,7 @@ TEST_P(Invariance, RolledCameraTiltsTheGroundAlone) {
     cv::Mat rolled;
     cv::warpAffine(picture_, rolled, cv::getRotationMatrix2D(middle, -roll_deg, 1), picture_.size(),
                    cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-    const ReposeAngle result = measured(rolled);
+    const ReposeAngle result = measured_in(rolled);
     expect_same(result, plain_);
     EXPECT_NEAR(deg(result.ground_tilt_rad), deg(plain_.ground_tilt_rad) + roll_deg, 0.2);
   }
@@ -132,7 +126,7 @@ TEST_P(Invariance, RolledCameraTiltsTheGroundAlone) {
 TEST_P(Invariance, ColourChannelsMayBePermuted) {
   cv::Mat permuted(picture_.size(), CV_8UC3);
   cv::mixChannels(picture_, permuted, {0, 2, 1, 0, 2, 1});
-  expect_same(measured(permuted), plain_);
+  expect_same(measured_in(permuted), plain_);
 }
 
 // From the fourth on, a segmentation that sees the flanks sharply bleeds into the plate in the
@@ -194,7 +188,7 @@ TEST(ReposeAngle, TheBaseEndsWithTheHeapAndNotWithThePlate) {
 }
 
 TEST(ReposeAngle, TellsWhatItSaw) {
-  const auto heap = drawn("clean", 2, kWidth);
+  const auto heap = drawn("clean", 2, kUsualWidth);
   const ReposeAngle result = measure_repose_angle(heap.picture);
   EXPECT_EQ(result.status, MeasureStatus::ok);
   EXPECT_GT(result.confidence, 0.55);
@@ -222,8 +216,9 @@ double segment_deg(const Segment& line, double tilt_rad) {
 TEST(ReposeAngle, DrawnLinesHaveTheAnglesThatAreTold) {
   for (const double scale : {0.5, 2.0}) {
     cv::Mat sized;
-    cv::resize(mat_of(drawn("roll", 2, kWidth).picture), sized, {}, scale, scale, cv::INTER_AREA);
-    const ReposeAngle result = measured(sized);
+    cv::resize(mat_of(drawn("roll", 2, kUsualWidth).picture), sized, {}, scale, scale,
+               cv::INTER_AREA);
+    const ReposeAngle result = measured_in(sized);
     for (const Flank* flank : {&result.left, &result.right}) {
       ASSERT_TRUE(flank->line && flank->angle_rad);
       // Columns and rows are shrunk to whole working pixels, by factors that differ by 1 in 800.
@@ -241,7 +236,7 @@ double height_of(const Segment& line, double x) {
 }
 
 TEST(ReposeAngle, EdgeAndLinesLieOnTheFlanks) {
-  const auto heap = drawn("asymmetric", 2, kWidth);
+  const auto heap = drawn("asymmetric", 2, kUsualWidth);
   const ReposeAngle result = measure_repose_angle(heap.picture);
   for (const auto& [flank, truth] :
        {std::pair(&result.left, *heap.left_line), std::pair(&result.right, *heap.right_line)}) {

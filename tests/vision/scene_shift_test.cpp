@@ -8,33 +8,33 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kWidth = 240, kHeight = 160;
+constexpr int kSceneWidth = 240, kSceneHeight = 160;
 
 /// Brightness as a function of the place.
 template <typename Light>
 cv::Mat scene_of(const Light& light) {
-  cv::Mat scene(kHeight, kWidth, CV_8UC3);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) scene.at<cv::Vec3b>(y, x) = light(x, y);
+  cv::Mat scene(kSceneHeight, kSceneWidth, CV_8UC3);
+  for (int y = 0; y < kSceneHeight; ++y) {
+    for (int x = 0; x < kSceneWidth; ++x) scene.at<cv::Vec3b>(y, x) = light(x, y);
   }
   return scene;
 }
 
-cv::Vec3b grey(double level) { return cv::Vec3b::all(cv::saturate_cast<uchar>(level)); }
+cv::Vec3b grey_pixel(double level) { return cv::Vec3b::all(cv::saturate_cast<uchar>(level)); }
 
 /// Soft waves of some tens of pixels, moved.
 cv::Mat waves(double across_px, double down_px) {
   return scene_of([&](int x, int y) {
-    return grey(150 + 20 * std::sin((x - across_px) / 9) + 20 * std::cos((y - down_px) / 11));
+    return grey_pixel(150 + 20 * std::sin((x - across_px) / 9) + 20 * std::cos((y - down_px) / 11));
   });
 }
 
 /// A wall that darkens to its corners, with light that falls on one side of it.
 cv::Mat wall(double light) {
   return scene_of([&](int x, int y) {
-    const double off = std::hypot(x - .5 * kWidth, y - .5 * kHeight) / kWidth;
+    const double off = std::hypot(x - .5 * kSceneWidth, y - .5 * kSceneHeight) / kSceneWidth;
     const double side = std::exp(-.5 * std::pow((x - 60.) / 30, 2));
-    return grey(200 - 12 * off * off + light * side);
+    return grey_pixel(200 - 12 * off * off + light * side);
   });
 }
 
@@ -52,7 +52,7 @@ TEST(SceneShift, IsNoneOfALightThatChangesOnAPlainWall) {
 }
 
 TEST(SceneShift, IsNoneWhereThereIsNothingToHoldOnTo) {
-  const cv::Mat blank = scene_of([](int, int) { return grey(120); });
+  const cv::Mat blank = scene_of([](int, int) { return grey_pixel(120); });
   EXPECT_EQ(SceneShift(blank).of(blank), cv::Point2d(0, 0));
   EXPECT_EQ(SceneShift(blank).of(waves(2, 2)), cv::Point2d(0, 0));
 }

@@ -38,12 +38,6 @@ cv::Mat1b heap_mask(cv::Size size) {
   return mask;
 }
 
-/// Share of the two regions together that is in both.
-double overlap(const cv::Mat1f& inside, const cv::Mat1b& heap) {
-  const cv::Mat1b found = inside > 0;
-  return static_cast<double>(cv::countNonZero(found & heap)) / cv::countNonZero(found | heap);
-}
-
 TEST(OtsuThreshold, LiesBetweenTwoPopulations) {
   const cv::Mat1f values = two_populations(30, 70, 4);
   const double threshold = otsu_threshold(values, everywhere(values));
@@ -87,7 +81,8 @@ TEST(GreyOtsu, FindsDarkHeapsAndLightOnes) {
   }
 }
 
-const Segmentation& named(const std::vector<Segmentation>& all, const std::string& name) {
+const Segmentation& segmentation_named(const std::vector<Segmentation>& all,
+                                       const std::string& name) {
   return *std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
 }
 
@@ -104,8 +99,8 @@ TEST(BlindSegmentations, BackdropModelFollowsAGradient) {
     }
   }
   const auto all = blind_segmentations(work_of(picture));
-  EXPECT_LT(overlap(named(all, "otsu lightness").inside, mask), 0.8);
-  EXPECT_GT(overlap(named(all, "backdrop model").inside, mask), 0.97);
+  EXPECT_LT(overlap(segmentation_named(all, "otsu lightness").inside, mask), 0.8);
+  EXPECT_GT(overlap(segmentation_named(all, "backdrop model").inside, mask), 0.97);
 }
 
 TEST(BlindSegmentations, ColourTellsHeapsAsBrightAsTheirBackdrop) {
@@ -113,7 +108,7 @@ TEST(BlindSegmentations, ColourTellsHeapsAsBrightAsTheirBackdrop) {
   cv::Mat3b picture(mask.size(), cv::Vec3b(150, 130, 130));
   picture.setTo(cv::Scalar(70, 135, 165), mask);
   const auto all = blind_segmentations(work_of(picture));
-  EXPECT_GT(overlap(named(all, "otsu yellow-blue").inside, mask), 0.97);
+  EXPECT_GT(overlap(segmentation_named(all, "otsu yellow-blue").inside, mask), 0.97);
 }
 
 TEST(BlindSegmentations, CoverThePictureUnderDifferentNames) {
@@ -150,7 +145,8 @@ TEST(Roughness, IsTheLocalDeviation) {
 }
 
 /// Largest difference where the evidence counts.
-double difference(const cv::Mat1f& one, const cv::Mat1f& other, const cv::Mat1b& valid_mask) {
+double largest_difference(const cv::Mat1f& one, const cv::Mat1f& other,
+                          const cv::Mat1b& valid_mask) {
   return cv::norm(one, other, cv::NORM_INF, valid_mask);
 }
 
@@ -159,8 +155,11 @@ TEST(Smoothed, KeepsALevelPictureLevelUpToAnExcludedBox) {
   cv::Mat1b valid_mask = everywhere(values);
   valid_mask(cv::Rect(20, 10, 30, 30)) = 0;
   values(cv::Rect(20, 10, 30, 30)) = 500;
-  EXPECT_LT(difference(smoothed(values, valid_mask, 3), cv::Mat1f(60, 80, 7.F), valid_mask), 1e-3);
-  EXPECT_LT(difference(roughness(values, valid_mask, 3), cv::Mat1f(60, 80, 0.F), valid_mask), 1e-1);
+  EXPECT_LT(largest_difference(smoothed(values, valid_mask, 3), cv::Mat1f(60, 80, 7.F), valid_mask),
+            1e-3);
+  EXPECT_LT(
+      largest_difference(roughness(values, valid_mask, 3), cv::Mat1f(60, 80, 0.F), valid_mask),
+      1e-1);
   EXPECT_TRUE(cv::checkRange(smoothed(values, cv::Mat1b::zeros(values.size()), 3)));
 }
 
@@ -180,7 +179,7 @@ TEST(BlindSegmentations, ExcludedPixelsDoNotShineInFromABox) {
   }
   for (std::size_t i = 0; i < found[0].size(); ++i) {
     // L*a*b* from 0 to 100; the box differs by 100.
-    EXPECT_LT(difference(found[0][i].inside, found[1][i].inside, valid_mask), 0.01)
+    EXPECT_LT(largest_difference(found[0][i].inside, found[1][i].inside, valid_mask), 0.01)
         << found[0][i].name;
   }
 }

@@ -12,7 +12,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 
 /// Dark where a pixel's place says so.
-Picture drawn(int width, int height, const std::function<bool(int column, int row)>& is_dark) {
+Picture dark_where(int width, int height, const std::function<bool(int column, int row)>& is_dark) {
   Picture picture{.width = width, .height = height, .bgr = {}};
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
@@ -23,7 +23,7 @@ Picture drawn(int width, int height, const std::function<bool(int column, int ro
 }
 
 TEST(SilhouetteEdge, IsTheUpperSideOfTheHighestDarkPixels) {
-  const Picture stairs = drawn(4, 10, [](int column, int row) { return row >= 5 + column; });
+  const Picture stairs = dark_where(4, 10, [](int column, int row) { return row >= 5 + column; });
   const Outline edge = silhouette_edge(stairs, {0, 0, 4, 10}, 9);
   EXPECT_THAT(edge.along, ElementsAre(.5, 1.5, 2.5, 3.5));
   EXPECT_THAT(edge.height, ElementsAre(4, 3, 2, 1));
@@ -31,12 +31,12 @@ TEST(SilhouetteEdge, IsTheUpperSideOfTheHighestDarkPixels) {
 
 TEST(SilhouetteEdge, HolesBelowItDoNotShow) {
   const Picture holed =
-      drawn(3, 10, [](int column, int row) { return row >= 4 && !(column == 1 && row == 6); });
+      dark_where(3, 10, [](int column, int row) { return row >= 4 && !(column == 1 && row == 6); });
   EXPECT_THAT(silhouette_edge(holed, {0, 0, 3, 10}, 10).height, Each(6));
 }
 
 TEST(SilhouetteEdge, WhatAGapPartsFromTheHighestPlaceIsLeftOut) {
-  const Picture parted = drawn(7, 10, [](int column, int row) {
+  const Picture parted = dark_where(7, 10, [](int column, int row) {
     return column != 1 && column != 5 && row >= (column == 3 ? 4 : 6);
   });
   const Outline edge = silhouette_edge(parted, {0, 0, 7, 10}, 10);
@@ -45,17 +45,17 @@ TEST(SilhouetteEdge, WhatAGapPartsFromTheHighestPlaceIsLeftOut) {
 }
 
 TEST(SilhouetteEdge, OnlyThePartAboveTheGroundIsSeen) {
-  const Picture dark = drawn(6, 10, [](int, int) { return true; });
+  const Picture dark = dark_where(6, 10, [](int, int) { return true; });
   const Outline edge = silhouette_edge(dark, {2, 3, 2, 7}, 7.5);
   EXPECT_THAT(edge.along, ElementsAre(2.5, 3.5));
   EXPECT_THAT(edge.height, ElementsAre(4.5, 4.5));
   EXPECT_TRUE(silhouette_edge(dark, {2, 8, 2, 2}, 7.5).along.empty());
-  const Picture blank = drawn(6, 10, [](int, int) { return false; });
+  const Picture blank = dark_where(6, 10, [](int, int) { return false; });
   EXPECT_TRUE(silhouette_edge(blank, {0, 0, 6, 10}, 10).along.empty());
 }
 
 TEST(SilhouetteEdge, APartOutsideThePictureIsRefused) {
-  const Picture picture = drawn(6, 10, [](int, int) { return true; });
+  const Picture picture = dark_where(6, 10, [](int, int) { return true; });
   for (const Box part : {Box{-1, 0, 2, 2}, Box{0, 0, 7, 2}, Box{0, 9, 2, 2}, Box{0, 0, 0, 2}}) {
     EXPECT_THROW(silhouette_edge(picture, part, 5), std::invalid_argument) << part.x;
   }

@@ -1,10 +1,10 @@
 #include "vision/camera/sized_heap.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gmock/gmock.h>
 
+#include "base/units.h"
 #include "render/film/film.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/heap_random.h"
@@ -20,8 +20,6 @@ using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A cone of fine grains on a plain plate, seen by a camera with a lens: each pixel is a ray.
 struct Stage {

@@ -15,18 +15,6 @@
 namespace repose::vision {
 namespace {
 
-cv::Mat1b mask_of(const testing::DrawnHeap& heap) {
-  std::vector<cv::Point> corners = {
-      {static_cast<int>(heap.ground.to.x), static_cast<int>(heap.ground.to.y)},
-      {static_cast<int>(heap.ground.from.x), static_cast<int>(heap.ground.from.y)}};
-  for (const Point& p : heap.outline) {
-    corners.emplace_back(static_cast<int>(p.x), static_cast<int>(p.y));
-  }
-  cv::Mat1b mask = cv::Mat1b::zeros(heap.picture.height, heap.picture.width);
-  cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{corners}, 255);
-  return mask;
-}
-
 /// The heap before boards of many colours, one of them the heap's own, all out of focus.
 Picture before_many_colours(const testing::DrawnHeap& heap) {
   const cv::Mat3b own = mat_of(heap.picture);
@@ -123,7 +111,7 @@ TEST(HeapTemplate, ABowedFlankIsFartherInAtHalfHeight) {
   EXPECT_LT(flank.part(0), 0);
 }
 
-Reading triangle(double slope) {
+Reading triangle_reading(double slope) {
   Reading reading;
   for (int i = 0; i <= 200; ++i) {
     reading.profile.along.push_back(i);
@@ -140,8 +128,8 @@ Reading triangle(double slope) {
 }
 
 TEST(EdgeDistance, IsAPartOfTheHeight) {
-  EXPECT_NEAR(edge_distance(triangle(1), triangle(1)), 0, 1e-9);
-  EXPECT_NEAR(edge_distance(triangle(1), triangle(0.8)), 0.106, 0.005);
+  EXPECT_NEAR(edge_distance(triangle_reading(1), triangle_reading(1)), 0, 1e-9);
+  EXPECT_NEAR(edge_distance(triangle_reading(1), triangle_reading(0.8)), 0.106, 0.005);
 }
 
 }  // namespace

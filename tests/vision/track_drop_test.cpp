@@ -9,6 +9,7 @@
 #include "tests/support/drawn_drop.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/vision/warnings.h"
 #include "vision/drawing/drop_overlay.h"
 #include "vision/track/drop_track.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 using repose::testing::DrawnDrop;
 using repose::testing::TemporaryFolder;
-using ::testing::Contains;
-using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -52,10 +51,6 @@ TrackOptions scaled_options(const DrawnDrop& drop) {
   return {.scale = ScaleBar{.line = {{20, 30}, {20, 130}}, .length_mm = 100 * drop.mm_per_px}};
 }
 
-::testing::Matcher<std::vector<Warning>> warns_of(const char* code) {
-  return Contains(Field(&Warning::code, code));
-}
-
 TEST(TrackDrop, FindsRestitutionAndHeightsWithoutAScale) {
   const DrawnDrop drop = small_drop();
   const DropTrack track = tracked(drop);
@@ -83,7 +78,7 @@ TEST(TrackDrop, TellsAFilmThatPlaysSlowerThanItWasTaken) {
   const DrawnDrop drop = small_drop();
   const DropTrack track = tracked(drop, scaled_options(drop), 15);
   EXPECT_EQ(track.status, MeasureStatus::flagged);
-  ASSERT_THAT(track.warnings, warns_of("frame_rate"));
+  ASSERT_THAT(track.warnings, has_warning("frame_rate"));
   EXPECT_THAT(track.warnings[0].message, HasSubstr("times slower"));
   ASSERT_FALSE(track.bounces.empty());
   EXPECT_NEAR(track.bounces[0].restitution.value, .6,
@@ -99,7 +94,7 @@ TEST(TrackDrop, FollowsTheGrainWhereAHandAndALeaningCameraAreInTheWay) {
   ASSERT_FALSE(track.bounces.empty()) << track.reason;
   EXPECT_NEAR(track.bounces[0].restitution.value, .6, .015);
   EXPECT_NEAR(std::abs(track.lean_rad), .05, .004);
-  EXPECT_THAT(track.warnings, warns_of("leaning"));
+  EXPECT_THAT(track.warnings, has_warning("leaning"));
 }
 
 TEST(TrackDrop, DrawsTheStrobePictureWithItsCaption) {
@@ -155,7 +150,7 @@ TEST(TrackDrop, HeightsAreByGravityWhereNoBoardIsSeenAndThatIsFlagged) {
   const DropTrack track = tracked_beside_board(small_drop());
   ASSERT_FALSE(track.bounces.empty()) << track.reason;
   EXPECT_EQ(track.status, MeasureStatus::flagged);
-  EXPECT_THAT(track.warnings, warns_of("no_board"));
+  EXPECT_THAT(track.warnings, has_warning("no_board"));
   EXPECT_FALSE(track.has_scale);
   EXPECT_NEAR(track.bounces[0].drop_mm.value, 250, track.bounces[0].drop_mm.uncertainty);
 }
@@ -288,7 +283,7 @@ TEST(TrackDrop, AFolderOfItsFramesIsTheSameFilm) {
   ASSERT_FALSE(track.bounces.empty()) << track.reason;
   EXPECT_NEAR(track.bounces.front().restitution.value, drop.restitution, .02);
   EXPECT_EQ(track.film.dropped_frames, 2);
-  EXPECT_THAT(track.warnings, warns_of("dropped_frames"));
+  EXPECT_THAT(track.warnings, has_warning("dropped_frames"));
 }
 
 /// Of each frame every other row is that of a frame that was taken half a frame later.

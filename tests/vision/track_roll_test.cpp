@@ -30,7 +30,7 @@ DrawnRoll small_roll() {
           .roll_s = 1.2};
 }
 
-std::filesystem::path film_of(const TemporaryFolder& folder, const DrawnRoll& roll) {
+std::filesystem::path film_of_roll(const TemporaryFolder& folder, const DrawnRoll& roll) {
   const auto file = folder.path() / "roll.mp4";
   render::Film film(file, roll.frames_per_s);
   for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
@@ -38,17 +38,19 @@ std::filesystem::path film_of(const TemporaryFolder& folder, const DrawnRoll& ro
   return file;
 }
 
-TrackOptions scaled_options(const DrawnRoll& roll) {
+TrackOptions scaled_roll_options(const DrawnRoll& roll) {
   return {.scale = ScaleBar{.line = {{20, 30}, {320, 30}}, .length_mm = 300 * roll.mm_per_px}};
 }
 
-RollTrack tracked(const DrawnRoll& roll, const TrackOptions& options) {
+RollTrack tracked_roll(const DrawnRoll& roll, const TrackOptions& options) {
   const TemporaryFolder folder;
-  return track_roll(film_of(folder, roll), options);
+  return track_roll(film_of_roll(folder, roll), options);
 }
-RollTrack tracked(const DrawnRoll& roll) { return tracked(roll, scaled_options(roll)); }
+RollTrack tracked_roll(const DrawnRoll& roll) {
+  return tracked_roll(roll, scaled_roll_options(roll));
+}
 
-void expect_truth(const RollTrack& track, const DrawnRoll& roll, double within = .01) {
+void expect_rest(const RollTrack& track, const DrawnRoll& roll, double within = .01) {
   ASSERT_TRUE(track.has_reading) << track.reason;
   EXPECT_EQ(track.status, MeasureStatus::ok);
   EXPECT_NEAR(track.stopped_mm.value, roll.stopped_mm, within * roll.stopped_mm);
@@ -60,7 +62,7 @@ void expect_truth(const RollTrack& track, const DrawnRoll& roll, double within =
 }
 
 TEST(TrackRoll, FindsWhereTheGrainRestsByAScale) {
-  expect_truth(tracked(small_roll()), small_roll());
+  expect_rest(tracked_roll(small_roll()), small_roll());
 }
 
 /// A board of 14 px a square above the flat.
@@ -69,7 +71,7 @@ const BoardPlacing kBoard{.square_mm = 14 * small_roll().mm_per_px};
 TEST(TrackRoll, MillimetresComeFromABoard) {
   DrawnRoll roll = small_roll();
   roll.board_square_px = 14;
-  const RollTrack track = tracked(roll, {.board = kBoard});
+  const RollTrack track = tracked_roll(roll, {.board = kBoard});
   ASSERT_TRUE(track.has_reading) << track.reason;
   EXPECT_EQ(track.status, MeasureStatus::ok);
   EXPECT_TRUE(track.has_scale);
@@ -79,7 +81,7 @@ TEST(TrackRoll, MillimetresComeFromABoard) {
 }
 
 TEST(TrackRoll, IsRefusedWhereNoBoardIsSeen) {
-  const RollTrack track = tracked(small_roll(), {.board = kBoard});
+  const RollTrack track = tracked_roll(small_roll(), {.board = kBoard});
   EXPECT_EQ(track.status, MeasureStatus::refused);
   EXPECT_FALSE(track.has_reading);
   EXPECT_THAT(track.reason, HasSubstr("no board was found"));
@@ -87,8 +89,8 @@ TEST(TrackRoll, IsRefusedWhereNoBoardIsSeen) {
 
 TEST(TrackRoll, MillimetresComeFromTheReleaseWhereThereIsNoScale) {
   const DrawnRoll roll = small_roll();
-  const RollTrack track = tracked(roll, {.released_mm = roll.released_mm});
-  expect_truth(track, roll, .02);  // an error in the foot's place counts twice
+  const RollTrack track = tracked_roll(roll, {.released_mm = roll.released_mm});
+  expect_rest(track, roll, .02);  // an error in the foot's place counts twice
   EXPECT_FALSE(track.has_scale);
   EXPECT_NEAR(track.mm_per_px, roll.mm_per_px, .02 * roll.mm_per_px);
 }
@@ -97,37 +99,37 @@ TEST(TrackRoll, FindsItWhereTheGrainRollsToTheLeftAndAHandLetsGoOfIt) {
   DrawnRoll roll = small_roll();
   roll.goes_left = true;
   roll.has_hand = true;
-  expect_truth(tracked(roll), roll);
+  expect_rest(tracked_roll(roll), roll);
 }
 
 TEST(TrackRoll, FollowsAFlatThatLeansInThePicture) {
   DrawnRoll roll = small_roll();
   roll.lean_rad = .05;
-  const RollTrack track = tracked(roll);
-  expect_truth(track, roll);
+  const RollTrack track = tracked_roll(roll);
+  expect_rest(track, roll);
   EXPECT_THAT(track.warnings, Contains(Field(&Warning::code, "leaning")));
 }
 
 TEST(TrackRoll, RefusesAGrainThatStillMovesAtTheEnd) {
   DrawnRoll roll = small_roll();
   roll.seconds = 1.3;
-  EXPECT_THAT(tracked(roll).reason, HasSubstr("still moves when the film ends"));
+  EXPECT_THAT(tracked_roll(roll).reason, HasSubstr("still moves when the film ends"));
 }
 
 TEST(TrackRoll, RefusesAGrainThatLeavesThePictureOrRestsAtItsEdge) {
   DrawnRoll roll = small_roll();
   roll.stopped_mm = 400;
-  const RollTrack left = tracked(roll);
+  const RollTrack left = tracked_roll(roll);
   EXPECT_EQ(left.status, MeasureStatus::refused);
   EXPECT_THAT(left.reason, HasSubstr("edge of the picture"));
   roll.stopped_mm = .64 * roll.width * roll.mm_per_px;  // half of it is outside
-  EXPECT_THAT(tracked(roll).reason, HasSubstr("edge of the picture"));
+  EXPECT_THAT(tracked_roll(roll).reason, HasSubstr("edge of the picture"));
 }
 
 TEST(TrackRoll, RefusesAPathWithoutAFoot) {
   DrawnRoll roll = small_roll();
   roll.has_incline = false;
-  const RollTrack track = tracked(roll);
+  const RollTrack track = tracked_roll(roll);
   EXPECT_THAT(track.reason, HasSubstr("there is no foot"));
   EXPECT_FALSE(track.has_reading);
 }
@@ -135,30 +137,30 @@ TEST(TrackRoll, RefusesAPathWithoutAFoot) {
 TEST(TrackRoll, LeavesOutAHopAtTheFoot) {
   DrawnRoll roll = small_roll();
   roll.hop_px = 4;
-  const RollTrack track = tracked(roll);
-  expect_truth(track, roll);
+  const RollTrack track = tracked_roll(roll);
+  expect_rest(track, roll);
   EXPECT_THAT(track.warnings, Contains(Field(&Warning::code, "hops")));
 }
 
 TEST(TrackRoll, RefusesSeveralGrains) {
   DrawnRoll roll = small_roll();
   roll.grains = 2;
-  EXPECT_THAT(tracked(roll).reason, HasSubstr("several things move"));
+  EXPECT_THAT(tracked_roll(roll).reason, HasSubstr("several things move"));
 }
 
 TEST(TrackRoll, WithoutAScaleTheReleaseMustBeSeen) {
   DrawnRoll roll = small_roll();
   roll.release_s = -.3;
-  EXPECT_THAT(tracked(roll, {.released_mm = roll.released_mm}).reason,
+  EXPECT_THAT(tracked_roll(roll, {.released_mm = roll.released_mm}).reason,
               HasSubstr("not seen where the grain was let go"));
-  EXPECT_TRUE(tracked(roll).has_reading) << "with one it need not";
+  EXPECT_TRUE(tracked_roll(roll).has_reading) << "with one it need not";
 }
 
 TEST(TrackRoll, IsDrawn) {
   const DrawnRoll roll = small_roll();
-  TrackOptions options = scaled_options(roll);
+  TrackOptions options = scaled_roll_options(roll);
   options.draws_strobe = true;
-  const RollTrack track = tracked(roll, options);
+  const RollTrack track = tracked_roll(roll, options);
   EXPECT_GT(draw_roll_overlay(track, "roll.mp4").height, roll.height);
 }
 

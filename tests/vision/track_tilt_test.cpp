@@ -6,6 +6,7 @@
 #include "render/film/film.h"
 #include "tests/support/drawn_tilt.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/vision/warnings.h"
 #include "vision/drawing/tilt_overlay.h"
 #include "vision/track/tilt_track.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using repose::testing::DrawnTilt;
 using repose::testing::TemporaryFolder;
-using ::testing::Contains;
-using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -34,7 +33,7 @@ DrawnTilt small_tilt() {
           .thickness_px = 6};
 }
 
-TiltTrack tracked(const DrawnTilt& tilt, const TrackOptions& options = {}) {
+TiltTrack tracked_tilt(const DrawnTilt& tilt, const TrackOptions& options = {}) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "tilt.mp4";
   render::Film film(file, tilt.frames_per_s);
@@ -44,7 +43,7 @@ TiltTrack tracked(const DrawnTilt& tilt, const TrackOptions& options = {}) {
 }
 
 /// At 30 frames per second such a plate turns by .2 degrees from frame to frame.
-void expect_truth(const TiltTrack& track, const DrawnTilt& tilt) {
+void expect_slide(const TiltTrack& track, const DrawnTilt& tilt) {
   ASSERT_TRUE(track.has_reading) << track.reason;
   EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, .3);
   EXPECT_NEAR(track.rate_deg_s.value, tilt.rate_deg_s, .02 * tilt.rate_deg_s);
@@ -53,11 +52,9 @@ void expect_truth(const TiltTrack& track, const DrawnTilt& tilt) {
   EXPECT_LT(track.angle_deg.uncertainty, 1);
 }
 
-auto has_warning(const char* code) { return Contains(Field(&Warning::code, code)); }
-
 TEST(TrackTilt, FindsAndDrawsTheAngleAtWhichBondedGrainsSlide) {
-  const TiltTrack track = tracked(small_tilt(), {.draws_strobe = true});
-  expect_truth(track, small_tilt());
+  const TiltTrack track = tracked_tilt(small_tilt(), {.draws_strobe = true});
+  expect_slide(track, small_tilt());
   EXPECT_THAT(track.warnings, Not(has_warning("level_hidden")));
   EXPECT_EQ(track.status, MeasureStatus::ok);
   EXPECT_THAT(track.warnings, IsEmpty());
@@ -71,14 +68,14 @@ TEST(TrackTilt, FindsItWhereTheHingeIsOutOfThePictureOnTheOtherSide) {
   tilt.goes_left = true;
   tilt.has_texture = true;
   tilt.lean_rad = .015;
-  expect_truth(tracked(tilt), tilt);
+  expect_slide(tracked_tilt(tilt), tilt);
 }
 
 TEST(TrackTilt, TellsWhatARoundGrainCannotShow) {
   DrawnTilt tilt = small_tilt();
   tilt.bonded = 1;
-  const TiltTrack track = tracked(tilt);
-  expect_truth(track, tilt);
+  const TiltTrack track = tracked_tilt(tilt);
+  expect_slide(track, tilt);
   EXPECT_EQ(track.status, MeasureStatus::flagged);
   EXPECT_THAT(track.warnings, has_warning("may_roll"));
 }
@@ -86,12 +83,12 @@ TEST(TrackTilt, TellsWhatARoundGrainCannotShow) {
 TEST(TrackTilt, RefusesWhatIsSeenToRollOrTip) {
   DrawnTilt tips = small_tilt();
   tips.rolls = 1;
-  EXPECT_THAT(tracked(tips).reason, HasSubstr("rolls or tips at 1"));
+  EXPECT_THAT(tracked_tilt(tips).reason, HasSubstr("rolls or tips at 1"));
   DrawnTilt rolls = tips;
   rolls.bonded = 1;
   rolls.radius_px = 10;
   rolls.has_spot = true;
-  const TiltTrack track = tracked(rolls);
+  const TiltTrack track = tracked_tilt(rolls);
   EXPECT_THAT(track.reason, HasSubstr("Fix: bond three grains"));
   EXPECT_FALSE(track.has_reading);
 }
@@ -100,50 +97,50 @@ TEST(TrackTilt, RefusesAPlateAtRestAndOneThatHardlyTurns) {
   DrawnTilt tilt = small_tilt();
   tilt.rest_s = 1;
   tilt.after_s = -2.1;
-  EXPECT_THAT(tracked(tilt).reason, HasSubstr("no plate is seen to turn"));
+  EXPECT_THAT(tracked_tilt(tilt).reason, HasSubstr("no plate is seen to turn"));
   tilt.after_s = -1.35;
-  EXPECT_THAT(tracked(tilt).reason, HasSubstr("degrees only"));
+  EXPECT_THAT(tracked_tilt(tilt).reason, HasSubstr("degrees only"));
 }
 
 TEST(TrackTilt, RefusesAFilmThatEndsBeforeTheSlideOrHasNoGrain) {
   DrawnTilt tilt = small_tilt();
   tilt.after_s = -.2;
-  const TiltTrack track = tracked(tilt);
+  const TiltTrack track = tracked_tilt(tilt);
   EXPECT_THAT(track.reason, HasSubstr("no grain slides before the film ends"));
   EXPECT_THAT(track.plate, Not(IsEmpty())) << "it is still told how the plate turned";
   tilt.grains = 0;
-  EXPECT_THAT(tracked(tilt).reason, HasSubstr("no grain is seen on the plate"));
+  EXPECT_THAT(tracked_tilt(tilt).reason, HasSubstr("no grain is seen on the plate"));
 }
 
 TEST(TrackTilt, RefusesAGrainAtTheEndOfThePlateThatIsSeen) {
   DrawnTilt tilt = small_tilt();
   tilt.plate_to = 1.2;
   tilt.grain_part = .98;
-  EXPECT_THAT(tracked(tilt).reason, HasSubstr("lies at the end of what is seen"));
+  EXPECT_THAT(tracked_tilt(tilt).reason, HasSubstr("lies at the end of what is seen"));
 }
 
 TEST(TrackTilt, RefusesGrainsThatSlideApart) {
   DrawnTilt tilt = small_tilt();
   tilt.grains = 2;
   tilt.grain_part = .6;
-  EXPECT_THAT(tracked(tilt).reason, HasSubstr("several things slide"));
+  EXPECT_THAT(tracked_tilt(tilt).reason, HasSubstr("several things slide"));
 }
 
 TEST(TrackTilt, RefusesACameraThatMovesAndAFilmOfAFewFrames) {
   DrawnTilt tilt = small_tilt();
   tilt.height = 300;
   tilt.shakes_px = 20;
-  EXPECT_THAT(tracked(tilt).reason, HasSubstr("the camera moves"));
+  EXPECT_THAT(tracked_tilt(tilt).reason, HasSubstr("the camera moves"));
   DrawnTilt few = small_tilt();
   few.after_s = .2 - few.onset_s();
-  EXPECT_THAT(tracked(few).reason, HasSubstr("frames. Rule: 8 or more"));
+  EXPECT_THAT(tracked_tilt(few).reason, HasSubstr("frames. Rule: 8 or more"));
 }
 
 TEST(TrackTilt, FlagsCreepAndAPlateThatWasNotAtRest) {
   DrawnTilt tilt = small_tilt();
   tilt.rest_s = 0;
   tilt.creeps_px = 3;
-  const TiltTrack track = tracked(tilt);
+  const TiltTrack track = tracked_tilt(tilt);
   EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, .7);
   EXPECT_EQ(track.status, MeasureStatus::flagged);
   EXPECT_THAT(track.warnings, has_warning("no_rest"));
@@ -167,7 +164,7 @@ TEST(TrackTilt, FlagsATableWhoseEdgeLiesBehindTheLevelPlate) {
                        .edge_row = .8774,
                        .goes_left = true,
                        .lean_rad = .0131};
-  const TiltTrack track = tracked(tilt);
+  const TiltTrack track = tracked_tilt(tilt);
   ASSERT_TRUE(track.has_reading) << track.reason;
   EXPECT_THAT(track.warnings, has_warning("level_hidden"));
   EXPECT_EQ(track.status, MeasureStatus::flagged);
@@ -178,7 +175,7 @@ TEST(TrackTilt, WarnsOfAnUnevenRate) {
   DrawnTilt tilt = small_tilt();
   tilt.onset_deg = 12;
   tilt.uneven = .6;
-  EXPECT_THAT(tracked(tilt).warnings, has_warning("uneven_rate"));
+  EXPECT_THAT(tracked_tilt(tilt).warnings, has_warning("uneven_rate"));
 }
 
 }  // namespace

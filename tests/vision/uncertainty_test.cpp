@@ -14,7 +14,7 @@ constexpr double kFloor_rad = 0.06 * kDegree;
 constexpr double kStudent10 = 2.2281;
 constexpr double kStudent20 = 2.0860;
 
-FlankFit flank(double fit_error_rad) {
+FlankFit flank_with_error(double fit_error_rad) {
   FlankFit fit;
   fit.status = FlankStatus::ok;
   fit.fit_error_rad = fit_error_rad;
@@ -22,27 +22,27 @@ FlankFit flank(double fit_error_rad) {
   return fit;
 }
 
-Choice choice_of(double left_error_rad, double right_error_rad) {
+Choice choice_with_errors(double left_error_rad, double right_error_rad) {
   Choice choice;
-  choice.best.left = flank(left_error_rad);
-  choice.best.right = flank(right_error_rad);
+  choice.best.left = flank_with_error(left_error_rad);
+  choice.best.right = flank_with_error(right_error_rad);
   return choice;
 }
 
 TEST(Uncertainty, IsNeverBelowTheFloor) {
-  const Uncertainty u = uncertainty_of(choice_of(0, 0));
+  const Uncertainty u = uncertainty_of(choice_with_errors(0, 0));
   EXPECT_DOUBLE_EQ(u.left_rad, kFloor_rad);
   EXPECT_DOUBLE_EQ(u.mean_rad, kFloor_rad);
 }
 
 TEST(Uncertainty, GrainsCountByStudentsFactor) {
-  const Uncertainty u = uncertainty_of(choice_of(0.01, 0.02));
+  const Uncertainty u = uncertainty_of(choice_with_errors(0.01, 0.02));
   EXPECT_NEAR(u.left_rad, std::hypot(kStudent10 * 0.01, kFloor_rad), 1e-6);  // table's digits
   EXPECT_NEAR(u.right_rad, std::hypot(kStudent10 * 0.02, kFloor_rad), 1e-6);
 }
 
 TEST(Uncertainty, AnEdgeThatIsRoughlyKnownTurnsTheLine) {
-  Choice choice = choice_of(0.01, 0.01);
+  Choice choice = choice_with_errors(0.01, 0.01);
   for (FlankFit* fit : {&choice.best.left, &choice.best.right}) {
     fit->along = {0, 40};
     fit->robust.slope = -0.75;  // 50 px long
@@ -56,12 +56,12 @@ TEST(Uncertainty, AnEdgeThatIsRoughlyKnownTurnsTheLine) {
 }
 
 TEST(Uncertainty, MeanOfTwoFlanksHasBothTheirPoints) {
-  const Uncertainty u = uncertainty_of(choice_of(0.01, 0.01));
+  const Uncertainty u = uncertainty_of(choice_with_errors(0.01, 0.01));
   EXPECT_NEAR(u.mean_rad, std::hypot(kStudent20 * 0.01 / std::sqrt(2), kFloor_rad), 1e-6);
 }
 
 TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
-  Choice choice = choice_of(0.01, 0.01);
+  Choice choice = choice_with_errors(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
   choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty after = uncertainty_of(choice);
@@ -71,7 +71,7 @@ TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
 }
 
 TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
-  Choice choice = choice_of(0.01, 0.01);
+  Choice choice = choice_with_errors(0.01, 0.01);
   choice.best.right.status = FlankStatus::truncated;
   choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty u = uncertainty_of(choice);
@@ -81,7 +81,7 @@ TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
 }
 
 TEST(Uncertainty, GrowsWhereSegmentationsDisagree) {
-  Choice choice = choice_of(0.01, 0.01);
+  Choice choice = choice_with_errors(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
   choice.disagreement_rad = 0.03;
   choice.left_disagreement_rad = 0.05;
@@ -92,7 +92,7 @@ TEST(Uncertainty, GrowsWhereSegmentationsDisagree) {
 }
 
 TEST(Uncertainty, WindowCountsBeyondWhatTheGrainsExplain) {
-  Choice choice = choice_of(0.01, 0.01);
+  Choice choice = choice_with_errors(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
   choice.best.left.window_spread_rad = 0.02;  // two standard errors: chance
   EXPECT_EQ(uncertainty_of(choice).left_rad, before.left_rad);
@@ -102,14 +102,14 @@ TEST(Uncertainty, WindowCountsBeyondWhatTheGrainsExplain) {
 }
 
 TEST(Uncertainty, TheWindowsPartDoesNotAverageOut) {
-  Choice choice = choice_of(0, 0);
+  Choice choice = choice_with_errors(0, 0);
   choice.best.left.window_spread_rad = choice.best.right.window_spread_rad = 0.1;
   const Uncertainty u = uncertainty_of(choice);
   EXPECT_NEAR(u.mean_rad, u.left_rad, 1e-12);
 }
 
 TEST(Uncertainty, AnEdgeBehindTheHeapCountsByTheFlanksBend) {
-  Choice choice = choice_of(0.01, 0.01);
+  Choice choice = choice_with_errors(0.01, 0.01);
   choice.best.left.bend_rad = -0.04;
   choice.best.right.bend_rad = 0.02;
   const Uncertainty before = uncertainty_of(choice);

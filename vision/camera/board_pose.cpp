@@ -11,11 +11,10 @@
 #include <ceres/rotation.h>
 #include <opencv2/calib3d.hpp>
 
+#include "base/distributions.h"
+
 namespace repose::vision {
 namespace {
-
-constexpr double kNormal95 = 1.96;
-constexpr int kNumbers = 9;
 
 // Paper is not quite flat and corners that look alike are found alike: no corner is known better.
 constexpr double kLeastDeviation_px = 0.05;
@@ -34,19 +33,20 @@ Prior prior_of(const std::optional<Lens>& lens, int width, int height) {
   constexpr double kLeastFocal = 1e-5, kLeastCentre_px = 1e-3;
   if (lens) {
     const double focal = lens->focal_px.value;
-    return {.log_focal = std::log(focal),
-            .log_focal_sd = std::max(kLeastFocal, lens->focal_px.uncertainty / focal / kNormal95),
-            .centre = {lens->centre_x_px.value, lens->centre_y_px.value},
-            .centre_x_sd = std::max(kLeastCentre_px, lens->centre_x_px.uncertainty / kNormal95),
-            .centre_y_sd = std::max(kLeastCentre_px, lens->centre_y_px.uncertainty / kNormal95)};
+    return {
+        .log_focal = std::log(focal),
+        .log_focal_sd = std::max(kLeastFocal, lens->focal_px.uncertainty / focal / base::kNormal95),
+        .centre = {lens->centre_x_px.value, lens->centre_y_px.value},
+        .centre_x_sd = std::max(kLeastCentre_px, lens->centre_x_px.uncertainty / base::kNormal95),
+        .centre_y_sd = std::max(kLeastCentre_px, lens->centre_y_px.uncertainty / base::kNormal95)};
   }
   constexpr double kFactor = 3, kOffCentre = 0.03;
   const double longest = std::max(width, height);
   return {.log_focal = std::log(longest),
-          .log_focal_sd = std::log(kFactor) / kNormal95,
+          .log_focal_sd = std::log(kFactor) / base::kNormal95,
           .centre = {width / 2.0, height / 2.0},
-          .centre_x_sd = kOffCentre * longest / kNormal95,
-          .centre_y_sd = kOffCentre * longest / kNormal95};
+          .centre_x_sd = kOffCentre * longest / base::kNormal95,
+          .centre_y_sd = kOffCentre * longest / base::kNormal95};
 }
 
 /// Where a corner is seen, as far as the numbers have it elsewhere [standard deviations].
@@ -93,13 +93,13 @@ Minimum minimum_from(const BoardPose::Numbers& start, const std::vector<SeenCorn
   ceres::Problem problem;
   for (const SeenCorner& corner : corners) {
     problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<CornerError, 2, kNumbers>(
+        new ceres::AutoDiffCostFunction<CornerError, 2, BoardPose::kNumbers>(
             new CornerError{board_corner(corner.number), corner.place, deviation_px}),
         nullptr, numbers);
   }
   problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<PriorError, 3, kNumbers>(new PriorError{prior}), nullptr,
-      numbers);
+      new ceres::AutoDiffCostFunction<PriorError, 3, BoardPose::kNumbers>(new PriorError{prior}),
+      nullptr, numbers);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 200;

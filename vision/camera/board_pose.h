@@ -13,10 +13,11 @@ namespace repose::vision {
 /// How a camera sees a board: x right, y down, z along the lens's axis, from the lens; lengths in
 /// squares. On the board x points right, y down, z away from who looks at it.
 struct BoardPose {
+  static constexpr int kNumbers = 9;
   /// Rotation vector of the board, its origin, ln of the focal length [px], and where the axis
   /// meets the picture [px].
-  using Numbers = Eigen::Matrix<double, 9, 1>;
-  using Covariance = Eigen::Matrix<double, 9, 9>;
+  using Numbers = Eigen::Matrix<double, kNumbers, 1>;
+  using Covariance = Eigen::Matrix<double, kNumbers, kNumbers>;
 
   Numbers numbers = Numbers::Zero();
   Covariance covariance = Covariance::Zero();

@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/LU>
 
+#include "base/distributions.h"
+#include "base/units.h"
+
 namespace repose::vision {
 namespace {
-
-constexpr double kNormal95 = 1.96;
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Half-widths of what a person does by eye.
 constexpr double kLean_rad = 1 * kDegree;    // a board stood upright
 constexpr double kPlaced_mm = 10;            // ... where the plane is
 constexpr double kTurned_rad = 3 * kDegree;  // ... and parallel to it
 
-constexpr int kPoseNumbers = 9;
 enum : int { k_x = 3, k_y, k_z };  // of the pose: the board's origin
 
 /// The pose with its origin as x / z, y / z and ln z: where the focal length is not known, its
@@ -47,7 +45,7 @@ BoardPose::Covariance slopes_by_distance(const BoardPose::Numbers& pose) {
   return slopes;
 }
 
-enum : int { k_lean = kPoseNumbers, k_tilt, k_turn, k_behind, k_count };
+enum : int { k_lean = BoardPose::kNumbers, k_tilt, k_turn, k_behind, k_count };
 
 /// How much of the sheet is left out around the board, in squares: what is printed below it is
 /// part of the sheet.
@@ -71,30 +69,30 @@ BoardView::BoardView(const BoardPose& pose, const BoardPlacing& placing)
     : inputs_{.values = Eigen::VectorXd::Zero(k_count),
               .covariance = Eigen::MatrixXd::Zero(k_count, k_count)},
       square_mm_(placing.square_mm) {
-  inputs_.values.head<kPoseNumbers>() = by_distance(pose.numbers);
+  inputs_.values.head<BoardPose::kNumbers>() = by_distance(pose.numbers);
   const BoardPose::Covariance slopes = slopes_by_distance(pose.numbers);
-  inputs_.covariance.topLeftCorner<kPoseNumbers, kPoseNumbers>() =
+  inputs_.covariance.topLeftCorner<BoardPose::kNumbers, BoardPose::kNumbers>() =
       slopes * pose.covariance * slopes.transpose();
   inputs_.values[k_behind] = placing.behind_mm;
-  inputs_.covariance(k_lean, k_lean) = std::pow(kLean_rad / kNormal95, 2);
-  inputs_.covariance(k_tilt, k_tilt) = std::pow(kLean_rad / kNormal95, 2);
-  inputs_.covariance(k_turn, k_turn) = std::pow(kTurned_rad / kNormal95, 2);
-  inputs_.covariance(k_behind, k_behind) = std::pow(kPlaced_mm / kNormal95, 2);
+  inputs_.covariance(k_lean, k_lean) = std::pow(kLean_rad / base::kNormal95, 2);
+  inputs_.covariance(k_tilt, k_tilt) = std::pow(kLean_rad / base::kNormal95, 2);
+  inputs_.covariance(k_turn, k_turn) = std::pow(kTurned_rad / base::kNormal95, 2);
+  inputs_.covariance(k_behind, k_behind) = std::pow(kPlaced_mm / base::kNormal95, 2);
 }
 
 HeapView BoardView::view(const Eigen::VectorXd& values) const {
-  return view_by_board(pose_of(values.head<kPoseNumbers>()), {.square_mm = square_mm_,
-                                                              .behind_mm = values[k_behind],
-                                                              .lean_rad = values[k_lean],
-                                                              .tilt_rad = values[k_tilt],
-                                                              .turn_rad = values[k_turn]});
+  return view_by_board(pose_of(values.head<BoardPose::kNumbers>()), {.square_mm = square_mm_,
+                                                                     .behind_mm = values[k_behind],
+                                                                     .lean_rad = values[k_lean],
+                                                                     .tilt_rad = values[k_tilt],
+                                                                     .turn_rad = values[k_turn]});
 }
 
 void BoardView::take_pitch(double pitch_rad) {
   constexpr double kTold_rad = 0.25 * kDegree;
   inputs_.values[k_lean] += pitch_rad - view().pitch_rad();
   // The corners' own say of it is in the lean now.
-  inputs_.covariance(k_lean, k_lean) = std::pow(kTold_rad / kNormal95, 2);
+  inputs_.covariance(k_lean, k_lean) = std::pow(kTold_rad / base::kNormal95, 2);
 }
 
 void BoardView::take_square(double within_rad) {
@@ -105,7 +103,7 @@ void BoardView::take_square(double within_rad) {
   };
   const Eigen::MatrixXd covariance = propagated(inputs_, with_aside);
   const Eigen::MatrixXd shared = covariance.topRightCorner<k_count, 2>();
-  const double variance = std::pow(std::sin(within_rad) / kNormal95, 2);
+  const double variance = std::pow(std::sin(within_rad) / base::kNormal95, 2);
   const Eigen::Matrix2d of_difference =
       covariance.bottomRightCorner<2, 2>() + variance * Eigen::Matrix2d::Identity();
   const Eigen::MatrixXd gain = shared * of_difference.inverse();
@@ -118,7 +116,7 @@ Estimate BoardView::estimate(const std::function<double(const HeapView&)>& numbe
       propagated(inputs_, [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
         return Eigen::VectorXd::Constant(1, number(view(values)));
       });
-  return {number(view()), kNormal95 * std::sqrt(covariance(0, 0))};
+  return {number(view()), base::kNormal95 * std::sqrt(covariance(0, 0))};
 }
 
 std::vector<Point> sheet_outline(const BoardPose& pose, const std::vector<SeenCorner>& corners) {

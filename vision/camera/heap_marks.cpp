@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/distributions.h"
+
 namespace repose::vision {
 namespace {
-
-constexpr double kNormal95 = 1.96;
 
 // Where the ground line touches the base, from the axis to the nearest rim, and the half-width of
 // that: a base that bows much is stood on the line through its feet, if no edge is found below.
@@ -111,7 +111,7 @@ Estimate front_part_of(const ReposeAngle& measured, const Marks& marks, double r
   if (!rise || rim_px <= 0) return usual;
   const Estimate seen{
       *rise / rim_px,
-      kNormal95 * std::hypot(working_px, 0.3 * measured.grain_px.value_or(0)) / rim_px};
+      base::kNormal95 * std::hypot(working_px, 0.3 * measured.grain_px.value_or(0)) / rim_px};
   const double of_usual = 1 / (usual.uncertainty * usual.uncertainty);
   const double of_seen = 1 / (seen.uncertainty * seen.uncertainty);
   return {(of_usual * usual.value + of_seen * seen.value) / (of_usual + of_seen),

@@ -14,9 +14,6 @@
 namespace repose::vision {
 namespace {
 
-/// OpenCV's pixel centres are whole numbers.
-constexpr double kPixelCentre = 0.5;
-
 cv::Matx33d matrix_of(const Lens& lens) {
   const double f = lens.focal_px.value;
   return {f, 0, lens.centre_x_px.value - kPixelCentre,

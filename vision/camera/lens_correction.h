@@ -6,6 +6,9 @@
 
 namespace repose::vision {
 
+/// OpenCV's pixel centres are whole numbers.
+inline constexpr double kPixelCentre = 0.5;
+
 /// Takes a lens's distortion out of pictures of its size, one after the other.
 class LensCorrection {
  public:

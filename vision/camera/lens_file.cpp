@@ -27,7 +27,7 @@ struct NamedNumber {
   bool is_needed = false;
 };
 
-constexpr std::array<NamedNumber, 8> kNumbers = {
+constexpr std::array<NamedNumber, 8> kNamedNumbers = {
     NamedNumber{"focal", &Lens::focal_px, "_px", true},
     NamedNumber{"centre_x", &Lens::centre_x_px, "_px", true},
     NamedNumber{"centre_y", &Lens::centre_y_px, "_px", true},
@@ -128,7 +128,7 @@ std::string lens_file_text(const Lens& lens, const std::string& origin) {
       "width_px = {}\nheight_px = {}\n\n"
       "# Focal length, and the place of the lens's axis, from the top left corner.\n",
       origin, lens.width, lens.height);
-  for (const NamedNumber& number : kNumbers) {
+  for (const NamedNumber& number : kNamedNumbers) {
     const auto& [value, uncertainty] = lens.*number.number;
     if (!number.is_needed && value == 0 && uncertainty == 0) continue;
     if (number.number == &Lens::k1) {
@@ -151,7 +151,7 @@ Lens read_lens_file(const fs::path& file) {
   Lens lens;
   const double width = reader.number("width_px", true);
   const double height = reader.number("height_px", true);
-  for (const NamedNumber& number : kNumbers) {
+  for (const NamedNumber& number : kNamedNumbers) {
     LensNumber& read = lens.*number.number;
     read.value = reader.number(key_of(number), number.is_needed);
     read.uncertainty = reader.number(uncertainty_key_of(number), false);

@@ -11,14 +11,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/distributions.h"
+#include "vision/camera/lens_correction.h"
 #include "vision/camera/lens_verdict.h"
 
 namespace repose::vision {
 namespace {
 
-constexpr double kNormal95 = 1.96;
-constexpr double kPixelCentre = 0.5;
-constexpr int kFewestCorners = 12;  // of a picture: a quarter of the board, nearly
+constexpr int kFewestInPicture = 12;  // of a picture: a quarter of the board, nearly
 
 using Points = std::vector<cv::Point2f>;
 using Places = std::vector<cv::Point3f>;
@@ -63,8 +62,8 @@ Seen seen_in(const std::vector<BoardPicture>& pictures, const std::vector<std::s
 }
 
 /// The lens's numbers in the order that OpenCV has them in, but one focal length.
-constexpr std::size_t kNumbers = 8;
-using Numbers = std::array<double, kNumbers>;  // f, cx, cy, k1, k2, p1, p2, k3
+constexpr std::size_t kLensNumbers = 8;
+using Numbers = std::array<double, kLensNumbers>;  // f, cx, cy, k1, k2, p1, p2, k3
 
 struct Model {
   int coefficients = 0;  // of the distortion
@@ -150,11 +149,12 @@ Numbers jackknife(const Seen& seen, int flags) {
   Numbers mean{};
   for (std::size_t i = 0; i < n; ++i) {
     all.push_back(fitted(seen.without(i), flags).values);
-    for (std::size_t k = 0; k < kNumbers; ++k) mean[k] += all.back()[k] / static_cast<double>(n);
+    for (std::size_t k = 0; k < kLensNumbers; ++k)
+      mean[k] += all.back()[k] / static_cast<double>(n);
   }
   Numbers squares{};
   for (const Numbers& values : all) {
-    for (std::size_t k = 0; k < kNumbers; ++k) {
+    for (std::size_t k = 0; k < kLensNumbers; ++k) {
       squares[k] += (values[k] - mean[k]) * (values[k] - mean[k]);
     }
   }
@@ -169,11 +169,12 @@ Lens lens_of(const Fit& fit, const Seen& seen, int flags) {
   const double student =
       base::student_t_quantile(.975, static_cast<double>(seen.in_picture.size() - 1));
   Lens lens{.width = seen.size.width, .height = seen.size.height};
-  const std::array<LensNumber*, kNumbers> numbers = {
+  const std::array<LensNumber*, kLensNumbers> numbers = {
       &lens.focal_px, &lens.centre_x_px, &lens.centre_y_px, &lens.k1,
       &lens.k2,       &lens.p1,          &lens.p2,          &lens.k3};
-  for (std::size_t k = 0; k < kNumbers; ++k) {
-    *numbers[k] = {fit.values[k], std::max(kNormal95 * fit.deviations[k], student * left_out[k])};
+  for (std::size_t k = 0; k < kLensNumbers; ++k) {
+    *numbers[k] = {fit.values[k],
+                   std::max(base::kNormal95 * fit.deviations[k], student * left_out[k])};
   }
   return lens;
 }
@@ -235,7 +236,7 @@ LensFit fit_lens(const std::vector<BoardPicture>& pictures) {
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const int corners = static_cast<int>(pictures[i].corners.size());
-    result.pictures.push_back({.corners = corners, .is_used = corners >= kFewestCorners});
+    result.pictures.push_back({.corners = corners, .is_used = corners >= kFewestInPicture});
     if (result.pictures.back().is_used) used.push_back(i);
   }
   std::vector<std::string> reasons;
@@ -243,7 +244,7 @@ LensFit fit_lens(const std::vector<BoardPicture>& pictures) {
     reasons.push_back(fmt::format(
         "{} of {} pictures show{} at least {} corners of the board. Rule: {} pictures or more. "
         "Fix: take ten, with the whole board sharp and evenly lit, from different sides.",
-        used.size(), pictures.size(), used.size() == 1 ? "s" : "", kFewestCorners,
+        used.size(), pictures.size(), used.size() == 1 ? "s" : "", kFewestInPicture,
         kFewestPictures));
   }
   if (std::string differ = sizes_differ(pictures, used); !differ.empty()) {

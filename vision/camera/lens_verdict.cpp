@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
+
 namespace repose::vision {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr double kLeastTurn_rad = 15 * kDegree;  // between two of the boards
 constexpr double kLeastCoverage = 0.3;           // of the picture's area

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/distributions.h"
+#include "base/units.h"
 #include "vision/camera/board_pose.h"
 #include "vision/camera/board_view.h"
 #include "vision/camera/heap_view.h"
@@ -15,9 +16,6 @@
 
 namespace repose::vision {
 namespace {
-
-constexpr double kNormal95 = 1.96;
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr double kByEye_rad = 2 * kDegree;  // half-width: pitch of a camera taken for level
 
@@ -149,7 +147,7 @@ HeapSizes sizes_by_bar(const ScaleBar& bar, const Lens& lens, const Sizing& sizi
   Eigen::VectorXd half_widths(static_cast<int>(k_count));
   half_widths << scale.uncertainty, told ? 0.25 * kDegree : kByEye_rad, lens.focal_px.uncertainty,
       lens.centre_x_px.uncertainty, lens.centre_y_px.uncertainty;
-  inputs.covariance.diagonal() = (half_widths / kNormal95).cwiseAbs2();
+  inputs.covariance.diagonal() = (half_widths / base::kNormal95).cwiseAbs2();
   const Point middle{(bar.line.from.x + bar.line.to.x) / 2, (bar.line.from.y + bar.line.to.y) / 2};
   const auto view_of = [&](const Eigen::VectorXd& values) {
     Lens here = lens;

@@ -7,14 +7,14 @@
 
 #include <Eigen/Geometry>
 
+#include "base/distributions.h"
+#include "base/units.h"
 #include "vision/camera/heap_marks.h"
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/working_picture.h"
 
 namespace repose::vision {
 namespace {
-
-constexpr double kNormal95 = 1.96;
 
 /// Lengths that follow from one set of inputs; those that do not exist are 0.
 struct Lengths {
@@ -91,7 +91,7 @@ Lengths lengths_by_view(const HeapView& view, const Marks& marks, double front_p
 HeapSizes described(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
                     const Marks& marks) {
   const auto estimate = [&](Eigen::Index i) {
-    return Estimate{values[i], kNormal95 * std::sqrt(covariance(i, i))};
+    return Estimate{values[i], base::kNormal95 * std::sqrt(covariance(i, i))};
   };
   HeapSizes sizes;
   sizes.mm_per_px = estimate(0);
@@ -148,8 +148,6 @@ Lengths lengths_by_scale(const PlainView& view, const Marks& marks, double front
   return lengths;
 }
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// Slope of the sight to the base, and its half-width.
 Estimate rim_slope_of(const ReposeAngle& measured) {
   constexpr double kBowError_rad = 1.5 * kDegree;
@@ -182,12 +180,12 @@ HeapSizes sizes_by_view(const ReposeAngle& measured, const Inputs& inputs,
   const Marks marks = marks_of(measured);
   Inputs all = inputs;
   const MarkInputs of_marks(all, measured, working_px);
-  const Eigen::Index scale = added(all, 1, scale_part / kNormal95);
+  const Eigen::Index scale = added(all, 1, scale_part / base::kNormal95);
   const Lengths on_axis = lengths_by_view(view_of(inputs.values), marks, 0);
   const Lengths at_rim = lengths_by_view(view_of(inputs.values), marks, 1);
   const double rim_px = (on_axis.height - at_rim.height) / on_axis.mm_per_px;
   const Estimate part = front_part_of(measured, marks, rim_px, working_px);
-  const Eigen::Index front = added(all, part.value, part.uncertainty / kNormal95);
+  const Eigen::Index front = added(all, part.value, part.uncertainty / base::kNormal95);
   const auto numbers = [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
     HeapView view = view_of(values);
     view.distance_mm *= values[scale];
@@ -206,13 +204,13 @@ HeapSizes sizes_by_scale(const ReposeAngle& measured, const Estimate& mm_per_px,
   const double most = 1 - std::sqrt(1 - 1 / (kNearestCamera * kNearestCamera));
   Inputs all;
   const MarkInputs of_marks(all, measured, working_px);
-  const Eigen::Index scale = added(all, mm_per_px.value, mm_per_px.uncertainty / kNormal95);
+  const Eigen::Index scale = added(all, mm_per_px.value, mm_per_px.uncertainty / base::kNormal95);
   const Estimate slope = rim_slope_of(measured);
-  const Eigen::Index rim = added(all, slope.value, slope.uncertainty / kNormal95);
-  const Eigen::Index narrowing = added(all, 1 - most / 2, most / 2 / kNormal95);
+  const Eigen::Index rim = added(all, slope.value, slope.uncertainty / base::kNormal95);
+  const Eigen::Index narrowing = added(all, 1 - most / 2, most / 2 / base::kNormal95);
   const double rim_px = lengths_by_scale({.mm_per_px = 1}, marks, 0).base / 2 * slope.value;
   const Estimate part = front_part_of(measured, marks, rim_px, working_px);
-  const Eigen::Index front = added(all, part.value, part.uncertainty / kNormal95);
+  const Eigen::Index front = added(all, part.value, part.uncertainty / base::kNormal95);
   const auto numbers = [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
     const PlainView view{
         .mm_per_px = values[scale], .rim_slope = values[rim], .narrowing = values[narrowing]};

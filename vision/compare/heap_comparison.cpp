@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "vision/compare/angle_difference.h"
 #include "vision/compare/comparison_notes.h"
 #include "vision/compare/hausdorff.h"
@@ -189,7 +189,6 @@ bool is_doubtful(const ReposeAngle* measured) { return measured->status != Measu
 
 std::vector<std::string> CompareOptions::problems() const {
   std::vector<std::string> errors;
-  constexpr double kDegree = std::numbers::pi / 180;
   constexpr double kWidestMargin_rad = 45 * kDegree;
   // Written so that NaN fails.
   if (!(margin_rad > 0 && margin_rad <= kWidestMargin_rad)) {

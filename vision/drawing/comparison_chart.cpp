@@ -12,10 +12,10 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kWidth = 1400;      // px of the chart
-constexpr int kHighest = 1400;    // px; only a tower of a heap would be higher
-constexpr double kMargin = 0.08;  // round the outlines, of their width
-constexpr double kFaded = 0.3;    // of the picture's contrast that is left
+constexpr int kWidth = 1400;             // px of the chart
+constexpr int kHighest = 1400;           // px; only a tower of a heap would be higher
+constexpr double kRoundOutlines = 0.08;  // round the outlines, of their width
+constexpr double kFaded = 0.3;           // of the picture's contrast that is left
 
 /// From places in the comparison's unit to the first picture.
 class Stage {
@@ -72,7 +72,7 @@ cv::Rect2d shown_part(const Stage& stage, const HeapComparison& comparison) {
       include(stage.picture(OutlinePoint{point.along, 0}));
     }
   }
-  const double margin = std::max(1.0, kMargin * (right - left));
+  const double margin = std::max(1.0, kRoundOutlines * (right - left));
   return {left - margin, top - margin, right - left + 2 * margin, bottom - top + 2 * margin};
 }
 
@@ -117,7 +117,7 @@ void draw_ground(const Canvas& canvas, const Stage& stage, const HeapComparison&
     from = std::min(from, outline.front().along);
     to = std::max(to, outline.back().along);
   }
-  const double beyond = kMargin / 2 * (to - from);
+  const double beyond = kRoundOutlines / 2 * (to - from);
   canvas.draw({canvas.at(stage.picture(OutlinePoint{from - beyond, 0})),
                canvas.at(stage.picture(OutlinePoint{to + beyond, 0}))},
               kFaint, 0.4);

@@ -15,7 +15,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kWidth = 1400;
+constexpr int kFigureWidth = 1400;
 
 std::string set_text(const SetOfHeaps& set, const std::string& title) {
   std::string text = fmt::format("{} · {} of {} heaps", title, set.counted, set.angle_rad.size());
@@ -58,9 +58,9 @@ Picture draw_heap_sets(const SetComparison& comparison, const HeapSetsNotes& not
   if (!has_outlines && !has_angles) {
     throw std::invalid_argument("figure: neither set has an outline or an angle");
   }
-  if (has_outlines) parts.push_back(draw_mean_outlines(kWidth, comparison, lettering));
-  if (has_angles) parts.push_back(draw_angle_strip(kWidth, comparison.sets, lettering));
-  parts.push_back(draw_text_rows(kWidth, rows_of(comparison, notes), lettering));
+  if (has_outlines) parts.push_back(draw_mean_outlines(kFigureWidth, comparison, lettering));
+  if (has_angles) parts.push_back(draw_angle_strip(kFigureWidth, comparison.sets, lettering));
+  parts.push_back(draw_text_rows(kFigureWidth, rows_of(comparison, notes), lettering));
   cv::Mat whole;
   cv::vconcat(parts, whole);
   Picture figure = blank_picture(whole.cols, whole.rows);

@@ -12,7 +12,7 @@
 namespace repose::vision {
 namespace {
 
-struct Line {
+struct CaptionLine {
   std::string text;
   int height = 0;
   cv::Scalar colour;
@@ -61,16 +61,16 @@ class Lines {
       lines_.push_back({line, height, colour});
     }
   }
-  const std::vector<Line>& all() const { return lines_; }
+  const std::vector<CaptionLine>& all() const { return lines_; }
 
  private:
   const Lettering& lettering_;
   int width_;
-  std::vector<Line> lines_;
+  std::vector<CaptionLine> lines_;
 };
 
-std::vector<Line> lines_of(const ReposeAngle& measured, const OverlayNotes& notes,
-                           const Lettering& lettering, int width, int height) {
+std::vector<CaptionLine> lines_of(const ReposeAngle& measured, const OverlayNotes& notes,
+                                  const Lettering& lettering, int width, int height) {
   Lines lines(lettering, width);
   lines.add(notes.title, height, kWhite);
   if (measured.status == MeasureStatus::refused) lines.add(measured.reason, height, kWhite);
@@ -101,7 +101,7 @@ cv::Mat draw_caption(int width, const ReposeAngle& measured, const OverlayNotes&
   const auto lines = lines_of(measured, notes, lettering, width - 2 * pad, height);
 
   int bar_height = pad + heading_height + spacing;
-  for (const Line& line : lines) bar_height += line.height + spacing;
+  for (const CaptionLine& line : lines) bar_height += line.height + spacing;
   cv::Mat bar(bar_height + pad - spacing, width, CV_8UC3, kDark);
 
   const std::string head = heading(measured);
@@ -109,7 +109,7 @@ cv::Mat draw_caption(int width, const ReposeAngle& measured, const OverlayNotes&
   const int badge_x = pad + lettering.width(head, heading_height) + pad;
   draw_badge(bar, badge_of(measured.status), {badge_x, pad + height / 6}, height, lettering);
   int y = pad + heading_height + spacing;
-  for (const Line& line : lines) {
+  for (const CaptionLine& line : lines) {
     lettering.draw(bar, line.text, {pad, y}, line.height, line.colour);
     y += line.height + spacing;
   }

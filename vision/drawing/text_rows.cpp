@@ -8,7 +8,7 @@ namespace repose::vision {
 namespace {
 
 /// A line of a wrapped text.
-struct Line {
+struct PlacedLine {
   std::string text;
   cv::Scalar colour;
   int indent = 0;
@@ -21,7 +21,7 @@ cv::Mat draw_text_rows(int width, const std::vector<TextRow>& rows, const Letter
   const int height = std::max(14, width / 52);
   const int pad = height;
   const int sample = 5 * height;
-  std::vector<Line> lines;
+  std::vector<PlacedLine> lines;
   for (const TextRow& row : rows) {
     const int indent = row.heap >= 0 ? sample + pad : 0;
     int heap = row.heap;
@@ -34,7 +34,7 @@ cv::Mat draw_text_rows(int width, const std::vector<TextRow>& rows, const Letter
   cv::Mat bar(static_cast<int>(lines.size()) * line_height + 2 * pad, width, CV_8UC3, kWhite);
   const Canvas canvas(bar, 1, kWhite);
   int y = pad;
-  for (const Line& line : lines) {
+  for (const PlacedLine& line : lines) {
     if (line.heap >= 0) {
       const double middle = y + height / 2.0;
       draw_heap_line(canvas, {{double(pad), middle}, {double(pad + sample), middle}},

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr double kMostPixels = 70e6;
 constexpr double kUsualFramesPerS = 30;
 
-[[noreturn]] void refuse(const fs::path& file, std::string_view what, std::string_view fix) {
+[[noreturn]] void refuse_film(const fs::path& file, std::string_view what, std::string_view fix) {
   throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
 }
 
@@ -42,27 +42,29 @@ bool is_film(std::string_view head) {
 
 void check_size(const fs::path& file, double width, double height) {
   if (width * height <= kMostPixels) return;
-  refuse(file,
-         fmt::format("its frames are {:.0f} x {:.0f} pixels, {:.0f} million are the most", width,
-                     height, kMostPixels / 1e6),
-         "convert it to 1920 x 1080.");
+  refuse_film(file,
+              fmt::format("its frames are {:.0f} x {:.0f} pixels, {:.0f} million are the most",
+                          width, height, kMostPixels / 1e6),
+              "convert it to 1920 x 1080.");
 }
 
 void check(const fs::path& file) {
   std::error_code error;
-  if (!fs::exists(file, error)) refuse(file, "no such file", "check the name.");
+  if (!fs::exists(file, error)) refuse_film(file, "no such file", "check the name.");
   if (fs::is_directory(file, error)) {
-    refuse(file, "is a folder",
-           "name the films in it, such as FOLDER/*.mp4; of a folder of numbered frames say with "
-           "--fps how many were taken a second.");
+    refuse_film(
+        file, "is a folder",
+        "name the films in it, such as FOLDER/*.mp4; of a folder of numbered frames say with "
+        "--fps how many were taken a second.");
   }
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 12> head{};
   stream.read(head.data(), head.size());
-  if (!stream && stream.gcount() == 0) refuse(file, "is empty or cannot be read", "copy it again.");
+  if (!stream && stream.gcount() == 0)
+    refuse_film(file, "is empty or cannot be read", "copy it again.");
   if (!is_film({head.data(), static_cast<std::size_t>(stream.gcount())})) {
-    refuse(file, "is no film that repose reads",
-           "convert it to MP4 (H.264); MOV, AVI, MKV, WebM and GIF are read too.");
+    refuse_film(file, "is no film that repose reads",
+                "convert it to MP4 (H.264); MOV, AVI, MKV, WebM and GIF are read too.");
   }
 }
 
@@ -89,8 +91,8 @@ class FilmReader::VideoSource : public FilmReader::Source {
   explicit VideoSource(const fs::path& file) {
     check(file);
     if (!film_.open(file.string(), cv::CAP_FFMPEG)) {
-      refuse(file, "the film cannot be decoded: it is damaged, or of an unknown kind",
-             "copy it from the telephone again, or convert it to MP4 (H.264).");
+      refuse_film(file, "the film cannot be decoded: it is damaged, or of an unknown kind",
+                  "copy it from the telephone again, or convert it to MP4 (H.264).");
     }
     check_size(file, film_.get(cv::CAP_PROP_FRAME_WIDTH), film_.get(cv::CAP_PROP_FRAME_HEIGHT));
     const double count = film_.get(cv::CAP_PROP_FRAME_COUNT);
@@ -171,7 +173,7 @@ bool FilmReader::next(FilmFrame& frame) {
   if (!source_->next(frame, false)) return false;
   if (size_.empty()) size_ = frame.bgr.size();
   if (frame.bgr.size() != size_ || frame.bgr.type() != CV_8UC3) {
-    refuse(file_, "the size of its frames changes", "keep the part of one size.");
+    refuse_film(file_, "the size of its frames changes", "keep the part of one size.");
   }
   if (!lens_) return true;
   if (!correction_) correction_.emplace(lens_for(*lens_, size_.width, size_.height));

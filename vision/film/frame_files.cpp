@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 7> kEndings{".jpg",  ".jpeg", ".png", ".tif",
                                                    ".tiff", ".bmp",  ".webp"};
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what, std::string_view fix) {
+[[noreturn]] void refuse_frames(const fs::path& folder, const std::string& what,
+                                std::string_view fix) {
   throw std::invalid_argument(fmt::format(
       "{}: {}. Rule: a folder that is a film holds its frames as pictures whose names differ in "
       "their numbers alone, such as frame_0001.png. Fix: {}",
@@ -67,7 +68,8 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
       pictures.push_back(entry->path());
     }
   }
-  if (error) refuse(folder, "cannot be read: " + error.message(), "get permission to read it.");
+  if (error)
+    refuse_frames(folder, "cannot be read: " + error.message(), "get permission to read it.");
   std::sort(pictures.begin(), pictures.end());
   return pictures;
 }
@@ -80,20 +82,22 @@ std::vector<FrameFile> frame_files(const fs::path& folder) {
   for (const fs::path& picture : pictures_in(folder)) {
     const auto name = numbered(picture);
     if (!name) {
-      refuse(folder, fmt::format("{} has no number in its name", picture.filename().string()),
-             "move it elsewhere, or name the pictures by themselves.");
+      refuse_frames(folder,
+                    fmt::format("{} has no number in its name", picture.filename().string()),
+                    "move it elsewhere, or name the pictures by themselves.");
     }
     if (frames.empty()) others = name->others;
     if (name->others != others) {
-      refuse(folder,
-             fmt::format("{} and {} differ in more than a number",
-                         frames.front().file.filename().string(), picture.filename().string()),
-             "a folder for each film.");
+      refuse_frames(
+          folder,
+          fmt::format("{} and {} differ in more than a number",
+                      frames.front().file.filename().string(), picture.filename().string()),
+          "a folder for each film.");
     }
     frames.push_back({.file = picture, .place = name->number});
   }
   if (frames.empty()) {
-    refuse(folder, "has no pictures", "name the folder of the frames, or the films in it.");
+    refuse_frames(folder, "has no pictures", "name the folder of the frames, or the films in it.");
   }
   std::sort(frames.begin(), frames.end(),
             [](const FrameFile& a, const FrameFile& b) { return a.place < b.place; });
@@ -102,10 +106,11 @@ std::vector<FrameFile> frame_files(const fs::path& folder) {
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const std::int64_t gap = frames[k].place - frames[k - 1].place;
     if (gap == 0) {
-      refuse(folder,
-             fmt::format("{} and {} have the same number", frames[k - 1].file.filename().string(),
-                         frames[k].file.filename().string()),
-             "remove one of them.");
+      refuse_frames(
+          folder,
+          fmt::format("{} and {} have the same number", frames[k - 1].file.filename().string(),
+                      frames[k].file.filename().string()),
+          "remove one of them.");
     }
     step = std::gcd(step, gap);
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "base/whole_file.h"
 #include "vision/camera/lens_file.h"
 #include "vision/hints/hint_reader.h"
@@ -22,8 +22,6 @@ namespace repose::vision {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr const char* kBox = "[x, y, width, height] in pixels";
 constexpr const char* kLine = "[x1, y1, x2, y2] in pixels";

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "vision/measure/bootstrap.h"
+#include "vision/measure/line_fit.h"
 
 namespace repose::vision {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kSteepest = 3.0;  // tan of 71.6 degrees: nothing loose stands 
 constexpr std::size_t kFewestPoints = 12;
 constexpr double kFewestVisible = 0.8;  // of the window that must be in the picture: a shorter
                                         // stretch is another angle, flanks are hollow
-constexpr double kMadToSigma = 1.4826;  // of a normal distribution
 constexpr double kBlockGrains = 2;      // neighbours within 2 grains are one piece of evidence
 constexpr double kFewestGrains = 5;     // high: a bump longer than such a heap's grain is none
 constexpr double kFewestLeft = 5;       // grains of flank above an apron: over fewer the slope is a

@@ -24,13 +24,13 @@ constexpr double kUncoveredSpread_rad = 1 * kDegree;  // beyond the interval
 
 constexpr double kHalvesPerWhole = 4;  // standard error of the halves' difference, of the line's:
                                        // 2^1.5 for half the length, times the root of 2 for two
-constexpr double kChance = 2;          // standard errors that the grains' scatter explains
+constexpr double kByChance = 2;        // standard errors that the grains' scatter explains
 
 std::string_view name_of(Side side) { return side == Side::left ? "left" : "right"; }
 
 /// How far the flank bends beyond what the grains' scatter explains.
 double sure_bend_rad(const FlankFit& flank) {
-  const double chance = kChance * kHalvesPerWhole * flank.fit_error_rad;
+  const double chance = kByChance * kHalvesPerWhole * flank.fit_error_rad;
   return std::sqrt(std::max(0.0, flank.bend_rad * flank.bend_rad - chance * chance));
 }
 

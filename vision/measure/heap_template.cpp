@@ -10,10 +10,10 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kChance = 0.75;  // part of all places that show less contrast than an edge would:
-                                  // a row of flank is worth what it shows beyond that
-constexpr double kLevel = 0.06;   // what a column of level crest costs: a box may cut it off
-constexpr double kAside = 0.015;  // of the height: how far bumps lie from the rough flank
+constexpr double kUsualOfBox = 0.75;  // part of all places that show less contrast than an edge
+                                      // would: a row of flank is worth what it shows beyond that
+constexpr double kLevelCost = 0.06;   // what a column of level crest costs: a box may cut it off
+constexpr double kAside = 0.015;      // of the height: how far bumps lie from the rough flank
 constexpr std::array kBows = {-0.08, 0., 0.08};  // real flanks are hollow, or a little round
 constexpr int kStep = 3;                         // px between the places that are tried
 constexpr double kFlattest = 0.1;                // rise a column
@@ -36,7 +36,7 @@ class Search {
       cv::dilate(contrast.of(rise), best, near);
       contrast_.push_back(best);
     }
-    chance_ = usual_contrast(contrast_, kChance);
+    chance_ = usual_contrast(contrast_, kUsualOfBox);
   }
 
   /// For each column that may be its top (in steps), the best flank up to a height.
@@ -83,7 +83,7 @@ class Search {
 /// The best flank that ends at or before each column, seen in the order of `candidates`.
 std::vector<Candidate> best_so_far(std::vector<Candidate> candidates) {
   for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const double levelled = candidates[i - 1].worth - kLevel * kStep;
+    const double levelled = candidates[i - 1].worth - kLevelCost * kStep;
     if (levelled <= candidates[i].worth) continue;
     candidates[i] = candidates[i - 1];
     candidates[i].worth = levelled;

@@ -14,7 +14,7 @@ constexpr double kSmoothingGrains = 3;     // nor those narrower than that
 constexpr double kLowest = 0.06;           // of the height: below, toes of grains leave gaps
 constexpr std::size_t kRoughness_px = 25;  // over which the edge is averaged: several fine grains
 constexpr std::size_t kTread_px = 5;       // over which a level edge is looked for
-constexpr double kLevel = 0.15;            // of the flank's slope
+constexpr double kLevelSlope = 0.15;       // of the flank's slope
 
 /// A grain's size, from the body's pattern or else from the edge's bumps.
 double grain_of(const Reading& reading) {
@@ -76,7 +76,7 @@ double level_part(const FlankFit& flank) {
   const double fall = kTread_px * std::abs(flank.robust.slope);
   int level = 0;
   for (std::size_t i = kTread_px; i < flank.height.size(); ++i) {
-    level += std::abs(flank.height[i] - flank.height[i - kTread_px]) < kLevel * fall ? 1 : 0;
+    level += std::abs(flank.height[i] - flank.height[i - kTread_px]) < kLevelSlope * fall ? 1 : 0;
   }
   return static_cast<double>(level) / static_cast<double>(flank.height.size() - kTread_px);
 }

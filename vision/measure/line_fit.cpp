@@ -10,7 +10,6 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kMadToSigma = 1.4826;   // of a normal distribution
 constexpr double kTukeyTuning = 4.685;   // 95 % efficiency on normal residuals
 constexpr double kSmallestScale = 1e-6;  // keeps a perfect line solvable
 constexpr int kMaxRounds = 8;            // of line and scale in turn

@@ -29,4 +29,7 @@ LineFit robust_line(std::span<const double> x, std::span<const double> y);
 /// Median of a copy; NaN when empty.
 double median(std::span<const double> values);
 
+/// The median of absolute residuals times this is the standard deviation of a normal distribution.
+inline constexpr double kMadToSigma = 1.4826;
+
 }  // namespace repose::vision

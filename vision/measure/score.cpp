@@ -9,7 +9,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kBandNear = 2;         // px from the edge at which the bands beside it begin
+constexpr int kBandBegins = 2;       // px from the edge at which the bands beside it begin
 constexpr int kBandFar = 8;          // and end
 constexpr double kUsualBase = 0.25;  // of the frame's width: smaller things are hardly the subject
 constexpr double kUsualPartOfBox = 0.4;  // along its width or its height
@@ -36,7 +36,7 @@ EdgeQuality chunk_quality(const std::vector<EdgePoint>& edge, std::size_t first,
   Band outside;
   Band inside;
   for (std::size_t i = first; i < last; ++i) {
-    for (int away = kBandNear; away <= kBandFar; ++away) {
+    for (int away = kBandBegins; away <= kBandFar; ++away) {
       outside.add(colour_at(work, edge[i].row - away, edge[i].col));
       inside.add(colour_at(work, edge[i].row + away, edge[i].col));
     }

@@ -15,11 +15,11 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kTracedSide = 400;   // px; the cost grows with the square
-constexpr double kChance = 0.8;    // part of all places that show less contrast than an edge would:
-                                   // a pixel of edge is worth what it shows beyond that
-constexpr double kTurnBack = 0.3;  // what a pixel of falling before the crest costs, or of rising
-                                   // behind it: grains stick out, but a heap has one crest
+constexpr int kTracedSide = 400;     // px; the cost grows with the square
+constexpr double kUsualPart = 0.8;   // part of all places that show less contrast than an edge
+                                     // would: a pixel of edge is worth what it shows beyond that
+constexpr double kTurnBack = 0.3;    // what a pixel of falling before the crest costs, or of rising
+                                     // behind it: grains stick out, but a heap has one crest
 constexpr double kDeviation_px = 2;  // of the edge's place: half of the least reach of a contrast
 constexpr double kRoughness = 2;     // weight beside lightness and colours
 
@@ -74,7 +74,7 @@ class EdgeSearch {
       : contrast_(contrast),
         ground_(std::move(ground)),
         corridor_(std::move(corridor)),
-        chance_(usual_contrast(contrast.all(), kChance)) {
+        chance_(usual_contrast(contrast.all(), kUsualPart)) {
     highest_ = *std::max_element(ground_.begin(), ground_.end());
     steps_.resize(ground_.size() * places());
     find();

@@ -9,7 +9,6 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kNormal95 = 1.96;
 constexpr double kFloor_rad = 0.06 * std::numbers::pi / 180;
 constexpr double kWindowFraction = 0.5;
 
@@ -48,7 +47,7 @@ double place_95(const FlankFit& flank, const Segmentation& segmentation) {
   if (segmentation.deviation_px <= 0 || flank.along.size() < 2) return 0;
   const double run = std::abs(flank.along.back() - flank.along.front());
   const double length = run * std::hypot(1, flank.robust.slope);
-  return kNormal95 * std::numbers::sqrt2 * segmentation.deviation_px / std::max(1.0, length);
+  return base::kNormal95 * std::numbers::sqrt2 * segmentation.deviation_px / std::max(1.0, length);
 }
 
 double combined(std::initializer_list<double> parts) {
@@ -61,7 +60,7 @@ double side_95(const FlankFit& flank, const Reading& reading, double disagreemen
   if (flank.status != FlankStatus::ok) return 0;
   const Ground& ground = reading.body.ground;
   return combined({grains_95(flank), window_95(flank), unseen_foot_95(flank, ground),
-                   place_95(flank, reading.segmentation), kNormal95 * ground.deviation_rad,
+                   place_95(flank, reading.segmentation), base::kNormal95 * ground.deviation_rad,
                    disagreement_rad});
 }
 

@@ -15,8 +15,8 @@ namespace {
 // Refusals.
 constexpr double kMinConfidence = 0.35;
 constexpr double kMinToldConfidence = 0.1;  // where a person has pointed at the heap
-constexpr double kFewestGrains = 2.5;
-constexpr double kLargestPitch_rad = 10 * kDegree;
+constexpr double kFewestGrainsInHeight = 2.5;
+constexpr double kLargestSeenPitch_rad = 10 * kDegree;
 
 // Warnings that ask a person to look.
 constexpr double kDoubtfulConfidence = 0.65;
@@ -80,14 +80,14 @@ std::string reason_against_picture(const Choice& choice, const MeasureOptions& o
            "tilt the camera until the whole heap is in the frame.";
   }
   const double pitch = pitch_from_bow(best.body.ground.bow.value_or(0));
-  if (!options.camera_pitch_rad && pitch > kLargestPitch_rad) {
+  if (!options.camera_pitch_rad && pitch > kLargestSeenPitch_rad) {
     return fmt::format(
         "the curved base implies that the camera looked down by about {:.0f} degrees, which "
         "changes the angle; or this is not a heap. Fix: retake the picture with a level camera at "
         "the heap's height, or give the camera pitch if it is known.",
         degrees(pitch));
   }
-  if (best.grain && best.profile.crest_height < kFewestGrains * *best.grain) {
+  if (best.grain && best.profile.crest_height < kFewestGrainsInHeight * *best.grain) {
     return "the object found is hardly higher than its grains: not a heap. Fix: photograph a heap "
            "at "
            "least 10 grains high.";

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "base/units.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 inline double degrees(double rad) { return rad / kDegree; }
 

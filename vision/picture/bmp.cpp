@@ -21,7 +21,7 @@ std::uint32_t number_at(Bytes bytes, std::size_t at) {
          std::uint32_t{bytes[at + 3]} << 24;
 }
 
-[[noreturn]] void refuse_damaged() {
+[[noreturn]] void refuse_damaged_bmp() {
   throw std::invalid_argument(
       "the BMP is truncated or damaged. Fix: copy it from its source again, or save it as "
       "PNG.");
@@ -36,13 +36,13 @@ void check_palette(Bytes bytes) {
   const std::int64_t colours = said > 0 ? said : std::int64_t{1} << bits_per_pixel;
   const std::int64_t from = kFileHeaderBytes + number_at(bytes, 14);
   if (colours > kMostColours || from + kColourBytes * colours > number_at(bytes, 10)) {
-    refuse_damaged();
+    refuse_damaged_bmp();
   }
 }
 
 /// OpenCV prints to stderr when the data end early, so their length is checked before.
-void check_length(Bytes bytes) {
-  if (bytes.size() < kHeaderBytes) refuse_damaged();
+void check_bmp_length(Bytes bytes) {
+  if (bytes.size() < kHeaderBytes) refuse_damaged_bmp();
   const std::int64_t pixels_from = number_at(bytes, 10);
   const std::int64_t width = static_cast<std::int32_t>(number_at(bytes, 18));
   const std::int64_t height =
@@ -57,7 +57,7 @@ void check_length(Bytes bytes) {
   const std::int64_t row_bytes = (width * bits_per_pixel + 31) / 32 * 4;  // whole 32-bit words
   if (bits_per_pixel == 0 || pixels_from < static_cast<std::int64_t>(kHeaderBytes) ||
       pixels_from + row_bytes * height > static_cast<std::int64_t>(bytes.size())) {
-    refuse_damaged();
+    refuse_damaged_bmp();
   }
   // What follows the pixels may be a colour profile; then the header says how many bytes they take.
   constexpr std::int64_t kMostPadding = 4;
@@ -71,12 +71,12 @@ void check_length(Bytes bytes) {
 }  // namespace
 
 Picture decode_bmp(Bytes bytes) {
-  check_length(bytes);
+  check_bmp_length(bytes);
   check_palette(bytes);
   const cv::Mat coded(1, static_cast<int>(bytes.size()), CV_8U,
                       const_cast<std::uint8_t*>(bytes.data()));
   const cv::Mat samples = cv::imdecode(coded, cv::IMREAD_COLOR);
-  if (samples.empty()) refuse_damaged();
+  if (samples.empty()) refuse_damaged_bmp();
   return flatten(samples);
 }
 

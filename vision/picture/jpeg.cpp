@@ -23,24 +23,24 @@ constexpr int kMaxPaddingBytes = 16;
 /// The decoder and all that its callbacks need. libjpeg reports an error by calling back and must
 /// not return from there, so the functions below leave it with longjmp. Each function that calls
 /// setjmp therefore owns nothing that has a destructor: this struct is owned by their caller.
-struct Decoder {
+struct JpegDecoder {
   jpeg_decompress_struct jpeg{};
   jpeg_error_mgr errors{};
   std::jmp_buf escape{};
   std::array<char, JMSG_LENGTH_MAX> message{};
 
-  Decoder() = default;
-  Decoder(const Decoder&) = delete;
-  Decoder& operator=(const Decoder&) = delete;
-  Decoder(Decoder&&) = delete;
-  Decoder& operator=(Decoder&&) = delete;
-  ~Decoder() { jpeg_destroy_decompress(&jpeg); }
+  JpegDecoder() = default;
+  JpegDecoder(const JpegDecoder&) = delete;
+  JpegDecoder& operator=(const JpegDecoder&) = delete;
+  JpegDecoder(JpegDecoder&&) = delete;
+  JpegDecoder& operator=(JpegDecoder&&) = delete;
+  ~JpegDecoder() { jpeg_destroy_decompress(&jpeg); }
 };
 
-Decoder& decoder_of(j_common_ptr jpeg) { return *static_cast<Decoder*>(jpeg->client_data); }
+JpegDecoder& decoder_of(j_common_ptr jpeg) { return *static_cast<JpegDecoder*>(jpeg->client_data); }
 
 [[noreturn]] void leave(j_common_ptr jpeg) {
-  Decoder& decoder = decoder_of(jpeg);
+  JpegDecoder& decoder = decoder_of(jpeg);
   decoder.errors.format_message(jpeg, decoder.message.data());
   std::longjmp(decoder.escape, 1);
 }
@@ -63,7 +63,7 @@ void on_message(j_common_ptr jpeg, int level) {
 }
 
 /// False: it failed and decoder.message says why.
-bool read_header(Decoder& decoder, std::span<const std::uint8_t> bytes) {
+bool read_header(JpegDecoder& decoder, std::span<const std::uint8_t> bytes) {
   jpeg_decompress_struct& jpeg = decoder.jpeg;
   jpeg.err = jpeg_std_error(&decoder.errors);
   jpeg.client_data = &decoder;
@@ -77,7 +77,7 @@ bool read_header(Decoder& decoder, std::span<const std::uint8_t> bytes) {
 }
 
 /// Rows of `row_bytes` bytes to `pixels`, in libjpeg's `colours`. False as above.
-bool read_rows(Decoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels,
+bool read_rows(JpegDecoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels,
                std::size_t row_bytes) {
   jpeg_decompress_struct& jpeg = decoder.jpeg;
   if (setjmp(decoder.escape) != 0) return false;
@@ -91,7 +91,7 @@ bool read_rows(Decoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels,
   return true;
 }
 
-[[noreturn]] void refuse(const Decoder& decoder) {
+[[noreturn]] void refuse(const JpegDecoder& decoder) {
   throw std::invalid_argument(
       fmt::format("the JPEG is truncated or damaged ({}). Fix: copy it from the camera again, or "
                   "take another picture.",
@@ -113,7 +113,7 @@ void inks_to_bgr(const std::vector<std::uint8_t>& cmyk, bool inverted, Picture& 
 }  // namespace
 
 Picture decode_jpeg(std::span<const std::uint8_t> bytes) {
-  Decoder decoder;
+  JpegDecoder decoder;
   if (!read_header(decoder, bytes)) refuse(decoder);
   check_claimed_size(decoder.jpeg.image_width, decoder.jpeg.image_height);
 

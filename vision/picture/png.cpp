@@ -20,22 +20,22 @@ namespace {
 
 /// The decoder and all that its callbacks need. libpng leaves a failed call with longjmp, so the
 /// functions below that call setjmp own nothing with a destructor: this struct is their caller's.
-struct Decoder {
+struct PngDecoder {
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::span<const std::uint8_t> unread;
   std::array<char, 200> message{};
 
-  Decoder() = default;
-  Decoder(const Decoder&) = delete;
-  Decoder& operator=(const Decoder&) = delete;
-  Decoder(Decoder&&) = delete;
-  Decoder& operator=(Decoder&&) = delete;
-  ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngDecoder() = default;
+  PngDecoder(const PngDecoder&) = delete;
+  PngDecoder& operator=(const PngDecoder&) = delete;
+  PngDecoder(PngDecoder&&) = delete;
+  PngDecoder& operator=(PngDecoder&&) = delete;
+  ~PngDecoder() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  auto& decoder = *static_cast<Decoder*>(png_get_error_ptr(png));
+  auto& decoder = *static_cast<PngDecoder*>(png_get_error_ptr(png));
   fmt::format_to_n(decoder.message.data(), decoder.message.size() - 1, "{}", message);
   png_longjmp(png, 1);
 }
@@ -44,14 +44,14 @@ struct Decoder {
 void on_warning(png_structp, png_const_charp) {}
 
 void on_read(png_structp png, png_bytep to, std::size_t count) {
-  auto& unread = static_cast<Decoder*>(png_get_io_ptr(png))->unread;
+  auto& unread = static_cast<PngDecoder*>(png_get_io_ptr(png))->unread;
   if (count > unread.size()) png_error(png, "it ends early");
   std::copy_n(unread.begin(), count, to);
   unread = unread.subspan(count);
 }
 
 /// False: it failed and decoder.message says why.
-bool read_header(Decoder& decoder) {
+bool read_header(PngDecoder& decoder) {
   decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, on_error, on_warning);
   if (!decoder.png) return false;
   if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
@@ -63,7 +63,7 @@ bool read_header(Decoder& decoder) {
 }
 
 /// Asks for BGR or BGRA of 8 or 16 bits. False as above.
-bool choose_samples(Decoder& decoder) {
+bool choose_samples(PngDecoder& decoder) {
   if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
   png_set_expand(decoder.png);
   png_set_gray_to_rgb(decoder.png);
@@ -75,21 +75,21 @@ bool choose_samples(Decoder& decoder) {
 }
 
 /// False as above.
-bool read_rows(Decoder& decoder, png_bytepp rows) {
+bool read_rows(PngDecoder& decoder, png_bytepp rows) {
   if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
   png_read_image(decoder.png, rows);
   png_read_end(decoder.png, decoder.info);
   return true;
 }
 
-int orientation_of(const Decoder& decoder) {
+int orientation_of(const PngDecoder& decoder) {
   png_bytep block = nullptr;
   png_uint_32 size = 0;
   if (!png_get_eXIf_1(decoder.png, decoder.info, &size, &block)) return kUprightOrientation;
   return exif_block_orientation({block, size});
 }
 
-void require(bool worked, const Decoder& decoder) {
+void require(bool worked, const PngDecoder& decoder) {
   if (worked) return;
   throw std::invalid_argument(
       fmt::format("the PNG is truncated or damaged ({}). Fix: copy it from where it came from "
@@ -100,7 +100,7 @@ void require(bool worked, const Decoder& decoder) {
 }  // namespace
 
 Picture decode_png(std::span<const std::uint8_t> bytes) {
-  Decoder decoder;
+  PngDecoder decoder;
   decoder.unread = bytes;
   require(read_header(decoder), decoder);
   const png_uint_32 width = png_get_image_width(decoder.png, decoder.info);

@@ -27,7 +27,7 @@ int orientation_of(std::span<const std::uint8_t> bytes) {
   return orientation;
 }
 
-[[noreturn]] void refuse_damaged() {
+[[noreturn]] void refuse_damaged_webp() {
   throw std::invalid_argument(
       "the WebP is truncated or damaged. Fix: copy it from its source again.");
 }
@@ -35,20 +35,21 @@ int orientation_of(std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 /// RIFF says how long it is, but for its own first eight bytes. One byte may fill up.
-void check_length(std::span<const std::uint8_t> bytes) {
+void check_webp_length(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kLengthAt = 4, kHeader = 8;
-  if (bytes.size() < kLengthAt + sizeof(std::uint32_t)) refuse_damaged();
+  if (bytes.size() < kLengthAt + sizeof(std::uint32_t)) refuse_damaged_webp();
   std::uint64_t length = kHeader;
   for (std::size_t k = 0; k < sizeof(std::uint32_t); ++k) {
     length += std::uint64_t{bytes[kLengthAt + k]} << (8 * k);
   }
-  if (length != bytes.size() && length + 1 != bytes.size()) refuse_damaged();
+  if (length != bytes.size() && length + 1 != bytes.size()) refuse_damaged_webp();
 }
 
 Picture decode_webp(std::span<const std::uint8_t> bytes) {
-  check_length(bytes);
+  check_webp_length(bytes);
   WebPBitstreamFeatures features;
-  if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) refuse_damaged();
+  if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK)
+    refuse_damaged_webp();
   if (features.has_animation) {
     throw std::invalid_argument("is an animated picture. Fix: save one frame as PNG.");
   }
@@ -58,7 +59,7 @@ Picture decode_webp(std::span<const std::uint8_t> bytes) {
   const auto decode = features.has_alpha ? WebPDecodeBGRAInto : WebPDecodeBGRInto;
   if (!decode(bytes.data(), bytes.size(), samples.data, samples.total() * samples.elemSize(),
               static_cast<int>(samples.step))) {
-    refuse_damaged();
+    refuse_damaged_webp();
   }
   return turned_upright(flatten(samples), orientation_of(bytes));
 }

@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/measure/line_fit.h"
+
 namespace repose::vision {
 
 cv::Mat greatest_difference(const cv::Mat& a, const cv::Mat& b) {
@@ -17,7 +19,6 @@ cv::Mat greatest_difference(const cv::Mat& a, const cv::Mat& b) {
 
 namespace {
 
-constexpr double kSigmaPerMad = 1.4826;
 constexpr double kOtherThing = 18;  ///< grey levels between two things
 
 /// Mean step of brightness across a region's border.
@@ -76,7 +77,7 @@ double noise_of(const std::vector<cv::Mat>& samples, const cv::Mat& scene) {
   std::int64_t below = 0;
   std::size_t level = 0;
   while (level < 255 && 2 * (below += counts[level]) < total) ++level;
-  return kSigmaPerMad * static_cast<double>(level);
+  return kMadToSigma * static_cast<double>(level);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 namespace repose::vision {
 namespace {
 
-constexpr std::size_t kFewest = 5;
+constexpr std::size_t kFewestInLine = 5;
 /// Neighbouring places err alike: so many count as one.
-constexpr double kAlike = 3;
+constexpr double kPlacesAlike = 3;
 
 /// Sums of places that are added one by one.
 class LineSums {
@@ -35,8 +35,8 @@ class LineSums {
     if (along.dot(way) < 0) along = -along;
     return {.middle = mean_,
             .along = along,
-            .offset_error_px = std::sqrt(kAlike * variance / count_),
-            .angle_error_rad = std::sqrt(kAlike * variance / spread())};
+            .offset_error_px = std::sqrt(kPlacesAlike * variance / count_),
+            .angle_error_rad = std::sqrt(kPlacesAlike * variance / spread())};
   }
 
  private:
@@ -69,7 +69,7 @@ LineSums sums_along(std::span<const cv::Point2d> places, std::span<const cv::Poi
   constexpr double kFarOff = 3 * 1.4826, kNear_px = .6;
   std::vector<cv::Point2d> kept(sure.begin(), sure.end());
   LineSums sums;
-  for (int round = 0; kept.size() >= kFewest; ++round) {
+  for (int round = 0; kept.size() >= kFewestInLine; ++round) {
     sums = {};
     for (const cv::Point2d& p : kept) sums.add(p);
     if (round == kRounds) break;
@@ -95,8 +95,8 @@ double error_at(const PathLine& line, const cv::Point2d& p) {
 std::size_t bend_of(const std::vector<cv::Point2d>& path) {
   const std::vector<double> before = deviations(path);
   const std::vector<double> after = deviations({path.rbegin(), path.rend()});
-  std::size_t bend = kFewest;
-  for (std::size_t k = kFewest; k + kFewest <= path.size(); ++k) {
+  std::size_t bend = kFewestInLine;
+  for (std::size_t k = kFewestInLine; k + kFewestInLine <= path.size(); ++k) {
     if (before[k] + after[path.size() - k] < before[bend] + after[path.size() - bend]) bend = k;
   }
   return bend;
@@ -106,15 +106,17 @@ std::size_t bend_of(const std::vector<cv::Point2d>& path) {
 
 std::optional<BentPath> bent_path_through(const std::vector<cv::Point2d>& path) {
   // The places next to the bend may be on both lines at once.
-  if (path.size() < 2 * kFewest + 2) return std::nullopt;
+  if (path.size() < 2 * kFewestInLine + 2) return std::nullopt;
   const std::size_t bend = bend_of(path);
   const std::span<const cv::Point2d> all = path;
   const auto before = all.first(bend - 1), after = all.subspan(bend + 1);
-  const auto far = [](std::size_t count) { return std::max(count / 2, std::min(count, kFewest)); };
+  const auto far = [](std::size_t count) {
+    return std::max(count / 2, std::min(count, kFewestInLine));
+  };
   const LineSums down = sums_along(before, before.first(far(before.size())));
   const LineSums out = sums_along(after, after.last(far(after.size())));
   const double used = down.count() + out.count();
-  if (std::min(down.count(), out.count()) < kFewest - 1) return std::nullopt;
+  if (std::min(down.count(), out.count()) < kFewestInLine - 1) return std::nullopt;
   const double variance = (down.squares() + out.squares()) / std::max(1.0, used - 4);
   BentPath found;
   found.incline = down.line(path[bend - 1] - path.front(), variance);

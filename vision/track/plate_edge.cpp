@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <opencv2/imgproc.hpp>
+
+#include "base/units.h"
 
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr float kLeastStep = 2;  ///< grey levels a pixel, across an edge
 
 double at(const cv::Mat& grey, const cv::Point2d& p) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <opencv2/imgproc.hpp>
 
+#include "base/units.h"
 #include "vision/film/film_reader.h"
 #include "vision/film/scene_shift.h"
 #include "vision/track/background.h"
@@ -17,10 +17,8 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// A thing with what it looked like.
-struct Followed {
+struct FollowedGrain {
   OnPlateTrack track;
   GrainTemplate looks;
   TemplateMatch last = {};
@@ -78,7 +76,7 @@ cv::Mat around(const cv::Mat& mask) {
 
 /// With its turn: from where it lies unturned, and where it turns fast, from where it would be had
 /// it turned on.
-TemplateMatch turned_match(const Followed& followed, const cv::Mat& strip,
+TemplateMatch turned_match(const FollowedGrain& followed, const cv::Mat& strip,
                            const TemplateMatch& unturned, int reach_px) {
   constexpr double kFast_rad = 2 * kDegree;
   TemplateMatch begin = unturned;
@@ -93,7 +91,7 @@ TemplateMatch turned_match(const Followed& followed, const cv::Mat& strip,
   return on.likeness > near.likeness ? on : near;
 }
 
-void follow(Followed& followed, const cv::Mat& strip, std::size_t plate, double time_s,
+void follow(FollowedGrain& followed, const cv::Mat& strip, std::size_t plate, double time_s,
             double sense) {
   constexpr double kPatience_s = .3, kLeastLikeness = .25, kMostRise_px = 4;
   constexpr int kReach_px = 12;
@@ -141,7 +139,7 @@ PlateGrains grains_on_plate(const FilmFile& file, const FilmSurvey& survey,
   PlateGrains grains{.strip = strip_above(motion, size)};
   const cv::Mat first = first_strip(file, motion, grains.strip);
   if (first.empty()) return grains;
-  std::vector<Followed> all;
+  std::vector<FollowedGrain> all;
   for (OnPlate& thing : standing_things(first)) {
     const GrainTemplate looks(first, around(thing.mask));
     all.push_back({.track = {.thing = std::move(thing)}, .looks = looks});
@@ -159,11 +157,11 @@ PlateGrains grains_on_plate(const FilmFile& file, const FilmSurvey& survey,
     const cv::Point2d shift = motion.reduction * scene->of(small);
     grains.moved_px = std::max(grains.moved_px, std::hypot(shift.x, shift.y));
     const cv::Mat strip = strip_picture(small, motion, plate.line, grains.strip);
-    for (Followed& one : all) follow(one, strip, k, plate.time_s, motion.sense);
+    for (FollowedGrain& one : all) follow(one, strip, k, plate.time_s, motion.sense);
     ++k;
     if (progress) progress(static_cast<double>(k) / static_cast<double>(motion.seen.size()));
   }
-  for (Followed& one : all) grains.tracks.push_back(std::move(one.track));
+  for (FollowedGrain& one : all) grains.tracks.push_back(std::move(one.track));
   return grains;
 }
 

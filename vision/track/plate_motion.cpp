@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <opencv2/imgproc.hpp>
 
+#include "base/units.h"
 #include "vision/film/film_reader.h"
+#include "vision/measure/line_fit.h"
 #include "vision/track/blobs.h"
 
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastTurn_rad = .3 * kDegree;
 
 /// An edge that is followed.
-struct Followed {
+struct FollowedEdge {
   PlateEdge edge;
   std::vector<PlateSighting> seen = {};
   double parts = 0;  ///< sum of the parts seen
@@ -37,7 +37,7 @@ cv::Mat moves_in(const std::vector<cv::Mat>& samples, int reduction) {
 }
 
 /// Where the edge will be when it turns on as it did.
-EdgeLine expected_line(const Followed& followed, double time_s) {
+EdgeLine expected_line(const FollowedEdge& followed, double time_s) {
   if (followed.seen.empty()) return followed.edge.line;
   const PlateSighting& last = followed.seen.back();
   if (followed.seen.size() < 3) return last.line;
@@ -52,7 +52,7 @@ EdgeLine expected_line(const Followed& followed, double time_s) {
   return line;
 }
 
-void follow(Followed& followed, const cv::Mat& grey, int frame, double time_s) {
+void follow(FollowedEdge& followed, const cv::Mat& grey, int frame, double time_s) {
   constexpr double kPatience_s = .4;
   if (followed.is_lost) return;
   const auto found = find_edge(grey, followed.edge, expected_line(followed, time_s));
@@ -65,15 +65,9 @@ void follow(Followed& followed, const cv::Mat& grey, int frame, double time_s) {
   followed.is_lost = time_s - last_s > kPatience_s;
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Its lean before it turns, how long it has that, and how much single frames scatter.
 void read_rest(PlateMotion& motion) {
-  constexpr double kSigmaPerMad = 1.4826, kLeastNoise_rad = 1e-5;
+  constexpr double kLeastNoise_rad = 1e-5;
   constexpr double kStill_rad = .06 * kDegree, kSigmas = 5;
   constexpr std::size_t kFirst = 5;
   std::vector<double> first, steps;
@@ -84,8 +78,8 @@ void read_rest(PlateMotion& motion) {
     steps.push_back(std::abs(motion.seen[k].line.lean_rad - 2 * motion.seen[k - 1].line.lean_rad +
                              motion.seen[k - 2].line.lean_rad));
   }
-  motion.noise_rad = std::max(kLeastNoise_rad, kSigmaPerMad * median_of(steps) / std::sqrt(6));
-  const double begin = median_of(first);
+  motion.noise_rad = std::max(kLeastNoise_rad, kMadToSigma * median(steps) / std::sqrt(6));
+  const double begin = median(first);
   std::vector<double> leans;
   for (const PlateSighting& one : motion.seen) {
     if (std::abs(one.line.lean_rad - begin) > std::max(kStill_rad, kSigmas * motion.noise_rad))
@@ -93,7 +87,7 @@ void read_rest(PlateMotion& motion) {
     leans.push_back(one.line.lean_rad);
     motion.rest_s = one.time_s - motion.seen.front().time_s;
   }
-  motion.level_rad = leans.empty() ? begin : median_of(leans);
+  motion.level_rad = leans.empty() ? begin : median(leans);
 }
 
 void read_turn(PlateMotion& motion) {
@@ -159,7 +153,7 @@ void find_level_error(PlateMotion& motion) {
   motion.level_error_rad = std::abs(turning - rest) / (kPart * (motion.edge.to - motion.edge.from));
 }
 
-std::optional<PlateMotion> motion_of(Followed& followed, int reduction) {
+std::optional<PlateMotion> motion_of(FollowedEdge& followed, int reduction) {
   constexpr std::size_t kFewest = 8;
   if (followed.seen.size() < kFewest) return std::nullopt;
   PlateMotion motion{
@@ -210,7 +204,7 @@ std::optional<PlateMotion> plate_in_film(const FilmFile& file, const FilmSurvey&
   const cv::Mat moves = moves_in(survey.samples, reduction);
   FilmReader film(file);
   FilmFrame frame;
-  std::vector<Followed> all;
+  std::vector<FollowedEdge> all;
   const std::size_t count = survey.times_s.size();
   for (std::size_t number = 0; number < count && film.next(frame); ++number) {
     const cv::Mat grey = edge_picture(reduced_frame(frame.bgr, reduction));
@@ -218,11 +212,11 @@ std::optional<PlateMotion> plate_in_film(const FilmFile& file, const FilmSurvey&
       for (const PlateEdge& edge : level_edges(grey, moves)) all.push_back({.edge = edge});
       if (all.empty()) break;
     }
-    for (Followed& one : all) follow(one, grey, static_cast<int>(number), frame.time_s);
+    for (FollowedEdge& one : all) follow(one, grey, static_cast<int>(number), frame.time_s);
     if (progress) progress(static_cast<double>(number + 1) / static_cast<double>(count));
   }
   std::vector<PlateMotion> motions;
-  for (Followed& one : all) {
+  for (FollowedEdge& one : all) {
     if (auto motion = motion_of(one, reduction)) motions.push_back(std::move(*motion));
   }
   return plate_among(std::move(motions));

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/distributions.h"
+#include "base/units.h"
 #include "vision/track/bent_path.h"
 #include "vision/track/film_grains.h"
 #include "vision/track/film_scale.h"
@@ -17,8 +18,6 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kNormal95 = 1.96;
 constexpr double kStep_px = 1;   ///< places nearer to each other count once
 constexpr double kStill_px = 1;  ///< a grain at rest moves less
 constexpr double kStill_s = .3;
@@ -143,7 +142,7 @@ struct Ways {
 
 /// By a scale in the picture.
 void measure_by(const Estimate& scale, const Ways& ways, RollTrack& track) {
-  const double error_px = kNormal95 * std::hypot(ways.foot_error_px, ways.end_error_px);
+  const double error_px = base::kNormal95 * std::hypot(ways.foot_error_px, ways.end_error_px);
   const auto length_mm = [&](double px) {
     return Estimate{px * scale.value, std::hypot(error_px * scale.value, px * scale.uncertainty)};
   };
@@ -160,7 +159,7 @@ void measure_by(double released_mm, const Ways& ways, RollTrack& track) {
   const double per_stopped = 1 / std::abs(ways.stopped_px), per_released = 1 / ways.released_px;
   const double error = std::hypot(ways.foot_error_px * (per_stopped + per_released),
                                   ways.end_error_px * std::hypot(per_stopped, per_released));
-  track.stopped_mm = {value, kNormal95 * std::abs(value) * error};
+  track.stopped_mm = {value, base::kNormal95 * std::abs(value) * error};
   track.released_mm = {released_mm, 0};
 }
 
@@ -186,7 +185,7 @@ void read_roll(const Roll& roll, const FilmScale& scale, const TrackOptions& opt
   } else {
     measure_by(options.released_mm.value(), ways, track);
   }
-  track.incline_deg = {bent.bend_rad / kDegree, kNormal95 * bent.bend_error_rad / kDegree};
+  track.incline_deg = {bent.bend_rad / kDegree, base::kNormal95 * bent.bend_error_rad / kDegree};
   track.stopped_s = last.begins_s;
   track.noise_px = bent.rms_px;
   cv::Point2d down(-bent.flat.along.y, bent.flat.along.x);

@@ -7,23 +7,18 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/measure/line_fit.h"
+
 namespace repose::vision {
 namespace {
 
 /// Of a place between whole pixels, as drawn films show it.
-constexpr double kLeastNoise_px = .1;
+constexpr double kLeastSlideNoise_px = .1;
 /// So long before the slide is seen the rest is looked at, and the onset is sought.
 constexpr double kBefore_s = 1.5;
 /// Neighbouring places err alike: so many count as one.
-constexpr double kAlike = 3;
+constexpr double kAlikeInSlide = 3;
 constexpr double kChiSquare95 = 3.84;
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A number for each place, free of the place at rest and of what goes with the plate's turn.
 class Column {
@@ -105,12 +100,12 @@ std::size_t first_at_rest(std::span<const SlidAt> places, std::size_t last, doub
 
 /// By second differences, which nothing steady adds to.
 double noise_of(std::span<const SlidAt> rest) {
-  constexpr double kSigmaPerMad = 1.4826;
   std::vector<double> bends;
   for (std::size_t k = 2; k < rest.size(); ++k) {
     bends.push_back(std::abs(rest[k].slid_px - 2 * rest[k - 1].slid_px + rest[k - 2].slid_px));
   }
-  return kSigmaPerMad * median_of(bends) / std::sqrt(6);
+  if (bends.empty()) return 0;
+  return kMadToSigma * median(bends) / std::sqrt(6);
 }
 
 /// The way between the medians of short stretches that lie farthest apart, of what no hinge beside
@@ -134,8 +129,8 @@ double crept_before(const std::vector<SlidAt>& places, double onset_s) {
   double begin_s = places.front().time_s;
   for (const SlidAt& one : places) {
     if (one.time_s >= begin_s + kStretch_s) {
-      least = std::min(least, median_of(off));
-      most = std::max(most, median_of(off));
+      least = std::min(least, median(off));
+      most = std::max(most, median(off));
       off.clear();
       begin_s = one.time_s;
     }
@@ -177,8 +172,8 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
       std::min_element(profile.begin(), profile.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   const double free = std::max(1.0, static_cast<double>(fitted.size()) - 5);
-  const double variance = std::max(best->second / free, kLeastNoise_px * kLeastNoise_px);
-  const double limit = best->second + kChiSquare95 * kAlike * variance;
+  const double variance = std::max(best->second / free, kLeastSlideNoise_px * kLeastSlideNoise_px);
+  const double limit = best->second + kChiSquare95 * kAlikeInSlide * variance;
   auto earliest = best, latest = best;
   while (earliest != profile.begin() && std::prev(earliest)->second <= limit) --earliest;
   while (std::next(latest) != profile.end() && std::next(latest)->second <= limit) ++latest;

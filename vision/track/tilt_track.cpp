@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "base/distributions.h"
+#include "base/units.h"
 #include "vision/film/film_reader.h"
 #include "vision/picture/mat_of_picture.h"
 #include "vision/track/film_grains.h"
@@ -14,10 +15,8 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kNormal95 = 1.96;
 /// Neighbouring frames err alike: so many count as one.
-constexpr double kAlike = 3;
+constexpr double kFramesAlike = 3;
 /// What drawn films show to be left: of edges in a textured scene, and of the law of the slide.
 constexpr double kLeast_deg = .03;
 
@@ -46,7 +45,7 @@ AngleLine angle_between(const PlateMotion& motion, double from_s, double to_s, d
   if (count < 3 || tt <= 0) return line;
   line.rate_deg_s = ta / tt;
   line.angle_deg += line.rate_deg_s * (at_s - mean_t);
-  const double variance = kAlike * std::max(0.0, aa - ta * ta / tt) / (count - 2);
+  const double variance = kFramesAlike * std::max(0.0, aa - ta * ta / tt) / (count - 2);
   line.rate_error_deg_s = std::sqrt(variance / tt);
   line.angle_error_deg = std::sqrt(variance / count + variance * std::pow(at_s - mean_t, 2) / tt);
   return line;
@@ -100,12 +99,12 @@ void read_onset(const PlateMotion& motion, const PlateGrains& grains, const OnPl
   const AngleLine whole = angle_between(motion, begins_s, at_s, at_s);
   const double late_s = onset.latest_s - at_s, early_s = at_s - onset.earliest_s;
   const double level_error_deg =
-      std::hypot(kNormal95 * motion.noise_rad, motion.level_error_rad) / kDegree;
+      std::hypot(base::kNormal95 * motion.noise_rad, motion.level_error_rad) / kDegree;
   track.angle_deg = {
       near.angle_deg,
-      std::hypot(kLeast_deg, kNormal95 * near.angle_error_deg,
+      std::hypot(kLeast_deg, base::kNormal95 * near.angle_error_deg,
                  std::hypot(level_error_deg, near.rate_deg_s * std::max(late_s, early_s)))};
-  track.rate_deg_s = {whole.rate_deg_s, kNormal95 * whole.rate_error_deg_s};
+  track.rate_deg_s = {whole.rate_deg_s, base::kNormal95 * whole.rate_error_deg_s};
   track.onset_s = at_s;
   track.noise_px = motion.reduction * onset.rest_noise_px;
   track.grain_px = motion.reduction * grain.thing.width_px;

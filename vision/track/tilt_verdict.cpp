@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
+
+#include "base/units.h"
 
 namespace repose::vision {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastTurn_deg = 3;
 /// Longer ones show by their outline whether they turn.
 constexpr double kRound = 1.25;

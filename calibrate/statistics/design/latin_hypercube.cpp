@@ -10,7 +10,7 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr int kMaxRuns = 2000;
+constexpr int kMaxLatinRuns = 2000;
 constexpr std::size_t kMaxFactors = 20;
 
 /// A Latin hypercube of whole levels 0 ... runs - 1, and how crowded it is.
@@ -108,7 +108,7 @@ Hypercube best_hypercube(std::size_t runs, std::size_t factors, std::uint64_t se
 Design latin_hypercube(const std::vector<Factor>& factors, int runs, std::uint64_t seed) {
   base::ErrorList errors;
   check_factors(factors, 1, kMaxFactors, errors);
-  check_count("runs", runs, 2, kMaxRuns, errors);
+  check_count("runs", runs, 2, kMaxLatinRuns, errors);
   errors.throw_if_any();
   const auto count = static_cast<std::size_t>(runs);
   const Hypercube hypercube = best_hypercube(count, factors.size(), seed);

@@ -7,8 +7,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Index at(std::size_t i) { return static_cast<Index>(i); }
-
 }  // namespace
 
 Quadratic Quadratic::with_fixed(Index index, double value) const {
@@ -22,27 +20,27 @@ Quadratic Quadratic::with_fixed(Index index, double value) const {
 }
 
 Quadratic surface_of(const Regression& regression) {
-  const Index n = at(regression.factors.size());
+  const Index n = index_of(regression.factors.size());
   Quadratic surface{0, VectorXd::Zero(n), MatrixXd::Zero(n, n)};
   for (const Coefficient& coefficient : regression.coefficients) {
     const Term& term = coefficient.term;
     if (term.empty()) {
       surface.constant = coefficient.value;
     } else if (term.size() == 1) {
-      surface.gradient[at(term.front())] = coefficient.value;
+      surface.gradient[index_of(term.front())] = coefficient.value;
     } else {
       // An interaction is spread over B's two halves; a square gets both on the diagonal.
-      surface.curvature(at(term.front()), at(term.back())) += coefficient.value / 2;
-      surface.curvature(at(term.back()), at(term.front())) += coefficient.value / 2;
+      surface.curvature(index_of(term.front()), index_of(term.back())) += coefficient.value / 2;
+      surface.curvature(index_of(term.back()), index_of(term.front())) += coefficient.value / 2;
     }
   }
   return surface;
 }
 
 VectorXd term_values(const std::vector<Coefficient>& coefficients, std::span<const double> coded) {
-  VectorXd values = VectorXd::Ones(at(coefficients.size()));
+  VectorXd values = VectorXd::Ones(index_of(coefficients.size()));
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
-    for (const std::size_t factor : coefficients[k].term) values[at(k)] *= coded[factor];
+    for (const std::size_t factor : coefficients[k].term) values[index_of(k)] *= coded[factor];
   }
   return values;
 }
@@ -50,11 +48,11 @@ VectorXd term_values(const std::vector<Coefficient>& coefficients, std::span<con
 void set_natural(Regression& regression) {
   // x = H^-1 (u - c), so B' = H^-1 B H^-1, g' = H^-1 g - 2 B'c, a' = a - c'H^-1 g + c'B'c.
   const Quadratic coded = surface_of(regression);
-  const Index n = at(regression.factors.size());
+  const Index n = index_of(regression.factors.size());
   VectorXd centre(n), inverse(n);
   for (std::size_t i = 0; i < regression.factors.size(); ++i) {
-    centre[at(i)] = regression.factors[i].centre();
-    inverse[at(i)] = 1 / regression.factors[i].half_range();
+    centre[index_of(i)] = regression.factors[i].centre();
+    inverse[index_of(i)] = 1 / regression.factors[i].half_range();
   }
   const MatrixXd curvature = inverse.asDiagonal() * coded.curvature * inverse.asDiagonal();
   const VectorXd scaled = inverse.cwiseProduct(coded.gradient);
@@ -64,10 +62,10 @@ void set_natural(Regression& regression) {
     if (term.empty()) {
       coefficient.natural = coded.constant - centre.dot(scaled) + centre.dot(curvature * centre);
     } else if (term.size() == 1) {
-      coefficient.natural = gradient[at(term.front())];
+      coefficient.natural = gradient[index_of(term.front())];
     } else {
       const double halves = term.front() == term.back() ? 1 : 2;
-      coefficient.natural = halves * curvature(at(term.front()), at(term.back()));
+      coefficient.natural = halves * curvature(index_of(term.front()), index_of(term.back()));
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include <Eigen/Core>
@@ -7,6 +8,9 @@
 #include "calibrate/statistics/regress/regression.h"
 
 namespace repose::calibrate {
+
+/// Eigen counts with a sign.
+inline Eigen::Index index_of(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// q(x) = a + g'x + x'Bx, B symmetric.
 struct Quadratic {

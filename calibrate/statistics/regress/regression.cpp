@@ -24,8 +24,6 @@ constexpr std::size_t kMaxFactors = 8;
 /// A column of which less than this share is its own follows from the others.
 constexpr double kOwnFraction = 1e-9;
 
-Index at(std::size_t i) { return static_cast<Index>(i); }
-
 bool is_constant(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(),
                      [&](double value) { return value == values.front(); });
@@ -99,10 +97,10 @@ struct Decomposition {
 };
 
 Decomposition decompose(const Regression& regression) {
-  const Index runs = at(regression.runs.size());
-  MatrixXd design(runs, at(regression.coefficients.size()));
+  const Index runs = index_of(regression.runs.size());
+  MatrixXd design(runs, index_of(regression.coefficients.size()));
   for (std::size_t i = 0; i < regression.runs.size(); ++i) {
-    design.row(at(i)) = term_values(regression.coefficients, regression.runs[i].coded);
+    design.row(index_of(i)) = term_values(regression.coefficients, regression.runs[i].coded);
   }
   Decomposition decomposition;
   decomposition.scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
@@ -181,7 +179,7 @@ void set_residuals(Regression& regression, const Decomposition& decomposition) {
   for (std::size_t i = 0; i < regression.runs.size(); ++i) {
     FittedRun& run = regression.runs[i];
     run.fitted = regression.predicted(run.coded);
-    run.leverage = q.row(at(i)).squaredNorm();
+    run.leverage = q.row(index_of(i)).squaredNorm();
     const double residual = run.response - run.fitted;
     regression.residual.sum_of_squares += residual * residual;
     regression.total.sum_of_squares += (run.response - mean) * (run.response - mean);
@@ -209,9 +207,9 @@ void set_residuals(Regression& regression, const Decomposition& decomposition) {
 /// What the fit loses without some terms: b'C^-1 b, C their block of (X'X)^-1.
 Variance loss_without(const Regression& regression, const std::vector<Index>& terms,
                       const MatrixXd& inverse_normal) {
-  VectorXd values(at(terms.size()));
+  VectorXd values(index_of(terms.size()));
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    values[at(k)] = regression.coefficients[static_cast<std::size_t>(terms[k])].value;
+    values[index_of(k)] = regression.coefficients[static_cast<std::size_t>(terms[k])].value;
   }
   const MatrixXd block = inverse_normal(terms, terms);
   Variance loss{.sum_of_squares = values.dot(block.ldlt().solve(values)),
@@ -263,7 +261,7 @@ double Regression::predicted(std::span<const double> coded) const {
   const VectorXd values = term_values(coefficients, coded);
   double sum = 0;
   for (std::size_t k = 0; k < coefficients.size(); ++k)
-    sum += coefficients[k].value * values[at(k)];
+    sum += coefficients[k].value * values[index_of(k)];
   return sum;
 }
 
@@ -289,9 +287,11 @@ Regression regress(const RunTable& table, SurfaceModel model) {
   const Decomposition decomposition = decompose(regression);
   check_rank(table, regression, decomposition);
 
-  const Eigen::Map<const VectorXd> responses(table.responses.data(), at(table.responses.size()));
+  const Eigen::Map<const VectorXd> responses(table.responses.data(),
+                                             index_of(table.responses.size()));
   const VectorXd values = decomposition.scale.cwiseProduct(decomposition.qr.solve(responses));
-  for (std::size_t k = 0; k < terms.size(); ++k) regression.coefficients[k].value = values[at(k)];
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    regression.coefficients[k].value = values[index_of(k)];
   set_natural(regression);
   set_residuals(regression, decomposition);
   set_tests(regression, decomposition);

@@ -56,7 +56,7 @@ struct Header {
   std::vector<Element> elements;
 };
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+[[noreturn]] void refuse_ply(const std::string& where, const std::string& what) {
   throw std::invalid_argument(where + ": " + what);
 }
 
@@ -93,7 +93,7 @@ class HeaderReader {
 
  private:
   [[noreturn]] void wrong(const char* what) const {
-    refuse(fmt::format("line {} of the header", line_), what);
+    refuse_ply(fmt::format("line {} of the header", line_), what);
   }
 
   std::string take_line() {
@@ -189,7 +189,7 @@ class Body {
     const double number = take(type, where);
     if (!(number >= 0 && number <= std::numeric_limits<std::int32_t>::max()) ||
         number != std::floor(number)) {
-      refuse(where, fmt::format("{:g} stands where a whole number from 0 must", number));
+      refuse_ply(where, fmt::format("{:g} stands where a whole number from 0 must", number));
     }
     return static_cast<std::int64_t>(number);
   }
@@ -198,13 +198,13 @@ class Body {
   double take_text(const std::string& where) {
     constexpr std::string_view kBlanks = " \t\r\n";
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
-    if (rest_.empty()) refuse(where, "the file ends here, too soon");
+    if (rest_.empty()) refuse_ply(where, "the file ends here, too soon");
     const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
     const char* end = word.data() + word.size();
     double number = 0;
     const auto [stopped_at, error] =
         std::from_chars(word.data() + (word.starts_with('+') ? 1 : 0), end, number);
-    if (error != std::errc{} || stopped_at != end) refuse(where, "this is not a number");
+    if (error != std::errc{} || stopped_at != end) refuse_ply(where, "this is not a number");
     rest_.remove_prefix(word.size());
     return number;
   }
@@ -212,7 +212,7 @@ class Body {
   template <typename Number>
   Number take_bytes(const std::string& where) {
     std::array<char, sizeof(Number)> bytes{};
-    if (rest_.size() < bytes.size()) refuse(where, "the file ends here, too soon");
+    if (rest_.size() < bytes.size()) refuse_ply(where, "the file ends here, too soon");
     std::copy_n(rest_.begin(), bytes.size(), bytes.begin());
     rest_.remove_prefix(bytes.size());
     constexpr Format kOwn =
@@ -262,7 +262,7 @@ void read_item(const Element& element, const std::string& where, Body& body,
 
 void check_element(const Element& element) {
   if (element.count > 0 && element.properties.empty()) {
-    refuse("element " + element.name, "it has no properties");
+    refuse_ply("element " + element.name, "it has no properties");
   }
   if (element.name != "vertex") return;
   std::array<bool, 3> has_axis{};
@@ -270,7 +270,7 @@ void check_element(const Element& element) {
     if (const auto axis = axis_of(element, property)) has_axis[*axis] = true;
   }
   if (!has_axis[0] || !has_axis[1] || !has_axis[2]) {
-    refuse("element vertex", "its properties are not x, y and z");
+    refuse_ply("element vertex", "its properties are not x, y and z");
   }
 }
 
@@ -278,8 +278,8 @@ void check_corners(const PolygonSurface& surface) {
   for (std::size_t k = 0; k < surface.faces.size(); ++k) {
     for (const int corner : surface.faces[k]) {
       if (std::cmp_less(corner, surface.corners.size())) continue;
-      refuse(fmt::format("face {}", k),
-             fmt::format("it names corner {}, and there are {}", corner, surface.corners.size()));
+      refuse_ply(fmt::format("face {}", k), fmt::format("it names corner {}, and there are {}",
+                                                        corner, surface.corners.size()));
     }
   }
 }

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <numbers>
+
+namespace repose {
+
+/// In radians: what an angle in degrees is multiplied by.
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+}  // namespace repose

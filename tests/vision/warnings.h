@@ -1,0 +1,14 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include "vision/measure/repose_angle.h"
+
+namespace repose::vision {
+
+/// Matches a list of warnings of which one has this code.
+inline auto has_warning(const char* code) {
+  return ::testing::Contains(::testing::Field(&Warning::code, code));
+}
+
+}  // namespace repose::vision
