@@ -124,9 +124,9 @@ std::string file_stem(const std::string& text) {
 }
 
 double half_width_95(double standard_uncertainty, double df) {
-  constexpr double kNormal = 1.96, kUpper = .975;
-  if (standard_uncertainty == 0 || !(df >= 1)) return kNormal * standard_uncertainty;
-  if (!std::isfinite(df)) return kNormal * standard_uncertainty;
+  constexpr double kUpper = .975;
+  if (standard_uncertainty == 0 || !(df >= 1)) return base::kNormal95 * standard_uncertainty;
+  if (!std::isfinite(df)) return base::kNormal95 * standard_uncertainty;
   return base::student_t_quantile(kUpper, df) * standard_uncertainty;
 }
 

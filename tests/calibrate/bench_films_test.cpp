@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/distributions.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/grain_source.h"
@@ -70,12 +71,13 @@ TEST(BenchFilms, AreRepeatsThatScatterAsTheyDo) {
 }
 
 TEST(BenchFilms, ThatAgreeByChanceAreNoSurerThanEachIs) {
-  const Observable drop = drop_after({reading_of(100, 36, 1.96), reading_of(100, 36.1, 1.96)});
+  const Observable drop =
+      drop_after({reading_of(100, 36, base::kNormal95), reading_of(100, 36.1, base::kNormal95)});
   EXPECT_NEAR(*drop.sd, 1, 1e-9);
 }
 
 TEST(BenchFilms, OneAloneAddsItsIntervalToTheScatterThatIsAssumed) {
-  const Observable drop = drop_after({reading_of(100, 40, 1.96 * 2)});
+  const Observable drop = drop_after({reading_of(100, 40, base::kNormal95 * 2)});
   EXPECT_FALSE(drop.sd);
   EXPECT_NEAR(*drop.assumed_sd_fraction, std::hypot(.05, .05), 1e-9);
   EXPECT_NEAR(*drop_after({reading_of(100, 40, 0)}).assumed_sd_fraction, .05, 1e-9);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/distributions.h"
 #include "tests/vision/pictures.h"
 
 namespace repose::vision {
@@ -50,7 +51,7 @@ TEST(Uncertainty, AnEdgeThatIsRoughlyKnownTurnsTheLine) {
   const Uncertainty before = uncertainty_of(choice);
   choice.best.segmentation.deviation_px = 2;
   const Uncertainty after = uncertainty_of(choice);
-  const double turn = 1.96 * std::sqrt(2) * 2 / 50;
+  const double turn = base::kNormal95 * std::sqrt(2) * 2 / 50;
   EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, turn), 1e-9);
   EXPECT_NEAR(after.mean_rad, std::hypot(before.mean_rad, turn / std::sqrt(2)), 1e-9);
 }
@@ -66,8 +67,8 @@ TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
   choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty after = uncertainty_of(choice);
   EXPECT_EQ(after.mean_rad, before.mean_rad);
-  EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, 1.96 * 0.02), 1e-9);
-  EXPECT_NEAR(after.right_rad, std::hypot(before.right_rad, 1.96 * 0.02), 1e-9);
+  EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, base::kNormal95 * 0.02), 1e-9);
+  EXPECT_NEAR(after.right_rad, std::hypot(before.right_rad, base::kNormal95 * 0.02), 1e-9);
 }
 
 TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
@@ -76,7 +77,7 @@ TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
   choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty u = uncertainty_of(choice);
   EXPECT_EQ(u.mean_rad, u.left_rad);
-  EXPECT_GT(u.mean_rad, 1.96 * 0.02);
+  EXPECT_GT(u.mean_rad, base::kNormal95 * 0.02);
   EXPECT_EQ(u.right_rad, 0);
 }
 
