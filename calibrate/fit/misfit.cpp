@@ -84,7 +84,9 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     const double runs_to_reading = std::sqrt(
         static_cast<double>(experiment_named(problem, observable.experiment).readings_per_run));
     measured_.push_back(uncertainty_of_mean(observable, runs_to_reading * warp.scatter(w)));
-    targets_.push_back({w, few_readings_factor(observable) * measured_.back() / warp.slope(w)});
+    const double sd =
+        std::hypot(few_readings_factor(observable) * measured_.back(), observable.shift_sd);
+    targets_.push_back({w, sd / warp.slope(w)});
   }
   if (!errors.empty()) throw std::invalid_argument(errors);
   together_ = by_experiment(problem);

@@ -57,6 +57,8 @@ struct Observable {
   /// In place of `sd` where none is known: the sd of single readings as a fraction of |mean|.
   /// Assumed by the caller, and said in the result.
   std::optional<double> assumed_sd_fraction;
+  /// Standard uncertainty of what was added to the mean, beside that of the readings.
+  double shift_sd = 0;
   /// A difference between bench and simulation up to this does not matter; see tolerance_of().
   std::optional<double> tolerance = {};
   /// What a bench can read. A simulated reading may lie outside, as a grain's that stays on the

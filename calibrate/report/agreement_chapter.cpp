@@ -189,6 +189,22 @@ Table stiffness_table(const JointResult& joint) {
   return table;
 }
 
+Table stiffer_coefficients_table(const JointResult& joint) {
+  Table table{.name = "stiffer_coefficients",
+              .title = "Coefficients for the stiffer grains",
+              .data = {.columns = {{.name = "coefficient", .unit = {}},
+                                   {.name = "value", .unit = {}, .decimals = 3},
+                                   {.name = "95 % from", .unit = {}, .decimals = 3},
+                                   {.name = "95 % to", .unit = {}, .decimals = 3},
+                                   {.name = "verdict", .unit = {}}},
+                       .rows = {}}};
+  for (const StifferCoefficient& one : joint.stiffer_coefficients) {
+    table.data.add({label_of(one.name), cell(one.value), cell(one.interval.low),
+                    cell(one.interval.high), name_of(one.verdict)});
+  }
+  return table;
+}
+
 void add_stiffness(const JointResult& joint, Chapter& chapter) {
   if (joint.stiffness_checks.empty()) return;
   chapter.blocks.push_back(stiffness_table(joint));
@@ -198,6 +214,13 @@ void add_stiffness(const JointResult& joint, Chapter& chapter) {
       "limit is the half-width of the 95 % interval of the bench's mean. Agrees: the change is "
       "shown to be within it. Disagrees: it is more than chance makes, and the coefficients make "
       "up for grains that are too soft. Cannot tell: the change is known no better than this."});
+  if (joint.stiffer_coefficients.empty()) return;
+  chapter.blocks.push_back(stiffer_coefficients_table(joint));
+  chapter.blocks.push_back(Paragraph{
+      "The same readings ask for these coefficients where the changes above are taken into "
+      "account, "
+      "with their uncertainty. Use them with grains as stiff as those; with the study's softer "
+      "grains use the coefficients of the answer."});
 }
 
 Table candidates_table(const JointResult& joint) {

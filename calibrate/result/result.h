@@ -14,6 +14,7 @@
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/problem.h"
+#include "calibrate/fit/stiffer_coefficients.h"
 #include "calibrate/fit/stiffness_check.h"
 #include "calibrate/published/published_method.h"
 #include "calibrate/result/surface_summary.h"
@@ -113,6 +114,7 @@ struct JointResult {
   OverallAgreement agreement;
   std::vector<Prediction> held_out;  ///< readings that were predicted, not fitted; or none
   std::vector<StiffnessCheck> stiffness_checks;  ///< of softened experiments; or none
+  std::vector<StifferCoefficient> stiffer_coefficients;
   double chi2 = 0;
   std::vector<std::vector<double>> correlation;
   std::vector<std::vector<double>> reading_correlation;

@@ -169,6 +169,14 @@ void fields(Io& io, Held<Io, StiffnessCheck>& check) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, StifferCoefficient>& coefficient) {
+  io("name", coefficient.name);
+  io("value", coefficient.value);
+  io("interval", coefficient.interval);
+  io("verdict", coefficient.verdict);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, EquivalentSet>& set) {
   by_name(io, "parameters", io.names().parameters, set.values);
   io("chi2_above_best", set.chi2);
@@ -265,6 +273,9 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   if (io.has("held_out", !joint.held_out.empty())) io("held_out", joint.held_out);
   if (io.has("stiffness_checks", !joint.stiffness_checks.empty())) {
     io("stiffness_checks", joint.stiffness_checks);
+  }
+  if (io.has("stiffer_coefficients", !joint.stiffer_coefficients.empty())) {
+    io("stiffer_coefficients", joint.stiffer_coefficients);
   }
   io("chi2", joint.chi2);
   io("correlation", joint.correlation);

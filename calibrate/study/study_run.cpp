@@ -180,6 +180,7 @@ bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
   if (!runs) return false;
   outcome.stiffness =
       check_stiffness(problem, outcome.best.values, joined(outcome.runs, *runs), outcome.fit);
+  outcome.stiffer = stiffer_coefficients(problem, outcome.stiffness, outcome.runs);
   return true;
 }
 

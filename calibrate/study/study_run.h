@@ -6,6 +6,7 @@
 
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/prediction.h"
+#include "calibrate/fit/stiffer_coefficients.h"
 #include "calibrate/fit/stiffness_check.h"
 #include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
@@ -28,15 +29,16 @@ struct StudyOutcome {
   JointFit fit;       ///< the last one: of all runs, those of the checks included
   Verification best;  ///< the last check: `fit`'s parameters, or those nearest to it
   int check_rounds = 0;
-  std::vector<SurrogateCheck> surrogates;  ///< what was expected of that check before
-  std::vector<CheckedSet> family;          ///< those simulated that still fit
-  std::vector<Prediction> predictions;     ///< of what was held out
-  std::vector<StiffnessCheck> stiffness;   ///< of softened experiments that the budget allows for
-  std::vector<Run> runs;                   ///< those that the fit was made from
-  std::vector<Run> checks;                 ///< those of the last check
-  std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs
-  int simulated = 0;                       ///< runs made by this call
-  int reused = 0;                          ///< runs found in the folder
+  std::vector<SurrogateCheck> surrogates;   ///< what was expected of that check before
+  std::vector<CheckedSet> family;           ///< those simulated that still fit
+  std::vector<Prediction> predictions;      ///< of what was held out
+  std::vector<StiffnessCheck> stiffness;    ///< of softened experiments that the budget allows for
+  std::vector<StifferCoefficient> stiffer;  ///< that these changes ask for; none without any
+  std::vector<Run> runs;                    ///< those that the fit was made from
+  std::vector<Run> checks;                  ///< those of the last check
+  std::vector<std::string> notes;           ///< what a reader of the fit must know of its runs
+  int simulated = 0;                        ///< runs made by this call
+  int reused = 0;                           ///< runs found in the folder
 };
 
 /// Runs a study to its end, going on from what the folder holds. The outcome does not depend on how

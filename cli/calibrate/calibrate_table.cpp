@@ -127,6 +127,22 @@ void add_stiffness(const calibrate::JointResult& joint, Page& page) {
   page.add(
       "(what a larger stiffness_factor changes in a reading, at these coefficients; limit: the "
       "half-width of the 95 % interval of the bench's mean)");
+  if (joint.stiffer_coefficients.empty()) return;
+  Table coefficients({{.heading = "coefficient with stiffer grains"},
+                      number_column("value"),
+                      {.heading = "95 % interval"},
+                      {.heading = "verdict"}});
+  for (const calibrate::StifferCoefficient& one : joint.stiffer_coefficients) {
+    coefficients.add_row(
+        {short_name(one.name), number(one.value),
+         fmt::format("{} … {}", number(one.interval.low), number(one.interval.high)),
+         name_of(one.verdict)});
+  }
+  page.add_gap();
+  page.add(coefficients);
+  page.add(
+      "(what the same readings ask for where those changes are taken into account, with their "
+      "uncertainty)");
 }
 
 void add_family(const calibrate::JointResult& joint, Page& page) {

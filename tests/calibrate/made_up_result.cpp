@@ -188,6 +188,9 @@ StudyResult joint_result() {
                     .values = {.4, .3}},
       .held_out = {held_out_roll()},
       .stiffness_checks = {stiffer_drop()},
+      .stiffer_coefficients =
+          {{"particle_wall.restitution", .42, {.39, .46}, Verdict::determined},
+           {"particle_wall.rolling_friction", .3, {0, 1}, Verdict::undetermined}},
       .chi2 = .5,
       .correlation = {{1, .25}, {.25, 1}},
       .reading_correlation = {{1}},

@@ -109,6 +109,8 @@ TEST_F(Calibrate, ShowsWhatStifferGrainsChange) {
   ASSERT_EQ(result["stiffness_checks"].size(), 1U);
   EXPECT_EQ(result["stiffness_checks"][0]["name"], "drop");
   EXPECT_EQ(result["stiffness_checks"][0]["verdict"], "agrees");
+  EXPECT_THAT(done.out, HasSubstr("coefficient with stiffer grains"));
+  EXPECT_EQ(result["stiffer_coefficients"].size(), result["parameters"].size());
   const Finished dry = run({"study.toml", "--dry-run"});
   const Finished soft = run({"study.toml", "--set", softened, "--dry-run"});
   EXPECT_NE(dry.out.substr(dry.out.find("drop"), 30), soft.out.substr(soft.out.find("drop"), 30))
