@@ -71,7 +71,7 @@ TEST(StifferCoefficients, AreThoseOfTheBenchWhereSoftGrainsAskForOthers) {
 
 TEST(StifferCoefficients, AreAsUncertainAsTheChangesThatTheyTakeIntoAccount) {
   Problem problem = of_stiff_bench();
-  const std::vector<Run> runs = fake::study(problem);
+  const fake::Runs runs = fake::study(problem);
   StiffnessCheck check{.name = "heap", .change = -2.5, .interval = {-2.6, -2.4}};
   const auto sure = stiffer_coefficients(problem, {check}, runs);
   check.interval = {-8, 3};
