@@ -38,7 +38,7 @@ class IncludeRules : public ::testing::Test {
     root_ = fs::path(::testing::TempDir()) /
             ("repose_" + std::to_string(getpid()) + '_' + test->name());
   }
-  ~IncludeRules() override { fs::remove_all(root_); }
+  void TearDown() override { fs::remove_all(root_); }
 
   void write(const std::string& name, const std::string& text) {
     fs::create_directories((root_ / name).parent_path());
