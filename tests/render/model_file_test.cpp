@@ -42,8 +42,8 @@ TEST(ModelFile, IsInMetresWithYUpwards) {
   ASSERT_NE(read, nullptr) << importer.GetErrorString();
   const aiNode* node = read->mRootNode->FindNode("spheres 0");
   ASSERT_NE(node, nullptr);
-  aiMatrix4x4 whole;
-  for (const aiNode* at = node; at != nullptr; at = at->mParent) {
+  aiMatrix4x4 whole = node->mTransformation;
+  for (const aiNode* at = node->mParent; at != nullptr; at = at->mParent) {
     whole = at->mTransformation * whole;
   }
   EXPECT_NEAR(whole.a4, place.x(), 1e-6);
