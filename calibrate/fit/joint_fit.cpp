@@ -5,6 +5,7 @@
 
 #include "calibrate/fit/advice.h"
 #include "calibrate/fit/family.h"
+#include "calibrate/fit/narrowing.h"
 #include "calibrate/fit/reach.h"
 #include "calibrate/fit/responses.h"
 #include "calibrate/fit/rounds.h"
@@ -42,6 +43,15 @@ FittedParameter parameter_of(const Problem& problem, const Solution& solution, s
         {value_at(minimum.point[j]), std::max(0., minimum.chi2 - solution.best.chi2)});
   }
   return fitted;
+}
+
+/// Work of one core, s.
+double work_of(const Problem& problem, const std::vector<Run>& runs) {
+  double seconds = 0;
+  for (const Run& run : runs) {
+    seconds += run_s_of(experiment_named(problem, run.job.experiment), run.job.relative_stiffness);
+  }
+  return seconds;
 }
 
 /// Adds the lines of those of the experiments that are not among the additions yet.
@@ -159,6 +169,8 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     fit.parameters.push_back(parameter_of(problem, solution, j));
   }
+  const std::vector<Narrowing> narrowing = narrowing_of(solution, work_of(problem, sorted));
+  for (std::size_t j = 0; j < narrowing.size(); ++j) fit.parameters[j].narrowing = narrowing[j];
   advise(problem, Advisor(problem, sorted, solution), fit);
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     fit.observables.push_back(observable_of(problem, solution, i));

@@ -25,6 +25,13 @@ struct ProfilePoint {
   double chi2 = 0;  ///< above that of the best fit; 3.84 ends the interval
 };
 
+/// How wide the 95 % interval of a parameter would be, as a part of its present width.
+struct Narrowing {
+  double hour = 1;      ///< after an hour of one core more
+  double exact = 1;     ///< were the simulation's means known exactly
+  double readings = 1;  ///< with four times the bench readings
+};
+
 struct FittedParameter {
   std::string name;
   double value = 0;
@@ -32,6 +39,7 @@ struct FittedParameter {
   Verdict verdict = Verdict::undetermined;
   std::string advice;  ///< what would determine it; empty for a determined one
   std::vector<ProfilePoint> profile;
+  std::optional<Narrowing> narrowing = {};
 };
 
 /// An observable, measured and as the fitted parameters give it. In its unit.

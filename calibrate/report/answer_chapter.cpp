@@ -55,6 +55,36 @@ Table coefficients_table(const JointResult& joint) {
   return table;
 }
 
+/// What computing and measuring more would do to the widths of the intervals.
+Table narrowing_table(const JointResult& joint) {
+  Table table{.name = "narrowing",
+              .title = "Width of the 95 % interval, now and foreseen",
+              .data = {.columns = {{.name = "coefficient", .unit = {}},
+                                   {.name = "now", .unit = {}, .decimals = 3},
+                                   {.name = "one more core hour", .unit = {}, .decimals = 3},
+                                   {.name = "exact simulation", .unit = {}, .decimals = 3},
+                                   {.name = "four times the readings", .unit = {}, .decimals = 3}},
+                       .rows = {}}};
+  for (const ResultParameter& parameter : joint.parameters) {
+    if (!parameter.narrowing) continue;
+    const double width = parameter.interval.high - parameter.interval.low;
+    table.data.add({label_of(parameter.name), cell(width), cell(width * parameter.narrowing->hour),
+                    cell(width * parameter.narrowing->exact),
+                    cell(width * parameter.narrowing->readings)});
+  }
+  return table;
+}
+
+void add_narrowing(const JointResult& joint, Chapter& chapter) {
+  Table table = narrowing_table(joint);
+  if (table.data.rows.empty()) return;
+  chapter.blocks.push_back(Heading{"What would narrow the intervals"});
+  chapter.blocks.push_back(std::move(table));
+  chapter.blocks.push_back(Paragraph{
+      "Roughly foreseen from the fit. Where exact simulation would hardly narrow an interval, a "
+      "larger budget is no use: measure more, or another experiment."});
+}
+
 /// Sentences of the advice, each once.
 std::vector<std::string> advice_of(const JointResult& joint) {
   std::vector<std::string> advice;
@@ -107,6 +137,7 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
       chapter.blocks.push_back(CodeText{"For the study file", lines_of(joint.additions)});
     }
   }
+  add_narrowing(joint, chapter);
   return chapter;
 }
 

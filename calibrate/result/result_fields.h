@@ -56,6 +56,13 @@ void fields(Io& io, Held<Io, Prior>& prior) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, Narrowing>& narrowing) {
+  io("hour", narrowing.hour);
+  io("exact", narrowing.exact);
+  io("readings", narrowing.readings);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, ResultParameter>& parameter) {
   io("name", parameter.name);
   io("value", parameter.value);
@@ -67,6 +74,7 @@ void fields(Io& io, Held<Io, ResultParameter>& parameter) {
   if (io.has("known_before", parameter.known_before.has_value())) {
     io("known_before", parameter.known_before);
   }
+  if (io.has("narrowing", parameter.narrowing.has_value())) io("narrowing", parameter.narrowing);
 }
 
 template <typename Io>

@@ -29,7 +29,8 @@ FittedParameter restitution() {
           .interval = {.35, .45},
           .verdict = Verdict::determined,
           .advice = "",
-          .profile = {{.3, 5}, {.4, 0}, {.5, 6}}};
+          .profile = {{.3, 5}, {.4, 0}, {.5, 6}},
+          .narrowing = Narrowing{.hour = .875, .exact = .75, .readings = .5}};
 }
 
 FittedParameter sliding() {
