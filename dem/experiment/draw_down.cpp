@@ -37,21 +37,21 @@ bool is_below(const Simulation& simulation, int grain, const DrawDownProtocol& p
   return simulation.grain(grain).position.z() < protocol.drop_m;
 }
 
-/// How many grains there are in either box.
-struct Counts {
-  int above = 0;
-  int below = 0;
+struct Boxes {
+  Bulk above;
+  Bulk below;
 
-  int all() const { return above + below; }
+  int grains() const { return above.grains + below.grains; }
+  double relative_mass() const { return above.relative_mass + below.relative_mass; }
 };
 
-Counts counts_of(const Simulation& simulation, const DrawDownProtocol& protocol) {
-  Counts counts;
+Boxes boxes_of(const Simulation& simulation, const DrawDownProtocol& protocol) {
+  Boxes boxes;
   for (int k = 0; k < simulation.grain_count(); ++k) {
     if (!simulation.is_present(k)) continue;
-    (is_below(simulation, k, protocol) ? counts.below : counts.above) += 1;
+    (is_below(simulation, k, protocol) ? boxes.below : boxes.above).add(simulation, k);
   }
-  return counts;
+  return boxes;
 }
 
 /// Opens the gate and waits until all grains rest. A gate that is pulled away at a metre per second
@@ -75,7 +75,7 @@ Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
     flow.is_at_rest = now_s <= last_s + kLongestSettling_s;
     if (!flow.is_at_rest) break;
     run.advance(steps);
-    const auto below = static_cast<std::size_t>(counts_of(simulation, protocol).below);
+    const auto below = static_cast<std::size_t>(boxes_of(simulation, protocol).below.grains);
     if (below > flow.passed_s.size()) {
       last_s = simulation.time_s() - opened_s;
       flow.passed_s.resize(below, last_s);
@@ -88,18 +88,18 @@ Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
 /// Why there is nothing to read, where that is so.
 void check_flow(const ExperimentRun& run, const DrawDownProtocol& protocol, const Flow& flow) {
   const Simulation& simulation = run.simulation();
-  const int grains = counts_of(simulation, protocol).all();
+  const int grains = boxes_of(simulation, protocol).grains();
   double highest_above_m = 0;
   bool has_arch = flow.passed_s.empty();
   for (int k = 0; k < simulation.grain_count(); ++k) {
     if (!simulation.is_present(k)) continue;
     if (is_below(simulation, k, protocol)) {
-      if (highest_m(run.shape(), simulation.grain(k)) < protocol.drop_m) continue;
+      if (highest_m(simulation, k) < protocol.drop_m) continue;
       throw NoReading(
           "draw_down: the lower heap reaches up to the slot and stops the flow. Fix: a greater "
           "drop_mm, or a lower fill_mm.");
     }
-    highest_above_m = std::max(highest_above_m, highest_m(run.shape(), simulation.grain(k)));
+    highest_above_m = std::max(highest_above_m, highest_m(simulation, k));
     has_arch |= std::abs(simulation.grain(k).position.x()) < .25 * protocol.slot_m;
   }
   if (has_arch) {
@@ -136,18 +136,18 @@ Repeat run_draw_down(const Model& model, const DrawDownProtocol& protocol, std::
   ExperimentRun run = filled_boxes(model, protocol, seed, {report, record});
   const Flow flow = discharge(run, protocol);
   check_flow(run, protocol, flow);
-  const int grains = counts_of(run.simulation(), protocol).all();
-  const auto out = static_cast<double>(flow.passed_s.size());
-  const double grain_g = 1e3 * model.grain_material.density_kg_m3 * model.grain.volume_m3;
+  const Boxes boxes = boxes_of(run.simulation(), protocol);
+  const double mean_grain_g = 1e3 * model.grain_material.density_kg_m3 * model.grain.volume_m3;
   constexpr double kPercent = 100;
-  return run.finish(kPercent * out / grains, seed,
-                    {{"grains", grains},
-                     {"grains_out", out},
-                     {"filled_g", grain_g * grains},
-                     {"discharged_g", grain_g * out},
-                     {"time_s", time_of(flow, kThrough)},
-                     {"rate_g_s", grain_g * rate_s(flow)},
-                     {"at_rest", flow.is_at_rest ? 1 : 0}});
+  return run.finish(
+      kPercent * boxes.below.relative_mass / boxes.relative_mass(), seed,
+      {{"grains", boxes.grains()},
+       {"grains_out", boxes.below.grains},
+       {"filled_g", mean_grain_g * boxes.relative_mass()},
+       {"discharged_g", mean_grain_g * boxes.below.relative_mass},
+       {"time_s", time_of(flow, kThrough)},
+       {"rate_g_s", mean_grain_g * rate_s(flow) * (boxes.below.relative_mass / boxes.below.grains)},
+       {"at_rest", flow.is_at_rest ? 1 : 0}});
 }
 
 }  // namespace repose::dem

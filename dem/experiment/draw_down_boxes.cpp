@@ -52,7 +52,7 @@ void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::ErrorLi
 void check(const Model& model, const DrawDownProtocol& protocol) {
   base::ErrorList errors;
   find_errors(model, errors);
-  check_sizes(protocol, 2 * model.grain.reach_m(), errors);
+  check_sizes(protocol, 2 * largest_reach_m(model), errors);
   constexpr double kPacked = .65;
   const double box_m3 = protocol.length_m * protocol.depth_m * protocol.fill_m;
   const double grains = kPacked * box_m3 / model.grain.volume_m3;
@@ -112,12 +112,10 @@ double upper_floor_m(const DrawDownProtocol& protocol) { return protocol.drop_m 
 ExperimentRun filled_boxes(const Model& model, const DrawDownProtocol& protocol, std::uint64_t seed,
                            const Observers& observers) {
   check(model, protocol);
-  const RainPlan plan = rain_of(protocol, model.grain.reach_m());
+  const RainPlan plan = rain_of(protocol, largest_reach_m(model));
   // The fastest fall from the top of the fill to the floor of the lower box.
   const double fastest_m_s = std::sqrt(2 * kStandardGravity_m_s2 * plan.rim_m);
-  ExperimentRun run(
-      Simulation(model_setup(model, model.grain, walls_of(protocol), fastest_m_s, kCourseFraction)),
-      observers);
+  ExperimentRun run(Simulation(bulk_setup(model, walls_of(protocol), fastest_m_s)), observers);
   rain(run, plan, seed);
   for (const int grain : above_rim(run.simulation(), plan.rim_m)) run.simulation().remove(grain);
   return run;

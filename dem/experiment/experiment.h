@@ -21,6 +21,10 @@ namespace repose::dem {
 /// What all experiments share: grain, materials, coefficients, and how to compute.
 struct Model {
   ClumpShape grain;
+  /// Standard deviation of the grains' sizes in bulks, as a fraction of their mean
+  /// (size_classes.h); 0: all are alike. Grains that are alone, on a plate or glued, have the mean
+  /// size.
+  double size_sd_fraction = 0;
   Material grain_material;
   Material wall_material;
   PairCoefficients grain_wall;

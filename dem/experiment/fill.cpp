@@ -57,7 +57,7 @@ void check_taps(const FillProtocol& protocol, base::ErrorList& errors) {
 void check(const Model& model, const FillProtocol& protocol) {
   base::ErrorList errors;
   find_errors(model, errors);
-  check_sizes(protocol, 2 * model.grain.reach_m(), errors);
+  check_sizes(protocol, 2 * largest_reach_m(model), errors);
   check_taps(protocol, errors);
   constexpr double kPacked = .65;
   const double grains = kPacked * volume_m3(protocol) / model.grain.volume_m3;
@@ -88,22 +88,23 @@ HeapProtocol collared(HeapProtocol tube, const FillProtocol& protocol) {
   return tube;
 }
 
-double count_below(const Simulation& simulation, double rim_m) {
-  double grains = 0;
+Bulk bulk_below(const Simulation& simulation, double rim_m) {
+  Bulk bulk;
   for (int k = 0; k < simulation.grain_count(); ++k) {
-    if (simulation.is_present(k) && simulation.grain(k).position.z() <= rim_m) ++grains;
+    if (!simulation.is_present(k) || simulation.grain(k).position.z() > rim_m) continue;
+    bulk.add(simulation, k);
   }
-  return grains;
+  return bulk;
 }
 
 /// Taps the tube; returns by how much denser it is below its rim.
 double tapped(ExperimentRun& run, const FillProtocol& protocol) {
-  const double poured = count_below(run.simulation(), protocol.tube_height_m);
+  const double poured = bulk_below(run.simulation(), protocol.tube_height_m).relative_mass;
   tap(run, *protocol.taps, protocol.tap_m);
   if (above_rim(run.simulation(), protocol.tube_height_m).empty()) {
     throw NoReading("the grains sank below the rim of the tube when it was tapped");
   }
-  return count_below(run.simulation(), protocol.tube_height_m) / poured;
+  return bulk_below(run.simulation(), protocol.tube_height_m).relative_mass / poured;
 }
 
 }  // namespace
@@ -119,13 +120,14 @@ Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t 
   pour(filling, filled, seed, spout_m);
   if (protocol.taps) readings["hausner_ratio"] = tapped(filling, protocol);
   ExperimentRun run = struck_level(filling, model, tube, spout_m);
-  const double grains = count_below(run.simulation(), protocol.tube_height_m);
-  const double mass_kg = grains * model.grain_material.density_kg_m3 * model.grain.volume_m3;
+  const Bulk bulk = bulk_below(run.simulation(), protocol.tube_height_m);
+  const double mass_kg =
+      bulk.relative_mass * model.grain_material.density_kg_m3 * model.grain.volume_m3;
   const double density = mass_kg / volume_m3(protocol);
   const double level_m =
       filling_height_m(placed_spheres(run.simulation()), protocol.tube_diameter_m);
   readings.insert({{"filling_height_mm", 1e3 * level_m},
-                   {"grains", grains},
+                   {"grains", bulk.grains},
                    {"mass_g", 1e3 * mass_kg},
                    {"solid_fraction", density / model.grain_material.density_kg_m3}});
   return run.finish(density, seed, std::move(readings));

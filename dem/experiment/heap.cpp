@@ -71,7 +71,7 @@ void check(const Model& model, const HeapProtocol& protocol) {
                  fmt::format("heap.tube_diameter_m is {:g}, with its wall {:g}. Rule: it stands on "
                              "the plate, {:g} m. Fix: a narrower tube or a larger plate.",
                              protocol.tube_diameter_m, outer, protocol.plate_m));
-  const double grain = 2 * model.grain.reach_m();
+  const double grain = 2 * largest_reach_m(model);
   errors.require(
       !(protocol.tube_diameter_m < 1.05 * grain),
       fmt::format("heap.tube_diameter_m is {:g}. Rule: wider than a grain is long, {:.4g} "
@@ -97,7 +97,7 @@ double highest_point_m(const ExperimentRun& run) {
   double highest = 0;
   for (int k = 0; k < run.simulation().grain_count(); ++k) {
     if (!run.simulation().is_present(k)) continue;
-    highest = std::max(highest, highest_m(run.shape(), run.simulation().grain(k)));
+    highest = std::max(highest, highest_m(run.simulation(), k));
   }
   return highest;
 }
@@ -123,7 +123,7 @@ void lift(ExperimentRun& run) {
     const double rim = simulation.wall(kHeapTube).pose.position.z();
     if (rim > highest) break;
     // Grains that are not carried along stay below where the highest was.
-    if (rim > start + run.shape().reach_m()) {
+    if (rim > start + reach_m(simulation.setup())) {
       throw NoReading(
           fmt::format("heap: grains hang in the tube, its lower rim now {:.3g} m up. "
                       "Fix: a wider tube, or less friction.",

@@ -48,7 +48,6 @@ RainPlan rain_of(const HeapProtocol& protocol, double reach_m, std::optional<dou
 
 /// The grains up to the rim, and their contacts but those with the tube above it.
 Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
-  const ClumpShape& shape = filled.setup().kinds.front().shape;
   Checkpoint now = filled.checkpoint();
   now.step = 0;
   for (const int grain : above_rim(filled, protocol.tube_height_m)) {
@@ -59,7 +58,8 @@ Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
     if (!now.is_present[a]) return true;
     if (contact.grain_b >= 0) return !now.is_present[static_cast<std::size_t>(contact.grain_b)];
     const bool is_tube = -1 - contact.grain_b == kHeapTube;
-    return is_tube && highest_m(shape, now.grains[a]) > protocol.tube_height_m;
+    return is_tube &&
+           highest_m(shape_of(filled, now.grains[a]), now.grains[a]) > protocol.tube_height_m;
   });
   return now;
 }
@@ -68,24 +68,24 @@ Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
 
 ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
                          const Observers& observers, std::optional<double> spout_m) {
-  const double reach = model.grain.reach_m();
+  const double reach = largest_reach_m(model);
   const double tall = protocol.tube_height_m + kTaller * reach;
-  return {Simulation(model_setup(model, model.grain, {plate_of(protocol), tube_of(protocol, tall)},
-                                 fastest_rain_m_s(reach, spout_m), kCourseFraction)),
+  return {Simulation(bulk_setup(model, {plate_of(protocol), tube_of(protocol, tall)},
+                                fastest_rain_m_s(reach, spout_m))),
           observers};
 }
 
 void pour(ExperimentRun& filling, const HeapProtocol& protocol, std::uint64_t seed,
           std::optional<double> spout_m) {
-  rain(filling, rain_of(protocol, filling.shape().reach_m(), spout_m), seed);
+  rain(filling, rain_of(protocol, reach_m(filling.simulation().setup()), spout_m), seed);
 }
 
 ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
                            const HeapProtocol& protocol, std::optional<double> spout_m) {
-  const double reach = model.grain.reach_m();
-  SimulationSetup setup = model_setup(
-      model, model.grain, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
-      fastest_rain_m_s(reach, spout_m), kCourseFraction);
+  const double reach = largest_reach_m(model);
+  SimulationSetup setup =
+      bulk_setup(model, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
+                 fastest_rain_m_s(reach, spout_m));
   // Grains that fall off the plate are gone once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),

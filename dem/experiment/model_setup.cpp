@@ -1,9 +1,12 @@
 #include "dem/experiment/model_setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "dem/shape/clump/size_classes.h"
 
 namespace repose::dem {
 namespace {
@@ -23,6 +26,24 @@ ContactTable contact_table(const Model& model) {
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 
+SimulationSetup setup_of(const Model& model, std::vector<ClumpShape> shapes,
+                         std::vector<Wall> walls, double speed_m_s, double fraction) {
+  SimulationSetup setup{.kinds = {},
+                        .walls = std::move(walls),
+                        .contacts = contact_table(model),
+                        .threads = model.threads};
+  for (ClumpShape& shape : shapes) {
+    setup.kinds.push_back({.shape = std::move(shape), .material = kGrainMaterial});
+  }
+  if (model.timestep_s) {
+    check_timestep(*model.timestep_s, setup, speed_m_s, fraction);
+    setup.timestep_s = *model.timestep_s;
+  } else {
+    setup.timestep_s = model.timestep_fraction * accurate_timestep_s(setup, speed_m_s, fraction);
+  }
+  return setup;
+}
+
 }  // namespace
 
 void find_errors(const Model& model, base::ErrorList& errors) {
@@ -34,6 +55,10 @@ void find_errors(const Model& model, base::ErrorList& errors) {
                      model.grain.gyration_m2.allFinite() && model.grain.gyration_m2.minCoeff() > 0,
                  "grain: it has no spheres, volume or inertia. Fix: make it from a scan or from "
                  "its sizes.");
+  errors.require(model.size_sd_fraction >= 0 && model.size_sd_fraction <= kMaxSizeSd,
+                 fmt::format("size_sd_fraction is {:g}. Rule: 0 to {:g}. Fix: the standard "
+                             "deviation of the sizes by their mean; 0 for grains that are alike.",
+                             model.size_sd_fraction, kMaxSizeSd));
   const bool has_stiffness = is_positive(model.stiffness_factor);
   errors.require(has_stiffness,
                  fmt::format("stiffness_factor is {:g}. Rule: above 0. Fix: 1 for the real "
@@ -61,17 +86,20 @@ Wall study_wall(WallShape shape, const Pose& pose) {
 
 SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
                             double speed_m_s, double fraction) {
-  SimulationSetup setup{.kinds = {{.shape = shape, .material = kGrainMaterial}},
-                        .walls = std::move(walls),
-                        .contacts = contact_table(model),
-                        .threads = model.threads};
-  if (model.timestep_s) {
-    check_timestep(*model.timestep_s, setup, speed_m_s, fraction);
-    setup.timestep_s = *model.timestep_s;
-  } else {
-    setup.timestep_s = model.timestep_fraction * accurate_timestep_s(setup, speed_m_s, fraction);
+  return setup_of(model, {shape}, std::move(walls), speed_m_s, fraction);
+}
+
+SimulationSetup bulk_setup(const Model& model, std::vector<Wall> walls, double speed_m_s) {
+  return setup_of(model, size_classes(model.grain, model.size_sd_fraction), std::move(walls),
+                  speed_m_s, kCourseFraction);
+}
+
+double largest_reach_m(const Model& model) {
+  double reach = 0;
+  for (const ClumpShape& shape : size_classes(model.grain, model.size_sd_fraction)) {
+    reach = std::max(reach, shape.reach_m());
   }
-  return setup;
+  return reach;
 }
 
 }  // namespace repose::dem

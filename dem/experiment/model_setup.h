@@ -24,4 +24,11 @@ Wall study_wall(WallShape shape, const Pose& pose = {});
 SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
                             double speed_m_s, double fraction = kImpactFraction);
 
+/// Likewise of bulks: grains of all the model's sizes, the mean the first kind, and the usual
+/// fraction of a course (kCourseFraction).
+SimulationSetup bulk_setup(const Model& model, std::vector<Wall> walls, double speed_m_s);
+
+/// Farthest that a sphere of the largest of these grains reaches from its centre of mass, m.
+double largest_reach_m(const Model& model);
+
 }  // namespace repose::dem

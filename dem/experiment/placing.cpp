@@ -26,6 +26,27 @@ double highest_m(const ClumpShape& shape, const Grain& grain) {
   return grain.position.z() + reach_towards(shape, grain.orientation, Vector::UnitZ());
 }
 
+const ClumpShape& shape_of(const Simulation& simulation, const Grain& grain) {
+  return simulation.setup().kinds[static_cast<std::size_t>(grain.kind)].shape;
+}
+
+double reach_m(const SimulationSetup& setup) {
+  double reach = 0;
+  for (const GrainKind& kind : setup.kinds) reach = std::max(reach, kind.shape.reach_m());
+  return reach;
+}
+
+void Bulk::add(const Simulation& simulation, int grain) {
+  const ClumpShape& mean = simulation.setup().kinds.front().shape;
+  ++grains;
+  relative_mass += shape_of(simulation, simulation.grain(grain)).volume_m3 / mean.volume_m3;
+}
+
+double highest_m(const Simulation& simulation, int grain) {
+  const Grain now = simulation.grain(grain);
+  return highest_m(shape_of(simulation, now), now);
+}
+
 Quaternion lying_pose(const ClumpShape& shape) {
   std::array<int, 3> axes = {0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(),
@@ -46,8 +67,7 @@ std::vector<ClumpSphere> placed_spheres(const Simulation& simulation) {
   for (int k = 0; k < simulation.grain_count(); ++k) {
     if (!simulation.is_present(k)) continue;
     const Grain grain = simulation.grain(k);
-    const auto kind = static_cast<std::size_t>(grain.kind);
-    for (const ClumpSphere& sphere : simulation.setup().kinds[kind].shape.spheres) {
+    for (const ClumpSphere& sphere : shape_of(simulation, grain).spheres) {
       placed.push_back(
           {.centre = grain.position + grain.orientation * sphere.centre, .radius = sphere.radius});
     }

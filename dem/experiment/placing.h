@@ -14,6 +14,21 @@ double reach_towards(const ClumpShape& shape, const Quaternion& orientation,
 double lowest_m(const ClumpShape& shape, const Grain& grain);
 double highest_m(const ClumpShape& shape, const Grain& grain);
 
+/// The shape of a grain of the simulation, and the height of its highest point, m.
+const ClumpShape& shape_of(const Simulation& simulation, const Grain& grain);
+double highest_m(const Simulation& simulation, int grain);
+
+/// Some grains of a simulation: their number, and their mass by that of one of the mean size.
+struct Bulk {
+  int grains = 0;
+  double relative_mass = 0;
+
+  void add(const Simulation& simulation, int grain);
+};
+
+/// Farthest that a sphere of any of the kinds reaches from the grain's centre of mass, m.
+double reach_m(const SimulationSetup& setup);
+
 /// Turns a grain so that its long axis lies along y and its shortest upright.
 ///
 /// The long axis is the one with the least moment of inertia, the shortest that with the greatest.

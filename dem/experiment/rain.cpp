@@ -47,15 +47,21 @@ class Rain {
     return std::sqrt(2 * kStandardGravity_m_s2 * fall_m);
   }
 
+  /// Each is as likely as the others.
+  int kind_of_next(const SimulationSetup& setup) {
+    const auto kinds = static_cast<double>(setup.kinds.size());
+    return kinds == 1 ? 0 : static_cast<int>(kinds * random_.uniform());
+  }
+
   const RainPlan& plan_;
-  double reach_m_;
+  double reach_m_;  ///< of the largest grain
   Random random_;
 };
 
 double Rain::highest_point_m(const ExperimentRun& run) const {
   double highest = plan_.floor_m;
   for (int k = 0; k < run.simulation().grain_count(); ++k) {
-    highest = std::max(highest, highest_m(run.shape(), run.simulation().grain(k)));
+    highest = std::max(highest, highest_m(run.simulation(), k));
   }
   return highest;
 }
@@ -70,7 +76,8 @@ void Rain::add_layer(ExperimentRun& run, double height_m) {
     });
     if (!is_free) continue;
     taken.push_back(place);
-    run.simulation().add({.position = place,
+    run.simulation().add({.kind = kind_of_next(run.simulation().setup()),
+                          .position = place,
                           .orientation = random_.orientation(),
                           .velocity = {0, 0, -speed_m_s(height_m)}});
   }
@@ -109,7 +116,7 @@ double fastest_rain_m_s(double reach_m, std::optional<double> spout_m) {
 }
 
 void rain(ExperimentRun& run, const RainPlan& plan, std::uint64_t seed) {
-  Rain(plan, run.shape().reach_m(), seed, run.progress().random_draws).fill(run);
+  Rain(plan, reach_m(run.simulation().setup()), seed, run.progress().random_draws).fill(run);
 }
 
 std::vector<int> above_rim(const Simulation& simulation, double rim_m) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "dem/experiment/placing.h"
+
 namespace repose::dem {
 namespace {
 
@@ -20,8 +22,7 @@ double energy_m2_s2(const Grain& grain, const Vector& gyration_m2) {
 }  // namespace
 
 RestTest::RestTest(const SimulationSetup& setup, RestMemory memory)
-    : gravity_m_s2_(setup.gravity.norm()), memory_(std::move(memory)) {
-  for (const GrainKind& kind : setup.kinds) reach_m_ = std::max(reach_m_, kind.shape.reach_m());
+    : reach_m_(reach_m(setup)), gravity_m_s2_(setup.gravity.norm()), memory_(std::move(memory)) {
   window_s_ = kWindowFalls * std::sqrt(2 * reach_m_ / gravity_m_s2_);
 }
 
@@ -32,8 +33,7 @@ bool RestTest::is_at_rest(const Simulation& simulation) {
   for (int k = 0; k < simulation.grain_count(); ++k) {
     if (!simulation.is_present(k)) continue;
     const Grain grain = simulation.grain(k);
-    energy +=
-        energy_m2_s2(grain, setup.kinds[static_cast<std::size_t>(grain.kind)].shape.gyration_m2);
+    energy += energy_m2_s2(grain, shape_of(simulation, grain).gyration_m2);
     centres.push_back(grain.position);
   }
   const auto count = static_cast<double>(centres.size());

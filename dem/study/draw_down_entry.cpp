@@ -43,6 +43,7 @@ ExperimentEntry draw_down_entry() {
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
           .sheet = {.test = "draw_down", .value = "discharged_percent", .protocol = {}},
+          .is_bulk = true,
           .is_usual = false,
           .usual = DrawDownProtocol{},
           .keys = keys_of_draw_down,

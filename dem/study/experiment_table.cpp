@@ -87,8 +87,7 @@ double step_on_grains_s(const Model& model, int bonded) {
 }
 
 double course_timestep_s(const Model& model, double speed_m_s) {
-  return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, kCourseFraction)
-      .timestep_s;
+  return bulk_setup(model, {study_wall(Plane{})}, speed_m_s).timestep_s;
 }
 
 }  // namespace repose::dem

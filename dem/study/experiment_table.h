@@ -53,6 +53,7 @@ struct ExperimentEntry {
   std::string_view tells = "";
   BenchSheet sheet;
   bool is_stochastic = true;  ///< false: the seed changes nothing
+  bool is_bulk = false;       ///< many loose grains, of all the sizes that they have
   bool is_usual = true;       ///< part of a new study that names no experiments
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
   bool is_filmed = false;     ///< a film of it on the bench gives a row of its sheet, or a picture

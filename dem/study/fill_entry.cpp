@@ -44,6 +44,7 @@ ExperimentEntry fill_entry() {
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
           .sheet = {.test = "fill", .value = "bulk_density_kg_m3", .protocol = {}},
+          .is_bulk = true,
           .is_usual = false,
           .usual = FillProtocol{},
           .keys = keys_of_fill,

@@ -58,6 +58,7 @@ ExperimentEntry heap_entry() {
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
           .sheet = {.test = "heap", .value = "angle_deg"},
+          .is_bulk = true,
           .is_pictured = true,
           .is_filmed = true,
           .usual = HeapProtocol{},

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "dem/shape/clump/size_classes.h"
+
 namespace repose::dem {
 namespace {
 
@@ -134,6 +136,14 @@ void read_sizes(Section& particle, GrainSource& grain) {
                               .tip_fraction = tip.value_or(0)};
 }
 
+double size_sd_fraction(Section& particle) {
+  constexpr double kPercent = 100;
+  return particle
+             .number("size_sd_percent", from_to(0, kPercent * kMaxSizeSd), "size_sd_percent = 4.3")
+             .value_or(0) /
+         kPercent;
+}
+
 void read_filling(Section& particle, GrainSource& grain) {
   const auto spheres = particle.integer("spheres", 1, kMaxSpheres, "spheres = 11");
   const auto error = particle.number(
@@ -205,6 +215,7 @@ void read_particle(Section particle, const NamedFiles& files, Study& study) {
     study.grain.clump = file_named(particle, *particle.value("clump"), *clump, files);
   }
   check_one_shape(particle);
+  study.model.size_sd_fraction = size_sd_fraction(particle);
   read_filling(particle, study.grain);
   read_colour(particle, study);
   read_material(particle, "particle", study.model.grain_material);

@@ -172,6 +172,7 @@ Model model_for(const Study& study, Experiment experiment) {
   if (described != study.experiments.end()) {
     model.stiffness_factor = described->second.stiffness_factor;
   }
+  if (!entry_of(experiment).is_bulk) model.size_sd_fraction = 0;
   if (!has_grain_contacts(experiment)) {
     const auto close = [](double& open, double value) {
       if (std::isnan(open)) open = value;

@@ -138,7 +138,8 @@ Measured measured_in(const Study& study, Experiment experiment);
 /// coefficients between grains.
 std::vector<std::string> open_coefficients(const Study& study, Experiment experiment);
 
-/// The bench as one experiment needs it: its stiffness factor, and coefficients without effect in
+/// The bench as one experiment needs it: its stiffness factor, sizes that vary in bulks only, and
+/// coefficients without effect in
 /// it (see open_coefficients) set to something where the study leaves them open.
 Model model_for(const Study& study, Experiment experiment);
 

@@ -96,6 +96,18 @@ TEST_F(StudyFile, GrainsMayHaveAColourForPictures) {
   EXPECT_THAT(errors(kStudy, {"particle.colour=[256, 51, 0]"}), HasSubstr("particle.colour"));
 }
 
+TEST_F(StudyFile, SizesThatVaryDoSoInBulksOnly) {
+  const std::string heap = "\n[experiment.heap]\n";
+  const Study study = read(kStudy + heap, {"particle.size_sd_percent = 4.3"});
+  EXPECT_DOUBLE_EQ(model_for(study, Experiment::heap).size_sd_fraction, .043);
+  EXPECT_EQ(model_for(study, Experiment::drop).size_sd_fraction, 0);
+  EXPECT_EQ(read(kStudy + heap).model.size_sd_fraction, 0);
+  EXPECT_THAT(errors(kStudy, {"particle.size_sd_percent = 43"}),
+              HasSubstr("particle.size_sd_percent"));
+  EXPECT_THAT(errors(kStudy, {"particle.size_sd_percent = -1"}),
+              HasSubstr("particle.size_sd_percent"));
+}
+
 TEST_F(StudyFile, MaterialsInAnotherUnitAreFoundOut) {
   EXPECT_THAT(errors(kStudy, {"particle.young_modulus_pa=1.254"}),
               AllOf(HasSubstr("particle.young_modulus_pa = 1.254. Rule: 1e+06 to 1.3e+12 Pa"),
