@@ -66,6 +66,18 @@ std::string heap_stiffness_text(const ExportFacts& facts) {
                      number(facts.stiffness(dem::Experiment::heap)));
 }
 
+/// Decks have grains of the mean size; EDEM has sizes of its own.
+void add_sizes(const ExportFacts& facts, ExportTarget target, DeckFields& fields) {
+  constexpr double kPercent = 100;
+  const double percent = kPercent * facts.study().model.size_sd_fraction;
+  if (percent == 0) return;
+  DeckFields& sizes = fields.add_section("SIZES");
+  sizes.set("PERCENT", percent);
+  sizes.set("INSTEAD", target == ExportTarget::edem
+                           ? "Choose a normal size distribution with this deviation."
+                           : "The grains of these decks all have the mean size.");
+}
+
 }  // namespace
 
 ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
@@ -78,6 +90,7 @@ ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
   fields.set_lines("RUNNING", text_of(target, "running.txt"));
   fields.set_lines("LIMITS", text_of(target, "limits.txt"));
   add_left_out(facts, fields);
+  add_sizes(facts, target, fields);
   for (const Conversion& conversion : conversions) add_conversion(conversion, fields);
   return {.name = "README.txt", .text = filled("readme.txt", fields)};
 }

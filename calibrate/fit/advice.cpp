@@ -6,18 +6,16 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/narrowing.h"
 #include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
 namespace {
 
-constexpr double kReadings = 10;         // taken of what is advised
-constexpr double kWorthwhile = .3;       // share of the variance that it takes away
-constexpr std::size_t kFewestRuns = 8;   // runs to learn a reading from
-constexpr double kMostlySurrogate = .5;  // surrogate variance over measured
-constexpr int kMoreReadings = 4;         // times as many: half the uncertainty
-constexpr double kSeen = 2;              // sigma from bound to bound: less, and runs show nothing
+constexpr double kReadings = 10;        // taken of what is advised
+constexpr double kWorthwhile = .3;      // share of the variance that it takes away
+constexpr std::size_t kFewestRuns = 8;  // runs to learn a reading from
 
 bool is_measured(const Problem& problem, const std::string& experiment) {
   return std::any_of(problem.observables.begin(), problem.observables.end(),
@@ -41,17 +39,25 @@ bool depends(const Experiment& experiment, std::size_t parameter) {
          experiment.parameters.end();
 }
 
-std::string worth_of_ten(double fraction) {
+/// `left`: of its standard deviation.
+std::string worth_of(const std::string& what, double left) {
   return fmt::format(
-      "ten readings would reduce the uncertainty of this coefficient to about {:.0f} % of its "
-      "present value",
-      100 * std::sqrt(1 - fraction));
+      "{} would reduce the uncertainty of this coefficient to about {:.0f} % of its present value",
+      what, 100 * left);
 }
+
+std::string worth_of_ten(double fraction) {
+  return worth_of("ten readings", std::sqrt(1 - fraction));
+}
+
+/// `left`: of a standard deviation.
+bool is_worthwhile(double left) { return 1 - left * left > kWorthwhile; }
 
 }  // namespace
 
-Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Solution& solution)
-    : problem_(problem), solution_(solution) {
+Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Solution& solution,
+                 std::vector<double> exact)
+    : problem_(problem), solution_(solution), exact_(std::move(exact)) {
   for (const Experiment& experiment : measured_experiments(problem)) {
     for (const std::string& reading : experiment.measurable) {
       if (!is_measured(problem, experiment.name, reading)) {
@@ -66,7 +72,7 @@ Advisor::Advisor(const Problem& problem, const std::vector<Run>& runs, const Sol
     learn_unmeasured(offer.experiment, "value", offer.runs, offered_);
   }
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
-    more_readings_.push_back(more_readings(i));
+    more_readings_.push_back(narrowing_by_readings(solution, i));
   }
 }
 
@@ -90,25 +96,6 @@ void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& 
   all.push_back(std::move(unmeasured));
 }
 
-Advisor::Measurement Advisor::more_readings(std::size_t observable) const {
-  // In the surrogate's units. All readings share the surrogate's error s: with u^2 of the measured
-  // mean, the variance falls from u^2 + s^2 to u^2 / m + s^2 (m times the readings), as if another
-  // measurement were added, of variance v: 1 / (u^2 / m + s^2) = 1 / (u^2 + s^2) + 1 / v.
-  const double u2 = 1 / solution_.misfit.weight(observable);
-  const Surrogate& surrogate = solution_.misfit.surrogates()[observable];
-  Measurement again;
-  double s2 = 0;
-  for (const Point& point : solution_.sets.points) {
-    const Expectation w = surrogate.at(point, false);
-    again.readings.push_back(w.mean);
-    s2 += w.variance / static_cast<double>(solution_.sets.points.size());
-  }
-  const double now = u2 + s2;
-  const double then = u2 / kMoreReadings + s2;
-  again.noise2 = now * then / (now - then);
-  return again;
-}
-
 double Advisor::fraction_explained(const Measurement& measurement, std::size_t parameter) const {
   // Linear Bayes: measuring r with error variance v takes cov(r, x)^2 / (var r + v) from var x.
   // Goldstein and Wooff (2007), Bayes Linear Statistics.
@@ -129,22 +116,6 @@ double Advisor::fraction_explained(const Measurement& measurement, std::size_t p
   }
   const double all = xx * (rr + measurement.noise2);
   return all > 0 ? xr * xr / all : 0;
-}
-
-bool Advisor::more_runs_would_help(std::size_t parameter) const {
-  const Misfit& misfit = solution_.misfit;
-  Point low = solution_.best.point;
-  Point high = low;
-  low[parameter] = 0;
-  high[parameter] = 1;
-  for (std::size_t i = 0; i < problem_.observables.size(); ++i) {
-    const double effect = misfit.difference(i, high) - misfit.difference(i, low);
-    if (std::abs(effect) > kSeen &&
-        misfit.surrogate_variance_fraction(i, solution_.best.point) > kMostlySurrogate) {
-      return true;
-    }
-  }
-  return false;
 }
 
 Advisor::Best Advisor::best_of(const std::vector<Unmeasured>& all, std::size_t parameter) const {
@@ -183,19 +154,14 @@ Advice Advisor::addition_advice(std::size_t parameter) const {
 }
 
 std::string Advisor::more_readings_advice(std::size_t parameter) const {
-  const Observable* best = nullptr;
-  double most = kWorthwhile;
-  for (std::size_t i = 0; i < more_readings_.size(); ++i) {
-    const double fraction = fraction_explained(more_readings_[i], parameter);
-    if (fraction <= most) continue;
-    most = fraction;
-    best = &problem_.observables[i];
-  }
-  if (best == nullptr) return "";
-  return fmt::format(
-      "take more bench readings of {}: {} in place of {} would reduce the uncertainty of this "
-      "coefficient to about {:.0f} % of its present value",
-      best->name, kMoreReadings * best->n, best->n, 100 * std::sqrt(1 - most));
+  const auto best = std::ranges::min_element(
+      more_readings_, {}, [&](const std::vector<double>& left) { return left[parameter]; });
+  const double left = (*best)[parameter];
+  if (!is_worthwhile(left)) return "";
+  const Observable& of =
+      problem_.observables[static_cast<std::size_t>(best - more_readings_.begin())];
+  return fmt::format("take more bench readings of {}: {}", of.name,
+                     worth_of(fmt::format("{} in place of {}", kMoreReadings * of.n, of.n), left));
 }
 
 std::string Advisor::unmade_advice(std::size_t parameter) const {
@@ -212,13 +178,16 @@ std::string Advisor::unmade_advice(std::size_t parameter) const {
   return fmt::format("{}", fmt::join(parts, "; or "));
 }
 
+std::string Advisor::more_runs_advice(std::size_t parameter) const {
+  if (!is_worthwhile(exact_[parameter])) return "";
+  return "simulate more: " + worth_of("means known exactly", exact_[parameter]);
+}
+
 Advice Advisor::advice(std::size_t parameter) const {
   Advice advice = addition_advice(parameter);
   std::vector<std::string> parts = {unmeasured_advice(parameter), more_readings_advice(parameter),
-                                    unmade_advice(parameter), advice.text};
-  if (more_runs_would_help(parameter)) {
-    parts.emplace_back("simulate more: the surrogates are less certain than the measurements");
-  }
+                                    unmade_advice(parameter), advice.text,
+                                    more_runs_advice(parameter)};
   std::erase(parts, "");
   advice.text = fmt::format("{}", fmt::join(parts, "; or "));
   if (parts.empty()) {

@@ -18,7 +18,9 @@ struct Advice {
 class Advisor {
  public:
   /// Learns the readings that a bench could have given and that were not measured.
-  Advisor(const Problem& problem, const std::vector<Run>& runs, const Solution& solution);
+  /// @param exact  of each parameter, Narrowing::exact
+  Advisor(const Problem& problem, const std::vector<Run>& runs, const Solution& solution,
+          std::vector<double> exact);
 
   Advice advice(std::size_t parameter) const;
 
@@ -42,8 +44,6 @@ class Advisor {
   /// Adds what ten readings would be, where enough runs have them.
   void learn_unmeasured(const Experiment& experiment, const std::string& reading,
                         const std::vector<Run>& runs, std::vector<Unmeasured>& all) const;
-  /// An observable measured again, until it has kMoreReadings times as many readings.
-  Measurement more_readings(std::size_t observable) const;
   double fraction_explained(const Measurement& measurement, std::size_t parameter) const;
   Best best_of(const std::vector<Unmeasured>& all, std::size_t parameter) const;
 
@@ -51,18 +51,18 @@ class Advisor {
   std::string unmeasured_advice(std::size_t parameter) const;
   std::string more_readings_advice(std::size_t parameter) const;
   std::string unmade_advice(std::size_t parameter) const;
+  std::string more_runs_advice(std::size_t parameter) const;
 
   /// Experiments to add: the best of those that were simulated, or else those that tell it.
   Advice addition_advice(std::size_t parameter) const;
 
-  /// Some observable depends on it visibly, and its surrogate is the weakest link.
-  bool more_runs_would_help(std::size_t parameter) const;
-
   const Problem& problem_;
   const Solution& solution_;
-  std::vector<Unmeasured> unmeasured_;      ///< of the experiments that were measured
-  std::vector<Unmeasured> offered_;         ///< of those that the study does not have
-  std::vector<Measurement> more_readings_;  ///< of each observable
+  std::vector<double> exact_;
+  std::vector<Unmeasured> unmeasured_;  ///< of the experiments that were measured
+  std::vector<Unmeasured> offered_;     ///< of those that the study does not have
+  /// Of each observable, narrowing_by_readings().
+  std::vector<std::vector<double>> more_readings_;
 };
 
 }  // namespace repose::calibrate

@@ -37,9 +37,9 @@ Eigen::MatrixXd Covariance::scaled(const Eigen::MatrixXd& x) const {
   return (x.array() - .5).rowwise() / length_.array();
 }
 
-Eigen::MatrixXd Covariance::of_runs(const Eigen::MatrixXd& x, const Eigen::VectorXd& shifts) const {
+Eigen::MatrixXd Covariance::of_runs(const Eigen::MatrixXd& x) const {
   const Eigen::MatrixXd s = scaled(x);
-  Eigen::MatrixXd k = trend2_ * (s * s.transpose()) + shifts * shifts.transpose();
+  Eigen::MatrixXd k = trend2_ * (s * s.transpose());
   for (Eigen::Index j = 0; j < s.rows(); ++j) {
     for (Eigen::Index i = 0; i < j; ++i) {
       k(i, j) += kLevel2 + signal2_ * matern((s.row(i) - s.row(j)).norm());

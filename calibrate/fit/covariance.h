@@ -15,14 +15,13 @@ Eigen::MatrixXd as_rows(const std::vector<Point>& points);
 ///
 /// k(x, x') = signal^2 M(r) + trend^2 s.s' + level^2, with s = (x - 1/2) / length, r = |s - s'|,
 /// M(r) = (1 + sqrt5 r + 5/3 r^2) exp(-sqrt5 r): Matern 5/2, Rasmussen and Williams (2006) eq.
-/// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. Runs share besides what shifts them, the
-/// product of both shifts; on their diagonal is noise^2.
+/// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. On the runs' diagonal is noise^2 besides.
 class Covariance {
  public:
   explicit Covariance(const Hyperparameters& hyper);
 
-  /// Between all runs (rows of x, each with its shift), noise included.
-  Eigen::MatrixXd of_runs(const Eigen::MatrixXd& x, const Eigen::VectorXd& shifts) const;
+  /// Between all runs (rows of x), noise included.
+  Eigen::MatrixXd of_runs(const Eigen::MatrixXd& x) const;
   /// (x - 1/2) / length, row by row.
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& x) const;
   /// Between one place and all runs, whose rows are scaled() already; `slopes` (a row per run) with

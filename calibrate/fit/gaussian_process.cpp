@@ -14,7 +14,6 @@ namespace repose::calibrate {
 struct GaussianProcess::State {
   Eigen::MatrixXd x;       ///< a row per run
   Eigen::MatrixXd scaled;  ///< Covariance::scaled
-  Eigen::VectorXd shifts;  ///< of the runs, in sd's of the data
   double middle = 0;
   double scale = 1;
   Hyperparameters hyper;
@@ -27,7 +26,7 @@ struct GaussianProcess::State {
 
 GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y,
                                  bool is_stochastic, const std::optional<Hyperparameters>& start,
-                                 int starts, const std::vector<double>& shifts) {
+                                 int starts) {
   auto state = std::make_shared<State>();
   state->x = as_rows(x);
   Eigen::VectorXd values =
@@ -38,18 +37,13 @@ GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<
   state->scale = scale > 0 ? scale : 1;
   values /= state->scale;
 
-  state->shifts = Eigen::VectorXd::Zero(values.size());
-  if (!shifts.empty()) {
-    state->shifts = Eigen::Map<const Eigen::VectorXd>(shifts.data(), values.size()) / state->scale;
-  }
-  const SearchResult found =
-      search_hyperparameters(state->x, values, state->shifts, is_stochastic, start, starts);
+  const SearchResult found = search_hyperparameters(state->x, values, is_stochastic, start, starts);
   state->hyper = found.hyper;
   // The density of y, not of the scaled y.
   state->log_posterior =
       found.log_posterior - static_cast<double>(y.size()) * std::log(state->scale);
   state->scaled = state->covariance().scaled(state->x);
-  state->root.compute(state->covariance().of_runs(state->x, state->shifts));
+  state->root.compute(state->covariance().of_runs(state->x));
   state->alpha = state->root.solve(values);
   state_ = std::move(state);
 }
@@ -78,16 +72,8 @@ Expectation GaussianProcess::at(const Point& x, bool with_gradients) const {
   return expectation;
 }
 
-SharedShift GaussianProcess::shared_shift() const {
+std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points) const {
   const State& s = *state_;
-  const Eigen::VectorXd half = s.root.matrixL().solve(s.shifts);
-  return {s.shifts.dot(s.alpha), std::sqrt(std::max(0., 1 - half.squaredNorm()))};
-}
-
-std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points,
-                                                double shift) const {
-  const State& s = *state_;
-  const double own_shift = shift / s.scale;
   const Covariance covariance = s.covariance();
   const Eigen::MatrixXd places = as_rows(points);
   const Eigen::MatrixXd scaled_places = covariance.scaled(places);
@@ -96,10 +82,10 @@ std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points
   for (Eigen::Index j = 0; j < places.rows(); ++j) {
     Eigen::VectorXd column(s.x.rows());
     covariance.with_runs(s.scaled, places.row(j), column, nullptr);
-    across.col(j) = column + own_shift * s.shifts;
+    across.col(j) = column;
     Eigen::VectorXd own(places.rows());
     covariance.with_runs(scaled_places, places.row(j), own, nullptr);
-    between.col(j) = own.array() + own_shift * own_shift;
+    between.col(j) = own;
   }
   s.root.matrixL().solveInPlace(across);
   between -= across.transpose() * across;

@@ -30,12 +30,6 @@ struct LeaveOneOut {
   double sd = 0;
 };
 
-/// What shifts one of a process's values by its `shifts`, in these: 0 +- 1 before any value.
-struct SharedShift {
-  double mean = 0;
-  double sd = 1;
-};
-
 /// A function of several coordinates, learned from noisy values. Immutable, cheap to copy.
 ///
 /// Formulae: THEORY.md, "Surrogate". Rasmussen and Williams (2006), Gaussian Processes for Machine
@@ -44,17 +38,13 @@ struct SharedShift {
 class GaussianProcess {
  public:
   /// Fits the hyperparameters to `y` at `x` (at least two, not all alike). `is_stochastic`: values
-  /// at one point differ. `start` is where the search begins besides its own starts. `shifts`, one
-  /// a value or none: each y is the function plus its shift times one unknown number, 0 +- 1. What
-  /// is expected has no shift.
+  /// at one point differ. `start` is where the search begins besides its own starts.
   GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y, bool is_stochastic,
-                  const std::optional<Hyperparameters>& start, int starts,
-                  const std::vector<double>& shifts = {});
+                  const std::optional<Hyperparameters>& start, int starts);
 
   Expectation at(const Point& x, bool with_gradients) const;
-  /// Covariances of what is expected at some points, row by row, of values with that shift.
-  std::vector<double> covariance(const std::vector<Point>& points, double shift = 0) const;
-  SharedShift shared_shift() const;
+  /// Covariances of what is expected at some points, row by row.
+  std::vector<double> covariance(const std::vector<Point>& points) const;
   double noise_sd() const;
   double log_posterior() const;
   const Hyperparameters& hyperparameters() const;

@@ -42,9 +42,8 @@ std::vector<double> to_logs(const Hyperparameters& hyper) {
 /// Minus the logarithm of the posterior density, and its gradient.
 class MinusLogPosterior : public ceres::FirstOrderFunction {
  public:
-  MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
-                    const Eigen::VectorXd& shifts, bool is_stochastic)
-      : x_(x), y_(y), shifts_(shifts), priors_(static_cast<std::size_t>(x.cols()) + 3) {
+  MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool is_stochastic)
+      : x_(x), y_(y), priors_(static_cast<std::size_t>(x.cols()) + 3) {
     priors_.back() = is_stochastic ? LogNormal{std::log(.1), 1.5} : LogNormal{std::log(.001), 1};
   }
 
@@ -52,7 +51,7 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
 
   bool Evaluate(const double* logs, double* cost, double* gradient) const override {
     const Covariance covariance(from_logs(logs, x_.cols()));
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance.of_runs(x_, shifts_));
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance.of_runs(x_));
     if (root.info() != Eigen::Success) return false;
     const Eigen::VectorXd alpha = root.solve(y_);
     *cost = .5 * y_.dot(alpha) + root.matrixLLT().diagonal().array().log().sum() +
@@ -74,7 +73,6 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
  private:
   const Eigen::MatrixXd& x_;
   const Eigen::VectorXd& y_;
-  const Eigen::VectorXd& shifts_;
   std::vector<LogNormal> priors_;
 };
 
@@ -91,11 +89,11 @@ std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool is_stochas
 }  // namespace
 
 SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
-                                    const Eigen::VectorXd& shifts, bool is_stochastic,
-                                    const std::optional<Hyperparameters>& start, int starts) {
+                                    bool is_stochastic, const std::optional<Hyperparameters>& start,
+                                    int starts) {
   std::vector<Hyperparameters> begins = own_starts(x.cols(), is_stochastic, starts);
   if (start) begins.push_back(*start);
-  ceres::GradientProblem problem(new MinusLogPosterior(x, y, shifts, is_stochastic));
+  ceres::GradientProblem problem(new MinusLogPosterior(x, y, is_stochastic));
   ceres::GradientProblemSolver::Options options;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 40;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "calibrate/fit/advice.h"
 #include "calibrate/fit/family.h"
@@ -94,7 +95,6 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
       std::sqrt(experiment_named(problem, observable.experiment).readings_per_run) *
       fitted.simulated_sd;
   fitted.difference_sigma = solution.misfit.difference(i, best);
-  fitted.softening_shift = surrogate.softening_shift(best);
   const auto readable = [&](double reading) {
     return std::clamp(reading, observable.least, observable.most);
   };
@@ -170,8 +170,12 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
     fit.parameters.push_back(parameter_of(problem, solution, j));
   }
   const std::vector<Narrowing> narrowing = narrowing_of(solution, work_of(problem, sorted));
-  for (std::size_t j = 0; j < narrowing.size(); ++j) fit.parameters[j].narrowing = narrowing[j];
-  advise(problem, Advisor(problem, sorted, solution), fit);
+  std::vector<double> exact;
+  for (std::size_t j = 0; j < narrowing.size(); ++j) {
+    fit.parameters[j].narrowing = narrowing[j];
+    exact.push_back(narrowing[j].exact);
+  }
+  advise(problem, Advisor(problem, sorted, solution, std::move(exact)), fit);
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     fit.observables.push_back(observable_of(problem, solution, i));
     fit.surrogates.push_back(

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "calibrate/fit/problem.h"
-#include "calibrate/fit/softening_shift.h"
 
 namespace repose::calibrate {
 
@@ -55,7 +54,6 @@ struct FittedObservable {
   double simulated_sd = 0;      ///< scatter from seed to seed
   double predicted_sd = 0;      ///< scatter that it expects of single bench readings
   double difference_sigma = 0;  ///< (simulated - measured) / sigma of the fit
-  std::optional<SofteningShift> softening_shift = {};  ///< none: no run was softer than the study
   Interval reachable;  ///< of the simulated mean within the bounds, as far as a bench can read it
 };
 

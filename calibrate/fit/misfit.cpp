@@ -109,7 +109,7 @@ double Misfit::difference(std::size_t observable, const Point& point) const {
 }
 
 double Misfit::surrogate_variance_fraction(std::size_t observable, const Point& point) const {
-  return surrogates_[observable].round_covariance({point}).front() * weight(observable);
+  return surrogates_[observable].at(point, false).variance * weight(observable);
 }
 
 double Misfit::weight(std::size_t observable) const {

@@ -30,7 +30,7 @@ class Misfit {
   double chi2(const Point& point) const;
   /// (simulated - measured) / sigma of one observable.
   double difference(std::size_t observable, const Point& point) const;
-  /// Squares of the surrogate's sd over the measured uncertainty: of what more rounds would tell.
+  /// Squares of the surrogate's sd over the measured uncertainty: what more runs would tell.
   double surrogate_variance_fraction(std::size_t observable, const Point& point) const;
   /// Standard uncertainty of an observable's measured mean, in its unit. A scatter that was not
   /// measured is taken to be no less than what chance does to single readings in the simulation

@@ -10,7 +10,6 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kHour_s = 3600;
-constexpr double kMoreReadings = 4;  // times as many: half the uncertainty
 
 /// A measured mean where it is plausible, in the units of its surrogate.
 struct Seen {
@@ -92,12 +91,17 @@ std::vector<Narrowing> narrowing_of(const Solution& solution, double spent_s) {
   // The variance of a mean falls as the number of its runs grows.
   const auto hour = left_over(parameters, all, 1, spent_s / (spent_s + kHour_s));
   const auto exact = left_over(parameters, all, 1, 0);
-  const auto readings = left_over(parameters, all, 1 / kMoreReadings, 1);
+  const auto readings = left_over(parameters, all, 1. / kMoreReadings, 1);
   std::vector<Narrowing> narrowing;
   for (std::size_t j = 0; j < hour.size(); ++j) {
     narrowing.push_back({.hour = hour[j], .exact = exact[j], .readings = readings[j]});
   }
   return narrowing;
+}
+
+std::vector<double> narrowing_by_readings(const Solution& solution, std::size_t observable) {
+  return left_over(columns_of(solution.sets.points), {seen(solution, observable)},
+                   1. / kMoreReadings, 1);
 }
 
 }  // namespace repose::calibrate

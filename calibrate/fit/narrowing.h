@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
@@ -11,5 +12,12 @@ namespace repose::calibrate {
 /// Bayes Linear Statistics. `spent_s`: work of one core in the runs so far, above 0. Formulae and
 /// reasons: THEORY.md, "What would narrow it". Proved by Narrowing.* in tests/calibrate.
 std::vector<Narrowing> narrowing_of(const Solution& solution, double spent_s);
+
+/// Times as many readings as there are: half the uncertainty of their mean.
+inline constexpr int kMoreReadings = 4;
+
+/// Of each parameter, likewise: how wide its interval would be, as a part of its present width,
+/// with kMoreReadings times the readings of one observable.
+std::vector<double> narrowing_by_readings(const Solution& solution, std::size_t observable);
 
 }  // namespace repose::calibrate

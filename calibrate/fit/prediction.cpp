@@ -22,10 +22,8 @@ int repeats_of(const Experiment& experiment) {
 
 Job job_of(const Problem& problem, const Experiment& experiment, const std::vector<double>& values,
            std::size_t number) {
-  Job job = job_at(problem, experiment, to_unit(problem, values),
-                   problem.settings.seed + kFirstPredictionSeed + number);
-  job.relative_stiffness = 1;
-  return job;
+  return job_at(problem, experiment, to_unit(problem, values),
+                problem.settings.seed + kFirstPredictionSeed + number);
 }
 
 /// Means at the sets that gave a reading, and what runs at one set scatter by.

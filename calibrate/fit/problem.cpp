@@ -47,12 +47,6 @@ void check_experiment(const Problem& problem, const Experiment& experiment, Erro
     errors.push_back(fmt::format("{}: run_s = {} must be a number above 0. Fix: estimate it", where,
                                  experiment.run_s));
   }
-  if (!(experiment.relative_stiffness > 0 && experiment.relative_stiffness <= 1)) {
-    errors.push_back(
-        fmt::format("{}: relative_stiffness = {} must be above 0 and at most 1. Fix: 1 "
-                    "is the study's own",
-                    where, experiment.relative_stiffness));
-  }
   if (!std::isfinite(experiment.real_stiffness) || experiment.real_stiffness < 1) {
     errors.push_back(fmt::format(
         "{}: real_stiffness = {} must be 1 or more. Fix: 1 where grains are not softened", where,

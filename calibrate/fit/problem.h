@@ -38,9 +38,6 @@ struct Experiment {
   /// How many readings of a bench a run's reading is the mean of: ten for ten grains dropped. A
   /// single one scatters by the root of that more.
   int readings_per_run = 1;
-  /// Rounds run it with this part of the study's stiffness, which is faster; checks with all of it.
-  /// What softness does to its readings is found from both (THEORY.md, "Softened runs").
-  double relative_stiffness = 1;
   /// That of real grains, as a multiple of the study's.
   double real_stiffness = 1;
 };
@@ -84,7 +81,7 @@ struct Job {
   /// millionth of the bounds' distance or so: written with 15 digits and read again, the same.
   std::vector<double> values;
   std::uint64_t seed = 1;
-  double relative_stiffness = 1;  ///< part of the study's stiffness that its grains have
+  double relative_stiffness = 1;  ///< that of its grains, as a multiple of the study's
 
   bool operator==(const Job&) const = default;
 };

@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::array<double, 4> kBends = {0, 1, .2, .04};  // of the readings' root mean square
 constexpr std::size_t kEnoughToChoose = 100;               // runs that a warp is chosen by
-// Of the readings' root mean square: what a tenth of the stiffness may well do to them. Heaps of
-// the hazelnut sample moved by about a degree in 25.
-constexpr double kShiftPerDecade = .04;
 
 double root_mean_square(const std::vector<double>& values) {
   const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.);
@@ -72,25 +69,15 @@ double Surrogate::factor_of_few_runs() const {
   return base::student_t_quantile(.975, std::max(df, kFewest)) / base::kNormal95;
 }
 
-/// Standard deviation, known before any run, of what a decade of softness adds to w.
-double Surrogate::shift_sd(double warp) const {
-  const double size = root_mean_square(training_set_.readings);
-  return kShiftPerDecade * (warp > 0 ? size / std::hypot(size, warp) : size);
-}
-
 GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparameters>& start,
                                    int starts, std::size_t every) const {
   std::vector<Point> places;
   std::vector<double> values;
-  std::vector<double> shifts;
   for (std::size_t i = 0; i < training_set_.places.size(); i += every) {
     places.push_back(training_set_.places[i]);
     values.push_back(AsinhWarp{warp, 0}.warped(training_set_.readings[i]));
-    if (!training_set_.softness.empty()) {
-      shifts.push_back(shift_sd(warp) * training_set_.softness[i]);
-    }
   }
-  return {places, values, training_set_.is_stochastic, start, starts, shifts};
+  return {places, values, training_set_.is_stochastic, start, starts};
 }
 
 double Surrogate::best_warp(const std::optional<Hyperparameters>& start) const {
@@ -153,21 +140,11 @@ double Surrogate::uncertainty(const Point& point) const {
   return warp_.slope(w.mean) * std::sqrt(w.variance);
 }
 
-std::optional<SofteningShift> Surrogate::softening_shift(const Point& point) const {
-  const std::vector<double>& softness = training_set_.softness;
-  const bool is_soft = std::ranges::any_of(softness, [](double decades) { return decades != 0; });
-  if (!process_ || !is_soft) return std::nullopt;
-  const SharedShift shift = process_->shared_shift();
-  const double unit = shift_sd(warp_.warp) * warp_.slope(at(point, false).mean);
-  return SofteningShift{unit * shift.mean, unit * inflation_ * few_runs_factor_ * shift.sd};
-}
-
-std::vector<double> Surrogate::round_covariance(const std::vector<Point>& points) const {
+std::vector<double> Surrogate::covariance(const std::vector<Point>& points) const {
   if (!process_) return std::vector<double>(points.size() * points.size(), 0);
   std::vector<Point> places;
   for (const Point& point : points) places.push_back(seen(point));
-  const double shift = shift_sd(warp_.warp) * training_set_.round_softness;
-  std::vector<double> all = process_->covariance(places, shift);
+  std::vector<double> all = process_->covariance(places);
   for (double& value : all) value *= std::pow(inflation_ * few_runs_factor_, 2);
   return all;
 }

@@ -6,7 +6,6 @@
 #include "calibrate/fit/gaussian_process.h"
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/problem.h"
-#include "calibrate/fit/softening_shift.h"
 
 namespace repose::calibrate {
 
@@ -37,11 +36,9 @@ struct TrainingSet {
   std::vector<Point> places;  ///< in the experiment's own coordinates
   std::vector<double> readings;
   std::vector<std::size_t> runs = {};  ///< places of these in all runs
-  std::vector<double> softness = {};   ///< decades by which each is softer than the study; none: 0
-  double round_softness = 0;           ///< likewise, of the runs that rounds make
 };
 
-/// One reading as a function of all parameters, at the study's stiffness, with its uncertainty.
+/// One reading as a function of all parameters, with its uncertainty.
 class Surrogate {
  public:
   /// `start` shortens the search: hyperparameters of a similar lesson. `thorough`: more starts.
@@ -55,11 +52,8 @@ class Surrogate {
   /// The expected reading, never below 0 where no run was, and its standard uncertainty.
   double simulated(const Point& point) const;
   double uncertainty(const Point& point) const;
-  /// Of the runs that rounds make, which may be softer than at(): what more of them would not know
-  /// is left out. Covariance of w between points, inflated, row by row.
-  std::vector<double> round_covariance(const std::vector<Point>& points) const;
-  /// In the reading's unit, at a point. None where no run was softer than the study.
-  std::optional<SofteningShift> softening_shift(const Point& point) const;
+  /// Of w between points, inflated, row by row.
+  std::vector<double> covariance(const std::vector<Point>& points) const;
 
   /// Enlarges the uncertainty where leave-one-out errors are larger than they claim to be, over all
   /// runs or the fifth of them nearest to `point`, at least ten.
@@ -83,7 +77,6 @@ class Surrogate {
   GaussianProcess learned(double warp, const std::optional<Hyperparameters>& start, int starts,
                           std::size_t every) const;
   double factor_of_few_runs() const;
-  double shift_sd(double warp) const;
   double best_warp(const std::optional<Hyperparameters>& start) const;
 
   TrainingSet training_set_;

@@ -42,9 +42,6 @@ void require_of(const Problem& problem, const Run& run) {
   }
 }
 
-/// Decades below the study's stiffness.
-double softness_of(double relative_stiffness) { return -std::log10(relative_stiffness); }
-
 }  // namespace
 
 std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) {
@@ -62,8 +59,7 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
   TrainingSet training_set{.parameters = experiment.parameters,
                            .is_stochastic = experiment.is_stochastic,
                            .places = {},
-                           .readings = {},
-                           .round_softness = softness_of(experiment.relative_stiffness)};
+                           .readings = {}};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Run& run = runs[k];
     if (run.job.experiment != experiment.name || !run.failure.empty()) continue;
@@ -72,7 +68,6 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
     training_set.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
     training_set.readings.push_back(found->second);
     training_set.runs.push_back(k);
-    training_set.softness.push_back(softness_of(run.job.relative_stiffness));
   }
   return training_set;
 }

@@ -45,12 +45,11 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
   for (const std::size_t i : experiment.parameters) canonical[i] = point[i];
   return {.experiment = experiment.name,
           .values = to_values(problem, canonical),
-          .seed = experiment.is_stochastic ? seed : problem.settings.seed,
-          .relative_stiffness = experiment.relative_stiffness};
+          .seed = experiment.is_stochastic ? seed : problem.settings.seed};
 }
 
 double run_s_of(const Experiment& experiment, double relative_stiffness) {
-  return experiment.run_s * std::sqrt(relative_stiffness / experiment.relative_stiffness);
+  return experiment.run_s * std::sqrt(relative_stiffness);
 }
 
 const Experiment& experiment_named(const Problem& problem, const std::string& name) {

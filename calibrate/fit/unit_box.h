@@ -23,8 +23,8 @@ Point seen_by(const Experiment& experiment, const Point& point);
 Job job_at(const Problem& problem, const Experiment& experiment, const Point& point,
            std::uint64_t seed);
 
-/// About how long a run with that part of the study's stiffness takes, s: the stable time step goes
-/// with the root of one over the stiffness.
+/// About how long a run with that multiple of the study's stiffness takes, s: the stable time step
+/// goes with the root of one over the stiffness.
 double run_s_of(const Experiment& experiment, double relative_stiffness);
 
 /// By name; the problem is sound.

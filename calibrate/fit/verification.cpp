@@ -25,7 +25,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Cheap experiments are repeated as often as hardly lengthens the check.
 int repeats_of(const Experiment& experiment, double dearest_s, int repeats) {
   if (!experiment.is_stochastic) return 1;
-  const double affordable = kCheapFraction * repeats * dearest_s / run_s_of(experiment, 1);
+  const double affordable = kCheapFraction * repeats * dearest_s / experiment.run_s;
   const int most = std::max(kMostRepeats, repeats);
   return affordable < most ? std::max(static_cast<int>(affordable), repeats) : most;
 }
@@ -152,7 +152,7 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
   const std::vector<Experiment> experiments = measured_experiments(problem);
   double dearest_s = 0;
   for (const Experiment& experiment : experiments) {
-    dearest_s = std::max(dearest_s, run_s_of(experiment, 1));
+    dearest_s = std::max(dearest_s, experiment.run_s);
   }
   std::vector<Job> jobs;
   for (const Experiment& experiment : experiments) {
@@ -160,8 +160,7 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
       const std::uint64_t seed = problem.settings.seed + kFirstCheckSeed +
                                  kSeedsPerSet * static_cast<std::uint64_t>(set) +
                                  static_cast<std::uint64_t>(k);
-      Job& job = jobs.emplace_back(job_at(problem, experiment, to_unit(problem, values), seed));
-      job.relative_stiffness = 1;
+      jobs.push_back(job_at(problem, experiment, to_unit(problem, values), seed));
     }
   }
   return jobs;

@@ -67,17 +67,10 @@ double effect_of(const Surrogate& surrogate, const Point& material, std::size_t 
   return sigma > 0 ? std::abs(change) / sigma : 0;
 }
 
-/// What softening does to readings, a study finds from its stiffer checks: it adds nothing to what
-/// is open afterwards.
-std::vector<Run> as_stiff(std::vector<Run> runs) {
-  for (Run& run : runs) run.job.relative_stiffness = 1;
-  return runs;
-}
-
 }  // namespace
 
 Foresight::Foresight(const Problem& problem, const std::vector<Run>& runs, int readings) {
-  const std::vector<Run> ordered = in_order(problem, as_stiff(runs));
+  const std::vector<Run> ordered = in_order(problem, runs);
   const Misfit misfit(problem, ordered, {}, true);
   const std::vector<Point> plausible = plausible_sets(misfit, problem.settings.seed).points;
   known_ = inverse(covariance_of(plausible));

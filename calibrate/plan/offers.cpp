@@ -32,8 +32,7 @@ std::vector<Offer> offers_in(const RunFolder& folder, const dem::Study& study,
                                          [](const Offer& one) { return one.experiment.name; });
     if (offer == offers.end()) continue;
     if (const auto run = folder.find_whole(simulator.spec(job), job.seed)) {
-      Run& made = offer->runs.emplace_back(run_of({job, *run}));
-      made.job.relative_stiffness = 1;  // as in a plan: what softening does, a study finds
+      offer->runs.push_back(run_of({job, *run}));
     }
   }
   return offers;

@@ -224,12 +224,10 @@ class PublishedMethod {
     return std::clamp(value, parameter.min, parameter.max);
   }
 
-  /// As stiff as the study says: the publication knows no way back from softer heaps.
   Job job(const std::string& experiment, std::uint64_t number) const {
     return {.experiment = experiment,
             .values = values_for(problem_, experiment, set_),
-            .seed = problem_.settings.seed + number,
-            .relative_stiffness = 1};
+            .seed = problem_.settings.seed + number};
   }
 
   const Problem& problem_;

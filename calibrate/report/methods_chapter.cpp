@@ -84,14 +84,18 @@ std::string stiffness_text(const Provenance& provenance) {
 
 void add_simulation(const Provenance& provenance, Methods& methods) {
   const ClumpFacts& clump = provenance.clump;
-  methods.add(
-      fmt::format("Grains were simulated with the discrete element method ({}) as clumps of {} "
-                  "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
-                  "and inertia are those of the surface. Contacts follow {}: with overlap d of "
-                  "two surfaces,",
-                  provenance.study.program, clump.spheres, shortened(clump.source, 300),
-                  shown(100 * clump.volume_error, 2), shown(100 * clump.inertia_error, 2),
-                  provenance.contact_model));
+  methods.add(fmt::format(
+      "Grains were simulated with the discrete element method ({}) as clumps of {} "
+      "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
+      "and inertia are those of the surface.{} Contacts follow {}: with overlap d of "
+      "two surfaces,",
+      provenance.study.program, clump.spheres, shortened(clump.source, 300),
+      shown(100 * clump.volume_error, 2), shown(100 * clump.inertia_error, 2),
+      clump.size_sd_percent ? fmt::format(" Sizes of the grains in bulks vary normally, with a "
+                                          "standard deviation of {} %.",
+                                          shown(*clump.size_sd_percent))
+                            : "",
+      provenance.contact_model));
   methods.add_equation(
       "Fₙ = (4/3) E* √R* d^(3/2),   1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂,   1/R* = 1/R₁ + "
       "1/R₂,  |Fₜ| ≤ μₛ Fₙ",
@@ -145,28 +149,6 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       "one-sided tests at 5 % (Schuirmann 1987).");
 }
 
-/// Nothing is said where no run was softer than the study.
-void add_softening(const JointResult& joint, Methods& methods) {
-  std::string shifts;
-  for (const ResultObservable& observable : joint.observables) {
-    if (!observable.softening_shift) continue;
-    shifts +=
-        fmt::format("{}{} {} ± {} {}", shifts.empty() ? "" : ", ",
-                    shortened(spaced(observable.name)), shown(observable.softening_shift->mean, 2),
-                    shown(base::kNormal95 * observable.softening_shift->uncertainty, 2),
-                    unit_shown(observable.unit));
-  }
-  if (shifts.empty()) return;
-  const auto softer = std::ranges::count_if(
-      joint.runs, [](const Run& run) { return run.job.relative_stiffness < 1; });
-  methods.add(fmt::format(
-      "{} of the simulations had grains softer than that, which is faster. What a tenth of the "
-      "stiffness adds to a reading was fitted with the rest, as one constant for each measured "
-      "quantity (Kennedy and O'Hagan 2000): {} (95 %). Coefficients are those at the stiffness "
-      "stated above.",
-      softer, shifts));
-}
-
 void add_paper_way(Methods& methods) {
   methods.add(
       "The particle–wall coefficients were found one after the other: each was swept over nine "
@@ -187,7 +169,6 @@ Chapter methods_chapter(const ReportedStudy& study, const StudyResult& result) {
   if (has_heap(result)) add_angle(!study.pictures.empty(), methods);
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     add_joint_fit(*joint, methods);
-    add_softening(*joint, methods);
   } else {
     add_paper_way(methods);
   }

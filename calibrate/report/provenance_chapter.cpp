@@ -58,6 +58,9 @@ void add_model(const StudyResult& result, DataTable& data) {
   add(data, "clump", fmt::format("{}, {} spheres", from.clump.source, from.clump.spheres));
   add(data, "clump volume error", percent(from.clump.volume_error));
   add(data, "clump inertia error", percent(from.clump.inertia_error));
+  if (from.clump.size_sd_percent) {
+    add(data, "standard deviation of sizes", fmt::format("{:.3g} %", *from.clump.size_sd_percent));
+  }
   add(data, "fraction of the real stiffness", by_experiment(from.stiffness_factor, ""));
   add(data, "shortest time step", by_experiment(from.shortest_timestep_s, " s"));
 }

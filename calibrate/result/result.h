@@ -46,8 +46,9 @@ std::string name_of(AgreementVerdict verdict);
 struct ClumpFacts {
   std::string source;  ///< the scan, or the sizes it was made from
   std::size_t spheres = 0;
-  double volume_error = 0;   ///< relative
-  double inertia_error = 0;  ///< relative
+  double volume_error = 0;                     ///< relative
+  double inertia_error = 0;                    ///< relative
+  std::optional<double> size_sd_percent = {};  ///< of bulks; none: grains of one size
 };
 
 /// What coefficients belong to: they mean nothing without it.

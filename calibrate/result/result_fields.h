@@ -35,6 +35,7 @@ void fields(Io& io, Held<Io, ClumpFacts>& clump) {
   io("spheres", clump.spheres);
   io("volume_error", clump.volume_error);
   io("inertia_error", clump.inertia_error);
+  io("size_sd_percent", clump.size_sd_percent);
 }
 
 template <typename Io>
@@ -109,12 +110,6 @@ void fields(Io& io, Held<Io, OverallAgreement>& agreement) {
 }
 
 template <typename Io>
-void fields(Io& io, Held<Io, SofteningShift>& shift) {
-  io("mean", shift.mean);
-  io("uncertainty", shift.uncertainty);
-}
-
-template <typename Io>
 void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("name", observable.name);
   io("unit", observable.unit);
@@ -127,9 +122,6 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("simulated_sd", observable.simulated_sd);
   io("predicted_sd", observable.predicted_sd);
   io("difference_sigma", observable.difference_sigma);
-  if (io.has("softening_shift", observable.softening_shift.has_value())) {
-    io("softening_shift", observable.softening_shift);
-  }
   io("reachable", observable.reachable);
   io("verification", observable.verification);
   io("surrogate_check", observable.surrogate);
@@ -258,7 +250,6 @@ template <typename Io>
 void fields(Io& io, Held<Io, Run>& run) {
   io("experiment", run.job.experiment);
   io("seed", run.job.seed);
-  io("relative_stiffness", run.job.relative_stiffness);
   by_name(io, "values", io.names().parameters, run.job.values);
   io("readings", run.readings);
   io.text_or_null("failure", run.failure);

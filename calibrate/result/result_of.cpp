@@ -98,6 +98,11 @@ NamedValues shortest_timesteps(const std::vector<Run>& runs) {
   return {shortest.begin(), shortest.end()};
 }
 
+std::optional<double> size_sd_percent(const dem::Model& model) {
+  if (model.size_sd_fraction == 0) return std::nullopt;
+  return 100 * model.size_sd_fraction;
+}
+
 Provenance provenance_of(const StudyRecord& record, const Problem& problem,
                          const std::vector<Run>& runs) {
   const dem::Study& study = record.study;
@@ -114,7 +119,8 @@ Provenance provenance_of(const StudyRecord& record, const Problem& problem,
           .clump = {.source = record.grain.source,
                     .spheres = record.grain.shape.spheres.size(),
                     .volume_error = record.grain.errors.volume_error,
-                    .inertia_error = record.grain.errors.inertia_error},
+                    .inertia_error = record.grain.errors.inertia_error,
+                    .size_sd_percent = size_sd_percent(study.model)},
           .stiffness_factor = stiffness,
           .shortest_timestep_s = shortest_timesteps(runs)};
 }

@@ -25,7 +25,6 @@ RunTable table_of(const Problem& problem, const Observable& observable,
   for (const Run& run : runs) {
     const auto reading = run.readings.find(observable.reading);
     if (run.job.experiment != experiment.name || reading == run.readings.end()) continue;
-    if (run.job.relative_stiffness != experiment.relative_stiffness) continue;  // no mixture
     for (std::size_t i = 0; i < table.factors.size(); ++i) {
       table.levels[i].push_back(run.job.values[experiment.parameters[i]]);
     }

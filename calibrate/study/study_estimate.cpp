@@ -95,7 +95,6 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
                        budget.family_sets * check_runs(problem, name, kFamilyRepeats);
     estimates.push_back({.experiment = name,
                          .run_s = experiments[e].run_s,
-                         .check_run_s = run_s_of(experiments[e], 1),
                          .fit_runs = runs[e],
                          .check_runs = checks,
                          .stiff_run_s = 0,
@@ -104,7 +103,6 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
   for (const Experiment& experiment : held_out_experiments(problem)) {
     estimates.push_back({.experiment = experiment.name,
                          .run_s = experiment.run_s,
-                         .check_run_s = run_s_of(experiment, 1),
                          .fit_runs = 0,
                          .check_runs = prediction_runs(experiment),
                          .stiff_run_s = 0,
@@ -117,7 +115,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
 double last_runs_s(const Problem& problem, int repeats) {
   double seconds = plan_stiffness(problem, middle_of(problem), repeats).run_s;
   for (const Experiment& experiment : held_out_experiments(problem)) {
-    seconds += run_s_of(experiment, 1) * prediction_runs(experiment);
+    seconds += experiment.run_s * prediction_runs(experiment);
   }
   return seconds;
 }

@@ -15,8 +15,7 @@ namespace repose::calibrate {
 /// the fit's number is about right in the sum, the other the most there can be.
 struct ExperimentEstimate {
   std::string experiment;
-  double run_s = 0;        ///< in the fit, by the program's own measure, see Experiment::run_s
-  double check_run_s = 0;  ///< likewise, of a run of a check, which may be stiffer
+  double run_s = 0;        ///< by the program's own measure, see Experiment::run_s
   int fit_runs = 0;        ///< in all rounds of the fit
   int check_runs = 0;      ///< with fresh seeds afterwards, or to predict what is held out
   double stiff_run_s = 0;  ///< likewise, of a run with stiffer grains than the study's

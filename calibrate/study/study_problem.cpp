@@ -30,12 +30,11 @@ std::string unit_of(const dem::ExperimentEntry& entry, const std::string& readin
   return std::string(entry.unit);
 }
 
-/// About how long a run of a round takes, s. Coefficients still open do not matter much to it.
+/// About how long a run takes, s. Coefficients still open do not matter much to it.
 double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
-                  const dem::ExperimentEntry& entry, double relative_stiffness) {
+                  const dem::ExperimentEntry& entry) {
   dem::Model model = dem::model_for(study, entry.experiment);
   model.grain = grain;
-  model.stiffness_factor *= relative_stiffness;
   for (dem::PairCoefficients* pair : {&model.grain_wall, &model.grain_grain}) {
     for (double* value : {&pair->restitution, &pair->sliding_friction, &pair->rolling_friction}) {
       if (std::isnan(*value)) *value = .3;
@@ -103,9 +102,7 @@ class Maker {
                       "seek, as in restitution = {{ min = 0.1, max = 0.6 }}.",
                       study_.file.string()));
     }
-    for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-      add(entry, entry.is_pictured ? budget.heap_softening : 1);
-    }
+    for (const dem::ExperimentEntry& entry : dem::all_experiments()) add(entry);
     if (made_.problem.observables.empty()) {
       throw std::invalid_argument(fmt::format(
           "{}: no experiment that depends on a fitted coefficient has readings{}. Fix: "
@@ -120,7 +117,7 @@ class Maker {
   }
 
  private:
-  void add(const dem::ExperimentEntry& entry, double relative_stiffness) {
+  void add(const dem::ExperimentEntry& entry) {
     const auto described = study_.experiments.find(entry.experiment);
     if (described == study_.experiments.end()) return;
     const std::string name(entry.name);
@@ -142,11 +139,10 @@ class Maker {
     made_.problem.experiments.push_back(
         {.name = name,
          .parameters = with_effect,
-         .run_s = run_cost_s(study_, grain_.shape, entry, relative_stiffness),
+         .run_s = run_cost_s(study_, grain_.shape, entry),
          .is_stochastic = entry.is_stochastic,
          .measurable = measurable(entry),
          .readings_per_run = readings_per_run(entry),
-         .relative_stiffness = relative_stiffness,
          .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured) add(observable_of(measured), entry, "value");
@@ -176,7 +172,7 @@ class Maker {
     made_.notes.push_back(fmt::format(
         "runs of this study take long: the budget is raised from {:.0f} to {:.0f} minutes of one "
         "core, the least that a fit takes. Fix, to be faster: fewer grains or softer ones.",
-        settings.budget_s / kMinute_s, enough_s / kMinute_s));
+        settings.budget_s / kMinute_s, std::ceil(enough_s / kMinute_s)));
     settings.budget_s = enough_s;
   }
 
@@ -208,40 +204,27 @@ Budget budget_named(const std::string& name) {
   constexpr double kMinute_s = 60;
   if (name == "quick") {
     return {.name = name,
-            .cost = "13 minutes of one core for the fit",
-            .heaps =
-                "heaps ten times softer than the study says, but for those of the checks, and few, "
-                "so intervals are wide",
-            .settings = {.budget_s = 13 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
-            .heap_softening = .1,
+            .description = "14 minutes of one core for the fit",
+            .settings = {.budget_s = 14 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
             .verification_repeats = 6,
             .family_sets = 2};
   }
   if (name == "standard") {
     return {.name = name,
-            .cost = "150 minutes of one core for the fit",
-            .heaps = "heaps as stiff as the study says",
-            .settings = {.budget_s = 150 * kMinute_s, .max_jobs = 2000, .max_rounds = 6},
-            .heap_softening = 1,
+            .description = "125 minutes of one core for the fit",
+            .settings = {.budget_s = 125 * kMinute_s, .max_jobs = 2000, .max_rounds = 6},
             .verification_repeats = 5,
             .family_sets = 3};
   }
   if (name == "paper") {
     return {.name = name,
-            .cost = "62 simulations at most for the fit, as many as the publication made",
-            .heaps = "heaps as stiff as the study says",
+            .description = "62 simulations at most for the fit, as many as the publication made",
             .settings = {.budget_s = 60 * kMinute_s, .max_jobs = 62, .max_rounds = 3},
-            .heap_softening = 1,
             .verification_repeats = 10,
             .family_sets = 0};
   }
   throw std::invalid_argument(
       fmt::format("budget = {}: must be quick, standard or paper. Fix: choose quick.", name));
-}
-
-std::string description_of(const Budget& budget, const dem::Study& study) {
-  return study.experiments.contains(dem::Experiment::heap) ? budget.cost + "; " + budget.heaps
-                                                           : budget.cost;
 }
 
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,

@@ -9,22 +9,17 @@
 
 namespace repose::calibrate {
 
-/// How much a study may cost, and what it gives up for that.
+/// How much a study may cost.
 struct Budget {
   std::string name;
-  std::string cost;   ///< of the fit: "13 minutes of one core for the fit"
-  std::string heaps;  ///< what it gives up in heaps: "heaps ten times softer than the study says"
+  std::string description;  ///< "14 minutes of one core for the fit"
   FitSettings settings;
-  double heap_softening = 1;     ///< heaps of rounds have the study's stiffness times this
   int verification_repeats = 3;  ///< fresh seeds at the best fit
   int family_sets = 2;           ///< sets of the equivalence family that are checked
 };
 
 /// "quick", "standard" or "paper". Throws std::invalid_argument for another name.
 Budget budget_named(const std::string& name);
-
-/// What a budget costs and gives up in a study, a sentence.
-std::string description_of(const Budget& budget, const dem::Study& study);
 
 /// A scatter nobody measured: single readings are taken to scatter by this fraction of their mean,
 /// or by what chance does in the simulation where that is more (Misfit::measured_uncertainty). It

@@ -139,7 +139,7 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .settings = record.settings,
           .method = record.method,
           .budget = record.budget.name,
-          .budget_description = description_of(record.budget, record.study)};
+          .budget_description = record.budget.description};
 }
 
 dem::Study as_measured(dem::Study study, const std::vector<PictureReading>& pictures,

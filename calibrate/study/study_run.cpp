@@ -49,7 +49,7 @@ bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
   double left_s = 0, checks_s = 0;
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
     left_s += estimate.fit_runs * estimate.run_s;
-    checks_s += estimate.check_runs * estimate.check_run_s;
+    checks_s += estimate.check_runs * estimate.run_s;
     checks_s += estimate.stiff_runs * estimate.stiff_run_s;
   }
   for (int round = 1;; ++round) {
@@ -184,23 +184,6 @@ bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
   return true;
 }
 
-/// What softening did to the readings, where rounds softened.
-void note_softening(const Problem& problem, StudyOutcome& outcome) {
-  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
-    const FittedObservable& fitted = outcome.fit.observables[i];
-    if (!fitted.softening_shift) continue;
-    const double part =
-        experiment_named(problem, problem.observables[i].experiment).relative_stiffness;
-    const double decades = -std::log10(part);
-    outcome.notes.push_back(fmt::format(
-        "{}: most runs of the fit had {:g} of the study's stiffness, those of the checks had all "
-        "of "
-        "it. Softness changed the reading by {:+.2g} ± {:.2g} {} (95 %), which the fit takes out.",
-        fitted.name, part, decades * fitted.softening_shift->mean,
-        base::kNormal95 * decades * fitted.softening_shift->uncertainty, fitted.unit));
-  }
-}
-
 /// Readings that are not those of real grains.
 void note_stiffness(StudyOutcome& outcome) {
   for (const StiffnessCheck& check : outcome.stiffness) {
@@ -268,7 +251,6 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
     return std::nullopt;
   }
   note_checks(problem, outcome);
-  note_softening(problem, outcome);
   note_stiffness(outcome);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();

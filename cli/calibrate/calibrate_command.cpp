@@ -25,9 +25,8 @@ Methods:
   paper     a published calibration procedure: point estimates, for comparison
 
 Budgets:
-  quick     13 minutes on one core for the fit; few heaps, and ten times softer,
-            but for those of the checks
-  standard  150 minutes on one core; heaps as stiff as the study says
+  quick     14 minutes on one core for the fit
+  standard  125 minutes on one core for the fit
   paper     at most 62 simulations, the number of a published calibration
 The minutes are estimates for heaps of a few hundred grains; verification is
 extra. --dry-run times one run of each experiment, for at most 20 seconds each,

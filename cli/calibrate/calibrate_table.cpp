@@ -191,10 +191,15 @@ std::string belongs_to_text(const calibrate::Provenance& of) {
   const calibrate::ClumpFacts& clump = of.clump;
   return fmt::format(
       "These coefficients are valid for: {}, rolling friction {} ({}); a clump of {} ({}, "
-      "volume error {:+.2f} %); stiffness factor {}; budget {}: {}.",
+      "volume error {:+.2f} %){}; stiffness factor {}; budget {}: {}.",
       of.contact_model, of.rolling_model, of.rolling_definition,
       clump.spheres == 1 ? "1 sphere" : fmt::format("{} spheres", clump.spheres), clump.source,
-      100 * clump.volume_error, stiffness, of.study.budget, of.study.budget_description);
+      100 * clump.volume_error,
+      clump.size_sd_percent
+          ? fmt::format(", in bulks of sizes with a standard deviation of {:.3g} %",
+                        *clump.size_sd_percent)
+          : "",
+      stiffness, of.study.budget, of.study.budget_description);
 }
 
 }  // namespace

@@ -52,7 +52,6 @@ Pace timed_pace(const CalibratePlan& plan, const std::vector<calibrate::Experime
   Progress progress(runs.size(), "timed");
   for (const calibrate::ExperimentEstimate& run : runs) {
     job.experiment = run.experiment;
-    job.relative_stiffness = experiment_named(problem, run.experiment).relative_stiffness;
     const double run_s =
         calibrate::timed_run_s(simulator.spec(job), job.seed, kLongest_s, is_interrupted);
     pace[run.experiment] = run_s / run.run_s;
@@ -77,21 +76,19 @@ struct BudgetColumn {
 
 BudgetColumn budget_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
   BudgetColumn column;
-  double fit_s = 0, checks_s = 0;
+  double all_s = 0;
   for (const calibrate::ExperimentEstimate& estimate : budget.estimates) {
-    const double run_s = estimate.run_s * pace.at(estimate.experiment);
-    fit_s += estimate.fit_runs * run_s;
-    checks_s +=
-        (estimate.check_runs * estimate.check_run_s + estimate.stiff_runs * estimate.stiff_run_s) *
-        pace.at(estimate.experiment);
+    all_s +=
+        pace.at(estimate.experiment) * ((estimate.fit_runs + estimate.check_runs) * estimate.run_s +
+                                        estimate.stiff_runs * estimate.stiff_run_s);
     column.runs.push_back(
         fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs + estimate.stiff_runs));
   }
-  column.time = duration((fit_s + checks_s) / jobs);
+  column.time = duration(all_s / jobs);
   return column;
 }
 
-/// What an hour more on all these cores is worth, of heaps as stiff as in this budget.
+/// What an hour more on all these cores is worth.
 BudgetColumn hour_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
   calibrate::Problem problem = budget.problem;
   for (calibrate::Experiment& experiment : problem.experiments) {
@@ -137,8 +134,7 @@ std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
   page.add(table_of(budgets, pace, plan.jobs));
   page.add_gap();
   for (const BudgetPlan& budget : budgets) {
-    page.add(fmt::format("{}: {}.", budget.budget.name,
-                         calibrate::description_of(budget.budget, plan.record.study)));
+    page.add(fmt::format("{}: {}.", budget.budget.name, budget.budget.description));
   }
   page.add("one more hour: additional runs within one hour, for comparison.");
   page.add_gap();

@@ -51,7 +51,8 @@ Json clump_json(const SimulatePlan& plan) {
           {"smallest_radius_mm", smallest->radius * kMillimetres},
           {"mass_g", shape.volume_m3 * plan.spec.model.grain_material.density_kg_m3 * 1e3},
           {"volume_error", plan.grain.errors.volume_error},
-          {"inertia_error", plan.grain.errors.inertia_error}};
+          {"inertia_error", plan.grain.errors.inertia_error},
+          {"size_sd_percent", 100 * plan.spec.model.size_sd_fraction}};
 }
 
 /// All that a value belongs to but its seed and time step.

@@ -158,6 +158,10 @@ Table belongs_to_table(const SimulatePlan& plan) {
   table.add_row(
       {"  clump", fmt::format("{} spheres, volume error {:.1f} % ({})", model.grain.spheres.size(),
                               100 * plan.grain.errors.volume_error, plan.grain.source)});
+  if (model.size_sd_fraction > 0) {
+    table.add_row({"  sizes", fmt::format("standard deviation {:.3g} % of the mean",
+                                          100 * model.size_sd_fraction)});
+  }
   table.add_row({"  stiffness factor", fmt::format("{:g}", model.stiffness_factor)});
   table.add_row({"  time step", step});
   table.add_row({"  with the wall", coefficients_text(model.grain_wall)});

@@ -47,9 +47,6 @@ int main(int argc, char** argv) {
                  "a study file: measure and calibrate with real simulations of it");
   app.add_option("--experiments", plan.experiments, "with --simulated: make only these")
       ->delimiter(',');
-  app.add_option("--heap-softening", plan.heap_softening,
-                 "with --simulated: heaps of the fit have this part of the bench's stiffness")
-      ->check(CLI::Range(1e-3, 1.));
   app.add_option("--out", plan.folder, "keeps the runs of --simulated");
   app.add_flag("--verbose", plan.verbose, "every parameter of every material");
   CLI11_PARSE(app, argc, argv);

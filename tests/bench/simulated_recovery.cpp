@@ -125,7 +125,6 @@ void recover_simulated(const SimulatedRecovery& plan) {
   calibrate::Budget budget = calibrate::budget_named("quick");
   budget.settings.budget_s = plan.budget_s;
   budget.family_sets = 0;
-  budget.heap_softening = plan.heap_softening;
   const std::vector<calibrate::Parameter> parameters = sought_in(study, grain, budget);
   const calibrate::RunFolder folder(plan.folder);
   RecoveryTally tally(parameters);

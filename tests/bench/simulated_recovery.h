@@ -12,8 +12,7 @@ struct SimulatedRecovery {
   std::filesystem::path folder;          ///< keeps the runs: started again, it goes on
   std::vector<std::string> experiments;  ///< the only ones that are made; empty: all
   int materials = 20;
-  double budget_s = 150;      ///< of one core, for each material
-  double heap_softening = 1;  ///< heaps of the fit have the bench's stiffness times this
+  double budget_s = 150;  ///< of one core, for each material
   std::uint64_t seed = 1;
   bool verbose = false;
 };

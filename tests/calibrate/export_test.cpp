@@ -88,6 +88,17 @@ TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
               HasSubstr("Young's moduli times 0.01."));
 }
 
+TEST(ExportStudy, SizesThatVaryAreSaidNotToCarryOver) {
+  dem::Study study = hazelnuts();
+  EXPECT_THAT(file_text(exported(study, ExportTarget::yade), "README.txt"),
+              Not(HasSubstr("Sizes:")));
+  study.model.size_sd_fraction = .043;
+  EXPECT_THAT(file_text(exported(study, ExportTarget::yade), "README.txt"),
+              AllOf(HasSubstr("standard deviation of 4.3 %"), HasSubstr("all have the mean size")));
+  EXPECT_THAT(file_text(exported(study, ExportTarget::edem), "README.txt"),
+              HasSubstr("Choose a normal size distribution with this deviation."));
+}
+
 TEST(ExportStudy, WhatHasNoDeckIsNamed) {
   dem::Study study = hazelnuts();
   study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};

@@ -59,32 +59,6 @@ TEST(GaussianProcess, GradientsAreThoseOfItsValues) {
   }
 }
 
-TEST(GaussianProcess, AShiftOfSomeValuesIsFoundFromTheOthers) {
-  constexpr double kShift = .7;
-  Data data = noisy(60, .1);
-  std::vector<double> shifts(60, 0);
-  for (std::size_t i = 0; i < 50; ++i) {
-    shifts[i] = .5;  // known beforehand as 0 +- .5
-    data.values[i] += kShift;
-  }
-  const GaussianProcess process(data.places, data.values, true, {}, 1, shifts);
-  const SharedShift shift = process.shared_shift();
-  EXPECT_NEAR(.5 * shift.mean, kShift, .15);
-  EXPECT_NEAR(.5 * shift.mean, kShift, 3 * .5 * shift.sd);
-  EXPECT_LT(shift.sd, .3) << "ten values that are not shifted tell it";
-  const Point here = {.4, .3, .6};
-  EXPECT_NEAR(process.at(here, false).mean, curve(here), .15);
-  const GaussianProcess misled(data.places, data.values, true, {}, 1);
-  EXPECT_GT(misled.at(here, false).mean, curve(here) + .3) << "as if nothing were shifted";
-}
-
-TEST(GaussianProcess, WithoutShiftsNothingIsKnownOfOne) {
-  const Data data = noisy(20, .1);
-  const SharedShift shift = GaussianProcess(data.places, data.values, true, {}, 1).shared_shift();
-  EXPECT_EQ(shift.mean, 0);
-  EXPECT_EQ(shift.sd, 1);
-}
-
 TEST(GaussianProcess, LeavingOneOutIsTheSameAsNotHavingIt) {
   Data data = noisy(25, .1);
   const GaussianProcess all(data.places, data.values, true, {}, 1);

@@ -341,6 +341,18 @@ TEST(JointFit, WhereTheBenchScattersMoreReadingsAreAdvised) {
               HasSubstr("take more bench readings of tilt: 16 in place of 4"));
 }
 
+TEST(JointFit, MoreSimulationsAreAdvisedWhereTheyWouldNarrow) {
+  Problem problem = plate(39.5, .1, 10);
+  problem.experiments[0].is_stochastic = true;
+  fake::Runs runs = plate_runs(problem);
+  double side = 1;
+  for (auto& run : runs) run.readings["value"] += 3 * (side = -side);
+  EXPECT_THAT(fit_jointly(problem, runs).parameters[0].advice,
+              AllOf(HasSubstr("simulate more: means known exactly"),
+                    Not(HasSubstr("take more bench readings"))));
+  EXPECT_THAT(plate_fit(plate(39.5, .9, 10)).parameters[0].advice, Not(HasSubstr("simulate more")));
+}
+
 TEST(JointFit, AParameterThatNothingMeasuredDependsOnStaysOpenAndTheOthersAreFound) {
   Problem problem = plate(20, .9, 10);
   const FittedParameter alone = plate_fit(problem).parameters[0];
@@ -364,47 +376,6 @@ TEST(JointFit, FailedRunsAreCountedAndKeptAwayFrom) {
   for (const ParameterSet& set : fit.equivalence_family) {
     EXPECT_TRUE(set.values[4] < .65 || set.values[5] < .16);
   }
-}
-
-/// The made-up bench, its heaps ten times softer in rounds; and stiff runs at the first fit.
-struct SoftStudy {
-  Problem problem = fake::problem(kTruth, 2);
-  fake::Runs runs;
-
-  SoftStudy() {
-    problem.experiments.back().relative_stiffness = .1;
-    runs = fake::study(problem);
-  }
-  void add_checks(const std::vector<double>& values) {
-    const auto checks = fake::run_all(verification_jobs(problem, values, 6, 0));
-    runs.insert(runs.end(), checks.begin(), checks.end());
-  }
-};
-
-TEST(JointFit, WhatSofteningDoesIsTakenOut) {
-  SoftStudy study;
-  const JointFit before = fit_jointly(study.problem, study.runs, {kTruth});
-  ASSERT_TRUE(before.observables[3].softening_shift);
-  EXPECT_FALSE(before.observables[0].softening_shift) << "drops are as stiff as the study";
-  EXPECT_GT(before.observables[3].softening_shift->uncertainty, .7) << "soft heaps cannot tell";
-  EXPECT_GT(before.asked[0].simulated[3], fake::expected("heap", "value", kTruth) + 1.2)
-      << "they are taken as they are";
-  study.add_checks(kTruth);
-  const JointFit after = fit_jointly(study.problem, study.runs, {kTruth});
-  const SofteningShift shift = after.observables[3].softening_shift.value();
-  EXPECT_NEAR(shift.mean, fake::kSofteningShift, 2 * shift.uncertainty);
-  EXPECT_LT(shift.uncertainty, .5);
-  EXPECT_NEAR(after.asked[0].simulated[3], fake::expected("heap", "value", kTruth), .8);
-  for (std::size_t j = 0; j < 6; ++j) EXPECT_TRUE(holds(after.parameters[j], kTruth[j])) << j;
-}
-
-TEST(JointFit, RoundsDoNotSpendOnWhatSoftHeapsCannotTell) {
-  const SoftStudy soft;
-  const fake::Runs stiff = fake::study(fake::problem(kTruth, 2));
-  const auto heaps = [](const fake::Runs& runs) {
-    return std::ranges::count(runs, "heap", [](const auto& run) { return run.job.experiment; });
-  };
-  EXPECT_LE(heaps(soft.runs), heaps(stiff) + 6);
 }
 
 TEST(JointFit, IntervalsOfSeveralMaterialsHoldTheirTruths) {

@@ -54,25 +54,6 @@ TEST(Surrogate, BendsWhatSpansManyScalesAndStillGivesTheMean) {
               .1 * truth);
 }
 
-double slope_of_angles(const Point& x, Random& random) { return 20 + 10 * x[0] + random.normal(); }
-
-// A level that all runs share cannot be told from the function's own.
-TEST(Surrogate, SoftRunsAloneLeaveTheirShiftOpen) {
-  TrainingSet soft = training_set(60, slope_of_angles);
-  const Point here = {0, .5, 0};
-  const double known = std::pow(Surrogate(soft, {}, true).uncertainty(here), 2);
-  soft.softness.assign(60, 1);
-  soft.round_softness = 1;
-  const Surrogate surrogate(soft, {}, true);
-  const double shift = .04 * 25.2;  // of the readings' root mean square
-  EXPECT_NEAR(std::pow(surrogate.uncertainty(here), 2), known + shift * shift, .15 * shift * shift);
-  const double slope = surrogate.warp().slope(surrogate.at(here, false).mean);
-  EXPECT_NEAR(slope * slope * surrogate.round_covariance({here}).front(), known, .2 * known);
-  ASSERT_TRUE(surrogate.softening_shift(here));
-  EXPECT_NEAR(surrogate.softening_shift(here)->mean, 0, .1);
-  EXPECT_FALSE(Surrogate(training_set(60, slope_of_angles), {}, true).softening_shift(here));
-}
-
 TEST(Surrogate, DoesNotGoBelowZeroWhereNoRunDid) {
   const Surrogate surrogate(
       training_set(40, [](const Point& x,

@@ -54,7 +54,6 @@ FittedObservable drop() {
           .simulated_sd = .4,
           .predicted_sd = 1.2,
           .difference_sigma = .1,
-          .softening_shift = SofteningShift{-1.5, .25},
           .reachable = {1, 80}};
 }
 
@@ -222,13 +221,12 @@ StudyResult joint_result() {
                     .y = {.1, .8},
                     .simulated = {{1, 80}, {2, 81}}}},
       .regressions = {{"drop", surface()}, {"tilt", {}}},
-      .runs = {
-          {.job = {.experiment = "drop", .values = {.2, .3}, .seed = 1, .relative_stiffness = .1},
-           .readings = {{"value", 7}},
-           .failure = ""},
-          {.job = {.experiment = "drop", .values = {.9, .3}, .seed = 2},
-           .readings = {},
-           .failure = "nothing was seen"}}};
+      .runs = {{.job = {.experiment = "drop", .values = {.2, .3}, .seed = 1},
+                .readings = {{"value", 7}},
+                .failure = ""},
+               {.job = {.experiment = "drop", .values = {.9, .3}, .seed = 2},
+                .readings = {},
+                .failure = "nothing was seen"}}};
   return {.provenance = provenance("joint"), .found = joint};
 }
 

@@ -104,14 +104,6 @@ TEST(Foresight, AnIntervalIsThatOfAStraightLineThroughReadingsThatScatterByFiveP
   EXPECT_LT(outlook.determined[1], .1);
 }
 
-TEST(Foresight, RunsThatABudgetSoftensTellAsMuch) {
-  Problem soft = problem_with({"first"});
-  soft.experiments.front().relative_stiffness = .1;
-  EXPECT_EQ(runs_of(soft).front().job.relative_stiffness, .1);
-  EXPECT_EQ(foresight_of(soft).with({0}).widths,
-            foresight_of(problem_with({"first"})).with({0}).widths);
-}
-
 TEST(Foresight, FourTimesAsManyReadingsHalveAnInterval) {
   const Problem problem = problem_with({"first"});
   const double ten = foresight_of(problem, 10).with({0}).widths[0];
