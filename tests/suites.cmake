@@ -14,10 +14,11 @@ include([[${CMAKE_CURRENT_FUNCTION_LIST_FILE}]])
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
 endfunction()
 
-# Suites that run much of the code hundreds of times, to count how often or see how nearly it is right:
-# they have the label `statistics` too, and are left out where each run takes ten times as long.
+# Suites that run code which others run as well, often or for long, to see how nearly right its numbers
+# are: they have the label `statistics` too, and are left out where each run takes ten times as long.
 set(statistics "^(vision/Conditions/.*|vision/ComparePictures|calibrate/JointFit(OfTheBench)?|\
-calibrate/Propose|dem/(FillAccuracy|FilledTubes|DrawDowns))$")
+calibrate/(Propose|Narrowing|StifferCoefficients|DrawDownFront|SimulatorVersion)|\
+dem/(FillAccuracy|FilledTubes|DrawDowns)|physics/Verify/Physics)$")
 # Suites that start, kill and restart whole programs, each of which other suites run as well: they have
 # the label `processes`, and are left out there too.
 set(processes "^cli/(CalibrateKilled|CalibrateRanks|Folders|OutputsOf|SimulateRestart)$")

@@ -46,16 +46,24 @@ std::string way_out(const Agreement& agreement) {
 }
 
 std::string disagreement(const Verification& verification) {
-  std::string text = "bench and simulation disagree:";
-  if (std::isfinite(verification.chance)) {
-    text +=
-        fmt::format(" differences as large as all of these together arise by chance in {} of cases",
-                    percent(verification.chance));
+  std::vector<const Agreement*> differing = with(verification, AgreementVerdict::disagrees);
+  std::vector<const Agreement*> silent;
+  for (const Agreement* agreement : differing) {
+    if (agreement->runs == 0) silent.push_back(agreement);
   }
-  std::vector<const Agreement*> found = with(verification, AgreementVerdict::disagrees);
-  if (found.empty()) return text + "; no single experiment shows it by itself";
-  return text + fmt::format("; it is {} that {}", names_of(found),
-                            found.size() == 1 ? "differs" : "differ");
+  std::erase_if(differing, [](const Agreement* agreement) { return agreement->runs == 0; });
+  if (!silent.empty() && differing.empty()) {
+    return "bench and simulation disagree: no run gave a reading of " + names_of(silent);
+  }
+  std::string text = fmt::format(
+      "bench and simulation disagree: differences as large as all of these together arise by "
+      "chance "
+      "in {} of cases",
+      percent(verification.chance));
+  if (differing.empty()) return text + "; no single experiment shows it by itself";
+  text += fmt::format("; it is {} that {}", names_of(differing),
+                      differing.size() == 1 ? "differs" : "differ");
+  return silent.empty() ? text : text + "; no run gave a reading of " + names_of(silent);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/propose.h"
+#include "calibrate/result/agreement_text.h"
 #include "tests/calibrate/made_up_result.h"
 #include "tests/support/temporary_folder.h"
 
@@ -19,6 +20,7 @@ using test::joint_in;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::ThrowsMessage;
 
@@ -208,6 +210,30 @@ TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
   EXPECT_EQ(result.provenance.study.budget, "quick");
   EXPECT_EQ(result.provenance.shortest_timestep_s, (NamedValues{{"tilt", 1e-5}}));
   EXPECT_TRUE(result_from_json(to_json(result), kName) == result);
+}
+
+Verification disagreeing(const std::vector<int>& runs, double chance) {
+  Verification check{.values = {}, .observables = {}, .chance = chance};
+  check.verdict = AgreementVerdict::disagrees;
+  for (const int count : runs) {
+    Agreement& agreement = check.observables.emplace_back();
+    agreement.observable = "test_" + std::to_string(check.observables.size());
+    agreement.verdict = AgreementVerdict::disagrees;
+    agreement.runs = count;
+  }
+  return check;
+}
+
+TEST(AgreementText, SaysWhetherReadingsDifferOrAreMissing) {
+  EXPECT_EQ(agreement_text(disagreeing({0}, 1)),
+            "bench and simulation disagree: no run gave a reading of test_1");
+  EXPECT_THAT(agreement_text(disagreeing({6}, .01)),
+              AllOf(HasSubstr("by chance in 1 % of cases"), HasSubstr("it is test_1 that differs"),
+                    Not(HasSubstr("no run"))));
+  EXPECT_THAT(
+      agreement_text(disagreeing({0, 6}, .01)),
+      AllOf(HasSubstr("it is test_2 that differs"), HasSubstr("no run gave a reading of test_1")));
+  EXPECT_THAT(agreement_text(disagreeing({}, .01)), HasSubstr("no single experiment"));
 }
 
 }  // namespace
