@@ -14,7 +14,6 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kReadings = 10;        // taken of what is advised
-constexpr double kWorthwhile = .3;      // share of the variance that it takes away
 constexpr std::size_t kFewestRuns = 8;  // runs to learn a reading from
 
 bool is_measured(const Problem& problem, const std::string& experiment) {
@@ -49,9 +48,6 @@ std::string worth_of(const std::string& what, double left) {
 std::string worth_of_ten(double fraction) {
   return worth_of("ten readings", std::sqrt(1 - fraction));
 }
-
-/// `left`: of a standard deviation.
-bool is_worthwhile(double left) { return 1 - left * left > kWorthwhile; }
 
 }  // namespace
 

@@ -13,6 +13,11 @@ namespace repose::calibrate {
 /// reasons: THEORY.md, "What would narrow it". Proved by Narrowing.* in tests/calibrate.
 std::vector<Narrowing> narrowing_of(const Solution& solution, double spent_s);
 
+/// What takes away this share of a parameter's variance is worth its while.
+inline constexpr double kWorthwhile = .3;
+/// `left`: of its standard deviation.
+inline bool is_worthwhile(double left) { return 1 - left * left > kWorthwhile; }
+
 /// Times as many readings as there are: half the uncertainty of their mean.
 inline constexpr int kMoreReadings = 4;
 

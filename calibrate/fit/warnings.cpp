@@ -1,10 +1,12 @@
 #include "calibrate/fit/warnings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
 
 #include "base/distributions.h"
+#include "calibrate/fit/narrowing.h"
 #include "calibrate/fit/reach.h"
 
 namespace repose::calibrate {
@@ -97,6 +99,10 @@ void warn_of_prior(const Parameter& parameter, const FittedParameter& fitted,
 std::vector<std::string> warnings_for(const Problem& problem, const Solution& solution,
                                       const JointFit& fit) {
   std::vector<std::string> warnings;
+  const bool would_narrow =
+      std::ranges::any_of(fit.parameters, [](const FittedParameter& parameter) {
+        return parameter.narrowing && is_worthwhile(parameter.narrowing->exact);
+      });
   for (std::size_t i = 0; i < fit.observables.size(); ++i) {
     const FittedObservable& fitted = fit.observables[i];
     const SurrogateQuality& quality = fit.surrogates[i];
@@ -115,7 +121,8 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
                       "them are considered unlikely",
                       fitted.name, quality.failed_runs, quality.failed_runs + quality.runs));
     }
-    if (solution.misfit.surrogate_variance_fraction(i, solution.best.point) > kSurrogateFraction) {
+    if (would_narrow &&
+        solution.misfit.surrogate_variance_fraction(i, solution.best.point) > kSurrogateFraction) {
       warnings.push_back(
           fmt::format("{}: the simulations are less certain than the measurement: a "
                       "larger budget would narrow the intervals",

@@ -45,6 +45,7 @@ std::string particle_section(const NewStudy& study) {
           : "Length, width and thickness: assumed; measure at least 20 grains with a calliper.");
   text += fmt::format("size_mm = [{}, {}, {}]\n", toml_number(length), toml_number(width),
                       toml_number(thickness));
+  text += "# size_sd_percent = 5  # standard deviation of the sizes, for heaps and other bulks\n";
   text +=
       toml_comment("Number of spheres per grain: more follow its shape better, but take longer.");
   text += fmt::format("spheres = {}\n", spheres_for(study.sizes_mm));

@@ -347,9 +347,10 @@ TEST(JointFit, MoreSimulationsAreAdvisedWhereTheyWouldNarrow) {
   fake::Runs runs = plate_runs(problem);
   double side = 1;
   for (auto& run : runs) run.readings["value"] += 3 * (side = -side);
-  EXPECT_THAT(fit_jointly(problem, runs).parameters[0].advice,
-              AllOf(HasSubstr("simulate more: means known exactly"),
-                    Not(HasSubstr("take more bench readings"))));
+  const JointFit noisy = fit_jointly(problem, runs);
+  EXPECT_THAT(noisy.parameters[0].advice, AllOf(HasSubstr("simulate more: means known exactly"),
+                                                Not(HasSubstr("take more bench readings"))));
+  EXPECT_THAT(noisy.warnings, Contains(HasSubstr("a larger budget would narrow the intervals")));
   EXPECT_THAT(plate_fit(plate(39.5, .9, 10)).parameters[0].advice, Not(HasSubstr("simulate more")));
 }
 
