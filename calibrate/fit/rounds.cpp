@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -176,30 +178,49 @@ class Study {
   std::vector<RoundSummary> summaries_;
 };
 
+/// The runs there are, by their jobs.
+class Done {
+ public:
+  Done(const Problem& problem, const std::vector<Run>& runs) {
+    for (const Run& run : in_order(problem, runs)) runs_.emplace(run.job, run);
+  }
+
+  /// The runs of these jobs; none, and the jobs that are missing, where some are.
+  std::optional<std::vector<Run>> take(const std::vector<Job>& jobs,
+                                       std::vector<Job>& missing) const {
+    std::vector<Run> taken;
+    for (const Job& job : jobs) {
+      const auto found = runs_.find(job);
+      if (found == runs_.end()) {
+        missing.push_back(job);
+      } else {
+        taken.push_back(found->second);
+      }
+    }
+    if (!missing.empty()) return std::nullopt;
+    return taken;
+  }
+
+ private:
+  std::map<Job, Run, JobLess> runs_;
+};
+
 }  // namespace
 
 Rounds replay(const Problem& problem, const std::vector<Run>& runs) {
-  const std::vector<Run> sorted = in_order(problem, runs);
-  std::map<Job, Run, JobLess> done;
-  for (const Run& run : sorted) done.emplace(run.job, run);
-  Study study(problem);
+  const Done done(problem, runs);
   Rounds rounds;
-  std::vector<Job> jobs = first_round(problem);
-  while (!jobs.empty()) {
-    std::vector<Run> complete;
-    for (const Job& job : jobs) {
-      const auto found = done.find(job);
-      if (found == done.end()) {
-        rounds.missing.push_back(job);
-      } else {
-        complete.push_back(found->second);
-      }
-    }
-    if (!rounds.missing.empty()) break;
-    study.learn(complete);
-    jobs = study.next_round();
+  Study study(problem);
+  const auto lead = done.take(leading_jobs(problem), rounds.missing);
+  if (!lead) return rounds;
+  std::optional<std::vector<Run>> round = done.take(following_jobs(problem, *lead), rounds.missing);
+  if (!round) return rounds;
+  round->insert(round->begin(), lead->begin(), lead->end());
+  while (round && !round->empty()) {
+    study.learn(*round);
+    rounds.complete = study.summaries();
+    round = done.take(study.next_round(), rounds.missing);
   }
-  rounds.complete = study.summaries();
   return rounds;
 }
 

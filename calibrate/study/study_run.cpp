@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/distributions.h"
+#include "calibrate/fit/first_round.h"
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/profile.h"
 #include "calibrate/fit/propose.h"
@@ -45,7 +46,7 @@ void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>
 /// Rounds until the fit has settled; false when interrupted.
 bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
                 std::vector<Run>& runs) {
-  const int most = problem.settings.max_rounds;
+  const int most = problem.settings.max_rounds + (has_followers(problem) ? 1 : 0);
   double left_s = 0, checks_s = 0;
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
     left_s += estimate.fit_runs * estimate.run_s;

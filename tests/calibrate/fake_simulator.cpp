@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "calibrate/fit/first_round.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/fit/random.h"
 
@@ -133,6 +134,13 @@ Problem problem(const std::vector<double>& truth, std::uint64_t seed) {
   problem.settings.budget_s = 1200;
   problem.settings.seed = seed;
   return problem;
+}
+
+Runs first_runs(const Problem& problem, bool jams) {
+  Runs runs = run_all(leading_jobs(problem), jams);
+  const Runs following = run_all(following_jobs(problem, runs), jams);
+  runs.insert(runs.end(), following.begin(), following.end());
+  return runs;
 }
 
 Runs study(const Problem& problem, bool jams) {

@@ -41,6 +41,9 @@ std::vector<Observable> measured(const std::vector<double>& truth, std::uint64_t
 /// All of the above in one problem.
 Problem problem(const std::vector<double>& truth = kTruth, std::uint64_t seed = 1);
 
+/// The runs of the first round, both parts of it.
+Runs first_runs(const Problem& problem, bool jams = false);
+
 /// Runs whatever is proposed until nothing more is.
 Runs study(const Problem& problem, bool jams = false);
 

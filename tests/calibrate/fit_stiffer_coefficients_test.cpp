@@ -6,7 +6,6 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/propose.h"
 #include "calibrate/fit/stiffer_coefficients.h"
 #include "calibrate/fit/verification.h"
 #include "tests/calibrate/fake_simulator.h"
@@ -49,7 +48,7 @@ bool holds_truth(const Interval& interval) {
 
 struct StifferCoefficients : ::testing::Test {
   Problem problem_ = of_stiff_bench();
-  fake::Runs runs_ = fake::run_all(propose(problem_, {}));
+  fake::Runs runs_ = fake::first_runs(problem_);
 };
 
 TEST_F(StifferCoefficients, AreThoseOfTheBenchWhereSoftGrainsAskForOthers) {
