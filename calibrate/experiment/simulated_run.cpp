@@ -88,7 +88,11 @@ std::map<std::string, double> readings_of(const SimulatedRun& run) {
     readings["from_pictures"] = is_from_pictures(run) ? 1 : 0;
     if (seen.angle_deg) {
       readings["angle_from_pictures_deg"] = seen.angle_deg->mean;
-      if (seen.angle_deg->sd) readings["sd_between_views_deg"] = *seen.angle_deg->sd;
+      if (seen.angle_deg->sd) {
+        readings["sd_between_views_deg"] = *seen.angle_deg->sd;
+        readings[kOneViewScatter] =
+            *seen.angle_deg->sd * std::sqrt(1 - 1 / readings.at("views_measured"));
+      }
     }
   }
   std::erase_if(readings, [](const auto& reading) { return !std::isfinite(reading.second); });

@@ -83,10 +83,9 @@ void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& 
   for (const Point& point : solution_.sets.points) {
     const Expectation w = surrogate.at(point, false);
     const double slope = surrogate.warp().slope(w.mean);
-    const double scatter = surrogate.warp().scatter(w.mean);
     of_ten.readings.push_back(surrogate.warp().expected(w.mean));
     of_ten.noise2 +=
-        slope * slope * w.variance + scatter * scatter * experiment.readings_per_run / kReadings;
+        slope * slope * w.variance + std::pow(surrogate.reading_sd(w.mean), 2) / kReadings;
   }
   of_ten.noise2 /= static_cast<double>(solution_.sets.points.size());
   all.push_back(std::move(unmeasured));

@@ -90,10 +90,9 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
   fitted.sd_assumed = !observable.sd;
   fitted.simulated = surrogate.simulated(best);
   fitted.simulated_uncertainty = surrogate.uncertainty(best);
-  fitted.simulated_sd = surrogate.warp().scatter(surrogate.at(best, false).mean);
-  fitted.predicted_sd =
-      std::sqrt(experiment_named(problem, observable.experiment).readings_per_run) *
-      fitted.simulated_sd;
+  const double w = surrogate.at(best, false).mean;
+  fitted.simulated_sd = surrogate.warp().scatter(w);
+  fitted.predicted_sd = surrogate.reading_sd(w);
   fitted.difference_sigma = solution.misfit.difference(i, best);
   const auto readable = [&](double reading) {
     return std::clamp(reading, observable.least, observable.most);

@@ -81,9 +81,7 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     surrogates_.emplace_back(training_set, start, thorough);
     const AsinhWarp& warp = surrogates_.back().warp();
     const double w = warp.of_expected(observable.mean);
-    const double runs_to_reading = std::sqrt(
-        static_cast<double>(experiment_named(problem, observable.experiment).readings_per_run));
-    measured_.push_back(uncertainty_of_mean(observable, runs_to_reading * warp.scatter(w)));
+    measured_.push_back(uncertainty_of_mean(observable, surrogates_.back().reading_sd(w)));
     const double sd =
         std::hypot(few_readings_factor(observable) * measured_.back(), observable.shift_sd);
     targets_.push_back({w, sd / warp.slope(w)});

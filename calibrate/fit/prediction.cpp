@@ -7,6 +7,7 @@
 
 #include "base/distributions.h"
 #include "calibrate/fit/check_sample.h"
+#include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
@@ -88,13 +89,14 @@ double variance_of(const std::vector<double>& values) {
 
 /// The standard uncertainty of a measured mean; a scatter that is only assumed is no less than that
 /// of single readings in the simulation, as in the fit.
-double measured_uncertainty_of(const Problem& problem, const Observable& observable,
-                               double run_sd) {
+double measured_uncertainty_of(const Problem& problem, const Observable& observable, double run_sd,
+                               const std::vector<Run>& runs) {
   const double known = standard_uncertainty(observable);
   if (observable.sd) return known;
   const Experiment& experiment = experiment_named(problem, observable.experiment);
-  return std::max(
-      known, run_sd * std::sqrt(static_cast<double>(experiment.readings_per_run) / observable.n));
+  const double reading_sd = std::hypot(run_sd * std::sqrt(experiment.readings_per_run),
+                                       sd_within(experiment, observable.reading, runs));
+  return std::max(known, reading_sd / std::sqrt(observable.n));
 }
 
 void judge(const Problem& problem, const Observable& observable, double sets_df,
@@ -144,7 +146,8 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
   prediction.coefficients_sd = std::sqrt(by_coefficients);
   prediction.run_sd = std::sqrt(sets.run_variance());
   prediction.uncertainty = std::sqrt(by_coefficients + between / count);
-  prediction.measured_uncertainty = measured_uncertainty_of(problem, observable, prediction.run_sd);
+  prediction.measured_uncertainty =
+      measured_uncertainty_of(problem, observable, prediction.run_sd, runs);
   prediction.tolerance = tolerance_of(observable, prediction.measured_uncertainty);
   const double half = base::student_t_quantile(.975, count - 1) * prediction.uncertainty;
   prediction.interval = {std::max(prediction.predicted - half, observable.least),

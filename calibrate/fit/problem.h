@@ -38,6 +38,10 @@ struct Experiment {
   /// How many readings of a bench a run's reading is the mean of: ten for ten grains dropped. A
   /// single one scatters by the root of that more.
   int readings_per_run = 1;
+  /// The reading that says by what standard deviation a bench's "value" scatters within what a run
+  /// is the mean of, beside that of runs: a photograph from one side, where runs are seen from
+  /// many. Empty: by none.
+  std::string scatter_within = {};
   /// That of real grains, as a multiple of the study's.
   double real_stiffness = 1;
 };

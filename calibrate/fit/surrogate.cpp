@@ -140,6 +140,11 @@ double Surrogate::uncertainty(const Point& point) const {
   return warp_.slope(w.mean) * std::sqrt(w.variance);
 }
 
+double Surrogate::reading_sd(double w) const {
+  return std::hypot(std::sqrt(training_set_.readings_per_run) * warp_.scatter(w),
+                    training_set_.sd_within);
+}
+
 std::vector<double> Surrogate::covariance(const std::vector<Point>& points) const {
   if (!process_) return std::vector<double>(points.size() * points.size(), 0);
   std::vector<Point> places;

@@ -36,6 +36,8 @@ struct TrainingSet {
   std::vector<Point> places;  ///< in the experiment's own coordinates
   std::vector<double> readings;
   std::vector<std::size_t> runs = {};  ///< places of these in all runs
+  int readings_per_run = 1;            ///< the experiment's
+  double sd_within = 0;                ///< of its Experiment::scatter_within
 };
 
 /// One reading as a function of all parameters, with its uncertainty.
@@ -52,6 +54,8 @@ class Surrogate {
   /// The expected reading, never below 0 where no run was, and its standard uncertainty.
   double simulated(const Point& point) const;
   double uncertainty(const Point& point) const;
+  /// Standard deviation of single readings of a bench where w is expected, by chance.
+  double reading_sd(double w) const;
   /// Of w between points, inflated, row by row.
   std::vector<double> covariance(const std::vector<Point>& points) const;
 

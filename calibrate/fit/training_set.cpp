@@ -54,12 +54,29 @@ std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) 
   return sorted;
 }
 
+double sd_within(const Experiment& experiment, const std::string& reading,
+                 const std::vector<Run>& runs) {
+  if (experiment.scatter_within.empty() || reading != "value") return 0;
+  double squares = 0;
+  int count = 0;
+  for (const Run& run : runs) {
+    if (run.job.experiment != experiment.name || !run.failure.empty()) continue;
+    const auto found = run.readings.find(experiment.scatter_within);
+    if (found == run.readings.end() || !std::isfinite(found->second)) continue;
+    squares += found->second * found->second;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
 TrainingSet training_set_of(const Problem& problem, const Experiment& experiment,
                             const std::string& reading, const std::vector<Run>& runs) {
   TrainingSet training_set{.parameters = experiment.parameters,
                            .is_stochastic = experiment.is_stochastic,
                            .places = {},
-                           .readings = {}};
+                           .readings = {},
+                           .readings_per_run = experiment.readings_per_run,
+                           .sd_within = sd_within(experiment, reading, runs)};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Run& run = runs[k];
     if (run.job.experiment != experiment.name || !run.failure.empty()) continue;

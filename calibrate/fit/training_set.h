@@ -14,6 +14,11 @@ namespace repose::calibrate {
 /// of another problem.
 std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs);
 
+/// By what a bench's single readings scatter within runs (Experiment::scatter_within): root mean
+/// square over those that tell it, 0 where none does.
+double sd_within(const Experiment& experiment, const std::string& reading,
+                 const std::vector<Run>& runs);
+
 /// The runs of `experiment` that have the reading as a number.
 TrainingSet training_set_of(const Problem& problem, const Experiment& experiment,
                             const std::string& reading, const std::vector<Run>& runs);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/experiment/simulated_run.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/coefficients.h"
@@ -143,6 +144,7 @@ class Maker {
          .is_stochastic = entry.is_stochastic,
          .measurable = measurable(entry),
          .readings_per_run = readings_per_run(entry),
+         .scatter_within = entry.is_pictured ? kOneViewScatter : "",
          .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured) add(observable_of(measured), entry, "value");

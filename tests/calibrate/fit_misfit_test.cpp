@@ -131,6 +131,26 @@ TEST(Misfit, AReadingOfOneGrainScattersMoreThanTheMeanOfTen) {
   EXPECT_NEAR(one, .2 * problem.observables[0].mean / std::sqrt(10), .3 * one);
 }
 
+TEST(Misfit, AReadingFromOneSideScattersMoreThanARunSeenFromMany) {
+  Problem problem = full_problem(false);
+  const std::size_t heap = 3;
+  ASSERT_EQ(problem.observables[heap].name, "heap");
+  problem.observables[heap].sd.reset();
+  problem.observables[heap].assumed_sd_fraction = .001;  // less than chance does
+  fake::Runs runs = fake::run_all(first_round(problem));
+  for (auto& run : runs) {
+    if (run.job.experiment == "heap") run.readings["within"] = run.job.seed % 2 == 0 ? 1 : 7;
+  }
+  const auto sd_of_one = [&] {
+    return Misfit(problem, in_order(problem, runs), {}, false).measured_uncertainty(heap) *
+           std::sqrt(problem.observables[heap].n);
+  };
+  const double seen_from_many = sd_of_one();
+  problem.experiments[heap].scatter_within = "within";
+  const double within = 5;  // root mean square of 1 and 7, equally often
+  EXPECT_NEAR(sd_of_one(), std::hypot(seen_from_many, within), .2);
+}
+
 TEST(Misfit, FewReadingsCountAsStudentSays) {
   Observable observable{"a", "drop", "value", "mm", 10, 1, 10, {}};
   EXPECT_NEAR(few_readings_factor(observable), 2.262157 / 1.959964, 1e-6);

@@ -51,6 +51,16 @@ TEST(SimulatedRun, FlaggedViewsCount) {
   EXPECT_EQ(readings_of(run).at("views_measured"), 2);
 }
 
+TEST(SimulatedRun, OneViewScattersMoreThanTheMeanOfAll) {
+  const SimulatedRun run = heap_of({seen(MeasureStatus::ok, 24), seen(MeasureStatus::ok, 27),
+                                    seen(MeasureStatus::refused, 0), seen(MeasureStatus::ok, 24)});
+  EXPECT_NEAR(readings_of(run).at("sd_between_views_deg"), std::sqrt(3), 1e-9);
+  EXPECT_NEAR(readings_of(run).at(kOneViewScatter), std::sqrt(2), 1e-9);
+  EXPECT_THAT(readings_of(heap_of({seen(MeasureStatus::ok, 24)})),
+              Not(Contains(Key(kOneViewScatter))))
+      << "of a single view nothing is known";
+}
+
 TEST(SimulatedRun, NumbersThatDoNotExistAreNoReadings) {
   EXPECT_THAT(readings_of(heap_of({})), Not(Contains(Key("angle_xz_deg"))));
   SimulatedRun failed = heap_of({});
