@@ -35,7 +35,9 @@ void fields(Io& io, Held<Io, ClumpFacts>& clump) {
   io("spheres", clump.spheres);
   io("volume_error", clump.volume_error);
   io("inertia_error", clump.inertia_error);
-  io("size_sd_percent", clump.size_sd_percent);
+  if (io.has("size_sd_percent", clump.size_sd_percent.has_value())) {
+    io("size_sd_percent", clump.size_sd_percent);
+  }
 }
 
 template <typename Io>

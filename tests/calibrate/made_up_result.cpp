@@ -18,7 +18,11 @@ Provenance provenance(const std::string& method) {
           .contact_model = "Hertz-Mindlin (no slip)",
           .rolling_model = "constant_torque",
           .rolling_definition = "mu_r F_n times x",
-          .clump = {.source = "nut.stl", .spheres = 11, .volume_error = .01, .inertia_error = .02},
+          .clump = {.source = "nut.stl",
+                    .spheres = 11,
+                    .volume_error = .01,
+                    .inertia_error = .02,
+                    .size_sd_percent = 4.3},
           .stiffness_factor = {{"drop", 1}, {"heap", .01}},
           .shortest_timestep_s = {{"drop", 1e-6}}};
 }
