@@ -93,7 +93,7 @@ void add_simulation(const Provenance& provenance, Methods& methods) {
       shown(100 * clump.volume_error, 2), shown(100 * clump.inertia_error, 2),
       clump.size_sd_percent ? fmt::format(" Sizes of the grains in bulks vary normally, with a "
                                           "standard deviation of {} %.",
-                                          shown(*clump.size_sd_percent))
+                                          shown(clump.size_sd_percent))
                             : "",
       provenance.contact_model));
   methods.add_equation(

@@ -27,7 +27,6 @@ RestTest::RestTest(const SimulationSetup& setup, RestMemory memory)
 }
 
 bool RestTest::is_at_rest(const Simulation& simulation) {
-  const SimulationSetup& setup = simulation.setup();
   std::vector<Vector> centres;
   double energy = 0;
   for (int k = 0; k < simulation.grain_count(); ++k) {
