@@ -40,13 +40,14 @@ struct SimulatedRun {
 bool is_from_pictures(const SimulatedRun& run);
 double value_of(const SimulatedRun& run);
 
+/// The standard deviation s sqrt(1 - 1/n) by which the angle in one view scatters within a heap
+/// more than the mean of n views that scatter by s.
+inline constexpr const char* kOneViewScatter = "sd_of_one_view_deg";
+
 /// All readings as a fit or a table has them, those that do not exist left out: the engine's,
 /// "value", "timestep_s", and of a pictured run "angle_from_positions_deg", "views_measured",
 /// "views_flagged", "from_pictures" (0 or 1), "angle_from_pictures_deg" and
 /// "sd_between_views_deg", and kOneViewScatter.
-/// The standard deviation s sqrt(1 - 1/n) by which the angle in one view scatters within a heap
-/// more than the mean of n views that scatter by s.
-inline constexpr const char* kOneViewScatter = "sd_of_one_view_deg";
 std::map<std::string, double> readings_of(const SimulatedRun& run);
 
 /// As JSON, to be stored or sent to another process: every number comes back to the last bit.

@@ -59,7 +59,6 @@ void add_left_out(const ExportFacts& facts, DeckFields& fields) {
   if (!names.empty()) fields.add_section("LEFT_OUT").set("NAMES", names);
 }
 
-/// Only heaps are softened by a budget.
 std::string heap_stiffness_text(const ExportFacts& facts) {
   if (!facts.has(dem::Experiment::heap)) return "The study has no heaps.";
   return fmt::format("Heaps, and their decks, have Young's moduli times {}.",

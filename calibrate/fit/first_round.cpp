@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
+#include <iterator>
 
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/minimum.h"
@@ -85,13 +85,15 @@ double quantile(const std::vector<double>& ascending, double fraction) {
   return std::lerp(ascending[below], ascending[below + 1], at - static_cast<double>(below));
 }
 
-/// The jobs of the experiments that follow others, or of those that do not.
-std::vector<Job> jobs_of(const Problem& problem, bool of_followers, const Placing& placing) {
+enum class Part { leading, following };
+
+std::vector<Job> jobs_of(const Problem& problem, Part part, const Placing& placing) {
   const std::vector<Experiment> experiments = measured_experiments(problem);
   const std::vector<int> counts = first_round_jobs(problem);
   std::vector<Job> jobs;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
-    if (is_follower(experiments, experiments[e]) != of_followers) continue;
+    const bool follows_another = is_follower(experiments, experiments[e]);
+    if (follows_another != (part == Part::following)) continue;
     add_jobs(problem, experiments[e], counts[e], placing, jobs);
   }
   return jobs;
@@ -100,12 +102,8 @@ std::vector<Job> jobs_of(const Problem& problem, bool of_followers, const Placin
 }  // namespace
 
 std::vector<Job> first_round(const Problem& problem) {
-  const std::vector<Experiment> experiments = measured_experiments(problem);
-  const std::vector<int> counts = first_round_jobs(problem);
-  std::vector<Job> jobs;
-  for (std::size_t e = 0; e < experiments.size(); ++e) {
-    add_jobs(problem, experiments[e], counts[e], as_it_is, jobs);
-  }
+  std::vector<Job> jobs = leading_jobs(problem);
+  std::ranges::move(jobs_of(problem, Part::following, as_it_is), std::back_inserter(jobs));
   return jobs;
 }
 
@@ -116,12 +114,14 @@ bool has_followers(const Problem& problem) {
   });
 }
 
-std::vector<Job> leading_jobs(const Problem& problem) { return jobs_of(problem, false, as_it_is); }
+std::vector<Job> leading_jobs(const Problem& problem) {
+  return jobs_of(problem, Part::leading, as_it_is);
+}
 
 std::vector<Job> following_jobs(const Problem& problem, const std::vector<Run>& leading) {
   if (!has_followers(problem)) return {};
   const Marginals plausible = plausible_values(leading_part(problem), leading);
-  return jobs_of(problem, true, [&](std::size_t place, Point point) {
+  return jobs_of(problem, Part::following, [&](std::size_t place, Point point) {
     if (place % kAnywhereEvery == kAnywhereEvery - 1) return point;
     for (std::size_t j = 0; j < point.size(); ++j) {
       if (!plausible[j].empty()) point[j] = quantile(plausible[j], point[j]);

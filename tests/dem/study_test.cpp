@@ -9,61 +9,17 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/error_of.h"
+#include "tests/dem/study_file.h"
 #include "tests/support/places.h"
-#include "tests/support/temporary_folder.h"
 
 namespace repose::dem {
 namespace {
 
-using repose::testing::TemporaryFolder;
 using ::testing::AllOf;
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-const std::string kParticle = R"([particle]
-size_mm = [22.48, 18.23, 17.46]
-density_kg_m3 = 851
-young_modulus_pa = 1.254e9
-poisson_ratio = 0.38
-)";
-const std::string kWall = R"([wall]
-young_modulus_pa = 2.1e11
-poisson_ratio = 0.3
-)";
-const std::string kContact = R"([contact.particle_wall]
-restitution = 0.31
-sliding_friction = 0.39
-rolling_friction = 0.04
-[contact.particle_particle]
-restitution = 0.11
-sliding_friction = 0.21
-rolling_friction = 0.04
-)";
-const std::string kDrop = "[experiment.drop]\n";
-const std::string kStudy = kParticle + kWall + kContact + kDrop;
-
-using Settings = std::vector<std::string>;
-
-class StudyFile : public ::testing::Test {
- protected:
-  Study read(const std::string& text, const Settings& settings = {}) const {
-    return read_study(folder_.write("study.toml", text), settings);
-  }
-  /// What is wrong, without the folder's name; empty when nothing is.
-  std::string errors(const std::string& text, const Settings& settings = {}) const {
-    std::string all = error_of([&] { read(text, settings); });
-    const std::string folder = folder_.path().string() + "/";
-    for (std::size_t at = 0; (at = all.find(folder)) != std::string::npos;) {
-      all.erase(at, folder.size());
-    }
-    return all;
-  }
-  TemporaryFolder folder_;
-};
 
 std::size_t lines(const std::string& text) {
   return text.empty() ? 0
@@ -320,18 +276,6 @@ TEST_F(StudyFile, FilesThatAreNotThereAreSaid) {
   EXPECT_THROW(read_study(folder_.path()), std::invalid_argument);
 }
 
-TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
-  const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
-  const Study study = read(heap + "base_radius_mm = { mean = 120, sd = 4, n = 10 }\n");
-  ASSERT_EQ(measured_in(study, Experiment::heap).also.size(), 1U);
-  const MeasuredReading reading = measured_in(study, Experiment::heap).also.front();
-  EXPECT_EQ(reading.name, "base_radius_mm");
-  EXPECT_EQ(reading.mean, 120);
-  EXPECT_EQ(reading.sd, 4);
-  EXPECT_EQ(reading.count, 10);
-  EXPECT_THAT(errors(heap + "width_mm = { mean = 1 }\n"), HasSubstr("width_mm"));
-}
-
 TEST_F(StudyFile, WhatSaysNothingWithoutAnotherKeyIsRefusedWithoutIt) {
   const std::string tapped = "tap_mm = 5\n[experiment.fill.also_measured]\n" +
                              std::string("hausner_ratio = { mean = 1.1 }\n");
@@ -341,17 +285,6 @@ TEST_F(StudyFile, WhatSaysNothingWithoutAnotherKeyIsRefusedWithoutIt) {
   const Study study = read(kStudy + "[experiment.fill]\ntaps = 50\n" + tapped);
   EXPECT_EQ(study.protocol<FillProtocol>().taps, 50);
   EXPECT_DOUBLE_EQ(study.protocol<FillProtocol>().tap_m, .005);
-}
-
-TEST_F(StudyFile, SaysHowFarBenchAndSimulationMayBeApart) {
-  const std::string tilt =
-      kStudy + "[experiment.tilt]\nmeasured = { values = [9, 10], tolerance = ";
-  EXPECT_EQ(measured_in(read(tilt + "1.5 }\n"), Experiment::tilt).tolerance, 1.5);
-  EXPECT_FALSE(measured_in(read(kStudy), Experiment::drop).tolerance) << "unless told";
-  EXPECT_THAT(errors(tilt + "0 }\n"), HasSubstr("experiment.tilt.measured.tolerance = 0"));
-  const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
-  const Study study = read(heap + "height_mm = { mean = 40, tolerance = 3 }\n");
-  EXPECT_EQ(measured_in(study, Experiment::heap).also.front().tolerance, 3);
 }
 
 TEST_F(StudyFile, WhatIsSoughtMayHaveAValueForRunsBefore) {
@@ -379,41 +312,6 @@ TEST_F(StudyFile, BoundsThatMakeNoSenseAreRefused) {
   EXPECT_THAT(errors(kStudy, {key + "{ min = 0.1 }"}), HasSubstr("restitution.max is missing"));
   EXPECT_THAT(errors(kStudy, {key + "{ min = 0, max = 0.6 }"}), HasSubstr("restitution.min = 0"));
   EXPECT_THAT(errors(kStudy, {key + "{ min = 0.1, max = 0.1 }"}), HasSubstr("min below max"));
-}
-
-TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
-  const std::string key = "experiment.drop.measured = ";
-  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], mean = 9 }"}),
-              HasSubstr("more than one kind"));
-  EXPECT_THAT(errors(kStudy, {key + "{ }"}), HasSubstr("has no values"));
-  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], sd = 1 }"}), HasSubstr("belong to a mean"));
-  EXPECT_THAT(errors(kStudy, {key + "{ mean = 9, sd = -1, n = 0 }"}),
-              AllOf(HasSubstr("measured.sd = -1"), HasSubstr("measured.n = 0")));
-  EXPECT_THAT(errors(kStudy, {key + "{ pictures = [\"study.toml\"] }"}),
-              HasSubstr("only this is measured in pictures: heap, and not drop"));
-  EXPECT_THAT(errors(kStudy, {"experiment.fill.measured = { videos = [\"study.toml\"] }"}),
-              HasSubstr("only this is read off films: drop, tilt, roll, heap, and not fill"));
-  EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"study.toml\"], values = [9] }"}),
-              HasSubstr("more than one kind"));
-  EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"none.mp4\"] }"}),
-              HasSubstr("a file that exists, and there is no none.mp4"));
-  EXPECT_THAT(errors(kStudy, {key + "9.42"}), HasSubstr("a section with keys"));
-  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], readings = \"study.toml\" }"}),
-              HasSubstr("more than one kind"));
-  EXPECT_THAT(errors(kStudy, {key + "{ readings = \"none.csv\" }"}),
-              HasSubstr("a file that exists, and there is no none.csv"));
-}
-
-TEST_F(StudyFile, ASheetOfReadingsBelongsToTheStudy) {
-  const std::string text = kStudy + "measured = { readings = \"drops.csv\", tolerance = 2 }\n";
-  folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n"));
-  const Study study = read(text);
-  EXPECT_EQ(measured_in(study, Experiment::drop).sheet, folder_.path() / "drops.csv");
-  EXPECT_EQ(measured_in(study, Experiment::drop).tolerance, 2);
-  EXPECT_THAT(files_of(study), Contains(folder_.path() / "drops.csv"));
-  EXPECT_EQ(read(text).hash, study.hash);
-  folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n500,10\n"));
-  EXPECT_NE(read(text).hash, study.hash) << "other readings are another study";
 }
 
 TEST_F(StudyFile, SaysWhatAReportIsCalled) {

@@ -1,0 +1,76 @@
+// What a study says of the bench: readings, other readings, tolerances, sheets.
+
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "dem/study/study.h"
+#include "tests/dem/study_file.h"
+
+namespace repose::dem {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
+  const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
+  const Study study = read(heap + "base_radius_mm = { mean = 120, sd = 4, n = 10 }\n");
+  ASSERT_EQ(measured_in(study, Experiment::heap).also.size(), 1U);
+  const MeasuredReading reading = measured_in(study, Experiment::heap).also.front();
+  EXPECT_EQ(reading.name, "base_radius_mm");
+  EXPECT_EQ(reading.mean, 120);
+  EXPECT_EQ(reading.sd, 4);
+  EXPECT_EQ(reading.count, 10);
+  EXPECT_THAT(errors(heap + "width_mm = { mean = 1 }\n"), HasSubstr("width_mm"));
+}
+
+TEST_F(StudyFile, SaysHowFarBenchAndSimulationMayBeApart) {
+  const std::string tilt =
+      kStudy + "[experiment.tilt]\nmeasured = { values = [9, 10], tolerance = ";
+  EXPECT_EQ(measured_in(read(tilt + "1.5 }\n"), Experiment::tilt).tolerance, 1.5);
+  EXPECT_FALSE(measured_in(read(kStudy), Experiment::drop).tolerance) << "unless told";
+  EXPECT_THAT(errors(tilt + "0 }\n"), HasSubstr("experiment.tilt.measured.tolerance = 0"));
+  const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
+  const Study study = read(heap + "height_mm = { mean = 40, tolerance = 3 }\n");
+  EXPECT_EQ(measured_in(study, Experiment::heap).also.front().tolerance, 3);
+}
+
+TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
+  const std::string key = "experiment.drop.measured = ";
+  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], mean = 9 }"}),
+              HasSubstr("more than one kind"));
+  EXPECT_THAT(errors(kStudy, {key + "{ }"}), HasSubstr("has no values"));
+  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], sd = 1 }"}), HasSubstr("belong to a mean"));
+  EXPECT_THAT(errors(kStudy, {key + "{ mean = 9, sd = -1, n = 0 }"}),
+              AllOf(HasSubstr("measured.sd = -1"), HasSubstr("measured.n = 0")));
+  EXPECT_THAT(errors(kStudy, {key + "{ pictures = [\"study.toml\"] }"}),
+              HasSubstr("only this is measured in pictures: heap, and not drop"));
+  EXPECT_THAT(errors(kStudy, {"experiment.fill.measured = { videos = [\"study.toml\"] }"}),
+              HasSubstr("only this is read off films: drop, tilt, roll, heap, and not fill"));
+  EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"study.toml\"], values = [9] }"}),
+              HasSubstr("more than one kind"));
+  EXPECT_THAT(errors(kStudy, {key + "{ videos = [\"none.mp4\"] }"}),
+              HasSubstr("a file that exists, and there is no none.mp4"));
+  EXPECT_THAT(errors(kStudy, {key + "9.42"}), HasSubstr("a section with keys"));
+  EXPECT_THAT(errors(kStudy, {key + "{ values = [9], readings = \"study.toml\" }"}),
+              HasSubstr("more than one kind"));
+  EXPECT_THAT(errors(kStudy, {key + "{ readings = \"none.csv\" }"}),
+              HasSubstr("a file that exists, and there is no none.csv"));
+}
+
+TEST_F(StudyFile, ASheetOfReadingsBelongsToTheStudy) {
+  const std::string text = kStudy + "measured = { readings = \"drops.csv\", tolerance = 2 }\n";
+  folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n"));
+  const Study study = read(text);
+  EXPECT_EQ(measured_in(study, Experiment::drop).sheet, folder_.path() / "drops.csv");
+  EXPECT_EQ(measured_in(study, Experiment::drop).tolerance, 2);
+  EXPECT_THAT(files_of(study), Contains(folder_.path() / "drops.csv"));
+  EXPECT_EQ(read(text).hash, study.hash);
+  folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n500,10\n"));
+  EXPECT_NE(read(text).hash, study.hash) << "other readings are another study";
+}
+
+}  // namespace
+}  // namespace repose::dem
