@@ -12,6 +12,8 @@ namespace repose::cli {
 
 /// Stands where a number does not exist.
 inline constexpr const char* kNothing = "–";
+/// Before what is said below a row.
+inline constexpr const char* kBelow = "  ";
 
 enum class Align { left, right };
 enum class Colour { none, green, yellow, red };

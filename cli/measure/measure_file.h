@@ -15,7 +15,4 @@ namespace repose::cli {
 std::vector<MeasuredPicture> measure_file(const MeasurePlan& plan, std::size_t index,
                                           const std::function<void(double)>& progress);
 
-/// Thrown by a progress report to stop the work.
-struct Interrupted {};
-
 }  // namespace repose::cli

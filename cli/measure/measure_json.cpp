@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
-#include "cli/common/film_json.h"
 #include "cli/common/json_text.h"
+#include "cli/common/shared_json.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
@@ -45,14 +45,6 @@ Json flank_json(const vision::Flank& flank) {
             {"bend_deg", degrees(flank.bend_rad)},
             {"other_windows", windows}};
   if (flank.status != vision::FlankStatus::ok) json["reason"] = flank.reason;
-  return json;
-}
-
-Json warnings_json(const std::vector<vision::Warning>& warnings) {
-  Json json = Json::array();
-  for (const vision::Warning& warning : warnings) {
-    json.push_back({{"code", warning.code}, {"message", warning.message}});
-  }
   return json;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/common/degrees.h"
 #include "cli/common/table.h"
+#include "cli/common/verdict_colour.h"
 #include "cli/measure/proposal_text.h"
 #include "vision/measure/status_name.h"
 
@@ -26,21 +27,11 @@ std::string flank_cell(const vision::Flank& flank, vision::MeasureStatus status)
   return status == vision::MeasureStatus::refused ? kNothing : name_of(flank.status);
 }
 
-Colour colour_of(const MeasuredPicture& picture, bool has_colour) {
+Colour row_colour(const MeasuredPicture& picture, bool has_colour) {
   if (!has_colour) return Colour::none;
   if (picture.outcome != Outcome::measured) return Colour::red;
-  switch (picture.angle.status) {
-    case vision::MeasureStatus::ok:
-      return Colour::green;
-    case vision::MeasureStatus::flagged:
-      return Colour::yellow;
-    case vision::MeasureStatus::refused:
-      break;
-  }
-  return Colour::red;
+  return colour_of(picture.angle.status);
 }
-
-constexpr const char* kBelow = "  ";  // before what is said below a row
 
 void add_definitions(Table& table, const vision::ReposeAngle& angle) {
   for (const vision::NamedAngle& definition : angle.definitions) {
@@ -75,7 +66,7 @@ void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& s
        flank_cell(angle.right, angle.status),
        angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
-      colour_of(picture, style.has_colour));
+      row_colour(picture, style.has_colour));
 }
 
 /// "105.2 ± 3.1": as many digits as the uncertainty has.
@@ -124,7 +115,7 @@ void add_sizes(Table& table, const MeasuredPicture& picture) {
 void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
   if (is_of_series(picture)) return add_frame(table, picture, style);
   const vision::ReposeAngle& angle = picture.angle;
-  const Colour colour = colour_of(picture, style.has_colour);
+  const Colour colour = row_colour(picture, style.has_colour);
   if (picture.outcome != Outcome::measured) {
     table.add_row({picture.file, kNothing, kNothing, kNothing, kNothing, kNothing, "not read"},
                   colour);

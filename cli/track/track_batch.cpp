@@ -3,22 +3,15 @@
 #include <exception>
 #include <stdexcept>
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include "cli/common/batch.h"
 #include "cli/common/memory.h"
 #include "cli/common/picture_list.h"
-#include "cli/common/progress.h"
 #include "vision/drawing/drop_overlay.h"
 #include "vision/drawing/roll_overlay.h"
 #include "vision/drawing/tilt_overlay.h"
 
 namespace repose::cli {
 namespace {
-
-/// Thrown from where progress is reported.
-struct Interrupted {};
 
 /// What is read of the track of the experiment that was filmed.
 template <typename Read>
@@ -131,26 +124,9 @@ bool has_reading(const TrackedFilm& film) {
 
 std::vector<TrackedFilm> track_batch(const TrackPlan& plan,
                                      const std::atomic<bool>& is_interrupted) {
-  std::vector<TrackedFilm> results(plan.videos.size());
-  PartsProgress progress(results.size(), "tracked");
-  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(plan.threads));
-  tbb::task_arena arena(plan.threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t index) {
-      const auto report = [&](double fraction) {
-        if (is_interrupted) throw Interrupted{};
-        progress.report(index, fraction);
-      };
-      try {
-        report(0);
-        results[index] = track_one(plan, index, report);
-      } catch (const Interrupted&) {
-        return;
-      }
-    });
-  });
-  return results;
+  return batch_of<TrackedFilm>(
+      plan.videos.size(), plan.threads, "tracked", is_interrupted,
+      [&](std::size_t number, const auto& report) { return track_one(plan, number, report); });
 }
 
 }  // namespace repose::cli

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
-#include "cli/common/film_json.h"
 #include "cli/common/json_text.h"
+#include "cli/common/shared_json.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
@@ -47,14 +47,6 @@ Json path_json(const std::vector<vision::GrainPlace>& places) {
   Json json = Json::array();
   for (const vision::GrainPlace& place : places) {
     json.push_back({place.time_s, place.centre.x, place.centre.y});
-  }
-  return json;
-}
-
-Json warnings_json(const std::vector<vision::Warning>& warnings) {
-  Json json = Json::array();
-  for (const vision::Warning& warning : warnings) {
-    json.push_back({{"code", warning.code}, {"message", warning.message}});
   }
   return json;
 }

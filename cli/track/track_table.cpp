@@ -6,28 +6,14 @@
 
 #include "calibrate/statistics/summary.h"
 #include "cli/common/page.h"
+#include "cli/common/verdict_colour.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
 namespace {
 
-constexpr const char* kBelow = "  ";
-
 std::string cell(const vision::Estimate& estimate, int decimals) {
   return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, estimate.uncertainty, decimals);
-}
-
-Colour colour_of(const TrackedFilm& film, bool has_colour) {
-  if (!has_colour) return Colour::none;
-  switch (status_of(film)) {
-    case vision::MeasureStatus::ok:
-      return Colour::green;
-    case vision::MeasureStatus::flagged:
-      return Colour::yellow;
-    case vision::MeasureStatus::refused:
-      break;
-  }
-  return Colour::red;
 }
 
 std::string scale_text(const vision::DropTrack& drop) {
@@ -57,7 +43,7 @@ std::string status_text(const TrackedFilm& film) {
 
 void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
   const vision::DropTrack& drop = film.drop;
-  const Colour colour = colour_of(film, has_colour);
+  const Colour colour = has_colour ? colour_of(status_of(film)) : Colour::none;
   const std::string status = status_text(film);
   if (drop.bounces.empty()) {
     table.add_row({film.file, kNothing, kNothing, kNothing, kNothing, kNothing, status}, colour);
@@ -75,7 +61,7 @@ void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
 
 void add_roll(Table& table, const TrackedFilm& film, bool has_colour) {
   const vision::RollTrack& roll = film.roll;
-  const Colour colour = colour_of(film, has_colour);
+  const Colour colour = has_colour ? colour_of(status_of(film)) : Colour::none;
   const std::string status = status_text(film);
   if (roll.has_reading) {
     table.add_row({film.file, cell(roll.incline_deg, 1), cell(roll.released_mm, 1),
@@ -89,7 +75,7 @@ void add_roll(Table& table, const TrackedFilm& film, bool has_colour) {
 
 void add_tilt(Table& table, const TrackedFilm& film, bool has_colour) {
   const vision::TiltTrack& tilt = film.tilt;
-  const Colour colour = colour_of(film, has_colour);
+  const Colour colour = has_colour ? colour_of(status_of(film)) : Colour::none;
   const std::string status = status_text(film);
   if (tilt.has_reading) {
     table.add_row({film.file, cell(tilt.angle_deg, 2), cell(tilt.rate_deg_s, 3),

@@ -34,12 +34,15 @@ dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::strin
   return study;
 }
 
-/// Settings that make a run of each experiment that has single grains one of one grain.
-std::vector<std::string> one_grain_each(const dem::Study& study) {
+/// Settings that make the study a bench: single readings of single grains, as stiff as they are.
+std::vector<std::string> bench_settings(const dem::Study& study) {
   std::vector<std::string> settings;
   for (const auto& [experiment, described] : study.experiments) {
-    if (dem::entry_of(experiment).readings_per_run == nullptr) continue;
     const std::string name = dem::name_of(experiment);
+    if (described.stiffness_factor != 1) {
+      settings.push_back(fmt::format("experiment.{}.stiffness_factor=1", name));
+    }
+    if (dem::entry_of(experiment).readings_per_run == nullptr) continue;
     const char* grains = name == "pendulum"         ? "pairs"
                          : name.starts_with("drop") ? "grains"
                                                     : "places";
@@ -57,7 +60,7 @@ std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFi
 
 class Material {
  public:
-  /// `bench`: the study with single grains.
+  /// `bench`: the study as it is measured, see bench_settings.
   Material(const dem::Study& study, const dem::Study& bench, const dem::ClumpFile& grain,
            const calibrate::RunFolder& folder, const std::vector<calibrate::Parameter>& sought,
            std::vector<double> truth, std::uint64_t number)
@@ -120,7 +123,7 @@ class Material {
 
 void recover_simulated(const SimulatedRecovery& plan) {
   const dem::Study study = read_plan(plan, {});
-  const dem::Study bench = read_plan(plan, one_grain_each(study));
+  const dem::Study bench = read_plan(plan, bench_settings(study));
   const dem::ClumpFile grain = dem::build_grain(study.grain);
   calibrate::Budget budget = calibrate::budget_named("quick");
   budget.settings.budget_s = plan.budget_s;

@@ -9,6 +9,7 @@
 
 #include "base/fingerprint.h"
 #include "calibrate/experiment/simulate_experiment.h"
+#include "tests/support/soft_study.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
@@ -17,24 +18,8 @@ namespace {
 using repose::testing::TemporaryFolder;
 
 /// Soft grains of two spheres, rough enough for a heap of 240 that can be seen: some seconds.
-constexpr const char* kStudyOfAllExperiments = R"([particle]
-size_mm = [22.5, 18.2, 17.5]
-spheres = 2
-density_kg_m3 = 850
-young_modulus_pa = 1e6
-poisson_ratio = 0.38
-[wall]
-young_modulus_pa = 1e9
-poisson_ratio = 0.3
-[contact.particle_wall]
-restitution = 0.3
-sliding_friction = 0.8
-rolling_friction = 0.3
-[contact.particle_particle]
-restitution = 0.2
-sliding_friction = 0.5
-rolling_friction = 0.1
-[experiment.drop]
+const std::string kStudyOfAllExperiments =
+    repose::testing::kSoftNuts + repose::testing::kRoughContacts + R"([experiment.drop]
 height_mm = 50
 grains = 2
 [experiment.tilt]
@@ -86,8 +71,7 @@ std::string line_of(const SimulatedRun& run) {
 
 TEST(SimulatorVersion, IsRaisedWhenWhatASimulationGivesHasChanged) {
   const TemporaryFolder folder;
-  const dem::Study study =
-      dem::read_study(folder.write("study.toml", std::string(kStudyOfAllExperiments)));
+  const dem::Study study = dem::read_study(folder.write("study.toml", kStudyOfAllExperiments));
   const NamedGrain grain(dem::build_grain(study.grain));
   std::vector<std::string> lines, others;
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {

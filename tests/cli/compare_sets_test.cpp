@@ -5,6 +5,7 @@
 
 #include "tests/cli/command_test.h"
 #include "tests/support/heap_picture.h"
+#include "tests/support/soft_study.h"
 #include "vision/picture/picture.h"
 
 namespace repose::testing {
@@ -16,7 +17,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 /// A heap four grains high that is poured in seconds.
-constexpr const char* kComparedStudy = R"([particle]
+const std::string kComparedStudy = R"([particle]
 size_mm = [18, 18, 18]
 spheres = 1
 density_kg_m3 = 850
@@ -25,15 +26,7 @@ poisson_ratio = 0.38
 [wall]
 young_modulus_pa = 1e9
 poisson_ratio = 0.3
-[contact.particle_wall]
-restitution = 0.3
-sliding_friction = 0.8
-rolling_friction = 0.3
-[contact.particle_particle]
-restitution = 0.2
-sliding_friction = 0.5
-rolling_friction = 0.1
-[experiment.heap]
+)" + kRoughContacts + R"([experiment.heap]
 grains = 160
 lift_speed_mm_s = 150
 )";
@@ -84,7 +77,7 @@ TEST_F(CompareOfSets, JsonHoldsEveryHeap) {
 }
 
 TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
-  folder_.write("study.toml", std::string(kComparedStudy));
+  folder_.write("study.toml", kComparedStudy);
   ASSERT_EQ(run_repose(folder_, {"simulate", "heap", "study.toml", "--repeats", "2", "--views", "0",
                                  "--out", "heaps"})
                 .exit_code,

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command_test.h"
+#include "tests/support/soft_study.h"
 #include "vision/picture/picture.h"
 
 namespace repose::testing {
@@ -15,24 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// A heap five grains high of soft, rough grains: some seconds of work.
-constexpr const char* kPicturedStudy = R"([particle]
-size_mm = [22.5, 18.2, 17.5]
-spheres = 2
-density_kg_m3 = 850
-young_modulus_pa = 1e6
-poisson_ratio = 0.38
-[wall]
-young_modulus_pa = 1e9
-poisson_ratio = 0.3
-[contact.particle_wall]
-restitution = 0.3
-sliding_friction = 0.8
-rolling_friction = 0.3
-[contact.particle_particle]
-restitution = 0.2
-sliding_friction = 0.5
-rolling_friction = 0.1
-[experiment.drop]
+const std::string kPicturedStudy = kSoftNuts + kRoughContacts + R"([experiment.drop]
 height_mm = 50
 grains = 2
 [experiment.heap]
@@ -44,7 +28,7 @@ lift_speed_mm_s = 150
 class SimulatePictures : public CommandTest {
  protected:
   SimulatePictures() : CommandTest({"simulate", "heap", "study.toml"}) {
-    folder_.write("study.toml", std::string(kPicturedStudy));
+    folder_.write("study.toml", kPicturedStudy);
   }
 
   json timeless(Words words) const {
@@ -89,7 +73,7 @@ TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
 class SimulateDrawDown : public CommandTest {
  protected:
   SimulateDrawDown() : CommandTest({"simulate", "draw_down", "study.toml", "--out", "runs"}) {
-    folder_.write("study.toml", std::string(kPicturedStudy) + R"([experiment.draw_down]
+    folder_.write("study.toml", kPicturedStudy + R"([experiment.draw_down]
 length_mm = 350
 depth_mm = 92
 slot_mm = 160

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 
 #include "tests/cli/command_test.h"
+#include "tests/support/soft_study.h"
 
 namespace repose::testing {
 namespace {
@@ -22,16 +23,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 /// A heap of a second's work.
-constexpr const char* kStoppedStudy = R"([particle]
-size_mm = [22.5, 18.2, 17.5]
-spheres = 2
-density_kg_m3 = 850
-young_modulus_pa = 1e7
-poisson_ratio = 0.38
-[wall]
-young_modulus_pa = 1e9
-poisson_ratio = 0.3
-[contact.particle_wall]
+const std::string kStoppedStudy = kSoftNuts + R"([contact.particle_wall]
 restitution = 0.5
 sliding_friction = 0.4
 rolling_friction = 0.1
@@ -49,9 +41,7 @@ lift_speed_mm_s = 100
 
 class SimulateRestart : public CommandTest {
  protected:
-  SimulateRestart() : CommandTest({"simulate"}) {
-    folder_.write("study.toml", std::string(kStoppedStudy));
-  }
+  SimulateRestart() : CommandTest({"simulate"}) { folder_.write("study.toml", kStoppedStudy); }
 
   /// Presses Ctrl-C when `frame` of a repeat is there; the exit code.
   int run_until(const std::string& frame, Words words, int seed = 1) const {
@@ -213,7 +203,7 @@ TEST_F(SimulateRestart, RunsAreFoundAgainInAnotherStudy) {
   const std::size_t before = stored(".json").size();
   ASSERT_EQ(before, 2U);
   // Another file, and with it another study, but the same drops.
-  folder_.write("other.toml", std::string(kStoppedStudy) + "[simulation]\nseed = 1\n");
+  folder_.write("other.toml", kStoppedStudy + "[simulation]\nseed = 1\n");
   one[1] = "other.toml";
   std::filesystem::remove(path("runs/run.json"));
   const Finished again = run(one);

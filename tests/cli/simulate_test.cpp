@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "tests/cli/command_test.h"
+#include "tests/support/soft_study.h"
 
 namespace repose::testing {
 namespace {
@@ -24,16 +25,7 @@ using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
 /// Soft, two spheres to a grain, short ways: a run takes a fraction of a second.
-constexpr const char* kSimulatedStudy = R"([particle]
-size_mm = [22.5, 18.2, 17.5]
-spheres = 2
-density_kg_m3 = 850
-young_modulus_pa = 1e7
-poisson_ratio = 0.38
-[wall]
-young_modulus_pa = 1e9
-poisson_ratio = 0.3
-[contact.particle_wall]
+const std::string kSimulatedStudy = kSoftNuts + R"([contact.particle_wall]
 restitution = 0.5
 sliding_friction = 0.4
 rolling_friction = 0.1
@@ -53,9 +45,7 @@ grains = 40
 
 class Simulate : public CommandTest {
  protected:
-  Simulate() : CommandTest({"simulate"}) {
-    folder_.write("study.toml", std::string(kSimulatedStudy));
-  }
+  Simulate() : CommandTest({"simulate"}) { folder_.write("study.toml", kSimulatedStudy); }
 
   json timeless(const Words& words) const { return without_times(result(words)); }
 };

@@ -190,16 +190,7 @@ TEST_F(TrackCommand, ARollNeedsOneScaleAndNoBounces) {
 }
 
 TEST_F(TrackCommand, FilmsOfTiltsBecomeATableThatTheBenchReads) {
-  const DrawnTilt tilt{.width = 240,
-                       .height = 140,
-                       .frames_per_s = 30,
-                       .rest_s = .3,
-                       .rate_deg_s = 6,
-                       .onset_deg = 11,
-                       .after_s = .4,
-                       .mm_per_px = .8,
-                       .radius_px = 6,
-                       .thickness_px = 6};
+  const DrawnTilt tilt = small_tilt();
   render::Film drawn(path("a.mp4"), tilt.frames_per_s);
   for (int frame = 0; frame < tilt.frames(); ++frame) drawn.add(tilt.picture(frame));
   drawn.close();

@@ -45,4 +45,18 @@ struct DrawnTilt {
   vision::Picture picture(int frame) const;
 };
 
+/// Small and short: quick to draw and to read.
+inline DrawnTilt small_tilt() {
+  return {.width = 240,
+          .height = 140,
+          .frames_per_s = 30,
+          .rest_s = .3,
+          .rate_deg_s = 6,
+          .onset_deg = 11,
+          .after_s = .4,
+          .mm_per_px = .8,
+          .radius_px = 6,
+          .thickness_px = 6};
+}
+
 }  // namespace repose::testing

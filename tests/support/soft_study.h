@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace repose::testing {
+
+/// Grains of two spheres and a wall, all soft: runs take a fraction of a second, heaps some
+/// seconds.
+inline const std::string kSoftNuts = R"([particle]
+size_mm = [22.5, 18.2, 17.5]
+spheres = 2
+density_kg_m3 = 850
+young_modulus_pa = 1e6
+poisson_ratio = 0.38
+[wall]
+young_modulus_pa = 1e9
+poisson_ratio = 0.3
+)";
+
+/// So rough that few grains make a heap that can be measured in pictures.
+inline const std::string kRoughContacts = R"([contact.particle_wall]
+restitution = 0.3
+sliding_friction = 0.8
+rolling_friction = 0.3
+[contact.particle_particle]
+restitution = 0.2
+sliding_friction = 0.5
+rolling_friction = 0.1
+)";
+
+}  // namespace repose::testing
