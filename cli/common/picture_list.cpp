@@ -103,7 +103,8 @@ void drop_films_of_pictures(std::size_t first, FileList& list) {
 void add_folder(const fs::path& folder, const FileKind& kind, FileList& list) {
   const std::size_t first = list.files.size();
   const auto is_wanted = [&](const fs::path& file) {
-    return !file.filename().string().starts_with('.') && has_ending(file, kind);
+    return !file.filename().string().starts_with('.') && has_ending(file, kind) &&
+           !is_overlay_of_state(file);
   };
   add_files(folder, folder, is_wanted,
             fmt::format("no {} in this folder (subfolders are not searched). Fix: name a folder "
@@ -153,6 +154,14 @@ FileList list_files(const std::vector<std::string>& names, const FileKind& kind)
 }  // namespace
 
 bool has_picture_ending(const fs::path& file) { return has_ending(file, kPictures); }
+
+bool is_overlay_of_state(const fs::path& file) {
+  constexpr std::string_view kEnding = ".overlay.png";
+  std::string name = file.string();
+  if (!name.ends_with(kEnding)) return false;
+  name.resize(name.size() - kEnding.size());
+  return fs::exists(name + ".vtp");
+}
 
 FileList list_pictures(const std::vector<std::string>& names) {
   return list_files(names, kPictures);

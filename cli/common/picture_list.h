@@ -16,6 +16,10 @@ std::string naming_file(const std::string& file, const std::string& error);
 /// By its name.
 bool has_picture_ending(const std::filesystem::path& file);
 
+/// NAME.overlay.png beside NAME.vtp: drawn by `repose simulate heap --out` over what it measured.
+/// In a folder it stands for no heap.
+bool is_overlay_of_state(const std::filesystem::path& file);
+
 /// What names on the command line or in a study come down to.
 struct FileList {
   std::vector<std::filesystem::path> files;

@@ -27,13 +27,17 @@ std::vector<fs::path> files_of(const fs::path& folder, const Wanted& is_wanted) 
   return found;
 }
 
+bool is_picture(const fs::path& file) {
+  return has_picture_ending(file) && !is_overlay_of_state(file);
+}
+
 bool is_heap_state(const fs::path& file) {
   return has_state_ending(file) && file.filename().string().starts_with("heap");
 }
 
 HeapSource folder_source(const std::string& name, std::vector<std::string>& errors) {
   HeapSource source{.name = name, .pictures = {}, .states = {}, .is_file = false};
-  source.pictures = files_of(name, has_picture_ending);
+  source.pictures = files_of(name, is_picture);
   if (!source.pictures.empty()) return source;
   source.states = files_of(fs::path(name) / calibrate::kHeapsFolder, is_heap_state);
   if (source.states.empty()) source.states = files_of(name, is_heap_state);

@@ -78,7 +78,7 @@ TEST_F(CompareOfSets, JsonHoldsEveryHeap) {
 
 TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
   folder_.write("study.toml", kComparedStudy);
-  ASSERT_EQ(run_repose(folder_, {"simulate", "heap", "study.toml", "--repeats", "2", "--views", "0",
+  ASSERT_EQ(run_repose(folder_, {"simulate", "heap", "study.toml", "--repeats", "2", "--views", "2",
                                  "--out", "heaps"})
                 .exit_code,
             0);

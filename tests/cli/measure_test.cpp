@@ -89,6 +89,8 @@ TEST_F(Measure, FoldersStandForTheirPicturesByName) {
   draw_plain("photos/a.JPG");
   draw_plain("photos/deeper/c.png");
   folder_.write("photos/notes.txt", std::string("no picture"));
+  draw_plain("photos/heap.overlay.png");
+  folder_.write("photos/heap.vtp", std::string("what the overlay is of"));
   const json array = json::parse(run({"photos", "--json", "-"}).out);
   ASSERT_EQ(array.size(), 2U);
   EXPECT_EQ(array[0]["file"], "photos/a.JPG");
