@@ -16,28 +16,49 @@
 
 namespace repose::calibrate {
 
-HeapViewSession::HeapViewSession(render::Scene scene, int views)
-    : scene_(std::move(scene)), views_(views) {
+std::optional<HeapCamera> camera_of(const dem::HeapProtocol& protocol) {
+  if (!protocol.camera_distance_m) return std::nullopt;
+  return HeapCamera{.distance_m = *protocol.camera_distance_m,
+                    .height_m = protocol.camera_height_m};
+}
+
+HeapViewSession::HeapViewSession(render::Scene scene, const HeapViewing& viewing)
+    : scene_(std::move(scene)), views_(viewing.views) {
   // More pixels to a grain than these are not looked at by what measures, and take time to draw.
   constexpr double kGrain_px = 40;
   constexpr render::PictureSize kLargest{.width = 1920, .height = 1080};
-  camera_ = render::fitted_all_around({}, scene_, kLargest);
-  const double fitting = *camera_.mm_per_px;
-  const double grain_mm = 1e3 * dem::diameter_m(scene_.shapes.front());
-  const double mm_per_px = std::max(fitting, grain_mm / kGrain_px);
+  far_ = render::fitted_all_around({}, scene_, kLargest);
+  double fitting = *far_.mm_per_px / 1000;
+  if (viewing.camera) {
+    stand_ = render::fitted_stand(render::LabStand{.distance_m = viewing.camera->distance_m,
+                                                   .height_m = viewing.camera->height_m},
+                                  scene_, kLargest);
+    fitting = stand_->distance_m * render::kFilmWidth_mm / (*stand_->focal_mm * kLargest.width);
+  }
+  m_per_px_ = std::max(fitting, dem::diameter_m(scene_.shapes.front()) / kGrain_px);
   const auto reduced = [&](int pixels) {
-    return static_cast<int>(std::ceil(pixels * fitting / mm_per_px));
+    return static_cast<int>(std::ceil(pixels * fitting / m_per_px_));
   };
-  camera_.mm_per_px = mm_per_px;
+  far_.mm_per_px = 1000 * m_per_px_;
   size_ = {.width = reduced(kLargest.width), .height = reduced(kLargest.height)};
+}
+
+render::Camera HeapViewSession::camera_at(double azimuth_rad) const {
+  if (stand_) {
+    render::LabStand stand = *stand_;
+    stand.azimuth_rad = azimuth_rad;
+    return render::camera_on(stand, scene_, size_);
+  }
+  render::OrthographicCamera camera = far_;
+  camera.azimuth_rad = azimuth_rad;
+  return camera;
 }
 
 double HeapViewSession::azimuth_rad(int view) const { return std::numbers::pi * view / views_; }
 
 TakenView HeapViewSession::take(render::Renderer& renderer, int view,
                                 const vision::MeasureOptions& options) const {
-  render::OrthographicCamera camera = camera_;
-  camera.azimuth_rad = azimuth_rad(view);
+  const render::Camera camera = camera_at(azimuth_rad(view));
   TakenView taken;
   taken.picture = renderer.draw(scene_, camera, size_, render::SilhouetteStyle{}).picture;
   taken.angle = vision::measure_repose_angle(taken.picture, options);

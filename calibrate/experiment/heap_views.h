@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "calibrate/experiment/picture_angles.h"
+#include "dem/experiment/protocol.h"
 #include "render/renderer.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
@@ -19,6 +21,25 @@ namespace repose::calibrate {
 /// Sides from which a heap is drawn, unless asked otherwise.
 /// With more, neighbouring views show the same grains: the scatter between heaps is what remains.
 inline constexpr int kHeapViews = 9;
+
+/// A level camera on a stand before the heap.
+struct HeapCamera {
+  double distance_m = 0;  ///< from the heap's middle, along the floor
+  double height_m = 0;    ///< of the lens above the ground
+
+  bool operator==(const HeapCamera&) const = default;
+};
+
+/// None: pictures are taken from far away.
+std::optional<HeapCamera> camera_of(const dem::HeapProtocol& protocol);
+
+/// How pictures of a heap are taken.
+struct HeapViewing {
+  /// Sides, equally spaced over half a turn; the first is the XZ view. 0: no pictures.
+  int views = kHeapViews;
+  /// None: it is so far away that its rays are parallel.
+  std::optional<HeapCamera> camera = {};
+};
 
 /// A heap seen from one side.
 struct HeapView {
@@ -35,13 +56,12 @@ struct TakenView {
 /// A heap, and how all pictures of it are taken: at one scale, with bare ground beside the grains.
 class HeapViewSession {
  public:
-  /// @param views  sides, equally spaced over half a turn (the other half shows the same,
-  /// mirrored); the first is the XZ view
   /// @throws std::invalid_argument  the scene has no grains.
-  HeapViewSession(render::Scene scene, int views);
+  HeapViewSession(render::Scene scene, const HeapViewing& viewing);
 
   int views() const { return views_; }
-  double m_per_px() const { return *camera_.mm_per_px / 1000; }
+  /// In the heap's middle plane.
+  double m_per_px() const { return m_per_px_; }
 
   TakenView take(render::Renderer& renderer, int view,
                  const vision::MeasureOptions& options = {}) const;
@@ -53,10 +73,13 @@ class HeapViewSession {
 
  private:
   double azimuth_rad(int view) const;
+  render::Camera camera_at(double azimuth_rad) const;
 
   render::Scene scene_;
   int views_;
-  render::OrthographicCamera camera_;
+  render::OrthographicCamera far_;
+  std::optional<render::LabStand> stand_;  ///< none: the camera is far away
+  double m_per_px_ = 0;
   render::PictureSize size_;
 };
 

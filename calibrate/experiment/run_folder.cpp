@@ -92,11 +92,11 @@ std::vector<std::string> RunFolder::remarks() const {
 
 std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint64_t seed) const {
   std::optional<SimulatedRun> run = find(spec, seed);
-  if (!run || !run->failure.empty() || spec.views == 0) {
+  if (!run || !run->failure.empty() || spec.viewing.views == 0) {
     if (run) run->views.clear();
     return run;
   }
-  if (run->views.size() != static_cast<std::size_t>(spec.views)) return std::nullopt;
+  if (!is_pictured_as(*run, spec.viewing)) return std::nullopt;
   return run;
 }
 

@@ -29,6 +29,7 @@ Json json_of(const dem::PairCoefficients& pair) {
 Json protocol_json(dem::Protocol protocol) {
   Json json = Json::object();
   for (const dem::ProtocolKey& key : with_effect(dem::entry_of(protocol).keys(protocol))) {
+    if (key.is_of_pictures) continue;
     const auto value = dem::value_of(key);
     json[key.name] = value ? Json(*value) : Json(nullptr);
   }
@@ -47,9 +48,12 @@ RunSpec spec_of(const dem::Study& study, dem::Experiment experiment, const Named
   RunSpec spec{.protocol = study.experiments.at(experiment).protocol,
                .model = dem::model_for(study, experiment),
                .grain_fingerprint = grain.fingerprint,
-               .views = dem::entry_of(experiment).is_pictured ? views : 0};
+               .viewing = {.views = dem::entry_of(experiment).is_pictured ? views : 0}};
   spec.model.grain = grain.shape;
-  if (auto* heap = std::get_if<dem::HeapProtocol>(&spec.protocol)) heap->may_be_fewer = true;
+  if (auto* heap = std::get_if<dem::HeapProtocol>(&spec.protocol)) {
+    heap->may_be_fewer = true;
+    spec.viewing.camera = camera_of(*heap);
+  }
   return spec;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "calibrate/experiment/heap_views.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/study.h"
@@ -22,7 +23,7 @@ struct RunSpec {
   dem::Protocol protocol;
   dem::Model model;  ///< with the grain, and all coefficients that the experiment needs
   std::string grain_fingerprint;
-  int views = 0;  ///< pictures of a heap; 0: none, and of experiments without pictures
+  HeapViewing viewing;  ///< none of experiments that are not pictured
 
   const dem::ExperimentEntry& entry() const { return dem::entry_of(protocol); }
 };

@@ -35,9 +35,9 @@ class ExperimentRunner {
     std::optional<SimulatedRun> saved = reusable();
     SimulatedRun run = saved ? *std::move(saved) : simulated();
     if (!run.failure.empty()) return run;
-    if (spec_.views == 0) {
+    if (spec_.viewing.views == 0) {
       run.views.clear();
-    } else if (run.views.size() != static_cast<std::size_t>(spec_.views)) {
+    } else if (!is_pictured_as(run, spec_.viewing)) {
       take_pictures(run);
     }
     return run;
@@ -51,8 +51,7 @@ class ExperimentRunner {
     if (!run || !run->failure.empty()) return run;
     const bool has_film =
         !options_.trajectory || run->trajectory_s == options_.trajectory->interval_s;
-    const bool has_views = run->views.size() == static_cast<std::size_t>(spec_.views);
-    const bool needs_state = options_.saves_state || !has_views;
+    const bool needs_state = options_.saves_state || !is_pictured_as(*run, spec_.viewing);
     if (!has_film || (needs_state && !options_.folder->has_state(spec_, seed_))) {
       return std::nullopt;
     }
@@ -123,7 +122,7 @@ class ExperimentRunner {
         saved_at = Clock::now();
       };
     }
-    const double whole = spec_.views > 0 ? kSimulationFraction : 1;
+    const double whole = spec_.viewing.views > 0 ? kSimulationFraction : 1;
     const auto report = [&](double fraction, const dem::Simulation&) {
       return goes_on(whole * fraction);
     };
@@ -159,9 +158,10 @@ class ExperimentRunner {
   /// Pictures that could not be drawn are not saved: another machine may draw them.
   void take_pictures(SimulatedRun& run) const {
     run.views.clear();
+    run.camera = spec_.viewing.camera;
     try {
       run.views = measure_views(
-          HeapViewSession(scene(), spec_.views), spec_.model.threads, [&](double fraction) {
+          HeapViewSession(scene(), spec_.viewing), spec_.model.threads, [&](double fraction) {
             return goes_on(kSimulationFraction + (1 - kSimulationFraction) * fraction);
           });
     } catch (const dem::Interrupted&) {

@@ -60,6 +60,10 @@ SimulatedRun run_in(const Json& json) {
                          .picture = {.status = status_named(view.at("status")),
                                      .angle_rad = number_in(view.at("angle_rad"))}});
   }
+  // Earlier versions had none.
+  if (const auto camera = json.find("camera"); camera != json.end() && !camera->is_null()) {
+    run.camera = {.distance_m = camera->at("distance_m"), .height_m = camera->at("height_m")};
+  }
   run.failure = json.at("failure");
   run.picture_error = json.at("picture_error");
   run.wall_s = json.at("wall_s");
@@ -68,6 +72,10 @@ SimulatedRun run_in(const Json& json) {
 }
 
 }  // namespace
+
+bool is_pictured_as(const SimulatedRun& run, const HeapViewing& asked) {
+  return run.views.size() == static_cast<std::size_t>(asked.views) && run.camera == asked.camera;
+}
 
 bool is_from_pictures(const SimulatedRun& run) { return is_well_pictured(run.views); }
 
@@ -108,6 +116,10 @@ std::string run_text(const SimulatedRun& run) {
                      {"status", name_of(view.picture.status)},
                      {"angle_rad", json_of(view.picture.angle_rad)}});
   }
+  Json camera;
+  if (run.camera) {
+    camera = {{"distance_m", run.camera->distance_m}, {"height_m", run.camera->height_m}};
+  }
   return Json{{"seed", run.seed},
               {"value", json_of(run.value)},
               {"readings", readings},
@@ -115,6 +127,7 @@ std::string run_text(const SimulatedRun& run) {
               {"timestep_s", run.timestep_s},
               {"clump_steps", run.clump_steps},
               {"views", views},
+              {"camera", camera},
               {"failure", run.failure},
               {"picture_error", run.picture_error},
               {"wall_s", run.wall_s},

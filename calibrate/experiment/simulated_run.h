@@ -21,12 +21,16 @@ struct SimulatedRun {
   double timestep_s = 0;
   double clump_steps = 0;
   std::vector<HeapView>
-      views;                  ///< pictures of a heap; empty: none were asked for, or could be drawn
+      views;  ///< pictures of a heap; empty: none were asked for, or could be drawn
+  std::optional<HeapCamera> camera;  ///< that took them; none: from far away
   std::string failure;        ///< why there is nothing to read ("the grains stay in the tube")
   std::string picture_error;  ///< why this machine could not draw
   double wall_s = 0;          ///< of the simulation, in all calls that worked on it
   std::optional<double> trajectory_s;  ///< between the frames of its film; none: there is no film
 };
+
+/// Its pictures are those that are asked for.
+bool is_pictured_as(const SimulatedRun& run, const HeapViewing& asked);
 
 /// A heap's value is its angle in pictures where at least half of the views could be measured: it
 /// is what a photograph of the bench is compared with. Else, and of all other experiments, it is

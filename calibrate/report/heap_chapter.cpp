@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "calibrate/experiment/heap_views.h"
 #include "calibrate/experiment/picture_angles.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/heap_model.h"
@@ -26,7 +27,7 @@
 namespace repose::calibrate::report {
 namespace {
 
-constexpr std::array kViews_deg = {0.0, 60.0, 120.0};
+constexpr int kShownViews = 3;
 constexpr double kNothing_deg = 360;        // farther off than any angle
 constexpr std::size_t kFewPhotographs = 6;  // that fit on half a page
 
@@ -139,22 +140,28 @@ std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPic
   return std::move(heaps[*shown.best_photograph]);
 }
 
-MeasuredHeap rendered(const render::Scene& scene, double azimuth_deg) {
-  constexpr render::PictureSize kSize{.width = 1600, .height = 900};
-  render::OrthographicCamera camera = render::fitted_all_around({}, scene, kSize);
-  camera.azimuth_rad = azimuth_deg * kDegree;
-  render::Renderer renderer;
-  MeasuredHeap heap{.title = fmt::format("from {:.0f}°", azimuth_deg), .picture = {}, .angle = {}};
-  heap.picture = renderer.draw(scene, camera, kSize, render::SilhouetteStyle{}).picture;
-  heap.angle = vision::measure_repose_angle(heap.picture);
-  return heap;
+/// The camera that the study's photographs were taken with, if it says so.
+std::optional<HeapCamera> stated_camera(const ReportedStudy& study) {
+  if (!study.record) return std::nullopt;
+  const auto& experiments = study.record->study.experiments;
+  const auto heap = experiments.find(dem::Experiment::heap);
+  if (heap == experiments.end()) return std::nullopt;
+  return camera_of(std::get<dem::HeapProtocol>(heap->second.protocol));
 }
 
-ShownPicture camera_look(const render::Scene& scene,
+MeasuredHeap rendered(const HeapViewSession& session, int view) {
+  render::Renderer renderer;
+  TakenView taken = session.take(renderer, view);
+  return {.title = fmt::format("from {}°", 180 * view / session.views()),
+          .picture = std::move(taken.picture),
+          .angle = std::move(taken.angle)};
+}
+
+ShownPicture camera_look(const render::Scene& scene, const HeapCamera& camera,
                          const std::optional<render::Colour>& grain_colour) {
   constexpr render::PictureSize kSize{.width = 1050, .height = 700};
   constexpr int kPasses = 8;
-  const render::LabStand stand{.distance_m = 1.5, .height_m = 0.038};
+  const render::LabStand stand{.distance_m = camera.distance_m, .height_m = camera.height_m};
   render::PhotoStyle style = render::photo_of_grains(grain_colour);
   style.passes = kPasses;
   render::Renderer renderer;
@@ -259,13 +266,16 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
     shown.heap_model->colour = colour;
     constexpr int kRenderSide_px = 900;
     std::optional<MeasuredHeap> compared;
-    for (const double azimuth_deg : kViews_deg) {
-      MeasuredHeap heap = rendered(scene, azimuth_deg);
+    const std::optional<HeapCamera> camera = stated_camera(study);
+    const HeapViewSession session(scene, {.views = kShownViews, .camera = camera});
+    for (int view = 0; view < session.views(); ++view) {
+      MeasuredHeap heap = rendered(session, view);
       if (!compared && heap.angle.angle_rad) shown.best_render = shown.renders.size();
       shown.renders.push_back(with_overlay(heap, kRenderSide_px, "Simulated heap"));
       if (!compared && heap.angle.angle_rad) compared = std::move(heap);
     }
-    shown.look = camera_look(scene, colour);
+    constexpr HeapCamera kUsual{.distance_m = 1.5, .height_m = .038};
+    shown.look = camera_look(scene, camera.value_or(kUsual), colour);
     if (photograph && compared) compare(*photograph, *compared, shown);
   } catch (const std::exception& error) {
     shown.remarks.push_back(

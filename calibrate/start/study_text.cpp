@@ -142,8 +142,10 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
   if (entry.is_pictured) {
     text += toml_comment(fmt::format(
         "To use photographs or films instead of a sheet, put them into a folder and name it "
-        "here:\n"
-        "measured = {{ pictures = [{}] }}",
+        "here; and say where the lens is, from the heap's middle and above the plate:\n"
+        "measured = {{ pictures = [{}] }}\n"
+        "camera_distance_mm = 1500\n"
+        "camera_height_mm = 40",
         toml_text(folder + "/photos")));
   }
   return text + fmt::format("measured = {{ readings = {} }}\n", toml_text(place));

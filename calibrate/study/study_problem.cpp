@@ -127,6 +127,7 @@ class Maker {
       if (dem::depends_on(entry, made_.problem.parameters[k].name)) with_effect.push_back(k);
     }
     const dem::Measured& measured = described->second.measured;
+    note_unknown_camera(described->second);
     const bool is_measured = measured.mean || !measured.values.empty();
     if (with_effect.empty()) {
       if (is_measured) {
@@ -156,6 +157,18 @@ class Maker {
       observable.tolerance = reading.tolerance;
       add(observable, entry, reading.name);
     }
+  }
+
+  void note_unknown_camera(const dem::StudyExperiment& described) {
+    const auto* heap = std::get_if<dem::HeapProtocol>(&described.protocol);
+    const dem::Measured& measured = described.measured;
+    if (heap == nullptr || heap->camera_distance_m) return;
+    if (measured.pictures.empty() && measured.videos.empty()) return;
+    made_.notes.emplace_back(
+        "[experiment.heap] does not say where its pictures were taken from, and simulated heaps "
+        "are seen from far away: of heaps of nuts a level camera three widths away reads 0.8 "
+        "degrees less than that. Fix: camera_distance_mm, from the heap's middle to the lens, and "
+        "camera_height_mm, of the lens above the plate");
   }
 
   int readings_per_run(const dem::ExperimentEntry& entry) const {

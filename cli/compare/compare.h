@@ -15,6 +15,7 @@ struct CompareArguments {
   std::string base_mm;    ///< A,B
   std::string grain_mm;
   std::string margin_deg;
+  std::string camera_mm;  ///< DISTANCE,HEIGHT
   std::string method;
   std::string window;
   std::string pitch_deg;  ///< A,B

@@ -22,7 +22,11 @@ The verdict on two pictures is about these two heaps. Heaps of the same grains
 differ too: give folders instead of pictures to compare sets of heaps by their
 means, which is a verdict on the grains. A folder contains photographs, one per
 heap, or simulated heaps, as written by repose simulate heap --out and repose
-calibrate --out; a .vtp file is one such heap.
+calibrate --out; a .vtp file is one such heap. Its pictures are drawn as from
+far away. A level camera that stands three widths from the heap reads some .8
+degrees less, for the nuts of the sample: --camera-mm says where the photographs
+were taken from, by the lens's distance from the heap's middle and its height
+above the ground, so that both sets are seen alike.
 
 Scale: mm per pixel, or the known width of the base. One value applies to both
 pictures, A,B to one each. A scale that repose measure --save-hints has saved
@@ -44,6 +48,8 @@ Command compare_command() {
                   {"--base-mm", "A[,B]", "Scale: known width of the base", &given->base_mm},
                   {"--grain-mm", "D", "Grain size, for lengths in grains", &given->grain_mm},
                   {"--margin-deg", "DEGREES", "Negligible difference (2)", &given->margin_deg},
+                  {"--camera-mm", "DISTANCE,HEIGHT", "Camera before simulated heaps (far away)",
+                   &given->camera_mm},
                   {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
                   {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
                   {"--pitch-deg", "A[,B]", "Cameras' downward pitch (unknown)", &given->pitch_deg},

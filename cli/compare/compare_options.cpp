@@ -80,6 +80,26 @@ void read_margin(const std::string& text, ComparePlan& plan) {
   plan.comparing.margin_rad = margin_rad.value_or(plan.comparing.margin_rad);
 }
 
+void read_camera(const std::string& text, ComparePlan& plan) {
+  if (text.empty()) return;
+  const Typed typed{"--camera-mm", text, plan.errors};
+  const std::optional<std::vector<double>> mm = numbers_in(text);
+  constexpr double kMostMm = 1e6;
+  const auto is_length = [](double length) { return length > 0 && length <= kMostMm; };
+  if (!mm || mm->size() != 2 || !std::all_of(mm->begin(), mm->end(), is_length)) {
+    typed.refuse("DISTANCE,HEIGHT in mm, both above 0", "--camera-mm 1500,40");
+    return;
+  }
+  const bool has_states =
+      std::any_of(plan.sources.begin(), plan.sources.end(),
+                  [](const HeapSource& source) { return !source.states.empty(); });
+  if (!has_states) {
+    typed.refuse("for simulated heaps, and there are only pictures", "leave it out");
+    return;
+  }
+  plan.camera = {.distance_m = mm->front() / 1000, .height_m = mm->back() / 1000};
+}
+
 void read_measuring_of_both(const CompareArguments& arguments, ComparePlan& plan) {
   const std::array<std::string, 2> pitches = for_each_picture(arguments.pitch_deg);
   const auto read = [&](std::size_t i, const std::vector<std::string>& exclude) {
@@ -135,6 +155,7 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
   read_scales(arguments, plan);
   read_grain(arguments, plan);
   read_margin(arguments.margin_deg, plan);
+  read_camera(arguments.camera_mm, plan);
   constexpr std::array kMargin{OptionName{.value = "margin", .option = "--margin-deg"}};
   for (std::string& problem : plan.comparing.problems()) {
     plan.errors.push_back(naming_options(std::move(problem), kMargin));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/experiment/heap_views.h"
 #include "cli/compare/compare.h"
 #include "cli/compare/heap_source.h"
 #include "vision/compare/heap_comparison.h"
@@ -21,6 +22,7 @@ struct ComparePlan {
   std::array<vision::MeasureOptions, 2> measuring;
   vision::CompareOptions comparing;
   std::optional<double> grain_m;
+  std::optional<calibrate::HeapCamera> camera;  ///< before simulated heaps; none: far away
   std::string overlay_file;
   std::string json_file;
 

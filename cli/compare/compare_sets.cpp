@@ -58,7 +58,8 @@ void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
   for (std::size_t heap = 0; heap < states.size(); ++heap) {
     try {
       work.sessions.push_back(std::make_unique<calibrate::HeapViewSession>(
-          render::scene_of(dem::read_state(states[heap])), calibrate::kHeapViews));
+          render::scene_of(dem::read_state(states[heap])),
+          calibrate::HeapViewing{.camera = plan.camera}));
     } catch (const std::invalid_argument& error) {
       work.errors.push_back(naming_file(states[heap].string(), error.what()));
       continue;

@@ -53,6 +53,10 @@ std::string sets_json(const ComparePlan& plan,
   for (const std::size_t i : {0, 1}) {
     json["sets"].push_back(set_json(plan.sources[i], heaps[i], comparison.sets[i]));
   }
+  json["camera_mm"] = nullptr;
+  if (plan.camera) {
+    json["camera_mm"] = {1000 * plan.camera->distance_m, 1000 * plan.camera->height_m};
+  }
   json["iou"] = comparison.iou ? Json(*comparison.iou) : Json(nullptr);
   json["profile_rmse"] = length(comparison.profile_rmse);
   json["profile_mean"] = length(comparison.profile_mean);

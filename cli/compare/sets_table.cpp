@@ -86,6 +86,16 @@ std::string title_of(const HeapSource& source) {
   return fmt::format("{} ({})", name.string(), source.states.empty() ? "pictures" : "simulated");
 }
 
+namespace {
+
+std::string distance_text(const std::optional<calibrate::HeapCamera>& camera) {
+  if (!camera) return "";
+  return fmt::format(", from {:g} mm away and {:g} mm up", 1000 * camera->distance_m,
+                     1000 * camera->height_m);
+}
+
+}  // namespace
+
 std::string sets_table(const ComparePlan& plan,
                        const std::array<std::vector<vision::SeenHeap>, 2>& heaps,
                        const vision::SetComparison& comparison, int columns) {
@@ -93,10 +103,11 @@ std::string sets_table(const ComparePlan& plan,
   constexpr std::array kMarks = {"first   ", "second  "};
   for (const std::size_t i : {0, 1}) {
     const HeapSource& source = plan.sources[i];
-    page.add(kMarks[i], source.states.empty()
-                            ? fmt::format("{}: a picture of each heap", source.name)
-                            : fmt::format("{}: simulated heaps, {} views of each", source.name,
-                                          heaps[i].front().views.size()));
+    page.add(kMarks[i],
+             source.states.empty()
+                 ? fmt::format("{}: a picture of each heap", source.name)
+                 : fmt::format("{}: simulated heaps, {} views of each{}", source.name,
+                               heaps[i].front().views.size(), distance_text(plan.camera)));
   }
   page.add(means_table(plan, comparison));
   if (comparison.iou) {

@@ -28,9 +28,9 @@ int threads_each(const SimulatePlan& plan, const std::optional<calibrate::RunFol
 }
 
 /// A heap's first view with what was measured drawn in.
-void draw_overlay(const Run& run, int views) {
+void draw_overlay(const Run& run, const calibrate::HeapViewing& viewing) {
   const calibrate::HeapViewSession session(render::scene_of(dem::read_state(run.state_file)),
-                                           views);
+                                           viewing);
   render::Renderer renderer;
   session.measure(renderer, 0, run.overlay_file);
 }
@@ -116,7 +116,7 @@ class Batch {
     const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol);
     if (run.result.views.empty() && boxes == nullptr) return;
     run.overlay_file = place + ".overlay.png";
-    boxes != nullptr ? draw_front(run, *boxes) : draw_overlay(run, spec_.views);
+    boxes != nullptr ? draw_front(run, *boxes) : draw_overlay(run, spec_.viewing);
   }
 
   const SimulatePlan& plan_;

@@ -40,6 +40,12 @@ void check_sizes(const HeapProtocol& protocol, base::ErrorList& errors) {
   above_0("tube_thickness_m", protocol.tube_thickness_m);
   above_0("plate_m", protocol.plate_m);
   above_0("plate_thickness_m", protocol.plate_thickness_m);
+  above_0("camera_height_m", protocol.camera_height_m);
+  errors.require(!protocol.camera_distance_m || *protocol.camera_distance_m >= protocol.plate_m,
+                 fmt::format("heap.camera_distance_m is {:g}, heap.plate_m {:g}. Rule: the camera "
+                             "stands beside the plate, at least as far away as the plate is wide. "
+                             "Fix: the distance from the heap's middle to the lens on the bench.",
+                             protocol.camera_distance_m.value_or(0), protocol.plate_m));
 }
 
 void check_grains(const Model& model, const HeapProtocol& protocol, base::ErrorList& errors) {

@@ -71,6 +71,10 @@ struct HeapProtocol {
   double plate_m = .4;  ///< side of the square plate
   double plate_thickness_m = .002;
   std::optional<int> grains;  ///< or as many as fill the tube, levelled at its rim
+  /// Of a level camera that takes pictures of the heap, from the tube's axis; none: from so far
+  /// away that its rays are parallel. What is simulated takes no notice of it.
+  std::optional<double> camera_distance_m = {};
+  double camera_height_m = .04;  ///< of its lens, above the plate
   /// How many fit depends on their friction: where `grains` do not, take those that do. Without it
   /// they are refused.
   bool may_be_fewer = false;

@@ -9,13 +9,20 @@ namespace {
 
 std::vector<ProtocolKey> keys_of_heap(Protocol& protocol) {
   auto& heap = std::get<HeapProtocol>(protocol);
+  ProtocolKey distance =
+      length_key("camera_distance_mm", "1500", heap.camera_distance_m, "far away");
+  ProtocolKey height = length_key("camera_height_mm", "40", heap.camera_height_m);
+  height.needs = "camera_distance_mm";
+  distance.is_of_pictures = height.is_of_pictures = true;
   return {length_key("tube_diameter_mm", "100", heap.tube_diameter_m),
           length_key("tube_height_mm", "400", heap.tube_height_m),
           length_key("tube_thickness_mm", "2", heap.tube_thickness_m),
           length_key("lift_speed_mm_s", "30", heap.lift_speed_m_s),
           length_key("plate_mm", "400", heap.plate_m),
           length_key("plate_thickness_mm", "2", heap.plate_thickness_m),
-          count_key("grains", "455", kMaxGrains, heap.grains, "as many as fit")};
+          count_key("grains", "455", kMaxGrains, heap.grains, "as many as fit"),
+          distance,
+          height};
 }
 
 double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {

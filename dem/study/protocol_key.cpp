@@ -4,13 +4,33 @@
 
 namespace repose::dem {
 
+namespace {
+
+constexpr double kMetres_mm = 1e-3, kLongest_mm = 1e5;
+
+template <typename Number>
+std::optional<double> in_unit(const std::optional<Number>& number, double unit) {
+  return number ? std::optional<double>(*number / unit) : std::nullopt;
+}
+
+}  // namespace
+
 ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m) {
-  constexpr double kMetres_mm = 1e-3, kLongest_mm = 1e5;
   return {.name = std::move(name_mm),
           .example = std::move(example_mm),
           .range = above(0, kLongest_mm),
           .unit = kMetres_mm,
           .value = &value_m};
+}
+
+ProtocolKey length_key(std::string name_mm, std::string example_mm, std::optional<double>& value_m,
+                       std::string_view absence) {
+  return {.name = std::move(name_mm),
+          .example = std::move(example_mm),
+          .range = above(0, kLongest_mm),
+          .unit = kMetres_mm,
+          .value = &value_m,
+          .absence = absence};
 }
 
 ProtocolKey number_key(std::string name, std::string example, const Range& range, double& value) {
@@ -42,8 +62,10 @@ ProtocolKey count_key(std::string name, std::string example, int max, std::optio
 std::optional<double> value_of(const ProtocolKey& key) {
   if (double* const* number = std::get_if<double*>(&key.value)) return **number / key.unit;
   if (int* const* whole = std::get_if<int*>(&key.value)) return **whole;
-  const std::optional<int>& count = *std::get<std::optional<int>*>(key.value);
-  return count ? std::optional<double>(*count) : std::nullopt;
+  if (std::optional<double>* const* number = std::get_if<std::optional<double>*>(&key.value)) {
+    return in_unit(**number, key.unit);
+  }
+  return in_unit(*std::get<std::optional<int>*>(key.value), key.unit);
 }
 
 std::vector<ProtocolKey> with_effect(const std::vector<ProtocolKey>& keys) {

@@ -17,12 +17,15 @@ struct ProtocolKey {
   std::string example;  ///< a usual value: "500"
   Range range;
   double unit = 1;  ///< of the key, in that of the protocol: .001 for mm in m
-  std::variant<double*, int*, std::optional<int>*> value;
+  std::variant<double*, int*, std::optional<double>*, std::optional<int>*> value;
   std::string_view absence = "";  ///< what it means to leave it out: "as many as fit"
   std::string_view needs = "";    ///< the key without which it says nothing
+  bool is_of_pictures = false;    ///< says how they are taken, and nothing of what is simulated
 };
 
 ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m);
+ProtocolKey length_key(std::string name_mm, std::string example_mm, std::optional<double>& value_m,
+                       std::string_view absence);
 ProtocolKey number_key(std::string name, std::string example, const Range& range, double& value);
 /// 1 to `max`.
 ProtocolKey count_key(std::string name, std::string example, int max, int& value);

@@ -138,8 +138,12 @@ void read_also(Section& experiment, const ExperimentEntry& entry, Measured& meas
 /// Reads what the section says over the value that the protocol has.
 void read_key(Section& section, const ProtocolKey& key) {
   const std::string line = key.name + " = " + key.example;
-  if (double* const* number = std::get_if<double*>(&key.value)) {
-    if (const auto read = section.number(key.name, key.range, line)) **number = *read * key.unit;
+  double* const* needed = std::get_if<double*>(&key.value);
+  std::optional<double>* const* optional = std::get_if<std::optional<double>*>(&key.value);
+  if (needed != nullptr || optional != nullptr) {
+    const auto read = section.number(key.name, key.range, line);
+    if (read && needed != nullptr) **needed = *read * key.unit;
+    if (read && optional != nullptr) **optional = *read * key.unit;
     return;
   }
   const auto count = section.integer(key.name, static_cast<std::int64_t>(key.range.from),

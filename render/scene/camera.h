@@ -30,13 +30,16 @@ struct OrthographicCamera {
   std::optional<dem::Vector> middle_m = {};
 };
 
+/// Of 35 mm film: what focal lengths are quoted for.
+inline constexpr double kFilmWidth_mm = 36;
+
 /// A laboratory camera with a lens.
 struct PerspectiveCamera {
   dem::Vector position_m = dem::Vector::Zero();  ///< of the lens
   double azimuth_rad = 0;                        ///< which way it looks
   double pitch_rad = 0;                          ///< > 0 looks down
   double roll_rad = 0;   ///< > 0 lowers the ground's right end in the picture
-  double focal_mm = 85;  ///< for a picture 36 mm wide, as of 35 mm film
+  double focal_mm = 85;  ///< for a picture kFilmWidth_mm wide
   /// Radial distortion: a point at distance r from the axis (in focal lengths) is seen at
   /// r (1 + k1 r^2 + k2 r^4). Below 0: barrel. Source: Brown, Photogrammetric Engineering 37 (1971)
   /// 855-866, without its tangential part. Proved by Projection.* in
@@ -67,5 +70,10 @@ PerspectiveCamera camera_on(const LabStand& stand, const Scene& scene, const Pic
 /// @throws std::invalid_argument  no grains.
 OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Scene& scene,
                                      const PictureSize& size);
+
+/// The same stand with the focal length set, so that all grains and the ground under them fit into
+/// the picture from any azimuth.
+/// @throws std::invalid_argument  no grains, or a distance that is not above 0.
+LabStand fitted_stand(const LabStand& stand, const Scene& scene, const PictureSize& size);
 
 }  // namespace repose::render

@@ -20,7 +20,6 @@ constexpr int kLongestSide = 16384;
 /// A picture of this many pixels takes about 2 GB while it is drawn.
 constexpr std::int64_t kMaxPixels = 64'000'000;
 /// Width of the film that focal lengths are given for.
-constexpr double kFilm_mm = 36;
 /// Left free on each side of the grains, as a fraction of the picture's width or height.
 constexpr double kMargin = .1;
 /// The distortion may flatten the picture to this slope, not more.
@@ -99,6 +98,36 @@ void limit_distortion(View& view) {
                   view.k1, view.k2, corner));
 }
 
+/// Upright, with all grains of a scene in it.
+struct Cylinder {
+  Vector middle;
+  double radius = 0;
+  double half_height = 0;
+};
+
+Cylinder cylinder_around(const Scene& scene) {
+  Cylinder around{.middle = bounds_to_fit(scene, Eigen::Matrix3d::Identity()).center()};
+  const std::vector<double> reaches_m = reaches_of(scene);
+  for (const PlacedGrain& grain : scene.grains) {
+    const Vector away = grain.pose.position - around.middle;
+    const double own = reaches_m[static_cast<std::size_t>(grain.shape)];
+    around.radius = std::max(around.radius, std::hypot(away.x(), away.y()) + own);
+    around.half_height = std::max(around.half_height, std::abs(away.z()) + own);
+  }
+  return around;
+}
+
+/// So that what reaches so far from the picture's middle fits into it.
+double fitting_px_per_m(double half_width_m, double half_height_m, const PictureSize& size) {
+  const double room = 1 - 2 * kMargin;
+  return std::min(.5 * room * size.width / half_width_m, .5 * room * size.height / half_height_m);
+}
+
+/// The near side of what reaches so far from the middle: it is what must fit.
+double nearest_of(double distance_m, double reach_m) {
+  return std::max(distance_m - reach_m, .1 * distance_m);
+}
+
 /// Between grains, under grains or in one of them.
 void check_outside(const Scene& scene, const Vector& eye) {
   bool has_above = false, has_below = false;
@@ -142,7 +171,7 @@ View perspective(const Scene& scene, const PerspectiveCamera& camera, const Pict
             .axes = axes_at(camera.azimuth_rad, camera.pitch_rad, camera.roll_rad),
             .eye = camera.position_m,
             .is_perspective = true,
-            .scale = camera.focal_mm / kFilm_mm * size.width,
+            .scale = camera.focal_mm / kFilmWidth_mm * size.width,
             .middle = {.5 * size.width, .5 * size.height},
             .k1 = camera.k1,
             .k2 = camera.k2};
@@ -209,34 +238,37 @@ PerspectiveCamera camera_on(const LabStand& stand, const Scene& scene, const Pic
     eye.y() -= stand.distance_m * std::tan(pitch);
   }
   eye.z() -= stand.distance_m;
-  const double room = 1 - 2 * kMargin;
-  // The near side is what must fit.
-  const double nearest_m = std::max(stand.distance_m - .5 * extent.z(), .1 * stand.distance_m);
-  const double fitting = std::min(room * size.width / extent.x(), room * size.height / extent.y());
+  const double nearest_m = nearest_of(stand.distance_m, .5 * extent.z());
+  const double fitting = fitting_px_per_m(.5 * extent.x(), .5 * extent.y(), size);
   return {.position_m = axes.transpose() * eye,
           .azimuth_rad = stand.azimuth_rad,
           .pitch_rad = pitch,
-          .focal_mm = stand.focal_mm.value_or(fitting * nearest_m / size.width * kFilm_mm)};
+          .focal_mm = stand.focal_mm.value_or(fitting * nearest_m / size.width * kFilmWidth_mm)};
 }
 
 OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Scene& scene,
                                      const PictureSize& size) {
   check(size);
-  const Vector middle = bounds_to_fit(scene, Eigen::Matrix3d::Identity()).center();
-  double reach = 0, half_height = 0;
-  const std::vector<double> reaches_m = reaches_of(scene);
-  for (const PlacedGrain& grain : scene.grains) {
-    const Vector away = grain.pose.position - middle;
-    const double own = reaches_m[static_cast<std::size_t>(grain.shape)];
-    reach = std::max(reach, std::hypot(away.x(), away.y()) + own);
-    half_height = std::max(half_height, std::abs(away.z()) + own);
-  }
-  const double room = 1 - 2 * kMargin;
-  const double fitting =
-      std::min(.5 * room * size.width / reach, .5 * room * size.height / half_height);
+  const Cylinder around = cylinder_around(scene);
+  const double px_per_m = fitting_px_per_m(around.radius, around.half_height, size);
   return {.azimuth_rad = camera.azimuth_rad,
-          .mm_per_px = camera.mm_per_px.value_or(1e3 / fitting),
-          .middle_m = camera.middle_m.value_or(middle)};
+          .mm_per_px = camera.mm_per_px.value_or(1e3 / px_per_m),
+          .middle_m = camera.middle_m.value_or(around.middle)};
+}
+
+LabStand fitted_stand(const LabStand& stand, const Scene& scene, const PictureSize& size) {
+  check(size);
+  const Cylinder around = cylinder_around(scene);
+  const double bottom = around.middle.z() - around.half_height;
+  const double ground = ground_m(scene).value_or(bottom);
+  const double eye = stand.height_m ? ground + *stand.height_m : around.middle.z();
+  const double half_height =
+      std::max({eye - ground, eye - bottom, around.middle.z() + around.half_height - eye});
+  const double nearest_m = nearest_of(stand.distance_m, around.radius);
+  LabStand fitted = stand;
+  fitted.focal_mm =
+      fitting_px_per_m(around.radius, half_height, size) * nearest_m / size.width * kFilmWidth_mm;
+  return fitted;
 }
 
 }  // namespace repose::render

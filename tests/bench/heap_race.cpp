@@ -91,7 +91,7 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
     const dem::Repeat ours = dem::run_heap(model, protocol, static_cast<std::uint64_t>(round) + 1);
     const double done = cpu_s();
     times.ours_s.push_back(done - start);
-    measure_views(calibrate::HeapViewSession(render::scene_of(*ours.state), kViews), 1,
+    measure_views(calibrate::HeapViewSession(render::scene_of(*ours.state), {.views = kViews}), 1,
                   [](double /*fraction*/) { return true; });
     times.views_s.push_back(cpu_s() - done);
     times.grains = static_cast<int>(ours.readings.at("grains"));

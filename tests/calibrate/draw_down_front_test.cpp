@@ -140,7 +140,7 @@ vision::Picture drawn(const dem::Simulation& simulation,
   std::erase_if(scene.grains,
                 [&](const render::PlacedGrain& grain) { return !is_shown(grain.pose.position); });
   render::Renderer renderer;
-  return HeapViewSession(std::move(scene), 1).take(renderer, 0).picture;
+  return HeapViewSession(std::move(scene), {.views = 1}).take(renderer, 0).picture;
 }
 
 /// The part of a slope's picture that ends a grain before its side wall, so that the wall is no

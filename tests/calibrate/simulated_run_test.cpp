@@ -81,6 +81,9 @@ TEST(SimulatedRun, ComesBackFromItsText) {
   EXPECT_EQ(back->seed, run.seed);
   EXPECT_EQ(back->views[0].picture.angle_rad, run.views[0].picture.angle_rad);
   EXPECT_TRUE(std::isnan(back->readings.at("angle_xz_deg")));
+  EXPECT_FALSE(back->camera);
+  run.camera = {.distance_m = 1.5, .height_m = 1. / 3};
+  EXPECT_EQ(run_in(run_text(run)).value().camera, run.camera);
   EXPECT_FALSE(run_in("{}"));
   EXPECT_FALSE(run_in("[1"));
 }

@@ -95,6 +95,29 @@ TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
                                HasSubstr("--base-mm is the base of one heap")));
 }
 
+TEST_F(CompareOfSets, SimulatedHeapsAreSeenFromWhereTheCameraStood) {
+  folder_.write("study.toml", kSoftNuts + kRoughContacts +
+                                  "[experiment.heap]\ngrains = 240\nlift_speed_mm_s = 150\n");
+  ASSERT_EQ(
+      run_repose(folder_, {"simulate", "heap", "study.toml", "--views", "0", "--out", "heaps"})
+          .exit_code,
+      0);
+  const json far = result({"flat", "heaps"});
+  const Finished done = run({"flat", "heaps", "--camera-mm", "500,40", "--json", "sets.json"});
+  const json near = json::parse(text("sets.json"));
+  EXPECT_TRUE(far["camera_mm"].is_null());
+  EXPECT_EQ(near["camera_mm"], json({500, 40}));
+  EXPECT_NE(near["sets"][1]["mean_deg"], far["sets"][1]["mean_deg"]);
+  EXPECT_THAT(done.out, HasSubstr("500 mm away and 40 mm"));
+  for (const char* wrong : {"500", "500,0", "-1,40", "500,40,1", "far,40", "nan,40"}) {
+    const Finished refused = run({"flat", "heaps", "--camera-mm", wrong});
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("--camera-mm"), HasSubstr("Fix: "))) << wrong;
+  }
+  EXPECT_THAT(run({"flat", "steep", "--camera-mm", "500,40"}).err,
+              HasSubstr("for simulated heaps"));
+}
+
 TEST_F(CompareOfSets, AFolderWithoutHeapsIsRefused) {
   std::filesystem::create_directories(path("empty"));
   const Finished done = run({"flat", "empty"});

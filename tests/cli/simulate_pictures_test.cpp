@@ -116,6 +116,16 @@ TEST_F(SimulatePictures, NoPicturesLeaveTheAngleOfThePositions) {
               AllOf(HasSubstr("the value"), HasSubstr("positions"), HasSubstr("1 picture: ")));
 }
 
+TEST_F(SimulatePictures, ACameraOverThePlateIsRefused) {
+  const Finished over = run({"--set", "experiment.heap.camera_distance_mm=100"});
+  EXPECT_EQ(over.exit_code, 2);
+  EXPECT_THAT(over.err, AllOf(HasSubstr("heap.camera_distance_m is 0.1, heap.plate_m 0.4"),
+                              HasSubstr("Fix: ")));
+  const Finished alone = run({"--set", "experiment.heap.camera_height_mm=40"});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_THAT(alone.err, AllOf(HasSubstr("camera_height_mm"), HasSubstr("camera_distance_mm")));
+}
+
 TEST_F(SimulatePictures, ALayerThatNoPictureCanMeasureFallsBackOnPositions) {
   const Finished finished =
       run({"--set", "experiment.heap.grains=12", "--views", "4", "--json", "-"});

@@ -150,6 +150,8 @@ lift_speed_mm_s = 20
 plate_mm = 350
 plate_thickness_mm = 4
 grains = 50
+camera_distance_mm = 1500
+camera_height_mm = 60
 measured = { pictures = ["nut.stl"] }
 [simulation]
 timestep_s = 1e-6
@@ -176,6 +178,8 @@ threads = 3
   EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().lift_speed_m_s, .02);
   EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().plate_thickness_m, .004);
   EXPECT_EQ(study.protocol<HeapProtocol>().grains, 50);
+  EXPECT_EQ(study.protocol<HeapProtocol>().camera_distance_m, 1.5);
+  EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().camera_height_m, .06);
   EXPECT_THAT(measured_in(study, Experiment::heap).pictures,
               ElementsAre(folder_.path() / "nut.stl"));
   EXPECT_EQ(study.model.timestep_s, 1e-6);
