@@ -110,6 +110,8 @@ TEST_F(HintFile, ScaleAndLensAreSavedAndReadAgain) {
   EXPECT_TRUE(again.scale.finds_board);
   EXPECT_EQ(again.scale.square_mm, 23.5);
   EXPECT_EQ(again.scale.behind_mm, 120);
+  EXPECT_EQ(again.measuring.hints.source, hint_file_of(picture()).filename())
+      << "a lens changes the angle";
 
   PictureSettings given;
   given.scale.scale = ScaleBar{.line = {{0, 10}, {200, 10.5}}, .length_mm = 80};
@@ -123,6 +125,7 @@ TEST_F(HintFile, ScaleAndLensAreSavedAndReadAgain) {
   EXPECT_EQ(again.scale.scale->line.to.y, 10.5);
   EXPECT_EQ(again.scale.scale->length_mm, 80);
   EXPECT_FALSE(again.scale.lens);
+  EXPECT_EQ(again.measuring.hints.source, "") << "two points and a distance do not";
 }
 
 TEST_F(HintFile, AllThatIsWrongIsSaidAtOnce) {

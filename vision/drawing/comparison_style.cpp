@@ -52,9 +52,11 @@ std::string difference_text(const std::optional<AngleDifference>& angle, double 
   const char* verdict = angle->verdict == Agreement::equivalent  ? "equivalent"
                         : angle->verdict == Agreement::different ? "different"
                                                                  : "cannot tell";
+  // Adding 0 makes a rounded -0.0 one without a sign.
+  const auto tenths = [](double rad) { return std::round(10 * to_degrees(rad)) / 10 + 0; };
   return fmt::format("angle difference {:.1f}° (95 %: {:.1f} to {:.1f}°): {} · margin {:g}°",
-                     to_degrees(angle->difference_rad), to_degrees(angle->interval_rad[0]),
-                     to_degrees(angle->interval_rad[1]), verdict, to_degrees(margin_rad));
+                     tenths(angle->difference_rad), tenths(angle->interval_rad[0]),
+                     tenths(angle->interval_rad[1]), verdict, to_degrees(margin_rad));
 }
 
 }  // namespace repose::vision

@@ -101,6 +101,12 @@ void add_scale(const ScaleOptions& saved, const fs::path& folder, ScaleOptions& 
   given.scale = saved.scale;
 }
 
+/// Two points and their distance give sizes, and leave angles as they are.
+bool changes_angles(const toml::table& table) {
+  return std::any_of(table.begin(), table.end(),
+                     [](const auto& entry) { return entry.first != "scale"; });
+}
+
 std::string pixel(double value) { return fmt::format("{:.6g}", value); }
 
 std::string text_of(const Box& box) {
@@ -163,7 +169,7 @@ PictureSettings with_saved_hints(PictureSettings given, const fs::path& picture)
                             "scale", "board", "square_mm", "board_behind_mm", "camera_file"});
   MeasureOptions& options = given.measuring;
   Hints& hints = options.hints;
-  hints.source = file.filename().string();
+  if (changes_angles(table)) hints.source = file.filename().string();
   const auto heap = reader.numbers<4>("heap", kBox);
   if (heap && !hints.heap) hints.heap = box_of(*heap);
   const auto ground = reader.numbers<4>("ground", kLine);
