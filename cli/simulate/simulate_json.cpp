@@ -96,8 +96,8 @@ void add_pictures(const Run& run, Json& json) {
   }
 }
 
-/// The same for all repeats together.
-void add_sources(const std::vector<Run>& runs, Json& json) {
+/// The same for all repeats together, and where they were seen from.
+void add_sources(const SimulatePlan& plan, const std::vector<Run>& runs, Json& json) {
   const auto angles = heap_angles(runs);
   if (!angles) return;
   json["source"] = source_of(runs);
@@ -110,6 +110,10 @@ void add_sources(const std::vector<Run>& runs, Json& json) {
   json["views"] = angles->views;
   json["views_refused"] = angles->refused;
   json["views_flagged"] = angles->flagged;
+  json["camera_mm"] = nullptr;
+  if (const auto& camera = plan.spec.viewing.camera) {
+    json["camera_mm"] = {1000 * camera->distance_m, 1000 * camera->height_m};
+  }
 }
 
 Json run_json(const Run& run) {
@@ -157,7 +161,7 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
                           summary->mean + *summary->mean_uncertainty};
     }
   }
-  add_sources(runs, json);
+  add_sources(plan, runs, json);
   for (const Run& run : runs) json["repeats"].push_back(run_json(run));
   json["warnings"] = Json::array();
   for (const RunWarning& warning : warnings_of(plan, runs)) {

@@ -164,6 +164,11 @@ Table belongs_to_table(const SimulatePlan& plan) {
   }
   table.add_row({"  stiffness factor", fmt::format("{:g}", model.stiffness_factor)});
   table.add_row({"  time step", step});
+  if (const auto& camera = plan.spec.viewing.camera) {
+    table.add_row(
+        {"  camera", fmt::format("{:g} mm from the heap's middle, {:g} mm above the plate",
+                                 1000 * camera->distance_m, 1000 * camera->height_m)});
+  }
   table.add_row({"  with the wall", coefficients_text(model.grain_wall)});
   if (dem::has_grain_contacts(plan.experiment)) {
     table.add_row({"  between grains", coefficients_text(model.grain_grain)});

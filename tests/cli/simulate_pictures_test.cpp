@@ -126,6 +126,14 @@ TEST_F(SimulatePictures, ACameraOverThePlateIsRefused) {
   EXPECT_THAT(alone.err, AllOf(HasSubstr("camera_height_mm"), HasSubstr("camera_distance_mm")));
 }
 
+TEST_F(SimulatePictures, AResultSaysWhereItsHeapsWereSeenFrom) {
+  EXPECT_TRUE(timeless({"--views", "1"})["camera_mm"].is_null());
+  const Words near = {"--views", "1",    "--set",  "experiment.heap.camera_distance_mm=600",
+                      "--out",   "near", "--json", "near.json"};
+  EXPECT_THAT(run(near).out, HasSubstr("600 mm from the heap's middle, 40 mm above the plate"));
+  EXPECT_EQ(json::parse(text("near.json"))["camera_mm"], json({600, 40}));
+}
+
 TEST_F(SimulatePictures, ALayerThatNoPictureCanMeasureFallsBackOnPositions) {
   const Finished finished =
       run({"--set", "experiment.heap.grains=12", "--views", "4", "--json", "-"});
