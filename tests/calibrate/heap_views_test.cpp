@@ -96,7 +96,8 @@ TEST(HeapViews, AnotherCameraTakesPicturesAnewOfTheSameHeap) {
                .viewing = {.views = 2}};
   const repose::testing::TemporaryFolder files;
   const RunFolder folder(files.path());
-  const SimulateOptions options{.folder = &folder};
+  SimulateOptions options;
+  options.folder = &folder;
   const std::string far = run_text(simulate_experiment(spec, 1, options));
   spec.viewing.camera = {.distance_m = .4, .height_m = .1};
   EXPECT_FALSE(folder.find_whole(spec, 1)) << "has other pictures";

@@ -107,7 +107,8 @@ std::string reason_against_flanks(const Reading& best) {
 void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
   const Hints& hints = options.hints;
   if (hints.empty() && hints.source.empty()) return;
-  const std::string what = hints.empty() ? "excluded boxes, pitch, board or camera file" : hints.text();
+  const std::string what =
+      hints.empty() ? "excluded boxes, pitch, board or camera file" : hints.text();
   const std::string where = hints.source.empty() ? "" : fmt::format(" in {}", hints.source);
   note(result, "hints", fmt::format("Hints given{}: {}.", where, what));
 }
