@@ -1,7 +1,9 @@
 #include "dem/study/experiment_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <string_view>
 
 #include <gmock/gmock.h>
@@ -37,8 +39,16 @@ TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {
   EXPECT_EQ(keys[0].name, "height_mm");
   EXPECT_DOUBLE_EQ(value_of(keys[0]).value(), 250);
   EXPECT_EQ(value_of(keys[1]), 3);
+
   Protocol heap = HeapProtocol{};
-  EXPECT_FALSE(value_of(entry_of(heap).keys(heap).back())) << "as many grains as fit";
+  const auto value = [&](const std::string& name) {
+    const auto keys_of_heap = entry_of(heap).keys(heap);
+    return value_of(*std::ranges::find(keys_of_heap, name, &ProtocolKey::name));
+  };
+  EXPECT_FALSE(value("grains")) << "as many as fit";
+  EXPECT_FALSE(value("camera_distance_mm")) << "far away";
+  std::get<HeapProtocol>(heap).camera_distance_m = 1.5;
+  EXPECT_DOUBLE_EQ(value("camera_distance_mm").value(), 1500);
 }
 
 TEST(ExperimentTable, ATiltDependsOnSlidingFrictionAlone) {
