@@ -82,11 +82,14 @@ TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
                                  "--out", "heaps"})
                 .exit_code,
             0);
-  const Finished done = run({"flat", "heaps", "--mm-per-px", "0.5", "--json", "sets.json"});
+  const Finished done =
+      run({"flat", "heaps", "--mm-per-px", "0.5", "--camera-mm", "500,40", "--json", "sets.json"});
   const json sets = json::parse(text("sets.json"));
   EXPECT_EQ(sets["sets"][1]["heaps"].size(), 2U) << done.err;
   EXPECT_EQ(sets["sets"][1]["heaps"][0]["pictures"].size(), 9U);
-  EXPECT_THAT(done.out, HasSubstr("simulated heaps, 9 views of each"));
+  EXPECT_EQ(sets["camera_mm"], json({500, 40}));
+  EXPECT_THAT(done.out, AllOf(HasSubstr("simulated heaps, 9 views of each"),
+                              HasSubstr("500 mm away and 40 mm")));
   const Finished wrong =
       run({"flat", "heaps", "--mm-per-px", "1,2", "--exclude-second", "0,0,9,9", "--base-mm", "9"});
   EXPECT_EQ(wrong.exit_code, 2);
@@ -95,27 +98,16 @@ TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
                                HasSubstr("--base-mm is the base of one heap")));
 }
 
-TEST_F(CompareOfSets, SimulatedHeapsAreSeenFromWhereTheCameraStood) {
-  folder_.write("study.toml", kSoftNuts + kRoughContacts +
-                                  "[experiment.heap]\ngrains = 240\nlift_speed_mm_s = 150\n");
-  ASSERT_EQ(
-      run_repose(folder_, {"simulate", "heap", "study.toml", "--views", "0", "--out", "heaps"})
-          .exit_code,
-      0);
-  const json far = result({"flat", "heaps"});
-  const Finished done = run({"flat", "heaps", "--camera-mm", "500,40", "--json", "sets.json"});
-  const json near = json::parse(text("sets.json"));
-  EXPECT_TRUE(far["camera_mm"].is_null());
-  EXPECT_EQ(near["camera_mm"], json({500, 40}));
-  EXPECT_NE(near["sets"][1]["mean_deg"], far["sets"][1]["mean_deg"]);
-  EXPECT_THAT(done.out, HasSubstr("500 mm away and 40 mm"));
+TEST_F(CompareOfSets, ACameraIsForSimulatedHeapsAndHasTwoLengths) {
+  folder_.write("heap.vtp", std::string("is not read before the options are right"));
   for (const char* wrong : {"500", "500,0", "-1,40", "500,40,1", "far,40", "nan,40"}) {
-    const Finished refused = run({"flat", "heaps", "--camera-mm", wrong});
+    const Finished refused = run({"flat", "heap.vtp", "--camera-mm", wrong});
     EXPECT_EQ(refused.exit_code, 2) << wrong;
     EXPECT_THAT(refused.err, AllOf(HasSubstr("--camera-mm"), HasSubstr("Fix: "))) << wrong;
   }
   EXPECT_THAT(run({"flat", "steep", "--camera-mm", "500,40"}).err,
               HasSubstr("for simulated heaps"));
+  EXPECT_TRUE(result({"flat", "steep"})["camera_mm"].is_null());
 }
 
 TEST_F(CompareOfSets, AFolderWithoutHeapsIsRefused) {

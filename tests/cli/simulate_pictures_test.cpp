@@ -127,11 +127,12 @@ TEST_F(SimulatePictures, ACameraOverThePlateIsRefused) {
 }
 
 TEST_F(SimulatePictures, AResultSaysWhereItsHeapsWereSeenFrom) {
-  EXPECT_TRUE(timeless({"--views", "1"})["camera_mm"].is_null());
-  const Words near = {"--views", "1",    "--set",  "experiment.heap.camera_distance_mm=600",
-                      "--out",   "near", "--json", "near.json"};
-  EXPECT_THAT(run(near).out, HasSubstr("600 mm from the heap's middle, 40 mm above the plate"));
-  EXPECT_EQ(json::parse(text("near.json"))["camera_mm"], json({600, 40}));
+  Words words = {"--views", "1", "--set", "experiment.heap.grains=12", "--json", "layer.json"};
+  run(words);
+  EXPECT_TRUE(json::parse(text("layer.json"))["camera_mm"].is_null());
+  words.insert(words.end(), {"--set", "experiment.heap.camera_distance_mm=600"});
+  EXPECT_THAT(run(words).out, HasSubstr("600 mm from the heap's middle, 40 mm above the plate"));
+  EXPECT_EQ(json::parse(text("layer.json"))["camera_mm"], json({600, 40}));
 }
 
 TEST_F(SimulatePictures, ALayerThatNoPictureCanMeasureFallsBackOnPositions) {
