@@ -23,7 +23,7 @@ struct RunSpec {
   dem::Protocol protocol;
   dem::Model model;  ///< with the grain, and all coefficients that the experiment needs
   std::string grain_fingerprint;
-  HeapViewing viewing;  ///< none of experiments that are not pictured
+  HeapViewing viewing = {.views = 0};  ///< none of experiments that are not pictured
 
   const dem::ExperimentEntry& entry() const { return dem::entry_of(protocol); }
 };

@@ -90,6 +90,10 @@ void read_camera(const std::string& text, ComparePlan& plan) {
     typed.refuse("DISTANCE,HEIGHT in mm, both above 0", "--camera-mm 1500,40");
     return;
   }
+  if (mm->back() > mm->front()) {
+    typed.refuse("a level camera is no higher than it is far away", "--camera-mm 1500,40");
+    return;
+  }
   const bool has_states =
       std::any_of(plan.sources.begin(), plan.sources.end(),
                   [](const HeapSource& source) { return !source.states.empty(); });

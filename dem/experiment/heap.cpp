@@ -20,6 +20,7 @@
 namespace repose::dem {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongestLift_s = 600;
 /// Heaps lower than this many grain diameters are layers.
 constexpr double kLowestHeap = 2.5;
@@ -41,6 +42,12 @@ void check_sizes(const HeapProtocol& protocol, base::ErrorList& errors) {
   above_0("plate_m", protocol.plate_m);
   above_0("plate_thickness_m", protocol.plate_thickness_m);
   above_0("camera_height_m", protocol.camera_height_m);
+  errors.require(
+      !(protocol.camera_height_m > protocol.camera_distance_m.value_or(kInfinity)),
+      fmt::format("heap.camera_height_m is {:g}, heap.camera_distance_m {:g}. Rule: a level "
+                  "camera is no higher than it is far away. Fix: the height of the lens "
+                  "over the plate on the bench.",
+                  protocol.camera_height_m, protocol.camera_distance_m.value_or(0)));
   errors.require(!protocol.camera_distance_m || *protocol.camera_distance_m >= protocol.plate_m,
                  fmt::format("heap.camera_distance_m is {:g}, heap.plate_m {:g}. Rule: the camera "
                              "stands beside the plate, at least as far away as the plate is wide. "

@@ -73,7 +73,7 @@ OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Sce
 
 /// The same stand with the focal length set, so that all grains and the ground under them fit into
 /// the picture from any azimuth.
-/// @throws std::invalid_argument  no grains, or a distance that is not above 0.
+/// @throws std::invalid_argument  no grains, or some reach as far as the camera.
 LabStand fitted_stand(const LabStand& stand, const Scene& scene, const PictureSize& size);
 
 }  // namespace repose::render

@@ -19,7 +19,6 @@ using dem::Vector;
 constexpr int kLongestSide = 16384;
 /// A picture of this many pixels takes about 2 GB while it is drawn.
 constexpr std::int64_t kMaxPixels = 64'000'000;
-/// Width of the film that focal lengths are given for.
 /// Left free on each side of the grains, as a fraction of the picture's width or height.
 constexpr double kMargin = .1;
 /// The distortion may flatten the picture to this slope, not more.
@@ -259,6 +258,12 @@ OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Sce
 LabStand fitted_stand(const LabStand& stand, const Scene& scene, const PictureSize& size) {
   check(size);
   const Cylinder around = cylinder_around(scene);
+  if (!(stand.distance_m > around.radius)) {
+    throw std::invalid_argument(fmt::format(
+        "camera: distance_m is {:g}. Rule: above {:.3g}, as far as grains reach from their middle. "
+        "Fix: the distance from the heap's middle to the lens.",
+        stand.distance_m, around.radius));
+  }
   const double bottom = around.middle.z() - around.half_height;
   const double ground = ground_m(scene).value_or(bottom);
   const double eye = stand.height_m ? ground + *stand.height_m : around.middle.z();

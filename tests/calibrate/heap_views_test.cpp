@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "base/units.h"
 #include "calibrate/experiment/simulate_experiment.h"
 #include "tests/dem/experiment_model.h"
+#include "tests/support/error_of.h"
 #include "tests/support/nut_heap.h"
 #include "tests/support/temporary_folder.h"
 
@@ -15,6 +16,8 @@ namespace repose::calibrate {
 namespace {
 
 using repose::testing::nut_heap;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 const render::Scene& nuts() {
   static const render::Scene scene = nut_heap(17, 27 * kDegree, 3);
@@ -55,6 +58,13 @@ TEST(HeapViews, ACameraNearTheHeapHasAllOfItInThePicture) {
     EXPECT_TRUE(has_white_edge(taken({.views = 1, .camera = camera}).picture))
         << camera.distance_m << ' ' << camera.height_m;
   }
+}
+
+TEST(HeapViews, ACameraInTheHeapIsRefused) {
+  EXPECT_THAT(error_of([] {
+                taken({.views = 1, .camera = HeapCamera{.02, .02}});
+              }),
+              AllOf(HasSubstr("distance_m is 0.02"), HasSubstr("Fix: ")));
 }
 
 /// The nearest grains' foot is seen under that of the middle's by the camera's height times

@@ -100,7 +100,7 @@ TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
 
 TEST_F(CompareOfSets, ACameraIsForSimulatedHeapsAndHasTwoLengths) {
   folder_.write("heap.vtp", std::string("is not read before the options are right"));
-  for (const char* wrong : {"500", "500,0", "-1,40", "500,40,1", "far,40", "nan,40"}) {
+  for (const char* wrong : {"500", "500,0", "-1,40", "500,40,1", "far,40", "nan,40", "40,500"}) {
     const Finished refused = run({"flat", "heap.vtp", "--camera-mm", wrong});
     EXPECT_EQ(refused.exit_code, 2) << wrong;
     EXPECT_THAT(refused.err, AllOf(HasSubstr("--camera-mm"), HasSubstr("Fix: "))) << wrong;

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/dem/experiment_model.h"
 
@@ -156,6 +156,15 @@ TEST(Heap, RefusesATubeWiderThanThePlate) {
   protocol.plate_m = .1;
   const std::string message = error_of([&] { run_heap(test::soft_bench(), protocol, 1); });
   EXPECT_NE(message.find("stands on the plate"), std::string::npos) << message;
+}
+
+TEST(Heap, RefusesACameraHigherThanItIsFarAway) {
+  HeapProtocol protocol;
+  protocol.camera_distance_m = 1.2;
+  protocol.camera_height_m = 9;
+  EXPECT_THAT(error_of([&] { run_heap(test::soft_bench(), protocol, 1); }),
+              ::testing::AllOf(::testing::HasSubstr("heap.camera_height_m is 9"),
+                               ::testing::HasSubstr("Fix: ")));
 }
 
 TEST(Heap, RefusesALiftThatNeverEnds) {
