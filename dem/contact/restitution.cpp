@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <boost/numeric/odeint.hpp>
@@ -17,6 +18,19 @@ using State = std::array<double, 2>;  // overlap, its rate; scaled
 double force(const State& state, double factor) {
   const double root = std::sqrt(std::max(state[0], 0.0));
   return root * state[0] + factor * std::sqrt(1.5 * root) * state[1];
+}
+
+double solved_damping_factor(double restitution) {
+  if (!(restitution >= .01 && restitution <= 1)) {
+    throw std::invalid_argument("restitution is " + std::to_string(restitution) +
+                                ". Rule: .01 to 1. Fix: give the speed ratio of a central impact.");
+  }
+  if (restitution == 1) return 0;
+  const auto excess = [restitution](double factor) { return restitution_of(factor) - restitution; };
+  std::uintmax_t rounds = 60;
+  const auto bracket = boost::math::tools::toms748_solve(
+      excess, 0.0, 20.0, boost::math::tools::eps_tolerance<double>(40), rounds);
+  return (bracket.first + bracket.second) / 2;
 }
 
 }  // namespace
@@ -49,16 +63,11 @@ double textbook_damping_factor(double restitution) {
 }
 
 double damping_factor(double restitution) {
-  if (!(restitution >= .01 && restitution <= 1)) {
-    throw std::invalid_argument("restitution is " + std::to_string(restitution) +
-                                ". Rule: .01 to 1. Fix: give the speed ratio of a central impact.");
-  }
-  if (restitution == 1) return 0;
-  const auto excess = [restitution](double factor) { return restitution_of(factor) - restitution; };
-  std::uintmax_t rounds = 60;
-  const auto bracket = boost::math::tools::toms748_solve(
-      excess, 0.0, 20.0, boost::math::tools::eps_tolerance<double>(40), rounds);
-  return (bracket.first + bracket.second) / 2;
+  // Every run makes a table of contacts, of coefficients that mostly were asked for before.
+  thread_local std::unordered_map<double, double> known;
+  const auto found = known.find(restitution);
+  if (found != known.end()) return found->second;
+  return known[restitution] = solved_damping_factor(restitution);
 }
 
 }  // namespace repose::dem

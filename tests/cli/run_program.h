@@ -5,8 +5,8 @@
 
 #include <unistd.h>
 
+#include "tests/cli/program_server.h"
 #include "tests/support/places.h"
-#include "tests/support/run_program.h"
 
 namespace repose::testing {
 
@@ -24,10 +24,10 @@ inline pid_t start_repose(const TemporaryFolder& folder, std::vector<std::string
   return child;
 }
 
-/// Starts the built program in `folder` and waits for it.
+/// Runs the program in `folder` and waits for it.
 inline Finished run_repose(const TemporaryFolder& folder,
                            const std::vector<std::string>& arguments) {
-  return run_program(program(), folder, arguments);
+  return run_forked(folder, arguments);
 }
 
 }  // namespace repose::testing

@@ -21,40 +21,64 @@ struct Finished {
   double cpu_s = 0;
 };
 
-/// Starts a program in `folder`, as a user would, and waits for it. Its output goes to files, so it
-/// is no terminal to it. A name without a slash is looked for in PATH.
+/// Where a process writes to: files, so that neither is a terminal to it.
+struct Logs {
+  TemporaryFolder folder;
+  std::string out = folder.path() / "out";
+  std::string err = folder.path() / "err";
+};
+
+/// Makes the process at hand write there and work in `folder`. @return whether it does
+inline bool enter(const std::string& folder, const std::string& out, const std::string& err) {
+  constexpr int kReadableByOwner = 0600;
+  return ::chdir(folder.c_str()) == 0 &&
+         ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, kReadableByOwner), 1) == 1 &&
+         ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, kReadableByOwner), 2) == 2;
+}
+
+/// How a process ended.
+struct Ended {
+  int status = 0;
+  rusage used = {};
+};
+
+inline Ended wait_for(pid_t child) {
+  Ended ended;
+  ::wait4(child, &ended.status, 0, &ended.used);
+  return ended;
+}
+
+using Clock = std::chrono::steady_clock;
+
+inline Finished finished(const Ended& ended, const Logs& logs, Clock::time_point start) {
+  const std::chrono::duration<double> elapsed = Clock::now() - start;
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return {.exit_code = WIFEXITED(ended.status) ? WEXITSTATUS(ended.status) : -1,
+          .out = text_of(logs.out),
+          .err = text_of(logs.err),
+          .elapsed_s = elapsed.count(),
+          .cpu_s = seconds(ended.used.ru_utime) + seconds(ended.used.ru_stime)};
+}
+
+/// Starts a program in `folder`, as a user would, and waits for it. A name without a slash is
+/// looked for in PATH.
 inline Finished run_program(std::string program, const TemporaryFolder& folder,
                             const std::vector<std::string>& arguments) {
-  const TemporaryFolder logs;
-  const std::string out = logs.path() / "out", err = logs.path() / "err";
+  const Logs logs;
   std::vector<char*> words = {program.data()};
   std::vector<std::string> copies = arguments;
   for (std::string& copy : copies) words.push_back(copy.data());
   words.push_back(nullptr);
 
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   const pid_t child = ::fork();
   if (child == 0) {
-    constexpr int kReadableByOwner = 0600;
-    const bool is_set_up =
-        ::chdir(folder.path().c_str()) == 0 &&
-        ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, kReadableByOwner), 1) == 1 &&
-        ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, kReadableByOwner), 2) == 2;
-    if (is_set_up) ::execvp(program.c_str(), words.data());
+    if (enter(folder.path(), logs.out, logs.err)) ::execvp(program.c_str(), words.data());
     ::_exit(127);
   }
-  int status = 0;
-  rusage used = {};
-  ::wait4(child, &status, 0, &used);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
-          .out = text_of(out),
-          .err = text_of(err),
-          .elapsed_s = elapsed.count(),
-          .cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime)};
+  return finished(wait_for(child), logs, start);
 }
 
 }  // namespace repose::testing
