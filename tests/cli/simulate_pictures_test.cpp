@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,17 +25,30 @@ grains = 240
 lift_speed_mm_s = 150
 )";
 
-/// Later calls in the same folder go on from the heap that is there, and only take pictures.
+/// One heap for all: calls go on from it in `runs`, and only take pictures.
 class SimulatePictures : public CommandTest {
  protected:
   SimulatePictures() : CommandTest({"simulate", "heap", "study.toml"}) {
     folder_.write("study.toml", kPicturedStudy);
+    std::filesystem::copy(heap_->path() / "runs", path("runs"));
   }
+
+  static void SetUpTestSuite() {
+    heap_ = std::make_unique<TemporaryFolder>();
+    heap_->write("study.toml", kPicturedStudy);
+    const Finished made =
+        run_repose(*heap_, {"simulate", "heap", "study.toml", "--views", "0", "--out", "runs"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  static void TearDownTestSuite() { heap_.reset(); }
 
   json timeless(Words words) const {
     words.insert(words.end(), {"--out", "runs"});
     return without_times(result(words));
   }
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> heap_;
 };
 
 TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {

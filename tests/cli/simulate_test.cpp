@@ -12,8 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/calibrate/sphere_study.h"
 #include "tests/cli/command_test.h"
-#include "tests/support/soft_study.h"
 
 namespace repose::testing {
 namespace {
@@ -24,8 +24,8 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
-/// Soft, two spheres to a grain, short ways: a run takes a fraction of a second.
-const std::string kSimulatedStudy = kSoftNuts + R"([contact.particle_wall]
+/// A soft ball and short ways: a run takes a fraction of a second.
+const std::string kSimulatedStudy = calibrate::test::kSoftBall + R"([contact.particle_wall]
 restitution = 0.5
 sliding_friction = 0.4
 rolling_friction = 0.1
@@ -43,6 +43,9 @@ release_mm = 20
 grains = 40
 )";
 
+/// Grains of two spheres, in random poses.
+const Words kAsNuts = {"--set", "particle.size_mm=[22,18,18]", "--set", "particle.spheres=2"};
+
 class Simulate : public CommandTest {
  protected:
   Simulate() : CommandTest({"simulate"}) { folder_.write("study.toml", kSimulatedStudy); }
@@ -51,7 +54,7 @@ class Simulate : public CommandTest {
 };
 
 TEST_F(Simulate, ADropGivesAValueAndWhatItBelongsTo) {
-  const Finished finished = run({"drop", "study.toml", "--repeats", "2"});
+  const Finished finished = run(with({"drop", "study.toml", "--repeats", "2"}, kAsNuts));
   EXPECT_EQ(finished.exit_code, 0);
   EXPECT_THAT(finished.err, IsEmpty()) << "no progress where there is no terminal";
   EXPECT_THAT(finished.out,
@@ -82,7 +85,8 @@ TEST_F(Simulate, RepeatsThatAreTheSameHaveNoInterval) {
 }
 
 TEST_F(Simulate, JsonHasTheContractsKeys) {
-  const Finished finished = run({"drop", "study.toml", "--repeats", "2", "--json", "-"});
+  const Finished finished =
+      run(with({"drop", "study.toml", "--repeats", "2", "--json", "-"}, kAsNuts));
   const json drop = json::parse(finished.out);
   EXPECT_EQ(drop["experiment"], "drop");
   EXPECT_EQ(drop["unit"], "mm");
