@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,7 +36,13 @@ class StudyRun : public ::testing::Test {
     return dem::read_study(folder_.write("study.toml", test::kSphereStudy), settings);
   }
 
-  static dem::ClumpFile grain_of(const dem::Study& study) { return dem::build_grain(study.grain); }
+  /// Each is made once: that takes longer than most runs here.
+  static const dem::ClumpFile& grain_of(const dem::Study& study) {
+    static std::map<double, dem::ClumpFile> by_thickness;
+    const auto [found, is_new] = by_thickness.try_emplace(study.grain.sizes->thickness_m);
+    if (is_new) found->second = dem::build_grain(study.grain);
+    return found->second;
+  }
 
   static StudySimulator simulator_of(const dem::Study& study) {
     return {study, grain_of(study), small_problem(study).parameters, 0};
