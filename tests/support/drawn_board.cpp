@@ -131,14 +131,14 @@ void draw_board(const BoardCamera& camera, const BoardPlace& place, const BoardL
   for (int row = shown.y; row < shown.br().y; ++row) {
     for (int col = shown.x; col < shown.br().x; ++col) {
       // Within a pixel directions change evenly.
-      const Vector3d middle = camera.direction({col + 0.5, row + 0.5});
+      const Vector3d middle = to_board * camera.direction({col + 0.5, row + 0.5});
       const double step = 1 / (camera.focal_px * kSamples);
       for (int i = 0; i < kSamples * kSamples; ++i) {
         const int down = i / kSamples;
         const int across = i - down * kSamples;
         const double aside = (across - (kSamples - 1) / 2.0) * step;
         const double below = (down - (kSamples - 1) / 2.0) * step;
-        const Vector3d direction = to_board * (middle + Vector3d(aside, below, 0));
+        const Vector3d direction = middle + aside * to_board.col(0) + below * to_board.col(1);
         const Vector3d at = (eye - eye.z() / direction.z() * direction) / place.square_mm;
         if (!is_on_sheet(at.x(), at.y())) continue;
         const bool is_on_board = at.x() >= 0 && at.x() < vision::kBoardColumns && at.y() >= 0 &&

@@ -59,13 +59,19 @@ void draw_ball(cv::Mat& scene, const cv::Point2d& centre, double radius, const c
 }
 
 void draw_shadow(cv::Mat& scene, const cv::Point2d& at, double width, double depth) {
-  cv::Mat shade(scene.size(), CV_32F, cv::Scalar(0));
-  cv::ellipse(shade, at, {cvRound(width), std::max(1, cvRound(.3 * width))}, 0, 0, 360, depth,
-              cv::FILLED);
-  const int size = 2 * cvRound(.4 * width) + 1;
-  cv::GaussianBlur(shade, shade, {size, size}, 0);
-  for (int y = 0; y < scene.rows; ++y) {
-    for (int x = 0; x < scene.cols; ++x) scene.at<cv::Vec3f>(y, x) *= 1 - shade.at<float>(y, x);
+  const cv::Size half(cvRound(width), std::max(1, cvRound(.3 * width)));
+  const int blur = cvRound(.4 * width);
+  const cv::Point middle = at;
+  const cv::Size reach = half + cv::Size(2 * blur, 2 * blur);
+  const cv::Rect part =
+      cv::Rect(middle - cv::Point(reach), middle + cv::Point(reach)) & cv::Rect({}, scene.size());
+  if (part.empty()) return;
+  cv::Mat shade(part.size(), CV_32F, cv::Scalar(0));
+  cv::ellipse(shade, middle - part.tl(), half, 0, 0, 360, depth, cv::FILLED);
+  cv::GaussianBlur(shade, shade, {2 * blur + 1, 2 * blur + 1}, 0);
+  cv::Mat shaded = scene(part);
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) shaded.at<cv::Vec3f>(y, x) *= 1 - shade.at<float>(y, x);
   }
 }
 
