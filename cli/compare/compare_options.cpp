@@ -91,7 +91,7 @@ void read_camera(const std::string& text, ComparePlan& plan) {
     return;
   }
   if (mm->back() > mm->front()) {
-    typed.refuse("a level camera is no higher than it is far away", "--camera-mm 1500,40");
+    typed.refuse("no higher than far away, as a level camera is", "--camera-mm 1500,40");
     return;
   }
   const bool has_states =
