@@ -91,7 +91,7 @@ SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::ve
 
 SimulationSetup bulk_setup(const Model& model, std::vector<Wall> walls, double speed_m_s) {
   return setup_of(model, size_classes(model.grain, model.size_sd_fraction), std::move(walls),
-                  speed_m_s, kCourseFraction);
+                  speed_m_s, kBulkFraction);
 }
 
 double largest_reach_m(const Model& model) {

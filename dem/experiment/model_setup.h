@@ -25,7 +25,7 @@ SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::ve
                             double speed_m_s, double fraction = kImpactFraction);
 
 /// Likewise of bulks: grains of all the model's sizes, the mean the first kind, and the usual
-/// fraction of a course (kCourseFraction).
+/// fraction of bulks (kBulkFraction).
 SimulationSetup bulk_setup(const Model& model, std::vector<Wall> walls, double speed_m_s);
 
 /// Farthest that a sphere of the largest of these grains reaches from its centre of mass, m.
