@@ -86,17 +86,21 @@ struct NormalPush {
 ///
 /// The overlap's powers are averaged over the part of the step's way, and of the one before or
 /// after, that lies within the contact: what comes out hardly depends on where in a step an impact
-/// begins.
+/// begins. On the way out only up to where the damper would pull: the spring A overlap^(3/2) and
+/// the damper B overlap^(1/4) balance at overlap^(5/4) = B / A, and from `top` to there the mean is
+/// .4 A (top^(5/4) - B / A)^2 / travel.
 template <typename Number>
 REPOSE_INLINE NormalPush<Number> brief_push(const Touch<Number>& touch, const Law<Number>& law,
-                                            const Number& travel) {
-  const Number top = touch.overlap + travel * .5;
-  const Number top_root = sqrt(top);
-  const Number mean_spring = .4 * top * top * top_root / travel;  // of overlap^(3/2)
-  const Number mean_damper = .8 * top * sqrt(top_root) / travel;  // of overlap^(1/4)
+                                            const Number& approach, const Number& travel) {
   const Number young_root = law.reduced_young * sqrt(touch.reduced_radius);
-  return {4.0 / 3 * young_root * mean_spring,
-          law.normal_damping * sqrt(2 * young_root * touch.reduced_mass) * mean_damper};
+  const Number spring = 4.0 / 3 * young_root;
+  const Number damper = law.normal_damping * sqrt(2 * young_root * touch.reduced_mass);
+  const Number top = touch.overlap + travel * .5;
+  const Number top_power = top * sqrt(sqrt(top));
+  const Number end_power = greatest(-approach, Number{}) * damper / spring;
+  const Number ends = least(end_power, top_power);
+  return {.4 * spring * (top_power * top_power + ends * ends) / travel,
+          .8 * damper * top_power / travel};
 }
 
 /// The normal force with the damper at the speed that the force itself leaves; never negative.
@@ -140,7 +144,7 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   // A little more: the way may be just one step long, but for rounding.
   const auto is_brief = touch.overlap <= 1.000001 * travel;
   if (any(is_brief)) {
-    const NormalPush<Number> brief = brief_push(touch, law, travel);
+    const NormalPush<Number> brief = brief_push(touch, law, approach, travel);
     push = {select(is_brief, brief.spring, push.spring),
             select(is_brief, brief.damper, push.damper)};
   }
