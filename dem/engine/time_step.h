@@ -5,7 +5,7 @@
 namespace repose::dem {
 
 // How long a step may be, as a fraction of the stable one, 2 / omega, by what is read from the run.
-// Restitution comes out within .001, .002 and .005 (Restitution.ComesOutAtEveryAcceptedTimestep).
+// Restitution comes out within .0005, .002 and .005 (Restitution.ComesOutAtEveryAcceptedTimestep).
 // Tangential stiffness counts in omega whatever the friction: it is what makes the step short
 // enough for both.
 
@@ -13,11 +13,11 @@ namespace repose::dem {
 /// wall is resolved by 48 steps an impact, two equal spheres by 42.
 inline constexpr double kImpactFraction = .07;
 /// For readings that no single impact decides: how far a grain rolls, when it slides. 24 steps an
-/// impact, less than 1e-3 of energy (CourseTimestep.*).
+/// impact, less than 1e-3 of energy (LongTimestep.*).
 inline constexpr double kCourseFraction = .14;
-/// For what hundreds of grains do together: fill, heap, flow out. 13 steps an impact; heaps' angles
-/// are those of .14 within half a degree (dem/PERFORMANCE.md).
-inline constexpr double kBulkFraction = .25;
+/// For what hundreds of grains do together: fill, heap, flow out. 15 steps an impact, less than
+/// 3e-3 of energy; heaps' angles are those of .14 within half a degree (dem/PERFORMANCE.md).
+inline constexpr double kBulkFraction = .22;
 
 /// The longest time step at which these grains are simulated accurately, s, when they strike each
 /// other and the walls at up to `speed_m_s`.
