@@ -28,7 +28,7 @@ rate_deg_s = 10
 release_mm = 20
 [experiment.heap]
 grains = 240
-lift_speed_mm_s = 150
+lift_speed_mm_s = 100
 [experiment.drop_on_grains]
 height_mm = 50
 grains = 2

@@ -22,7 +22,7 @@ height_mm = 50
 grains = 2
 [experiment.heap]
 grains = 240
-lift_speed_mm_s = 150
+lift_speed_mm_s = 120
 )";
 
 /// One heap for all: calls go on from it in `runs`, and only take pictures.

@@ -212,10 +212,11 @@ TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
                        "--set",   "particle.young_modulus_pa=1e6",
                        "--set",   "contact.particle_particle=" + coefficients,
                        "--set",   "contact.particle_wall.sliding_friction=0.8",
+                       "--set",   "contact.particle_wall.rolling_friction=0.3",
                        "--set",   "experiment.heap.lift_speed_mm_s=100",
                        "--views", "0"};
   int warned = 0;
-  for (const char* seed : {"1", "2", "3"}) {
+  for (const char* seed : {"1", "2", "3", "4", "5"}) {
     Words words = rough;
     words.insert(words.end(), {"--seed", seed});
     const json heap = timeless(words);

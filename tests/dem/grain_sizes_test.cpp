@@ -82,7 +82,7 @@ TEST(HeapOfManySizes, IsMadeOfAllOfThem) {
                               .shape.spheres.front()
                               .radius;
     EXPECT_NEAR(heap.state->mass_kg(k), 851 * volume_m3(radius), 1e-9);
-    EXPECT_TRUE(!heap.state->is_present(k) || grain.position.z() > .99 * radius);
+    EXPECT_TRUE(!heap.state->is_present(k) || grain.position.z() > .98 * radius);
   }
   EXPECT_THAT(kinds, SizeIs(9));
   EXPECT_EQ(heap.readings.at("at_rest"), 1);
