@@ -143,7 +143,7 @@ Advice Advisor::addition_advice(std::size_t parameter) const {
   });
   if (is_told || tellers.empty()) return {};
   return {fmt::format("do an experiment that tells it from the others: add [experiment.{}] and its "
-                      "readings to the study (repose plan tells what each would give)",
+                      "readings to the study",
                       fmt::join(tellers, "] or [experiment.")),
           tellers};
 }

@@ -134,7 +134,9 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
     chapter.blocks.push_back(Heading{"How to determine the others"});
     for (const std::string& text : advice) chapter.blocks.push_back(Remark{text});
     if (!joint.additions.empty()) {
-      chapter.blocks.push_back(CodeText{"For the study file", lines_of(joint.additions)});
+      chapter.blocks.push_back(
+          CodeText{"For the study file (repose plan tells what each would give)",
+                   lines_of(joint.additions)});
     }
   }
   add_narrowing(joint, chapter);

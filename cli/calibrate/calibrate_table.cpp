@@ -176,7 +176,7 @@ void add_advice(const calibrate::JointResult& joint, Page& page) {
 void add_additions(const calibrate::JointResult& joint, Page& page) {
   if (joint.additions.empty()) return;
   page.add_gap();
-  page.add("For the study file:");
+  page.add("For the study file (repose plan tells what each would give):");
   for (const calibrate::StudyAddition& addition : joint.additions) {
     page.add_gap();
     page.add_lines(addition.lines);

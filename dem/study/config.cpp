@@ -153,7 +153,9 @@ ConfigValue parse_config(const std::string& file, const std::string& text,
   for (std::size_t k = 0; k < settings.size(); ++k) {
     const Place place{.file = "setting", .setting = static_cast<int>(k) + 1};
     const std::string fix =
-        "write " + settings[k] + " as key.path=value, text in quotes: particle.scan=\"nut.stl\"";
+        "write " + settings[k] +
+        " as key.path=value: numbers with a digit before the point, as 0.5, and text in quotes, as "
+        "particle.scan=\"nut.stl\"";
     lay_over(config, parsed(SourceText(settings[k], place), fix, errors));
   }
   return config;

@@ -354,6 +354,7 @@ TEST_F(StudyFile, ErrorsOfSettingsAreCalledBySetting) {
   EXPECT_THAT(errors(kStudy, {"contact.rolling_model = none"}),
               AllOf(HasSubstr("setting:1:"), HasSubstr("in quotes"), Not(HasSubstr("missing"))));
   EXPECT_THAT(errors(kStudy, {"particle"}), HasSubstr("setting:1:"));
+  EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3 = .5"}), HasSubstr("as 0.5"));
   EXPECT_THAT(errors(kStudy, {"particle.densty_kg_m3 = 1"}),
               HasSubstr("did you mean density_kg_m3?"));
   EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3.x = 1"}), HasSubstr("Rule: "));
