@@ -22,6 +22,7 @@ Json json_of(const dem::HeapProgress& progress) {
   return {{"stage", kStages.at(static_cast<std::size_t>(progress.stage))},
           {"steps", progress.work.steps},
           {"clump_steps", progress.work.clump_steps},
+          {"shortest_timestep_s", progress.work.shortest_timestep_s},
           {"steps_left", progress.steps_left},
           {"random_draws", progress.random_draws},
           {"rest_since_s", progress.rest.since_s},
@@ -41,7 +42,7 @@ dem::HeapStage stage_named(const std::string& name) {
 dem::HeapProgress progress_in(const Json& json) {
   dem::HeapProgress progress;
   progress.stage = stage_named(json.at("stage"));
-  progress.work = {json.at("steps"), json.at("clump_steps")};
+  progress.work = {json.at("steps"), json.at("clump_steps"), json.at("shortest_timestep_s")};
   progress.steps_left = json.at("steps_left");
   progress.random_draws = json.at("random_draws");
   progress.rest.since_s = json.at("rest_since_s");

@@ -57,6 +57,7 @@ struct Bodies {
   VectorArray velocity;
   VectorArray angular_momentum;
   std::vector<BodyLoad> load;      ///< of the last step, or gathered in this one
+  std::vector<double> touching;    ///< spheres that touched something at the last step
   std::vector<BodyMotion> motion;  ///< in the step at hand
   std::vector<int> first_sphere;   ///< one more than grains: where each one's spheres start
   std::vector<PlacedSphere> spheres;

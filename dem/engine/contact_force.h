@@ -40,6 +40,7 @@ struct Touch {
   Number reduced_radius = {};
   Number reduced_mass = {};    ///< of the whole bodies
   Number damper_limit = {};    ///< see damper_limit(), N s/m
+  Number shared_limit = {};    ///< see shared_limit(), N s/m
   Vec3<Number> half_velocity;  ///< half a step back: what the springs were stretched by
   Vec3<Number> velocity;       ///< now, as the last step's forces have it
   Number twist = {};           ///< mean spin of both about the normal, rad/s
@@ -61,17 +62,24 @@ struct ContactForce {
 };
 
 /// The damper that would take all of the relative velocity in one step, shared by the `touching`
-/// contacts of two bodies: an explicit damper must stay below it, or it overshoots.
+/// contacts of two bodies.
 template <typename Number>
 REPOSE_INLINE Number damper_limit(const Number& reduced_mass, double timestep,
                                   const Number& touching) {
   return reduced_mass / (timestep * touching);
 }
 
-/// All dampers of two bodies together are at most this fraction of the limit. One contact stays
-/// below it at every accepted time step; a dozen sphere pairs of two clumps that lie side by side
-/// would not. Across the contact spin counts too: 1/m_eff = 3.5/m* for spheres.
-inline constexpr double kNormalDamperFraction = 1.2;
+/// The same, shared by all that either body touches: so many contacts for its mass, 1/kg. Explicit
+/// dampers must stay below it, or they overshoot (dem/THEORY.md; RoughDeadGrains.*).
+REPOSE_INLINE double shared_limit(double contacts_a_per_kg, double contacts_b_per_kg,
+                                  double timestep) {
+  return 1 / (timestep * (contacts_a_per_kg + contacts_b_per_kg));
+}
+
+/// How much of that limit a damper may be. Along the normal it is solved with its own force
+/// (normal_force), which is stable beyond it; of two bodies alone it stays below this at every
+/// accepted time step. Across the contact it is not, and spin counts: 1/m_eff = 3.5/m* for spheres.
+inline constexpr double kNormalDamperFraction = 2.0;
 inline constexpr double kTangentialDamperFraction = .25;
 
 /// What pushes two surfaces apart: Hertz's spring, N, and the damper beside it, N s/m.
@@ -112,7 +120,7 @@ REPOSE_INLINE NormalPush<Number> brief_push(const Touch<Number>& touch, const La
 template <typename Number>
 REPOSE_INLINE Number normal_force(const NormalPush<Number>& push, const Touch<Number>& touch,
                                   const Number& approach, const Number& last) {
-  const Number half_damper = .5 * least(push.damper, kNormalDamperFraction * touch.damper_limit);
+  const Number half_damper = .5 * least(push.damper, kNormalDamperFraction * touch.shared_limit);
   const Number now = push.spring + 2 * half_damper * approach;
   return greatest(
       (now * touch.damper_limit + half_damper * last) / (touch.damper_limit + half_damper),
@@ -135,7 +143,7 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   const Number tangential_stiffness = 8 * law.reduced_shear * a;
   const Number mass_root = sqrt(normal_stiffness * touch.reduced_mass);
   const Number tangential_damper =
-      least(law.tangential_damping * mass_root, kTangentialDamperFraction * touch.damper_limit);
+      least(law.tangential_damping * mass_root, kTangentialDamperFraction * touch.shared_limit);
 
   const Number approach = -touch.velocity.dot(n);
   const Number travel = size_of(approach) * timestep;

@@ -26,7 +26,7 @@ struct PairMotion {
   Row position_a;
   Row apart;          ///< from a's centre of mass to b's; w: reduced inertia
   Row velocity;       ///< of b against a, both as rigid as they are, at a's centre; w: reduced mass
-  Row spin;           ///< of b against a
+  Row spin;           ///< of b against a; w: shared_limit(), N s/m
   Row velocity_kick;  ///< see BodyMotion; w: damper limit
   Row spin_kick;
   Row mean_spin;
@@ -76,8 +76,14 @@ REPOSE_INLINE Lanes cross_of_rows(const Lanes& u, const Lanes& v) {
   return next(u * next(v) - next(u) * v);
 }
 
+/// Those of the last step, or of this pair when it has more.
+REPOSE_INLINE double contacts_per_kg(const TouchingPair& pair, const double* at_last_step,
+                                     const BodyMotion& body) {
+  return std::max(pair.touching, *at_last_step) / body.spin.w;
+}
+
 /// Contacts' velocities are those at a's centre and, for their arms, the difference of both spins.
-REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, PairLoad& load) {
+REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, double timestep, PairLoad& load) {
   const Lanes position_a = load_row(*pair.position_a);
   const Lanes apart = load_row(*pair.position_b) - position_a;
   const Lanes spin_a = load_row(pair.a->spin);
@@ -91,6 +97,9 @@ REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, PairLoad& load) {
   store_row(apart + load_row(pair.reduced_inertia), motion.apart);
   store_row(velocity - cross_of_rows(spin_b, apart) + load_row(pair.reduced_mass), motion.velocity);
   store_row(spin_b - spin_a, motion.spin);
+  motion.spin.w =
+      shared_limit(contacts_per_kg(pair, pair.touching_a, *pair.a),
+                   pair.touching_b ? contacts_per_kg(pair, pair.touching_b, *pair.b) : 0, timestep);
   store_row(velocity_kick - cross_of_rows(kick_b, apart) + load_row(pair.damper_limit),
             motion.velocity_kick);
   store_row(kick_b - kick_a, motion.spin_kick);
@@ -165,7 +174,9 @@ REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four) {
   const Columns apart = gather(four, &PairMotion::apart);
   const Columns velocity = gather(four, &PairMotion::velocity);
   const Columns kick = gather(four, &PairMotion::velocity_kick);
-  c.spin = gather(four, &PairMotion::spin).xyz;
+  const Columns spin = gather(four, &PairMotion::spin);
+  c.spin = spin.xyz;
+  c.touch.shared_limit = spin.w;
   c.arm_a = to_a.xyz + c.touch.normal * (to_a.w - c.touch.overlap * .5);
   c.arm_b = c.arm_a - apart.xyz;
   c.reduced_inertia = apart.w;
@@ -349,7 +360,7 @@ REPOSE_INLINE double add_contacts(std::span<const Touching<Other>> touching,
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     PairLoad& load = loads[pairs[k].number];
     begin_load(pairs[k], load);
-    motions[k] = motion_of(pairs[k], load);
+    motions[k] = motion_of(pairs[k], step.timestep_s, load);
   }
   const RollingModel model = step.contacts.rolling();
   const Lanes deepest =

@@ -57,8 +57,10 @@ void add_loads(std::span<const NearGrains> pairs, std::span<const PairLoad> load
 ContactTally Interactions::apply(Bodies& bodies, const ContactStep& step, NeighbourList& list,
                                  int threads) {
   tally_ = {};
+  counts_.assign(bodies.size(), 0);
   apply_pairs(bodies, step, list, threads);
   apply_walls(bodies, step, list, threads);
+  std::copy(counts_.begin(), counts_.end(), bodies.touching.begin());
   return tally_;
 }
 
@@ -71,6 +73,11 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
       const double deepest = find_pair_loads(step, list, chunk, {loads_.data(), count});
       tally_.deepest_overlap = std::max(tally_.deepest_overlap, deepest);
       add_loads({&list.grains[first], count}, {loads_.data(), count}, bodies);
+      for (std::size_t k = 0; k < count; ++k) {
+        const NearGrains& pair = list.grains[first + k];
+        counts_[static_cast<std::size_t>(pair.a)] += loads_[k].touching;
+        counts_[static_cast<std::size_t>(pair.b)] += loads_[k].touching;
+      }
     });
     return;
   }
@@ -86,6 +93,7 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
       const auto k = static_cast<std::size_t>(list.body_pairs[at]);
       if (loads_[k].touching == 0) continue;
       const NearGrains& pair = list.grains[k];
+      counts_[body] += loads_[k].touching;
       if (pair.a == static_cast<int>(body)) {
         add_to_a(bodies, pair, loads_[k]);
       } else {
@@ -118,6 +126,7 @@ void Interactions::apply_walls(Bodies& bodies, const ContactStep& step, Neighbou
     BodyLoad& sum = bodies.load[static_cast<std::size_t>(list.walls[k].body)];
     add_row(load.force, sum.force);
     add_row(load.torque_a, sum.torque);
+    counts_[static_cast<std::size_t>(list.walls[k].body)] += load.touching;
     tally_.wall_power_w +=
         power_of(load, wall_motions_.motion[static_cast<std::size_t>(list.walls[k].wall)]);
   }

@@ -28,6 +28,7 @@ class Interactions {
 
   ContactTally tally_;
   std::vector<PairLoad> loads_;
+  std::vector<double> counts_;
   std::vector<double> deepest_;  ///< of each chunk
   WallMotions wall_motions_;
 };

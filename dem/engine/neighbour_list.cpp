@@ -13,7 +13,7 @@ namespace {
 /// Margin of a grain at rest, as a fraction of its reach.
 constexpr double kRestMargin = .001;
 /// A moving grain's margin lasts for about so many steps ...
-constexpr double kHorizonSteps = 80;
+constexpr double kHorizonSteps = 50;
 /// ... but is at most this fraction of its reach.
 constexpr double kGreatestMargin = .6;
 /// The list is made anew after so many steps while a wall moves.
@@ -204,6 +204,7 @@ void Neighbours::find_near(const Bodies& bodies, int body) {
 }
 
 void Neighbours::list_grains(const Bodies& bodies) {
+  columns_.gather(bodies);
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
     const auto ka = static_cast<std::size_t>(a);
     if (!bodies.is_present(ka)) continue;
@@ -212,18 +213,7 @@ void Neighbours::list_grains(const Bodies& bodies) {
       const auto kb = static_cast<std::size_t>(b);
       const double margin = margin_[ka] + margin_[kb];
       const auto first = static_cast<int>(next_.spheres.size());
-      for (int sa = bodies.first_sphere[ka]; sa < bodies.first_sphere[ka + 1]; ++sa) {
-        const PlacedSphere& sphere_a = bodies.spheres[static_cast<std::size_t>(sa)];
-        const double far = sphere_a.radius + bodies.bounding_radius[kb] + margin;
-        if ((sphere_a.centre - bodies.position[kb].xyz).squaredNorm() > far * far) continue;
-        for (int sb = bodies.first_sphere[kb]; sb < bodies.first_sphere[kb + 1]; ++sb) {
-          const PlacedSphere& sphere_b = bodies.spheres[static_cast<std::size_t>(sb)];
-          const double reach = sphere_a.radius + sphere_b.radius + margin;
-          if ((sphere_b.centre - sphere_a.centre).squaredNorm() < reach * reach) {
-            next_.spheres.push_back({.a = sa, .b = sb});
-          }
-        }
-      }
+      columns_.add_near(bodies, a, b, margin, next_.spheres);
       const auto count = static_cast<int>(next_.spheres.size()) - first;
       if (count > 0) next_.grains.push_back({.a = a, .b = b, .first = first, .count = count});
     }

@@ -5,6 +5,7 @@
 
 #include "dem/engine/bodies.h"
 #include "dem/engine/contact_force.h"
+#include "dem/engine/near_spheres.h"
 #include "dem/engine/touching.h"
 #include "dem/wall/wall_set.h"
 
@@ -16,12 +17,6 @@ struct NearGrains {
   int b = 0;
   int first = 0;
   int count = 0;
-};
-
-/// Two spheres that may touch before the list is made anew. Numbers of `Bodies::spheres`.
-struct NearSpheres {
-  int a = 0;
-  int b = 0;
 };
 
 /// A grain near a wall.
@@ -108,6 +103,7 @@ class Neighbours {
   std::vector<int> cell_start_;
   std::vector<int> cell_bodies_;
   std::vector<int> near_;
+  SphereColumns columns_;
 };
 
 }  // namespace repose::dem

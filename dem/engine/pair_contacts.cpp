@@ -70,6 +70,8 @@ TouchingPair touching_pair(const ContactStep& step, const NearGrains& near, std:
                        .b = &bodies.motion[b],
                        .position_a = &bodies.position[a],
                        .position_b = &bodies.position[b],
+                       .touching_a = &bodies.touching[a],
+                       .touching_b = &bodies.touching[b],
                        .law = &step.contacts.law(step.material(near.a), step.material(near.b)),
                        .number = number};
   pair.reduced_mass.w = reduced(pair.a->spin.w, pair.b->spin.w);

@@ -23,14 +23,18 @@ constexpr double kShortStep = .5;
 /// Energy that may appear between two audits, as a fraction of what is in motion and in springs.
 constexpr double kEnergyTolerance = .05;
 
+bool is_time(double timestep_s) { return timestep_s > 0 && std::isfinite(timestep_s); }
+
+std::string timestep_error(double timestep_s) {
+  return fmt::format("timestep_s is {:g}. Rule: above 0.", timestep_s);
+}
+
 SimulationSetup checked(SimulationSetup setup) {
   std::string errors;
   const auto error = [&errors](const std::string& text) {
     errors += (errors.empty() ? "" : "\n") + text;
   };
-  if (!(setup.timestep_s > 0) || !std::isfinite(setup.timestep_s)) {
-    error(fmt::format("timestep_s is {:g}. Rule: above 0.", setup.timestep_s));
-  }
+  if (!is_time(setup.timestep_s)) error(timestep_error(setup.timestep_s));
   if (setup.threads < 1) error(fmt::format("threads is {}. Rule: 1 or more.", setup.threads));
   if (setup.audit_steps < 1) {
     error(fmt::format("audit_steps is {}. Rule: 1 or more.", setup.audit_steps));
@@ -66,7 +70,7 @@ class Simulation::State {
 
   /// Throws std::out_of_range when there is no such grain.
   std::size_t index(int grain) const;
-  double time_s() const { return static_cast<double>(step) * setup.timestep_s; }
+  double time_s() const { return equal_steps.time_s(step, setup.timestep_s); }
   ContactStep contact_step() const { return {bodies, walls, setup.contacts, setup.timestep_s}; }
 
   void take_step();
@@ -83,6 +87,7 @@ class Simulation::State {
   WallSet walls;
   tbb::task_arena arena;
   std::int64_t step = 0;
+  EqualSteps equal_steps;
   Bodies bodies;
   Neighbours neighbours;
   Interactions interactions;
@@ -202,6 +207,7 @@ Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
   State& s = *state_;
   for (const Grain& grain : from.grains) add(grain);
   s.step = from.step;
+  s.equal_steps = from.equal_steps;
   s.walls.move_to(s.time_s());
   for (std::size_t k = 0; k < count; ++k) {
     s.bodies.angular_momentum.set(k, from.angular_momentum[k]);
@@ -211,6 +217,10 @@ Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
   }
   s.neighbours.update(s.bodies, s.walls, s.time_s(), s.setup.timestep_s, s.step);
   s.neighbours.restore(s.bodies, from.contacts);
+  for (const ContactState& contact : from.contacts) {
+    s.bodies.touching[static_cast<std::size_t>(contact.grain_a)] += 1;
+    if (contact.grain_b >= 0) s.bodies.touching[static_cast<std::size_t>(contact.grain_b)] += 1;
+  }
 }
 
 Simulation::~Simulation() = default;
@@ -256,6 +266,15 @@ void Simulation::remove_wall(int wall) {
   state_->setup.walls.at(static_cast<std::size_t>(wall)).is_present = false;
   state_->neighbours.forget_wall(wall);
   state_->restart_energy_audit();
+}
+
+void Simulation::set_timestep(double timestep_s) {
+  State& s = *state_;
+  if (!is_time(timestep_s)) throw std::invalid_argument(timestep_error(timestep_s));
+  if (timestep_s == s.setup.timestep_s) return;
+  s.equal_steps = {.since_step = s.step, .since_s = s.time_s()};
+  s.setup.timestep_s = timestep_s;
+  s.neighbours.expire();  // its margins are made for steps as long as they were
 }
 
 void Simulation::advance(std::int64_t steps) {
@@ -318,6 +337,7 @@ Checkpoint Simulation::checkpoint() const {
   const State& s = *state_;
   Checkpoint now;
   now.step = s.step;
+  now.equal_steps = s.equal_steps;
   now.contacts = contacts();
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     now.grains.push_back(grain(static_cast<int>(k)));

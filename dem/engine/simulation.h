@@ -62,9 +62,20 @@ struct ContactState {
   double push_n = 0;                     ///< normal force of the last step
 };
 
+/// Since when all steps are as long as they are now.
+struct EqualSteps {
+  std::int64_t since_step = 0;
+  double since_s = 0;
+
+  double time_s(std::int64_t step, double timestep_s) const {
+    return since_s + static_cast<double>(step - since_step) * timestep_s;
+  }
+};
+
 /// All that a run needs to go on bit for bit.
 struct Checkpoint {
   std::int64_t step = 0;
+  EqualSteps equal_steps = {};
   std::vector<Grain> grains;
   std::vector<Vector> angular_momentum;  ///< kg m^2/s; `Grain::spin` follows from it
   std::vector<Vector> force;             ///< of the last step, N
@@ -98,10 +109,13 @@ class Simulation {
   /// Takes a wall out.
   void remove_wall(int wall);
 
+  /// Of all steps from now on, s. Throws std::invalid_argument unless it is above 0.
+  void set_timestep(double timestep_s);
+
   /// Throws UnstableRun when the audit finds the run gone wrong.
   void advance(std::int64_t steps);
 
-  /// Of now: its walls move as they were last told to.
+  /// Of now: its walls move as they were last told to, its time step is that of the next step.
   const SimulationSetup& setup() const;
   std::int64_t step() const;
   double time_s() const;

@@ -22,6 +22,8 @@ struct TouchingPair {
   const BodyMotion* b = nullptr;
   const Row* position_a = nullptr;
   const Row* position_b = nullptr;
+  const double* touching_a = nullptr;  ///< of all that body a touched at the last step
+  const double* touching_b = nullptr;  ///< none: a wall
   const ContactLaw* law = nullptr;
   std::size_t number = 0;    ///< among the pairs that are worked on together
   double touching = 0;       ///< how many spheres

@@ -55,6 +55,7 @@ TouchingPair touching_pair(const ContactStep& step, const WallMotions& wall_moti
       .b = &wall_motions.motion[wall],
       .position_a = &step.bodies.position[body],
       .position_b = &wall_motions.position[wall],
+      .touching_a = &step.bodies.touching[body],
       .law = &step.contacts.law(step.material(near.body), step.walls.wall(near.wall).material),
       .number = number,
       .touching = static_cast<double>(touching)};

@@ -61,7 +61,6 @@ Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
   simulation.remove_wall(kDrawDownGate);
   const double opened_s = simulation.time_s();
   RestTest rest(simulation.setup());
-  const std::int64_t steps = run.steps_of(rest.interval_s());
   Flow flow;
   double last_s = 0;
   while (!rest.is_at_rest(simulation)) {
@@ -74,7 +73,7 @@ Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
     }
     flow.is_at_rest = now_s <= last_s + kLongestSettling_s;
     if (!flow.is_at_rest) break;
-    run.advance(steps);
+    run.advance_for(rest.interval_s());
     const auto below = static_cast<std::size_t>(boxes_of(simulation, protocol).below.grains);
     if (below > flow.passed_s.size()) {
       last_s = simulation.time_s() - opened_s;

@@ -115,7 +115,8 @@ ExperimentRun filled_boxes(const Model& model, const DrawDownProtocol& protocol,
   const RainPlan plan = rain_of(protocol, largest_reach_m(model));
   // The fastest fall from the top of the fill to the floor of the lower box.
   const double fastest_m_s = std::sqrt(2 * kStandardGravity_m_s2 * plan.rim_m);
-  ExperimentRun run(Simulation(bulk_setup(model, walls_of(protocol), fastest_m_s)), observers);
+  ExperimentRun run(Simulation(bulk_setup(model, walls_of(protocol), fastest_m_s)), observers,
+                    Pace(model, fastest_m_s));
   rain(run, plan, seed);
   for (const int grain : above_rim(run.simulation(), plan.rim_m)) run.simulation().remove(grain);
   return run;

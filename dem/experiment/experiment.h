@@ -45,7 +45,7 @@ struct Repeat {
   double value = 0;  ///< in the unit of the experiment; NaN for a heap
   std::uint64_t seed = 0;
   std::int64_t steps = 0;
-  double timestep_s = 0;
+  double timestep_s = 0;   ///< the shortest
   double clump_steps = 0;  ///< grains times steps, summed
   /// Other readings, named with their unit: "lowest_point_rise_mm", "grains_off_plate".
   std::map<std::string, double> readings;
@@ -59,8 +59,8 @@ using ProgressReport = std::function<bool(double fraction, const Simulation&)>;
 
 /// What a run hands out on its way, beside its reports; each may be left out.
 struct RunRecord {
-  /// Is shown each simulation of the run at its beginning, and then at the steps nearest to the
-  /// multiples of `frame_interval_s` (above 0) of its time.
+  /// Is shown each simulation of the run at its beginning, and then at the first steps at or after
+  /// the multiples of `frame_interval_s` (above 0) of its time.
   std::function<void(const Simulation&)> frame;
   double frame_interval_s = 0;
   /// Heaps only, the others are shorter: is handed what resume_heap() needs, whenever

@@ -29,26 +29,28 @@ int count_present(const Simulation& simulation) {
 }
 
 ExperimentRun::ExperimentRun(Simulation simulation, const Observers& observers,
-                             HeapProgress progress)
-    : simulation_(std::move(simulation)), observers_(observers), progress_(std::move(progress)) {}
+                             std::optional<Pace> pace, HeapProgress progress)
+    : simulation_(std::move(simulation)),
+      observers_(observers),
+      pace_(std::move(pace)),
+      progress_(std::move(progress)) {}
 
 std::int64_t ExperimentRun::steps_of(double duration_s) const {
   const double steps = std::ceil(duration_s / simulation_.setup().timestep_s);
   return static_cast<std::int64_t>(std::max(1.0, steps));
 }
 
-/// Frames are taken at the steps nearest to the multiples of their interval.
+/// Frames are taken at the first steps at or after the multiples of their interval, however the
+/// steps' length changes on the way there.
 std::int64_t ExperimentRun::next_frame_step() const {
   if (!observers_.record.frame) return std::numeric_limits<std::int64_t>::max();
-  const double steps = observers_.record.frame_interval_s / simulation_.setup().timestep_s;
-  const std::int64_t now = simulation_.step();
-  if (steps <= 1) return now + 1;
-  auto frame = static_cast<std::int64_t>(static_cast<double>(now) / steps);
-  const auto step_of = [steps](std::int64_t k) {
-    return static_cast<std::int64_t>(std::llround(static_cast<double>(k) * steps));
-  };
-  while (step_of(frame) <= now) ++frame;
-  return step_of(frame);
+  constexpr double kRounding = 1e-6;  // steps that miss it by so little are there
+  const double timestep_s = simulation_.setup().timestep_s;
+  const double steps = observers_.record.frame_interval_s / timestep_s;
+  const double now = simulation_.time_s() / timestep_s;
+  if (steps <= 1) return simulation_.step() + 1;
+  const double next = (std::floor((now + kRounding) / steps) + 1) * steps;
+  return simulation_.step() + std::llround(std::ceil(next - now - kRounding));
 }
 
 void ExperimentRun::advance(std::int64_t steps) {
@@ -66,10 +68,17 @@ void ExperimentRun::advance(std::int64_t steps) {
     simulation_.advance(stretch);
     progress_.steps_left -= stretch;
     progress_.work.steps += stretch;
+    progress_.work.shortest_timestep_s =
+        std::min(progress_.work.shortest_timestep_s, simulation_.setup().timestep_s);
     progress_.work.clump_steps += static_cast<double>(present) * static_cast<double>(stretch);
     if (now + stretch == frame_at) record.frame(simulation_);
     if (now + stretch == look_at) look();
   }
+}
+
+void ExperimentRun::advance_for(double duration_s) {
+  if (pace_) simulation_.set_timestep(pace_->timestep_s(simulation_, duration_s));
+  advance(steps_of(duration_s));
 }
 
 void ExperimentRun::report_progress(double fraction) {
@@ -89,11 +98,12 @@ void ExperimentRun::look() const {
 
 Repeat ExperimentRun::finish(double value, std::uint64_t seed,
                              std::map<std::string, double> readings) {
-  const double timestep_s = simulation_.setup().timestep_s;
+  const double shortest_s =
+      std::min(progress_.work.shortest_timestep_s, simulation_.setup().timestep_s);
   return {.value = value,
           .seed = seed,
           .steps = progress_.work.steps,
-          .timestep_s = timestep_s,
+          .timestep_s = shortest_s,
           .clump_steps = progress_.work.clump_steps,
           .readings = std::move(readings),
           .state = std::make_shared<const Simulation>(std::move(simulation_))};

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/pace.h"
 
 namespace repose::dem {
 
@@ -20,7 +22,9 @@ struct Observers {
 /// A simulation on its way through an experiment: counts its steps, reports and records them.
 class ExperimentRun {
  public:
-  ExperimentRun(Simulation simulation, const Observers& observers, HeapProgress progress = {});
+  /// `pace`: of bulks.
+  ExperimentRun(Simulation simulation, const Observers& observers, std::optional<Pace> pace = {},
+                HeapProgress progress = {});
 
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
@@ -33,6 +37,8 @@ class ExperimentRun {
   std::int64_t steps_of(double duration_s) const;
   /// Reports by itself when the steps take long. The bytes do not depend on who watches.
   void advance(std::int64_t steps);
+  /// Likewise for so long, in steps of the pace.
+  void advance_for(double duration_s);
   /// Throws Interrupted when the report asks for it, with a restart point kept.
   void report_progress(double fraction);
 
@@ -45,6 +51,7 @@ class ExperimentRun {
 
   Simulation simulation_;
   Observers observers_;
+  std::optional<Pace> pace_;
   HeapProgress progress_;
   double fraction_ = 0;  ///< as last told
 };

@@ -128,8 +128,7 @@ void begin_lift(ExperimentRun& run, const HeapProtocol& protocol) {
 /// Lifts the tube until no grain reaches up to its lower rim, and takes it away.
 void lift(ExperimentRun& run) {
   Simulation& simulation = run.simulation();
-  const RestTest rest(simulation.setup());
-  const std::int64_t steps = run.steps_of(rest.interval_s());
+  const double look_s = RestTest(simulation.setup()).interval_s();
   const double start = run.progress().start_m;
   for (;;) {
     const double highest = highest_point_m(run);
@@ -142,7 +141,7 @@ void lift(ExperimentRun& run) {
                       "Fix: a wider tube, or less friction.",
                       rim));
     }
-    run.advance(steps);
+    run.advance_for(look_s);
     run.report_progress(kLiftFrom + (kLiftTo - kLiftFrom) * rim / (.3 * start));
   }
   simulation.remove_wall(kHeapTube);
@@ -199,7 +198,8 @@ Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64
   check(model, protocol);
   SimulationSetup setup = from.setup;
   setup.threads = model.threads;
-  ExperimentRun run(Simulation(std::move(setup), from.checkpoint), {report, record}, from.progress);
+  ExperimentRun run(Simulation(std::move(setup), from.checkpoint), {report, record},
+                    pace_of_rain(model), from.progress);
   run.advance(from.progress.steps_left);
   const bool is_full = from.progress.stage > HeapStage::settle_in_tube;
   return finish_heap(is_full ? std::move(run) : filled(std::move(run), model, protocol, seed),

@@ -50,6 +50,7 @@ RainPlan rain_of(const HeapProtocol& protocol, double reach_m, std::optional<dou
 Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
   Checkpoint now = filled.checkpoint();
   now.step = 0;
+  now.equal_steps = {};
   for (const int grain : above_rim(filled, protocol.tube_height_m)) {
     now.is_present[static_cast<std::size_t>(grain)] = false;
   }
@@ -66,13 +67,17 @@ Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
 
 }  // namespace
 
+Pace pace_of_rain(const Model& model, std::optional<double> spout_m) {
+  return {model, fastest_rain_m_s(largest_reach_m(model), spout_m)};
+}
+
 ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
                          const Observers& observers, std::optional<double> spout_m) {
   const double reach = largest_reach_m(model);
   const double tall = protocol.tube_height_m + kTaller * reach;
   return {Simulation(bulk_setup(model, {plate_of(protocol), tube_of(protocol, tall)},
                                 fastest_rain_m_s(reach, spout_m))),
-          observers};
+          observers, pace_of_rain(model, spout_m)};
 }
 
 void pour(ExperimentRun& filling, const HeapProtocol& protocol, std::uint64_t seed,
@@ -90,6 +95,7 @@ ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),
           filling.observers(),
+          pace_of_rain(model, spout_m),
           {.work = filling.progress().work}};
 }
 

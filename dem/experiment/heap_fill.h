@@ -11,6 +11,9 @@ namespace repose::dem {
 inline constexpr int kHeapPlate = 0;
 inline constexpr int kHeapTube = 1;
 
+/// Of a tube that it rains or is poured into, until the heap lies.
+Pace pace_of_rain(const Model& model, std::optional<double> spout_m = {});
+
 /// The tube on its plate, made taller to be heaped over, and empty.
 ///
 /// Grains rain into it, or fall from a spout: its height over the plate, m.

@@ -12,6 +12,7 @@ namespace repose::dem {
 struct Work {
   std::int64_t steps = 0;
   double clump_steps = 0;
+  double shortest_timestep_s = 1e300;  ///< as long as there are no steps
 };
 
 /// What a rest test remembers from one look to the next.

@@ -13,11 +13,10 @@ void begin_settling(ExperimentRun& run, HeapStage stage) {
 bool settle(ExperimentRun& run, double fraction) {
   HeapProgress& progress = run.progress();
   RestTest rest(run.simulation().setup(), progress.rest);
-  const std::int64_t steps = run.steps_of(rest.interval_s());
   while (!rest.is_at_rest(run.simulation())) {
     if (run.simulation().time_s() > progress.until_s) return false;
     progress.rest = rest.memory();
-    run.advance(steps);
+    run.advance_for(rest.interval_s());
     run.report_progress(fraction);
   }
   return true;

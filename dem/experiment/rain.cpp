@@ -91,7 +91,7 @@ void Rain::rain_up_to(ExperimentRun& run, double height_m) {
        highest = highest_point_m(run)) {
     const double layer_m = highest + 1.01 * reach_m_;
     add_layer(run, layer_m);
-    run.advance(run.steps_of(2 * reach_m_ / speed_m_s(layer_m)));
+    run.advance_for(2 * reach_m_ / speed_m_s(layer_m));
     run.report_progress(kFillFraction * (highest - plan_.floor_m) / (height_m - plan_.floor_m));
   }
 }

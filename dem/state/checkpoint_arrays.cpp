@@ -13,6 +13,8 @@ namespace {
 constexpr const char* kAbsent = "absent_";  // before the names of grains that have left
 constexpr int kContactNumbers = 7;
 constexpr const char* kPush = "contact_push";
+constexpr const char* kEqualSince = "equal_steps_since";
+constexpr const char* kEqualSince_s = "equal_steps_since_s";
 
 std::vector<int> grains_that_are(bool present, const Checkpoint& checkpoint) {
   std::vector<int> numbers;
@@ -148,6 +150,17 @@ std::vector<ContactState> contacts_in(const ArrayReader& arrays, const Checkpoin
   return contacts;
 }
 
+/// States of before version 7, whose steps were all as long, hold none.
+EqualSteps equal_steps_in(const ArrayReader& fields, std::int64_t step) {
+  const EqualSteps equal = {.since_step = fields.integers(kEqualSince, 1).take(),
+                            .since_s = fields.numbers(kEqualSince_s, 1).take()};
+  if (equal.since_step >= 0 && equal.since_step <= step && equal.since_s >= 0) return equal;
+  throw std::invalid_argument(
+      fmt::format("arrays {} and {} hold {} and {:g}, must be from 0 to the "
+                  "step, {}, and 0 or more",
+                  kEqualSince, kEqualSince_s, equal.since_step, equal.since_s, step));
+}
+
 Checkpoint with_room_for(std::size_t grains) {
   Checkpoint checkpoint;
   checkpoint.grains.resize(grains);
@@ -179,6 +192,8 @@ void add_checkpoint(const Checkpoint& checkpoint, const Simulation& simulation, 
   fields.add(of_absent.take());
   add_contacts(fields, checkpoint.contacts);
   fields.integers("step", 1, {checkpoint.step});
+  fields.integers(kEqualSince, 1, {checkpoint.equal_steps.since_step});
+  fields.numbers(kEqualSince_s, 1, {checkpoint.equal_steps.since_s});
 }
 
 Checkpoint checkpoint_in(const VtkPoints& points, const SimulationSetup& setup) {
@@ -194,6 +209,7 @@ Checkpoint checkpoint_in(const VtkPoints& points, const SimulationSetup& setup) 
   checkpoint.contacts = contacts_in(fields, checkpoint, setup);
   checkpoint.step = fields.integers("step", 1).take();
   if (checkpoint.step < 0) throw std::invalid_argument("array step is below 0");
+  if (fields.has(kEqualSince)) checkpoint.equal_steps = equal_steps_in(fields, checkpoint.step);
   return checkpoint;
 }
 

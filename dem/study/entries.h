@@ -38,8 +38,9 @@ double bulk_step_s(const Model& model);
 double step_on_wall_s(const Model& model, int bonded);
 double step_on_grains_s(const Model& model, int bonded);
 
-/// Time step of the model's grains on a plane that they meet this fast, s: for readings that no
-/// single impact decides.
+/// Time steps of the model's grains that meet each other or a plane this fast, s (time_step.h): of
+/// grains that roll or slide, and of bulks.
 double course_timestep_s(const Model& model, double speed_m_s);
+double bulk_timestep_s(const Model& model, double speed_m_s);
 
 }  // namespace repose::dem

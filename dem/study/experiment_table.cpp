@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "dem/engine/time_step.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/study/entries.h"
 
@@ -87,6 +88,11 @@ double step_on_grains_s(const Model& model, int bonded) {
 }
 
 double course_timestep_s(const Model& model, double speed_m_s) {
+  return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, kCourseFraction)
+      .timestep_s;
+}
+
+double bulk_timestep_s(const Model& model, double speed_m_s) {
   return bulk_setup(model, {study_wall(Plane{})}, speed_m_s).timestep_s;
 }
 

@@ -23,7 +23,7 @@ double cost_of_fill_s(const Model& model, const Protocol& protocol) {
   const double tube_m3 = std::numbers::pi * radius * radius * fill.tube_height_m;
   const double grains = kPacked * tube_m3 / model.grain.volume_m3;
   const double simulated_s = fill.tube_height_m / kRises_m_s + kTap_s * fill.taps.value_or(0);
-  return bulk_step_s(model) * grains * simulated_s / course_timestep_s(model, kFallSpeed_m_s);
+  return bulk_step_s(model) * grains * simulated_s / bulk_timestep_s(model, kFallSpeed_m_s);
 }
 
 }  // namespace

@@ -35,11 +35,11 @@ double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {
 
 double cost_of_heap_s(const Model& model, const Protocol& protocol) {
   // Once the tube is a diameter up, what is left in it falls out.
-  constexpr double kFillAndSettle_s = 1.5, kFallSpeed_m_s = 2;
+  constexpr double kFillAndSettle_s = 1.5, kSpeed_m_s = .5;
   const auto& heap = std::get<HeapProtocol>(protocol);
   const double simulated_s = heap.tube_diameter_m / heap.lift_speed_m_s + kFillAndSettle_s;
   return bulk_step_s(model) * grains_in(heap, model.grain) * simulated_s /
-         course_timestep_s(model, kFallSpeed_m_s);
+         bulk_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace

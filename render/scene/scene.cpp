@@ -38,7 +38,7 @@ bool is_pane(const PlacedWall& wall) {
 
 Scene scene_of(const dem::SavedState& state) {
   const dem::Checkpoint& checkpoint = state.checkpoint;
-  const double time_s = static_cast<double>(checkpoint.step) * state.setup.timestep_s;
+  const double time_s = checkpoint.equal_steps.time_s(checkpoint.step, state.setup.timestep_s);
   Scene scene{.shapes = shapes_of(state.setup.kinds),
               .grains = {},
               .walls = placed(state.setup.walls, time_s)};

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include "calibrate/experiment/heap_views.h"
+#include "dem/engine/time_step.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/placing.h"
+#include "dem/experiment/rain.h"
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
 #include "render/scene/scene.h"
@@ -22,7 +25,8 @@ namespace {
 using dem::Vector;
 
 constexpr int kViews = 18;
-constexpr double kTheirStep = 1.25;
+/// Of the stable step of falling grains.
+constexpr double kTheirFraction = .175;
 
 /// The inside of a tube as an STL file.
 std::string tube_file(double radius_m, double height_m) {
@@ -48,7 +52,8 @@ double time_theirs(const dem::HeapProtocol& protocol, const dem::Repeat& ours, i
   const testing::TemporaryFolder folder;
   dem::SimulationSetup setup = ours.state->setup();
   setup.walls = {{.shape = dem::Plane{}, .material = 1}};
-  setup.timestep_s *= kTheirStep;
+  setup.timestep_s =
+      dem::accurate_timestep_s(setup, dem::fastest_rain_m_s(dem::reach_m(setup)), kTheirFraction);
   const dem::ClumpShape& shape = setup.kinds.front().shape;
   const double radius = .5 * protocol.tube_diameter_m;
   const double cloud = .05 + .003 * grains;  // loose enough to find a place for each

@@ -14,8 +14,9 @@ struct HeapTimes {
 };
 
 /// Runs both, turn about. LIGGGHTS gets the same clump, materials and rolling friction (its own), a
-/// step 1.25 times ours, and a tube of triangles. It fills the tube in its own way, by a fall from
-/// a loose cloud, and then lifts and settles for as long as ours took.
+/// step of .175 of the stable one (ours are up to .3), and a tube of triangles. It fills the tube
+/// in its own way, by a fall from a loose cloud, and then lifts and settles for as long as ours
+/// took.
 /// @param settings  of the study, as "experiment.heap.grains=100"
 HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds);
 

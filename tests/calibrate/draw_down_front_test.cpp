@@ -124,13 +124,12 @@ constexpr dem::DrawDownProtocol kBoxes{
 constexpr int kSlopeGrains = 7;
 
 /// Balls of 20 mm, soft so that the run is short.
-dem::Repeat simulated() {
+dem::Repeat simulated(int seed) {
   dem::Model model = dem::test::sphere_bench();
   model.grain = dem::sphere_shape(.01);
   model.grain_material = {"ball", 1000, 1e6, .3};
   model.grain_grain = {.3, .4, .03};
-  // (steeper slopes of so few grains are round, and refused in pictures)
-  return dem::run_draw_down(model, kBoxes, 1);
+  return dem::run_draw_down(model, kBoxes, seed);
 }
 
 /// A silhouette of some of the grains.
@@ -160,23 +159,37 @@ vision::Picture up_to_the_wall(const vision::Picture& picture, bool is_left) {
                          {.x = from, .y = 0, .width = to - from, .height = picture.height});
 }
 
-TEST(DrawDownFront, PhotographsOfTheHeapAndTheSlopesShowTheSame) {
-  const dem::Repeat repeat = simulated();
-  const DrawDownFront front = draw_down_front(render::scene_of(*repeat.state), kBoxes);
-  const auto lower = vision::measure_repose_angle(
-      drawn(*repeat.state, [](const dem::Vector& place) { return place.z() < kBoxes.drop_m; }));
-  ASSERT_TRUE(lower.angle_rad) << lower.reason;
-  EXPECT_NEAR(*lower.angle_rad / kDegree, front.lower_angle_deg, .5);
-  double sum = 0;
-  for (const bool is_left : {true, false}) {
-    const vision::Picture picture = drawn(*repeat.state, [is_left](const dem::Vector& place) {
+struct Measured {
+  std::optional<double> lower_rad;
+  std::optional<double> upper_left_rad, upper_right_rad;
+};
+
+/// As in photographs of the heap and of each slope.
+Measured measured(const dem::Simulation& simulation) {
+  const auto upper = [&](bool is_left) {
+    const vision::Picture picture = drawn(simulation, [is_left](const dem::Vector& place) {
       return place.z() > kBoxes.drop_m && (place.x() < 0) == is_left;
     });
-    const auto slope = vision::measure_repose_angle(up_to_the_wall(picture, is_left));
-    ASSERT_TRUE(slope.angle_rad) << slope.reason;
-    sum += *slope.angle_rad / kDegree;
+    return vision::measure_repose_angle(up_to_the_wall(picture, is_left)).angle_rad;
+  };
+  const vision::Picture heap =
+      drawn(simulation, [](const dem::Vector& place) { return place.z() < kBoxes.drop_m; });
+  return {vision::measure_repose_angle(heap).angle_rad, upper(true), upper(false)};
+}
+
+// Some slopes of so few grains are round, and refused in pictures.
+TEST(DrawDownFront, PhotographsOfTheHeapAndTheSlopesShowTheSame) {
+  for (int seed = 1; seed <= 12; ++seed) {
+    const dem::Repeat repeat = simulated(seed);
+    const Measured photo = measured(*repeat.state);
+    if (!photo.lower_rad || !photo.upper_left_rad || !photo.upper_right_rad) continue;
+    const DrawDownFront front = draw_down_front(render::scene_of(*repeat.state), kBoxes);
+    EXPECT_NEAR(*photo.lower_rad / kDegree, front.lower_angle_deg, .5);
+    const double upper_rad = (*photo.upper_left_rad + *photo.upper_right_rad) / 2;
+    EXPECT_NEAR(upper_rad / kDegree, front.upper_angle_deg, .5);
+    return;
   }
-  EXPECT_NEAR(sum / 2, front.upper_angle_deg, .5);
+  FAIL() << "no run has slopes that can all be measured in photographs";
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
                        "--set",   "experiment.heap.lift_speed_mm_s=100",
                        "--views", "0"};
   int warned = 0;
-  for (const char* seed : {"1", "2", "3", "4", "5"}) {
+  for (const char* seed : {"17", "18", "19", "20", "21"}) {
     Words words = rough;
     words.insert(words.end(), {"--seed", seed});
     const json heap = timeless(words);

@@ -59,7 +59,7 @@ TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
 TEST(HeapRestart, GoesOnFromWithinALongStretch) {
   // So many grains' steps lie between two looks that some are taken within a stretch.
   Model model = test::soft_bench();
-  model.stiffness_factor = 1e-2;
+  model.stiffness_factor = .05;
   Repeat whole;
   RunRecord record;
   std::vector<HeapRestart> within;
@@ -101,7 +101,7 @@ struct Frames {
   }
 };
 
-TEST(Frames, AreTakenAtTheirTimesToAStep) {
+TEST(Frames, AreTakenAtTheFirstStepAtTheirTimes) {
   Frames frames;
   // Less than the time between two reports, and no multiple of the time step.
   const double interval_s = 1.2345e-3;
@@ -111,8 +111,10 @@ TEST(Frames, AreTakenAtTheirTimesToAStep) {
   for (const auto& times_s : frames.times_s) {
     ASSERT_GT(times_s.size(), 100U);
     for (std::size_t k = 0; k < times_s.size(); ++k) {
-      // The filling's steps are twice as long; half of one to either side.
-      EXPECT_NEAR(times_s[k], static_cast<double>(k) * interval_s, 1.01 * repeat.timestep_s);
+      // Steps of grains at rest are up to 1.6 times as long as the shortest.
+      const double late_s = times_s[k] - static_cast<double>(k) * interval_s;
+      EXPECT_GE(late_s, -1e-6 * repeat.timestep_s);
+      EXPECT_LE(late_s, 1.7 * repeat.timestep_s);
     }
   }
   EXPECT_NEAR(repeat.readings.at("time_s"), frames.times_s[1].back(), interval_s);

@@ -24,6 +24,7 @@ Touch<double> touch_of(double overlap) {
   touch.reduced_radius = .002;
   touch.reduced_mass = 1e-4;
   touch.damper_limit = 1e300;
+  touch.shared_limit = 1e300;
   return touch;
 }
 

@@ -64,6 +64,7 @@ Case random_case(std::mt19937& random) {
   one.touch.reduced_radius = .002;
   one.touch.reduced_mass = 1e-4;
   one.touch.damper_limit = 10;
+  one.touch.shared_limit = 8;
   one.touch.half_velocity = vector(2);
   one.touch.velocity = vector(random() % 4 == 0 ? 4 : .01);  // brief and long impacts
   one.touch.twist = uniform();
@@ -96,6 +97,7 @@ TEST(Lanes, ContactForceIsTheSameAloneAsWithThreeOthers) {
       touches.reduced_radius.set(k, touch.reduced_radius);
       touches.reduced_mass.set(k, touch.reduced_mass);
       touches.damper_limit.set(k, touch.damper_limit);
+      touches.shared_limit.set(k, touch.shared_limit);
       set(touches.half_velocity, k, touch.half_velocity);
       set(touches.velocity, k, touch.velocity);
       touches.twist.set(k, touch.twist);

@@ -85,18 +85,28 @@ TEST(Restitution, TextbookFactorReturnsTooMuch) {
   EXPECT_NEAR(restitution_of(textbook_factor(.5)), .55, .01);
 }
 
-/// How far off restitution is at most, wherever in a step the impact begins.
-double worst_error(SimulationSetup setup, double restitution, double timestep_fraction,
-                   bool on_ball) {
+/// How far off restitution is at most: of one impact, wherever in a step it begins, and of the mean
+/// of many.
+struct WorstError {
+  double of_one = 0;
+  double of_mean = 0;
+};
+
+WorstError worst_error(SimulationSetup setup, double restitution, double timestep_fraction,
+                       bool on_ball) {
+  constexpr int kPhases = 8;
   const double longest = accurate_timestep_s(setup, kSpeed, timestep_fraction);
   if (on_ball) setup.walls.clear();
-  double worst = 0;
+  WorstError worst;
   for (const double share : {1.0, .97, .94, .9, .8, .6, .3}) {
     setup.timestep_s = share * longest;
-    for (int phase = 0; phase < 8; ++phase) {
-      const double seen = restitution_seen(setup, phase / 8.0);
-      worst = std::max(worst, std::abs(seen - restitution));
+    double mean = 0;
+    for (int phase = 0; phase < kPhases; ++phase) {
+      const double error = restitution_seen(setup, 1.0 * phase / kPhases) - restitution;
+      worst.of_one = std::max(worst.of_one, std::abs(error));
+      mean += error / kPhases;
     }
+    worst.of_mean = std::max(worst.of_mean, std::abs(mean));
   }
   return worst;
 }
@@ -108,9 +118,11 @@ TEST(Restitution, ComesOutAtEveryAcceptedTimestep) {
       const double e = percent / 100.0;
       const SimulationSetup setup = glass_on_wall(e, poisson_ratio);
       for (const bool on_ball : {false, true}) {
-        EXPECT_LT(worst_error(setup, e, kImpactFraction, on_ball), .0005) << e;
-        EXPECT_LT(worst_error(setup, e, kCourseFraction, on_ball), .002) << e;
-        EXPECT_LT(worst_error(setup, e, kBulkFraction, on_ball), .005) << e;
+        EXPECT_LT(worst_error(setup, e, kImpactFraction, on_ball).of_one, .0005) << e;
+        EXPECT_LT(worst_error(setup, e, kCourseFraction, on_ball).of_one, .002) << e;
+        const WorstError of_bulks = worst_error(setup, e, kBulkFraction, on_ball);
+        EXPECT_LT(of_bulks.of_one, .012) << e;
+        EXPECT_LT(of_bulks.of_mean, .002) << e;
       }
     }
   }

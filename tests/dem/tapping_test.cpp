@@ -26,7 +26,8 @@ ExperimentRun with_a_ball(const Observers& observers) {
 }
 
 TEST(Tapping, ABallRisesByTheSquareOfItsRestitutionOfTheDrop) {
-  // sqrt(2 g h) onto the plate, e of it off: e^2 h.
+  // sqrt(2 g h) onto the plate, e of it off: e^2 h. A ball that lies there at the tap does not meet
+  // the plate within a step, where impacts are averaged: e is up to .02 higher (THEORY, Time step).
   double lowest = 1, highest = 0;
   bool is_tapped = false;
   const ProgressReport report;
@@ -41,7 +42,7 @@ TEST(Tapping, ABallRisesByTheSquareOfItsRestitutionOfTheDrop) {
   const double rest = run.simulation().grain(0).position.z();
   is_tapped = true;
   tap(run, 1, kTap_m);
-  EXPECT_NEAR(highest - rest, kRestitution * kRestitution * kTap_m, .02 * kTap_m);
+  EXPECT_NEAR(highest - rest, kRestitution * kRestitution * kTap_m, .03 * kTap_m);
   EXPECT_LT(lowest, rest);
   EXPECT_NEAR(run.simulation().grain(0).position.z(), rest, 1e-5) << "and comes to rest";
 }

@@ -95,7 +95,7 @@ TEST(LongTimestep, ElasticImpactsMakeLittleEnergy) {
   for (const double share : {1.0, .94, .88, .8}) {
     for (const bool on_ball : {false, true}) {
       EXPECT_LT(energy_made(on_ball, share * kCourseFraction), 1e-3) << share;
-      EXPECT_LT(energy_made(on_ball, share * kBulkFraction), 3e-3) << share;
+      EXPECT_LT(energy_made(on_ball, share * kBulkFraction), 6e-3) << share;
     }
   }
   EXPECT_GT(energy_made(false, kBulkFraction), 1e-5) << "some: the steps are long";
@@ -165,6 +165,52 @@ TEST(StableTimestep, SettledPackingStaysAtRestAtTheAcceptedStep) {
   EXPECT_LT(simulation.energies().kinetic_j, 1e-9 * fall_j);
   for (int k = 0; k < 16; ++k) {
     EXPECT_LT((simulation.grain(k).position - rest[static_cast<std::size_t>(k)]).norm(), 1e-6);
+  }
+}
+
+/// A cube of 27 balls that are pressed together by six walls, each ball in six contacts.
+Simulation pressed_cube(const PairCoefficients& pair, double timestep_s) {
+  constexpr double kPitch_m = 1.99 * kBallRadius_m;
+  SimulationSetup setup = ball_scene(pair);
+  setup.gravity = Vector::Zero();
+  setup.timestep_s = timestep_s;
+  setup.audit_steps = 1 << 20;
+  const Vector up = Vector::UnitZ();
+  for (int k = 0; k < 6; ++k) {
+    const Vector inwards = (k % 2 == 0 ? 1 : -1) * Vector::Unit(k / 2);
+    setup.walls.push_back({.shape = Plane{},
+                           .material = 1,
+                           .pose = {.position = -1.5 * kPitch_m * inwards,
+                                    .orientation = Quaternion::FromTwoVectors(up, inwards)}});
+  }
+  Simulation simulation(std::move(setup));
+  for (int k = 0; k < 27; ++k) {
+    const int layer = k / 9, row = k / 3 % 3, column = k % 3;
+    const Vector cell(layer - 1, row - 1, column - 1);
+    const Vector turn(std::sin(1.0 + k), std::sin(2.1 * k), std::cos(3.3 * k));
+    simulation.add(
+        {.position = kPitch_m * cell, .velocity = 1e-4 * turn, .spin = 1e-2 * turn.reverse()});
+  }
+  return simulation;
+}
+
+/// Kinetic energy of such a cube after 5000 steps, over that at the beginning.
+double motion_left(const PairCoefficients& pair, double timestep_fraction) {
+  Simulation probe = pressed_cube(pair, 1e-9);
+  probe.advance(1);
+  Simulation simulation = pressed_cube(pair, timestep_fraction * *probe.stable_timestep_s());
+  const double before = simulation.energies().kinetic_j;
+  simulation.advance(5000);
+  return simulation.energies().kinetic_j / before;
+}
+
+// The dampers of six contacts are added up.
+TEST(RoughDeadGrains, PressedTogetherComeToRestInAcceptedSteps) {
+  for (const double e : {.01, .06, .2, .5}) {
+    for (const double fraction : {kImpactFraction, kCourseFraction, kBulkFraction}) {
+      EXPECT_LT(motion_left({.restitution = e, .sliding_friction = 100}, fraction), 1e-6)
+          << "restitution " << e << ", step " << fraction;
+    }
   }
 }
 
