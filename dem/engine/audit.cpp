@@ -9,6 +9,7 @@ namespace repose::dem {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrices = std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>>;
 
 int material_of(const Bodies& bodies, int body) {
   return bodies.material[static_cast<std::size_t>(body)];
@@ -81,11 +82,27 @@ void add_stiffness(const Bodies& bodies, std::size_t body, const Vector& point,
   sum += motion.transpose() * stiffness * motion;
 }
 
+/// Of any of these matrices, none of which has a negative one.
+double greatest_eigenvalue(const Matrices& matrices) {
+  // No eigenvalue is above the norm: few others are needed after that of the greatest norm.
+  const auto norm = [](const Matrix6& matrix) { return matrix.squaredNorm(); };
+  const Matrix6& first = *std::ranges::max_element(matrices, {}, norm);
+  double greatest = 0;
+  const auto see = [&greatest](const Matrix6& matrix) {
+    if (matrix.squaredNorm() <= greatest * greatest) return;
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(matrix, Eigen::EigenvaluesOnly);
+    greatest = std::max(greatest, solver.eigenvalues()[5]);
+  };
+  see(first);
+  for (const Matrix6& matrix : matrices) see(matrix);
+  return greatest;
+}
+
 }  // namespace
 
 std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& walls,
                                         const ContactTable& contacts, const NeighbourList& list) {
-  std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>> sums(bodies.size(), Matrix6::Zero());
+  Matrices sums(bodies.size(), Matrix6::Zero());
   bool any = false;
   for_each_touch(bodies, walls, contacts, list, [&](const AuditedTouch& touch) {
     const double radius = std::sqrt(touch.reduced_radius * touch.overlap);
@@ -106,14 +123,7 @@ std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& wal
     add_stiffness(bodies, kb, touch.point, 2 * stiffness, sums[kb]);
   });
   if (!any) return std::nullopt;
-  double greatest = 0;
-  for (const Matrix6& sum : sums) {
-    // The trace is above every eigenvalue: most bodies need no more than that.
-    if (sum.trace() <= greatest) continue;
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(sum, Eigen::EigenvaluesOnly);
-    greatest = std::max(greatest, solver.eigenvalues()[5]);
-  }
-  return std::sqrt(greatest);
+  return std::sqrt(greatest_eigenvalue(sums));
 }
 
 Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,

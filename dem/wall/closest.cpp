@@ -34,7 +34,11 @@ Closest closest(const Plane& /*plane*/, const Vector& point) {
 }
 
 Closest closest(const Box& box, const Vector& point) {
-  const auto [distance, normal] = nearest_on_box<Vector>(box.half_size, point);
+  const Vector& half = box.half_size;
+  if (point.z() > half.z() && std::abs(point.x()) <= half.x() && std::abs(point.y()) <= half.y()) {
+    return {.distance = point.z() - half.z(), .normal = Vector::UnitZ()};
+  }
+  const auto [distance, normal] = nearest_on_box<Vector>(half, point);
   return {.distance = distance, .normal = normal};
 }
 
