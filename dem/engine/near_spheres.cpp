@@ -46,16 +46,20 @@ void add_pairs(const SphereRange& of_a, const SphereRange& of_b, const Vector& c
 
 }  // namespace
 
-void SphereColumns::gather(const Bodies& bodies) {
-  centre_.resize(bodies.spheres.size() + kLanes);
-  radius_.resize(bodies.spheres.size() + kLanes);
-  for (std::size_t k = 0; k < bodies.spheres.size(); ++k) {
+void SphereColumns::resize(std::size_t spheres) {
+  centre_.resize(spheres + kLanes);
+  radius_.resize(spheres + kLanes);
+}
+
+void SphereColumns::take_in(const Bodies& bodies, std::size_t body) {
+  const auto end = static_cast<std::size_t>(bodies.first_sphere[body + 1]);
+  for (auto k = static_cast<std::size_t>(bodies.first_sphere[body]); k < end; ++k) {
     centre_.set(k, bodies.spheres[k].centre);
     radius_[k] = bodies.spheres[k].radius;
   }
 }
 
-void SphereColumns::add_near(const Bodies& bodies, int a, int b, double margin,
+void SphereColumns::add_near(const Bodies& bodies, const Margins& margins, int a, int b,
                              std::vector<NearSpheres>& near) const {
   const auto range = [&](int body) {
     const auto k = static_cast<std::size_t>(body);
@@ -64,8 +68,9 @@ void SphereColumns::add_near(const Bodies& bodies, int a, int b, double margin,
                        .first = static_cast<std::size_t>(bodies.first_sphere[k]),
                        .end = static_cast<std::size_t>(bodies.first_sphere[k + 1])};
   };
-  const auto kb = static_cast<std::size_t>(b);
-  add_pairs(range(a), range(b), bodies.position[kb].xyz, bodies.bounding_radius[kb], margin, near);
+  add_pairs(range(a), range(b), margins.position(b).xyz,
+            bodies.bounding_radius[static_cast<std::size_t>(b)],
+            margins.margin_m(a) + margins.margin_m(b), near);
 }
 
 }  // namespace repose::dem

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dem/engine/bodies.h"
+#include "dem/engine/margins.h"
 
 namespace repose::dem {
 
@@ -12,13 +13,15 @@ struct NearSpheres {
   int b = 0;
 };
 
-/// All spheres of the bodies, where they were when this was made: an array for each field.
+/// All spheres of the bodies, where they were when each was taken in: an array for each field.
 class SphereColumns {
  public:
-  void gather(const Bodies& bodies);
+  void resize(std::size_t spheres);
+  void take_in(const Bodies& bodies, std::size_t body);
 
-  /// Adds the spheres of two bodies that are less than `margin` apart, in order: by a's, then b's.
-  void add_near(const Bodies& bodies, int a, int b, double margin,
+  /// Adds the spheres of two bodies that may come to touch within their margins, in order: by a's,
+  /// then b's.
+  void add_near(const Bodies& bodies, const Margins& margins, int a, int b,
                 std::vector<NearSpheres>& near) const;
 
  private:

@@ -5,19 +5,11 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "dem/engine/four_contacts.h"
-
 namespace repose::dem {
 namespace {
 
-/// Margin of a grain at rest, as a fraction of its reach.
-constexpr double kRestMargin = .001;
-/// A moving grain's margin lasts for about so many steps ...
-constexpr double kHorizonSteps = 50;
-/// ... but is at most this fraction of its reach.
-constexpr double kGreatestMargin = .6;
-/// The list is made anew after so many steps while a wall moves.
-constexpr std::int64_t kWallSteps = 80;
+/// All is listed anew after about so many steps while a wall moves.
+constexpr double kWallSteps = 80;
 
 template <typename Pair>
 bool comes_before(const Pair& x, const Pair& y) {
@@ -30,230 +22,226 @@ bool comes_before(const NearWall& x, const NearWall& y) {
   return std::tie(x.body, x.wall) < std::tie(y.body, y.wall);
 }
 
-/// Both lists are sorted, in groups and within them: one walk over both finds the common entries.
+/// Groups of near spheres or facets, and what each of these remembers. Sorted, in groups and within
+/// them.
 template <typename Group, typename Item>
-void carry(const std::vector<Group>& old_groups, const std::vector<Item>& old_items,
-           const std::vector<ContactMemory>& old_memories, const std::vector<Group>& groups,
-           const std::vector<Item>& items, std::vector<ContactMemory>& memories) {
-  memories.assign(items.size(), ContactMemory{});
-  auto old_group = old_groups.begin();
-  for (const Group& group : groups) {
-    while (old_group != old_groups.end() && comes_before(*old_group, group)) ++old_group;
-    if (old_group == old_groups.end()) return;
-    if (comes_before(group, *old_group)) continue;
-    auto k = static_cast<std::size_t>(old_group->first);
-    const std::size_t end = k + static_cast<std::size_t>(old_group->count);
-    for (int item = group.first; item < group.first + group.count; ++item) {
-      const auto to = static_cast<std::size_t>(item);
-      while (k < end && comes_before(old_items[k], items[to])) ++k;
-      if (k == end) break;
-      if (!comes_before(items[to], old_items[k])) memories[to] = old_memories[k];
-    }
+struct Groups {
+  std::vector<Group>& groups;
+  std::vector<Item>& items;
+  std::vector<ContactMemory>& memories;
+
+  void clear() {
+    groups.clear();
+    items.clear();
+    memories.clear();
+  }
+};
+
+Groups<NearGrains, NearSpheres> pairs_in(NeighbourList& list) {
+  return {list.grains, list.spheres, list.memories};
+}
+Groups<NearWall, NearFacet> walls_in(NeighbourList& list) {
+  return {list.walls, list.facets, list.wall_memories};
+}
+
+/// Gives the items of a group the memories that they had in the same group of an old list.
+template <typename Group, typename Item>
+void carry(const Groups<Group, Item>& old, const Group& old_group, const Groups<Group, Item>& now,
+           const Group& group) {
+  auto k = static_cast<std::size_t>(old_group.first);
+  const std::size_t end = k + static_cast<std::size_t>(old_group.count);
+  for (int item = group.first; item < group.first + group.count; ++item) {
+    const auto to = static_cast<std::size_t>(item);
+    while (k < end && comes_before(old.items[k], now.items[to])) ++k;
+    if (k == end) return;
+    if (!comes_before(now.items[to], old.items[k])) now.memories[to] = old.memories[k];
   }
 }
 
-/// Distance from one of four rows to the other, squared.
-REPOSE_INLINE Lanes distance2(const Row* from, const Row* to) {
-  return gather([&](std::size_t k) { return load_row(to[k]) - load_row(from[k]); })
-      .xyz.squared_norm();
+/// The same, of all groups.
+template <typename Group, typename Item>
+void carry_all(const Groups<Group, Item>& old, const Groups<Group, Item>& now) {
+  auto old_group = old.groups.begin();
+  for (const Group& group : now.groups) {
+    while (old_group != old.groups.end() && comes_before(*old_group, group)) ++old_group;
+    if (old_group == old.groups.end()) return;
+    if (!comes_before(group, *old_group)) carry(old, *old_group, now, group);
+  }
 }
 
-/// Whether some body's spheres can have come farther than its margin, by moving and by turning.
-REPOSE_FOR_EACH_MACHINE
-bool has_left_margin(const Bodies& bodies, const std::vector<Row>& position,
-                     const std::array<std::vector<double>, 4>& orientation,
-                     const std::vector<double>& margin) {
-  for (std::size_t k = 0; k < bodies.size(); k += kLanes) {
-    Lanes left = load(&margin[k]);
-    if (!bodies.is_round) {
-      Lanes turned;
-      for (std::size_t i = 0; i < 4; ++i) {
-        turned += load(&bodies.orientation[i][k]) * load(&orientation[i][k]);
-      }
-      const Lanes way = sqrt(greatest(Lanes(0), 1 - turned * turned));
-      left = left - 2 * load(&bodies.bounding_radius[k]) * way;
-    }
-    const LaneMask has_left =
-        (left <= Lanes(0)) | (distance2(&position[k], &bodies.position[k]) > left * left);
-    if (any(has_left & (load(&bodies.presence[k]) > Lanes(0)))) return true;
+/// Makes a list from an old one, in order: most groups as they were, some in place of those of
+/// bodies that have moved.
+template <typename Group, typename Item, typename HasMoved>
+class Renewal {
+ public:
+  /// @param has_moved  tells of a group of the old list whether it is left out
+  Renewal(const Groups<Group, Item>& old, const Groups<Group, Item>& now, const HasMoved& has_moved)
+      : old_(old), now_(now), has_moved_(has_moved), at_(old.groups.begin()) {
+    now_.clear();
   }
-  return false;
-}
+
+  /// Makes a group of the items that `add_items` adds at the end, if there are any, with the
+  /// memories that they had.
+  template <typename AddItems>
+  void add(Group group, const AddItems& add_items) {
+    keep_until(&group);
+    group.first = static_cast<int>(now_.items.size());
+    add_items();
+    group.count = static_cast<int>(now_.items.size()) - group.first;
+    if (group.count == 0) return;
+    now_.memories.resize(now_.items.size());
+    now_.groups.push_back(group);
+    if (at_ != old_.groups.end() && !comes_before(group, *at_)) carry(old_, *at_, now_, group);
+  }
+
+  void finish() { keep_until(nullptr); }
+
+ private:
+  using At = typename std::vector<Group>::const_iterator;
+
+  /// Takes over what comes before a group, or all that is left.
+  void keep_until(const Group* next) {
+    const auto is_before = [&](const At& at) {
+      return at != old_.groups.end() && (next == nullptr || comes_before(*at, *next));
+    };
+    while (is_before(at_)) {
+      const At first = at_;
+      while (is_before(at_) && !has_moved_(*at_)) ++at_;
+      if (first != at_) keep(first, at_);
+      while (is_before(at_) && has_moved_(*at_)) ++at_;
+    }
+  }
+
+  void keep(const At& first, const At& end) {
+    const std::ptrdiff_t from = first->first;
+    const std::ptrdiff_t to = (end - 1)->first + (end - 1)->count;
+    const int shift = static_cast<int>(now_.items.size()) - first->first;
+    now_.items.insert(now_.items.end(), old_.items.begin() + from, old_.items.begin() + to);
+    now_.memories.insert(now_.memories.end(), old_.memories.begin() + from,
+                         old_.memories.begin() + to);
+    for (At at = first; at != end; ++at) {
+      now_.groups.push_back(*at);
+      now_.groups.back().first += shift;
+    }
+  }
+
+  Groups<Group, Item> old_, now_;
+  const HasMoved& has_moved_;
+  At at_;
+};
 
 }  // namespace
 
 void Neighbours::update(const Bodies& bodies, const WallSet& walls, double time_s,
-                        double timestep_s, std::int64_t step) {
-  if (!is_due(bodies, step)) return;
-  set_margins(bodies, walls, time_s, timestep_s, step);
-  sort_into_cells(bodies);
-  next_.grains.clear();
-  next_.spheres.clear();
+                        double timestep_s) {
+  const bool is_all_due = is_expired_ || time_s >= due_s_;
+  if (!is_all_due && !margins_.is_used_up(bodies)) return;
+  if (is_all_due) {
+    has_moved_.assign(bodies.size(), 1);
+  } else {
+    margins_.note_half_used(bodies, has_moved_);
+  }
+  renew_margins(bodies, timestep_s);
+  if (is_all_due) set_wall_margin(bodies, walls, time_s, timestep_s);
+  find_pairs(bodies);
   list_grains(bodies);
-  next_.walls.clear();
-  next_.facets.clear();
   list_walls(bodies, walls);
-  carry_memories();
+  std::swap(list_, next_);
+  note_touching();
   index_by_body(bodies.size());
   is_expired_ = false;
 }
 
-bool Neighbours::is_due(const Bodies& bodies, std::int64_t step) const {
-  return is_expired_ || step >= due_step_ ||
-         has_left_margin(bodies, position_, orientation_, margin_);
+void Neighbours::renew_margins(const Bodies& bodies, double timestep_s) {
+  margins_.resize(bodies);
+  columns_.resize(bodies.spheres.size());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (has_moved_[k] == 0) continue;
+    margins_.renew(bodies, k, timestep_s);
+    columns_.take_in(bodies, k);
+  }
 }
 
-void Neighbours::set_margins(const Bodies& bodies, const WallSet& walls, double time_s,
-                             double timestep_s, std::int64_t step) {
-  position_ = bodies.position;
-  orientation_ = bodies.orientation;
-  margin_.resize(bodies.presence.size());  // longer, as the bodies' own arrays
+void Neighbours::set_wall_margin(const Bodies& bodies, const WallSet& walls, double time_s,
+                                 double timestep_s) {
   Eigen::AlignedBox3d occupied;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const double turning =
-        bodies.is_round ? 0 : bodies.bounding_radius[k] * bodies.motion[k].spin.xyz.norm();
-    const double speed = bodies.velocity[k].norm() + turning;
-    margin_[k] = bodies.bounding_radius[k] *
-                 std::min(kGreatestMargin, kRestMargin + kHorizonSteps * timestep_s * speed /
-                                                             bodies.bounding_radius[k]);
-    if (bodies.is_present(k)) {
-      const Vector reach = Vector::Constant(bodies.bounding_radius[k]);
-      occupied.extend(bodies.position[k].xyz - reach);
-      occupied.extend(bodies.position[k].xyz + reach);
-    }
+    if (!bodies.is_present(k)) continue;
+    const Vector reach = Vector::Constant(bodies.bounding_radius[k]);
+    occupied.extend(bodies.position[k].xyz - reach);
+    occupied.extend(bodies.position[k].xyz + reach);
   }
-  const double wall_speed = walls.greatest_speed(time_s, occupied);
-  wall_margin_ = wall_speed * timestep_s * static_cast<double>(kWallSteps);
-  due_step_ = wall_speed > 0 ? step + kWallSteps : INT64_MAX;
+  const double speed = walls.greatest_speed(time_s, occupied);
+  wall_margin_ = speed * timestep_s * kWallSteps;
+  // Half a step earlier: times are rounded.
+  due_s_ = speed > 0 ? time_s + (kWallSteps - .5) * timestep_s : HUGE_VAL;
 }
 
-void Neighbours::sort_into_cells(const Bodies& bodies) {
-  Vector low = Vector::Constant(1e300);
-  Vector high = Vector::Constant(-1e300);
-  double widest = 0;
-  std::size_t present = 0;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies.is_present(k)) continue;
-    ++present;
-    low = low.cwiseMin(bodies.position[k].xyz);
-    high = high.cwiseMax(bodies.position[k].xyz);
-    widest = std::max(widest, bodies.bounding_radius[k] + margin_[k]);
-  }
-  if (present == 0) low = high = Vector::Zero();
-  corner_ = low;
-  cell_size_ = std::max(2 * widest, 1e-12);
-  // Stray grains far away must not make for more cells than grains.
-  const Vector extent = high - low;
-  const double max_cells = 8.0 * static_cast<double>(present) + 64;
-  const auto cells_at = [&extent](double size) {
-    return ((extent.array() / size).floor() + 1).matrix().eval();
-  };
-  while (cells_at(cell_size_).prod() > max_cells) cell_size_ *= 1.3;
-  cells_ = cells_at(cell_size_).cast<int>();
-
-  cell_of_.assign(bodies.size(), -1);
-  cell_start_.assign(static_cast<std::size_t>(cells_.prod()) + 1, 0);
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies.is_present(k)) continue;
-    const Eigen::Vector3i at =
-        ((bodies.position[k].xyz - corner_) / cell_size_).array().floor().cast<int>().matrix();
-    cell_of_[k] = (at.z() * cells_.y() + at.y()) * cells_.x() + at.x();
-    ++cell_start_[static_cast<std::size_t>(cell_of_[k]) + 1];
-  }
-  for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  cell_bodies_.resize(present);
-  for (std::size_t k = bodies.size(); k-- > 0;) {
-    if (cell_of_[k] < 0) continue;
-    auto& end = cell_start_[static_cast<std::size_t>(cell_of_[k]) + 1];
-    cell_bodies_[static_cast<std::size_t>(--end)] = static_cast<int>(k);
-  }
-  // Filled from the back, every entry now holds the start of its own cell, shifted by one.
-  cell_start_.erase(cell_start_.begin());
-  cell_start_.push_back(static_cast<int>(present));
-}
-
-void Neighbours::find_near(const Bodies& bodies, int body) {
-  near_.clear();
-  const auto k = static_cast<std::size_t>(body);
-  const int cell = cell_of_[k];
-  const int x = cell % cells_.x();
-  const int y = cell / cells_.x() % cells_.y();
-  const int z = cell / (cells_.x() * cells_.y());
-  const int from_x = std::max(x - 1, 0);
-  const int to_x = std::min(x + 1, cells_.x() - 1);
-  for (int cz = std::max(z - 1, 0); cz <= std::min(z + 1, cells_.z() - 1); ++cz) {
-    for (int cy = std::max(y - 1, 0); cy <= std::min(y + 1, cells_.y() - 1); ++cy) {
-      const int row = (cz * cells_.y() + cy) * cells_.x();
-      const auto first = static_cast<std::size_t>(row) + static_cast<std::size_t>(from_x);
-      const auto last = static_cast<std::size_t>(row) + static_cast<std::size_t>(to_x);
-      const int begin = cell_start_[first];
-      const int end = cell_start_[last + 1];
-      for (int at = begin; at < end; ++at) {
-        const int other = cell_bodies_[static_cast<std::size_t>(at)];
-        if (other <= body) continue;
-        const auto o = static_cast<std::size_t>(other);
-        const double reach =
-            bodies.bounding_radius[k] + margin_[k] + bodies.bounding_radius[o] + margin_[o];
-        if ((bodies.position[o].xyz - bodies.position[k].xyz).squaredNorm() < reach * reach) {
-          near_.push_back(other);
-        }
+/// All pairs of which one has moved, in order.
+void Neighbours::find_pairs(const Bodies& bodies) {
+  grid_.sort(bodies, margins_);
+  pairs_.clear();
+  for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+    const auto k = static_cast<std::size_t>(body);
+    if (has_moved_[k] == 0 || !bodies.is_present(k)) continue;
+    near_.clear();
+    grid_.add_near(body, near_);
+    for (const int other : near_) {
+      if (other > body) {
+        pairs_.push_back({.a = body, .b = other});
+      } else if (has_moved_[static_cast<std::size_t>(other)] == 0) {
+        pairs_.push_back({.a = other, .b = body});
       }
     }
   }
-  std::sort(near_.begin(), near_.end());
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const NearGrains& x, const NearGrains& y) { return comes_before(x, y); });
 }
 
 void Neighbours::list_grains(const Bodies& bodies) {
-  columns_.gather(bodies);
-  for (int a = 0; a < static_cast<int>(bodies.size()); ++a) {
-    const auto ka = static_cast<std::size_t>(a);
-    if (!bodies.is_present(ka)) continue;
-    find_near(bodies, a);
-    for (const int b : near_) {
-      const auto kb = static_cast<std::size_t>(b);
-      const double margin = margin_[ka] + margin_[kb];
-      const auto first = static_cast<int>(next_.spheres.size());
-      columns_.add_near(bodies, a, b, margin, next_.spheres);
-      const auto count = static_cast<int>(next_.spheres.size()) - first;
-      if (count > 0) next_.grains.push_back({.a = a, .b = b, .first = first, .count = count});
-    }
+  const auto has_moved = [&](const NearGrains& pair) {
+    return (has_moved_[static_cast<std::size_t>(pair.a)] |
+            has_moved_[static_cast<std::size_t>(pair.b)]) != 0;
+  };
+  Renewal renewal(pairs_in(list_), pairs_in(next_), has_moved);
+  for (const NearGrains& pair : pairs_) {
+    renewal.add(pair, [&] { columns_.add_near(bodies, margins_, pair.a, pair.b, next_.spheres); });
   }
+  renewal.finish();
 }
 
 void Neighbours::list_walls(const Bodies& bodies, const WallSet& walls) {
+  const auto has_moved = [&](const NearWall& pair) {
+    return has_moved_[static_cast<std::size_t>(pair.body)] != 0;
+  };
+  Renewal renewal(walls_in(list_), walls_in(next_), has_moved);
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
     const auto k = static_cast<std::size_t>(body);
-    if (!bodies.is_present(k)) continue;
-    const double margin = margin_[k] + wall_margin_;
+    if (has_moved_[k] == 0 || !bodies.is_present(k)) continue;
+    const double margin = margins_.margin_m(body) + wall_margin_;
     for (int wall = 0; wall < walls.size(); ++wall) {
       if (!walls.is_present(wall)) continue;
       walls.facets_near(wall, bodies.position[k].xyz, bodies.bounding_radius[k] + margin, near_);
       if (near_.empty()) continue;
-      const auto first = static_cast<int>(next_.facets.size());
-      for (int s = bodies.first_sphere[k]; s < bodies.first_sphere[k + 1]; ++s) {
-        const PlacedSphere& sphere = bodies.spheres[static_cast<std::size_t>(s)];
-        walls.facets_near(wall, sphere.centre, sphere.radius + margin, near_);
-        for (const int facet : near_) next_.facets.push_back({.sphere = s, .facet = facet});
-      }
-      const auto count = static_cast<int>(next_.facets.size()) - first;
-      if (count > 0) {
-        next_.walls.push_back({.body = body, .wall = wall, .first = first, .count = count});
-      }
+      renewal.add({.body = body, .wall = wall}, [&] {
+        for (int s = bodies.first_sphere[k]; s < bodies.first_sphere[k + 1]; ++s) {
+          const PlacedSphere& sphere = bodies.spheres[static_cast<std::size_t>(s)];
+          walls.facets_near(wall, sphere.centre, sphere.radius + margin, near_);
+          for (const int facet : near_) next_.facets.push_back({.sphere = s, .facet = facet});
+        }
+      });
     }
   }
+  renewal.finish();
 }
 
-void Neighbours::carry_memories() {
-  carry(list_.grains, list_.spheres, list_.memories, next_.grains, next_.spheres, next_.memories);
-  carry(list_.walls, list_.facets, list_.wall_memories, next_.walls, next_.facets,
-        next_.wall_memories);
-  std::swap(list_, next_);
-  note_touching();
+void Neighbours::look_up_again() {
+  for (TouchingChunk& chunk : list_.touching) chunk.is_known = false;
 }
 
 void Neighbours::note_touching() {
   list_.touching.resize((list_.grains.size() + kPairsTogether - 1) / kPairsTogether);
-  for (TouchingChunk& chunk : list_.touching) chunk.is_known = false;
+  look_up_again();
   list_.has_touched.resize(list_.memories.size());
   for (std::size_t k = 0; k < list_.memories.size(); ++k) {
     list_.has_touched[k] = list_.memories[k].radius > 0 ? 1 : 0;
@@ -365,10 +353,8 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
       ++groups.back().count;
     }
   }
-  carry(remembered.grains, remembered.spheres, remembered.memories, list_.grains, list_.spheres,
-        list_.memories);
-  carry(remembered.walls, remembered.facets, remembered.wall_memories, list_.walls, list_.facets,
-        list_.wall_memories);
+  carry_all(pairs_in(remembered), pairs_in(list_));
+  carry_all(walls_in(remembered), walls_in(list_));
   note_touching();
   const auto touching = [](const std::vector<ContactMemory>& memories) {
     return std::count_if(memories.begin(), memories.end(),

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "dem/engine/bodies.h"
+#include "dem/engine/cell_grid.h"
 #include "dem/engine/contact_force.h"
+#include "dem/engine/margins.h"
 #include "dem/engine/near_spheres.h"
 #include "dem/engine/touching.h"
 #include "dem/wall/wall_set.h"
@@ -50,15 +52,18 @@ struct NeighbourList {
   std::vector<ContactMemory> wall_memories;  ///< one for each of `facets`
 };
 
-/// Keeps a NeighbourList up to date: made anew once some grain has used up its margin. The margin
-/// grows with a grain's speed, so that a few fast grains do not cost the many slow ones.
+/// Keeps a NeighbourList up to date. Once some grain has used up its margin, what is near it and
+/// near those that soon will have is listed anew.
 class Neighbours {
  public:
   const NeighbourList& list() const { return list_; }
   NeighbourList& list() { return list_; }
 
-  /// The list must be made anew before the next step.
+  /// All must be listed anew before the next step.
   void expire() { is_expired_ = true; }
+
+  /// What touching pairs share is looked up again before the next step: it depends on its length.
+  void look_up_again();
 
   /// A grain or a wall that is taken out touches nothing any more. Expires the list.
   void forget_grain(int grain);
@@ -70,40 +75,30 @@ class Neighbours {
   /// when one of them is of spheres that are not near each other.
   void restore(const Bodies& bodies, const std::vector<ContactState>& contacts);
 
-  /// Makes the list anew if it is due.
-  void update(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
-              std::int64_t step);
+  /// Brings the list up to date if that is due.
+  void update(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s);
 
  private:
-  bool is_due(const Bodies& bodies, std::int64_t step) const;
-  void set_margins(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
-                   std::int64_t step);
-  void sort_into_cells(const Bodies& bodies);
-  void find_near(const Bodies& bodies, int body);
+  void renew_margins(const Bodies& bodies, double timestep_s);
+  void set_wall_margin(const Bodies& bodies, const WallSet& walls, double time_s,
+                       double timestep_s);
+  void find_pairs(const Bodies& bodies);
   void list_grains(const Bodies& bodies);
   void list_walls(const Bodies& bodies, const WallSet& walls);
-  void carry_memories();
   void note_touching();
   void index_by_body(std::size_t bodies);
 
   NeighbourList list_;
   NeighbourList next_;
   bool is_expired_ = true;
-  std::int64_t due_step_ = 0;
+  double due_s_ = 0;  ///< all is listed anew then: a wall will have used up its margin
   double wall_margin_ = 0;
-  // Where the grains were when the list was made, and how far each may move.
-  std::vector<Row> position_;
-  std::array<std::vector<double>, 4> orientation_;
-  std::vector<double> margin_;
-  // Grid of cubic cells that hold grains by their centres.
-  Vector corner_ = Vector::Zero();
-  double cell_size_ = 1;
-  Eigen::Vector3i cells_ = Eigen::Vector3i::Ones();
-  std::vector<int> cell_of_;
-  std::vector<int> cell_start_;
-  std::vector<int> cell_bodies_;
-  std::vector<int> near_;
+  Margins margins_;
+  std::vector<std::uint8_t> has_moved_;  ///< whether each body is listed anew now, 1 or 0
+  CellGrid grid_;
   SphereColumns columns_;
+  std::vector<int> near_;
+  std::vector<NearGrains> pairs_;  ///< of bodies that have moved, not counted yet
 };
 
 }  // namespace repose::dem

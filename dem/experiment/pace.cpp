@@ -10,8 +10,8 @@
 namespace repose::dem {
 namespace {
 
-/// Speeds are taken in rungs, each by this much faster than the one below: a change of the step
-/// costs a new neighbour list.
+/// Speeds are taken in rungs, each by this much faster than the one below, so that the step seldom
+/// changes.
 constexpr double kRung = 1.15;
 /// The lowest rung, 1.15^-16: a tenth of the usual speed.
 constexpr int kLowestRung = -16;
