@@ -25,6 +25,10 @@ std::optional<double> level_face_m(const PlacedWall& wall) {
   return std::nullopt;
 }
 
+const dem::ClumpShape& shape_of(const Scene& scene, const PlacedGrain& grain) {
+  return scene.shapes[static_cast<std::size_t>(grain.shape)];
+}
+
 }  // namespace
 
 Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes) {
@@ -36,21 +40,26 @@ Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes
     }
     return bounds;
   }
-  const std::vector<double> reaches_m = reaches_of(scene);
+  // Spheres first: inside of what they take up lie all but a few surfaces, which need not be turned.
   for (const PlacedGrain& grain : scene.grains) {
-    const auto kind = static_cast<std::size_t>(grain.shape);
     const dem::Vector middle = axes * grain.pose.position;
-    const dem::Vector reach = dem::Vector::Constant(reaches_m[kind]);
-    // Grains inside add nothing, however they lie.
-    if (bounds.contains(Eigen::AlignedBox3d(middle - reach, middle + reach))) continue;
-    const dem::ClumpShape& shape = scene.shapes[kind];
     const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
-    for (const dem::ClumpSphere& sphere : shape.spheres) {
+    for (const dem::ClumpSphere& sphere : shape_of(scene, grain).spheres) {
       const dem::Vector centre = middle + turn * sphere.centre;
       bounds.extend((centre.array() - sphere.radius).matrix());
       bounds.extend((centre.array() + sphere.radius).matrix());
     }
-    for (const dem::Vector& vertex : shape.surface.vertices) bounds.extend(middle + turn * vertex);
+  }
+  const std::vector<double> reaches_m = reaches_of(scene);
+  for (const PlacedGrain& grain : scene.grains) {
+    const dem::Vector middle = axes * grain.pose.position;
+    const double reach_m = reaches_m[static_cast<std::size_t>(grain.shape)];
+    const dem::Vector reach = dem::Vector::Constant(reach_m);
+    if (bounds.contains(Eigen::AlignedBox3d(middle - reach, middle + reach))) continue;
+    const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
+    for (const dem::Vector& vertex : shape_of(scene, grain).surface.vertices) {
+      bounds.extend(middle + turn * vertex);
+    }
   }
   return bounds;
 }
