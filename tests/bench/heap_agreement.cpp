@@ -72,26 +72,17 @@ std::vector<dem::ClumpSphere> spheres_in(const std::filesystem::path& file, int 
   return spheres;
 }
 
-void run(const std::string& program, const testing::TemporaryFolder& folder,
-         const std::vector<std::string>& words) {
-  const testing::Finished done = testing::run_program(program, folder, words);
-  if (done.exit_code == 0) return;
-  constexpr std::size_t kShown = 600;
-  const std::size_t from = done.out.size() - std::min(done.out.size(), kShown);
-  throw std::runtime_error(program + " failed: " + done.out.substr(from));
-}
-
 Heap their_heap(const calibrate::StudyExport& decks, calibrate::ExportTarget target, int number) {
   const testing::TemporaryFolder folder;
-  for (const calibrate::ExportedFile& file : decks.files) folder.write(file.name, file.text);
+  calibrate::write_export(folder.path(), decks.files);
   std::vector<dem::ClumpSphere> spheres;
   if (target == calibrate::ExportTarget::yade) {
-    run("yade", folder, {"-n", "-x", "-j", "1", "heap.py", std::to_string(number + 1)});
+    testing::run_deck(folder, target, "heap", {std::to_string(number + 1)});
     spheres = spheres_in(folder.path() / "heap.txt", 0, 0);
   } else {
     constexpr int kSmallestSeed = 20000, kApart = 1000, kHead = 9, kIdAndType = 2;
     const std::string seed = std::to_string(prime_from(kSmallestSeed + kApart * number));
-    run("liggghts", folder, {"-in", "heap.lig", "-log", "none", "-var", "seed", seed});
+    testing::run_deck(folder, target, "heap", {"-var", "seed", seed});
     spheres = spheres_in(folder.path() / "heap.dump", kHead, kIdAndType);
   }
   return heap_of(dem::heap_envelopes(spheres, kViews));

@@ -1,82 +1,74 @@
 #include "tests/bench/heap_race.h"
 
-#include <cmath>
-#include <numbers>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "calibrate/experiment/heap_views.h"
-#include "dem/engine/time_step.h"
+#include "calibrate/export/export.h"
+#include "calibrate/study/coefficients.h"
 #include "dem/experiment/experiment.h"
-#include "dem/experiment/placing.h"
-#include "dem/experiment/rain.h"
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
 #include "render/scene/scene.h"
 #include "tests/bench/cpu_time.h"
-#include "tests/bench/liggghts_race.h"
-#include "tests/peers/liggghts.h"
+#include "tests/peers/exported.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::bench {
 namespace {
 
-using dem::Vector;
+using calibrate::ExportTarget;
 
 constexpr int kViews = 18;
-/// Of the stable step of falling grains.
-constexpr double kTheirFraction = .175;
+/// Of the exported deck's step, which is half of our shortest. It is the step at which heaps are
+/// simulated with LIGGGHTS: .175 of the stable one.
+constexpr double kLongerSteps = 5;
 
-/// The inside of a tube as an STL file.
-std::string tube_file(double radius_m, double height_m) {
-  constexpr int kSides = 96;
-  const auto corner = [&](int side, double z) {
-    const double turn = 2 * std::numbers::pi * side / kSides;
-    return fmt::format("vertex {:.9g} {:.9g} {:.9g}\n", radius_m * std::cos(turn),
-                       radius_m * std::sin(turn), z);
-  };
-  std::string text = "solid tube\n";
-  const auto add = [&text](const std::string& corners) {
-    text += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n";
-  };
-  for (int k = 0; k < kSides; ++k) {
-    add(corner(k, 0) + corner(k + 1, 0) + corner(k + 1, height_m));
-    add(corner(k, 0) + corner(k + 1, height_m) + corner(k, height_m));
+/// The same deck for the same time, in longer steps.
+std::string with_longer_steps(const std::string& deck) {
+  std::istringstream lines(deck);
+  std::string longer;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string command, name, style;
+    double number = 0;
+    if (words >> command; command == "run" && words >> number) {
+      line = fmt::format("run {:.0f}", number / kLongerSteps);
+    } else if (words >> name >> style >> number; command == "variable" && name == "dt") {
+      line = fmt::format("variable dt equal {:.17g}", kLongerSteps * number);
+    }
+    longer += line + '\n';
   }
-  return text + "endsolid tube\n";
+  return longer;
+}
+
+/// The values that the study gives coefficients which are sought.
+std::vector<calibrate::FittedValue> values_of(const dem::Study& study) {
+  std::vector<calibrate::FittedValue> values;
+  for (const calibrate::NamedCoefficient& named : calibrate::coefficients_of(study)) {
+    if (named.coefficient.value) {
+      values.push_back({.name = named.name, .value = *named.coefficient.value});
+    }
+  }
+  return values;
 }
 
 /// CPU time of LIGGGHTS's own heap.
-double time_theirs(const dem::HeapProtocol& protocol, const dem::Repeat& ours, int grains) {
+double time_theirs(const calibrate::StudyExport& decks) {
   const testing::TemporaryFolder folder;
-  dem::SimulationSetup setup = ours.state->setup();
-  setup.walls = {{.shape = dem::Plane{}, .material = 1}};
-  setup.timestep_s =
-      dem::accurate_timestep_s(setup, dem::fastest_rain_m_s(dem::reach_m(setup)), kTheirFraction);
-  const dem::ClumpShape& shape = setup.kinds.front().shape;
-  const double radius = .5 * protocol.tube_diameter_m;
-  const double cloud = .05 + .003 * grains;  // loose enough to find a place for each
-  const double fall_s = std::sqrt(2 * cloud / dem::kStandardGravity_m_s2) + .3;
-  folder.write("clump.txt", clump_file(shape));
-  folder.write("tube.stl", tube_file(radius, cloud + .05));
-  testing::DeckOptions options;
-  options.start = fmt::format(
-      "region box block -{0} {0} -{0} {0} -.02 {1} units box\n"
-      "create_box {2} box",
-      2 * protocol.plate_m, 2 * cloud + .5, setup.contacts.size());
-  options.insertion =
-      "fix tube all mesh/surface file tube.stl type 2\n"
-      "fix tube_wall all wall/gran model hertz tangential history rolling_friction cdt mesh "
-      "n_meshes 1 meshes tube\n" +
-      pouring_commands(shape, setup.contacts.material(0).density_kg_m3, radius, cloud, grains);
-  options.integrator = "multisphere";
-  const auto steps = [&setup](double s) { return static_cast<int>(s / setup.timestep_s); };
-  const std::string runs = fmt::format(
-      "thermo 1000000\nrun 1\nunfix pour\nrun {}\n"
-      "fix lift all move/mesh mesh tube linear 0 0 {:.17g}\nrun {}\n",
-      steps(fall_s), protocol.lift_speed_m_s, steps(ours.readings.at("time_s")));
-  return testing::run_liggghts(folder, testing::deck_of(setup, options) + runs).cpu_s;
+  for (const calibrate::ExportedFile& file : decks.files) {
+    const bool is_heap = file.name == "heap.lig";
+    folder.write(file.name, is_heap ? with_longer_steps(file.text) : file.text);
+  }
+  const double theirs_s = testing::run_deck(folder, ExportTarget::liggghts, "heap").cpu_s;
+  if (!std::filesystem::exists(folder.path() / "heap.dump")) {
+    throw std::runtime_error("LIGGGHTS ended before its heap was written");
+  }
+  return theirs_s;
 }
 
 }  // namespace
@@ -90,6 +82,9 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
   model.grain = dem::build_grain(study.grain).shape;
   model.threads = 1;
   const auto protocol = study.protocol<dem::HeapProtocol>();
+  const calibrate::StudyExport decks =
+      calibrate::export_study(study, model.grain, values_of(study),
+                              {.target = ExportTarget::liggghts, .takes_approximate = true});
   HeapTimes times;
   for (int round = 0; round < rounds; ++round) {
     const double start = cpu_s();
@@ -100,8 +95,9 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
                   [](double /*fraction*/) { return true; });
     times.views_s.push_back(cpu_s() - done);
     times.grains = static_cast<int>(ours.readings.at("grains"));
-    if (testing::has_liggghts())
-      times.theirs_s.push_back(time_theirs(protocol, ours, times.grains));
+    if (testing::has_program_for(ExportTarget::liggghts)) {
+      times.theirs_s.push_back(time_theirs(decks));
+    }
   }
   return times;
 }

@@ -8,15 +8,14 @@ namespace repose::bench {
 /// The sample's heap, filled, lifted and settled: here, in LIGGGHTS, and its pictures.
 struct HeapTimes {
   std::vector<double> ours_s;    ///< CPU time
-  std::vector<double> theirs_s;  ///< CPU time of the same seconds of a heap
+  std::vector<double> theirs_s;  ///< CPU time
   std::vector<double> views_s;   ///< CPU time of drawing and measuring our heap from 18 sides
   int grains = 0;
 };
 
-/// Runs both, turn about. LIGGGHTS gets the same clump, materials and rolling friction (its own), a
-/// step of .175 of the stable one (ours are up to .3), and a tube of triangles. It fills the tube
-/// in its own way, by a fall from a loose cloud, and then lifts and settles for as long as ours
-/// took.
+/// Runs both, turn about. LIGGGHTS runs the exported deck, in steps of .175 of the stable one (ours
+/// are up to .3): the same clump, materials and rolling friction, a fill from a loose column, the
+/// lift, and the rest that the deck gives heaps to settle.
 /// @param settings  of the study, as "experiment.heap.grains=100"
 HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds);
 

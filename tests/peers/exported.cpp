@@ -39,21 +39,6 @@ std::string last_of(const std::string& text) {
   return text.substr(text.size() - std::min(text.size(), kShown));
 }
 
-/// All that the deck prints.
-std::string run_deck(const TemporaryFolder& folder, ExportTarget target, const std::string& deck,
-                     const std::vector<std::string>& more = {}) {
-  const Program program = program_of(target);
-  const std::string file = deck + program.ending;
-  std::vector<std::string> arguments = {"-in", file, "-log", "none"};
-  if (target == ExportTarget::yade) arguments = {"-n", "-x", file};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const Finished done = run_program(program.name, folder, arguments);
-  if (done.exit_code != 0) {
-    throw std::runtime_error(file + " failed: " + last_of(done.out) + last_of(done.err));
-  }
-  return done.out;
-}
-
 /// The number after "reading: NAME ".
 double reading_in(const std::string& out, const std::string& name) {
   const std::string key = "\nreading: " + name + ' ';
@@ -104,6 +89,20 @@ void write_decks(const TemporaryFolder& folder, const dem::Study& study,
 
 }  // namespace
 
+Finished run_deck(const TemporaryFolder& folder, ExportTarget target, const std::string& deck,
+                  const std::vector<std::string>& arguments) {
+  const Program program = program_of(target);
+  const std::string file = deck + program.ending;
+  std::vector<std::string> words = {"-in", file, "-log", "none"};
+  if (target == ExportTarget::yade) words = {"-n", "-x", "-j", "1", file};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  Finished done = run_program(program.name, folder, words);
+  if (done.exit_code != 0) {
+    throw std::runtime_error(file + " failed: " + last_of(done.out) + last_of(done.err));
+  }
+  return done;
+}
+
 dem::Study short_study(dem::RollingModel rolling, double restitution) {
   dem::Study study;
   study.model.grain_material = {"ball", 1000, 1e7, .3};
@@ -133,12 +132,12 @@ Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, Expo
   const TemporaryFolder folder;
   write_decks(folder, study, grain, target);
   Readings readings;
-  const std::string dropped = run_deck(folder, target, "drop");
+  const std::string dropped = run_deck(folder, target, "drop").out;
   readings.drop_mm = target == ExportTarget::yade
                          ? reading_in(dropped, "drop_mm")
                          : mean_rise_mm(folder, "drop", study.protocol<dem::DropProtocol>().grains);
-  readings.tilt_deg = reading_in(run_deck(folder, target, "tilt"), "half_mm_slip_deg");
-  readings.roll_mm = reading_in(run_deck(folder, target, "roll"), "roll_mm");
+  readings.tilt_deg = reading_in(run_deck(folder, target, "tilt").out, "half_mm_slip_deg");
+  readings.roll_mm = reading_in(run_deck(folder, target, "roll").out, "roll_mm");
   return readings;
 }
 
@@ -147,7 +146,7 @@ double reading_of(const dem::Study& study, const dem::ClumpShape& grain, ExportT
                   const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   write_decks(folder, study, grain, target);
-  return reading_in(run_deck(folder, target, deck, arguments), name);
+  return reading_in(run_deck(folder, target, deck, arguments).out, name);
 }
 
 double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target,

@@ -34,6 +34,10 @@ double reading_of(const dem::Study& study, const dem::ClumpShape& grain,
                   calibrate::ExportTarget target, const std::string& deck, const std::string& name,
                   const std::vector<std::string>& arguments = {});
 
+/// Runs a deck that lies in the folder, with further arguments of its program. Throws as above.
+Finished run_deck(const TemporaryFolder& folder, calibrate::ExportTarget target,
+                  const std::string& deck, const std::vector<std::string>& arguments = {});
+
 /// Mean rebound of the export's drop or drop_on_grains, run. Throws as above.
 double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain,
                      calibrate::ExportTarget target, const std::string& deck, int grains);
