@@ -28,18 +28,24 @@ constexpr int kViews = 18;
 /// simulated with LIGGGHTS: .175 of the stable one.
 constexpr double kLongerSteps = 5;
 
-/// The same deck for the same time, in longer steps.
-std::string with_longer_steps(const std::string& deck) {
+/// The same deck in longer steps; the fill as long as it was, lift and rest together as told.
+std::string in_longer_steps(const std::string& deck, double after_fill_s) {
   std::istringstream lines(deck);
   std::string longer;
+  double step_s = 0;
+  int runs = 0;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string command, name, style;
     double number = 0;
-    if (words >> command; command == "run" && words >> number) {
-      line = fmt::format("run {:.0f}", number / kLongerSteps);
-    } else if (words >> name >> style >> number; command == "variable" && name == "dt") {
-      line = fmt::format("variable dt equal {:.17g}", kLongerSteps * number);
+    words >> command;
+    if (command == "variable" && words >> name >> style >> number && name == "dt") {
+      step_s = number;
+      line = fmt::format("variable dt equal {:.17g}", kLongerSteps * step_s);
+    } else if (command == "run" && words >> number) {
+      const double run_s = runs == 0 ? number * step_s : runs == 1 ? after_fill_s : 0;
+      line = fmt::format("run {:.0f}", run_s / (kLongerSteps * step_s));
+      ++runs;
     }
     longer += line + '\n';
   }
@@ -58,11 +64,12 @@ std::vector<calibrate::FittedValue> values_of(const dem::Study& study) {
 }
 
 /// CPU time of LIGGGHTS's own heap.
-double time_theirs(const calibrate::StudyExport& decks) {
+/// @param after_fill_s  of its lift and rest
+double time_theirs(const calibrate::StudyExport& decks, double after_fill_s) {
   const testing::TemporaryFolder folder;
   for (const calibrate::ExportedFile& file : decks.files) {
     const bool is_heap = file.name == "heap.lig";
-    folder.write(file.name, is_heap ? with_longer_steps(file.text) : file.text);
+    folder.write(file.name, is_heap ? in_longer_steps(file.text, after_fill_s) : file.text);
   }
   const double theirs_s = testing::run_deck(folder, ExportTarget::liggghts, "heap").cpu_s;
   if (!std::filesystem::exists(folder.path() / "heap.dump")) {
@@ -96,7 +103,7 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
     times.views_s.push_back(cpu_s() - done);
     times.grains = static_cast<int>(ours.readings.at("grains"));
     if (testing::has_program_for(ExportTarget::liggghts)) {
-      times.theirs_s.push_back(time_theirs(decks));
+      times.theirs_s.push_back(time_theirs(decks, ours.readings.at("time_s")));
     }
   }
   return times;

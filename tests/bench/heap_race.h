@@ -14,8 +14,8 @@ struct HeapTimes {
 };
 
 /// Runs both, turn about. LIGGGHTS runs the exported deck, in steps of .175 of the stable one (ours
-/// are up to .3): the same clump, materials and rolling friction, a fill from a loose column, the
-/// lift, and the rest that the deck gives heaps to settle.
+/// are up to .3): the same clump, materials and rolling friction, its own fill from a loose column,
+/// and then as many seconds as ours took from the lift to rest.
 /// @param settings  of the study, as "experiment.heap.grains=100"
 HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds);
 
