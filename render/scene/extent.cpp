@@ -40,7 +40,8 @@ Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes
     }
     return bounds;
   }
-  // Spheres first: inside of what they take up lie all but a few surfaces, which need not be turned.
+  // Spheres first: inside of what they take up lie all but a few surfaces, which need not be
+  // turned.
   for (const PlacedGrain& grain : scene.grains) {
     const dem::Vector middle = axes * grain.pose.position;
     const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
