@@ -1,14 +1,11 @@
 // Do heaps of the exported decks for LIGGGHTS or YADE stand at the angle of our own? Same clump,
 // contact law, coefficients, stiffness and time step; each engine fills its tube in its own way.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <fstream>
-#include <limits>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 

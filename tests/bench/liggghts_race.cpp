@@ -80,8 +80,7 @@ double loop_time_s(const std::string& output, int later) {
   return std::stod(output.substr(at + words.size()));
 }
 
-}  // namespace
-
+/// Commands that let clumps fall into a tube from a loose cloud `height_m` high.
 std::string pouring_commands(const dem::ClumpShape& shape, double density_kg_m3,
                              double tube_radius_m, double height_m, int grains) {
   // Seeds have to be prime numbers.
@@ -96,6 +95,7 @@ std::string pouring_commands(const dem::ClumpShape& shape, double density_kg_m3,
       density_kg_m3, shape.spheres.size(), tube_radius_m, height_m, grains);
 }
 
+/// The file clump.txt that these ask for.
 std::string clump_file(const dem::ClumpShape& shape) {
   std::string text;
   for (const dem::ClumpSphere& sphere : shape.spheres) {
@@ -104,6 +104,8 @@ std::string clump_file(const dem::ClumpShape& shape) {
   }
   return text;
 }
+
+}  // namespace
 
 Packing settled_spheres(const testing::TemporaryFolder& folder, int grains) {
   const dem::Simulation poured = grains > kMostPoured ? testing::wide_box_of_spheres(grains, 1)

@@ -26,12 +26,6 @@ Packing settled_spheres(const testing::TemporaryFolder& folder, int grains);
 /// when it does not get all of them in.
 Packing settled_clumps(const testing::TemporaryFolder& folder, int grains);
 
-/// The file clump.txt that pouring_commands() asks for.
-std::string clump_file(const dem::ClumpShape& shape);
-/// Commands that let clumps fall into a tube from a loose cloud `height_m` high.
-std::string pouring_commands(const dem::ClumpShape& shape, double density_kg_m3,
-                             double tube_radius_m, double height_m, int grains);
-
 /// What a run took.
 struct Timing {
   double elapsed_s = 0;
