@@ -53,6 +53,7 @@ ExitCode report(const std::exception& error, const std::string& command) {
 
 int run_program(int count, const char* const* words) {
   prepare_streams();
+  keep_freed_memory();
   ExitCode code = ExitCode::internal_error;
   try {
     code = run(count, words);

@@ -29,6 +29,20 @@ const dem::ClumpShape& shape_of(const Scene& scene, const PlacedGrain& grain) {
   return scene.shapes[static_cast<std::size_t>(grain.shape)];
 }
 
+/// By what the turned surface takes up along one axis.
+void extend_along(Eigen::AlignedBox3d& bounds, int axis, double middle_m,
+                  const Eigen::RowVector3d& direction, const dem::Mesh& surface) {
+  double low = bounds.min()[axis];
+  double high = bounds.max()[axis];
+  for (const dem::Vector& vertex : surface.vertices) {
+    const double along = middle_m + direction.dot(vertex);
+    low = std::min(low, along);
+    high = std::max(high, along);
+  }
+  bounds.min()[axis] = low;
+  bounds.max()[axis] = high;
+}
+
 }  // namespace
 
 Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes) {
@@ -55,11 +69,11 @@ Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes
   for (const PlacedGrain& grain : scene.grains) {
     const dem::Vector middle = axes * grain.pose.position;
     const double reach_m = reaches_m[static_cast<std::size_t>(grain.shape)];
-    const dem::Vector reach = dem::Vector::Constant(reach_m);
-    if (bounds.contains(Eigen::AlignedBox3d(middle - reach, middle + reach))) continue;
     const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
-    for (const dem::Vector& vertex : shape_of(scene, grain).surface.vertices) {
-      bounds.extend(middle + turn * vertex);
+    for (int k = 0; k < 3; ++k) {
+      if (middle[k] - reach_m >= bounds.min()[k] && middle[k] + reach_m <= bounds.max()[k])
+        continue;
+      extend_along(bounds, k, middle[k], turn.row(k), shape_of(scene, grain).surface);
     }
   }
   return bounds;

@@ -44,30 +44,45 @@ Eigen::Matrix3d axes_at(double azimuth_rad, double pitch_rad, double roll_rad) {
   return roll * pitch * level * walk;
 }
 
+void require_grains(bool has_some) {
+  if (has_some) return;
+  throw std::invalid_argument(
+      "scene: it has no grains to be seen. Fix: a state in which some are left.");
+}
+
 Eigen::AlignedBox3d bounds_to_fit(const Scene& scene, const Eigen::Matrix3d& axes) {
   const Eigen::AlignedBox3d bounds = grain_bounds(scene, axes);
-  if (bounds.isEmpty() || !bounds.sizes().allFinite()) {
-    throw std::invalid_argument(
-        "scene: it has no grains to be seen. Fix: a state in which some are left.");
-  }
+  require_grains(!bounds.isEmpty() && bounds.sizes().allFinite());
   return bounds;
+}
+
+/// What the camera does not say is chosen such that all grains are seen.
+void fit(View& view, const Scene& scene, const OrthographicCamera& camera) {
+  const Eigen::AlignedBox3d bounds = bounds_to_fit(scene, view.axes);
+  const Vector extent = bounds.sizes();
+  const double room = 1 - 2 * kMargin;
+  const double fitting =
+      std::min(room * view.size.width / extent.x(), room * view.size.height / extent.y());
+  if (!camera.mm_per_px) view.scale = fitting;
+  if (!camera.middle_m) view.eye = view.axes.transpose() * bounds.center();
 }
 
 View orthographic(const Scene& scene, const OrthographicCamera& camera, const PictureSize& size) {
   check_number("azimuth_rad", camera.azimuth_rad, -1e6, 1e6, "0");
   View view{.size = size, .axes = axes_at(camera.azimuth_rad, 0, 0)};
-  const Eigen::AlignedBox3d bounds = bounds_to_fit(scene, view.axes);
-  view.eye = camera.middle_m.value_or(view.axes.transpose() * bounds.center());
-  const Vector extent = bounds.sizes();
-  const double room = 1 - 2 * kMargin;
-  const double fitting = std::min(room * size.width / extent.x(), room * size.height / extent.y());
   if (camera.mm_per_px) {
     check_number("mm_per_px", *camera.mm_per_px, 1e-6, 1e6, "leave it out to see all grains.");
+    view.scale = 1e3 / *camera.mm_per_px;
+  }
+  if (camera.middle_m) view.eye = *camera.middle_m;
+  if (camera.mm_per_px && camera.middle_m) {
+    require_grains(scene.setting || !scene.grains.empty());  // and need not be measured
+  } else {
+    fit(view, scene, camera);
   }
   for (const double coordinate : view.eye) {
     check_number("middle_m", coordinate, -1e4, 1e4, "leave it out to see all grains.");
   }
-  view.scale = camera.mm_per_px ? 1e3 / *camera.mm_per_px : fitting;
   view.middle = {.5 * size.width, .5 * size.height};
   return view;
 }

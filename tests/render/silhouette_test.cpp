@@ -161,10 +161,13 @@ TEST(Silhouette, TheWidestPictureIsNotBlank) {
 }
 
 TEST(Silhouette, ScenesWithoutGrainsAndScalesThatAreNoneAreRefused) {
-  EXPECT_THAT(error_of([] {
-                renderer().draw(Scene{}, OrthographicCamera{}, {10, 10}, SilhouetteStyle{});
-              }),
-              HasSubstr("no grains"));
+  const OrthographicCamera placed{.mm_per_px = 1, .middle_m = Vector::Zero()};
+  for (const OrthographicCamera& camera : {OrthographicCamera{}, placed}) {
+    EXPECT_THAT(error_of([&] {
+                  renderer().draw(Scene{}, camera, {10, 10}, SilhouetteStyle{});
+                }),
+                HasSubstr("no grains"));
+  }
   const Scene scene = sphere_scene(.01, {Vector::Zero()});
   for (const double scale : {0.0, -1.0, std::nan(""), 1e300}) {
     EXPECT_THAT(error_of([&] {

@@ -67,6 +67,35 @@ TEST(ChooseReading, SegmentationsAgreeOnAClearPicture) {
   EXPECT_LT(choice.left_disagreement_rad, 0.5 * kDegree);
 }
 
+/// A heap of two colours, and what lies beside it.
+cv::Mat3b masked_heap(const cv::Scalar& beside) {
+  cv::Mat3b picture(400, 600, cv::Vec3b(255, 255, 255));
+  const std::vector<std::vector<cv::Point>> heap = {{{120, 320}, {300, 220}, {480, 320}}};
+  cv::fillPoly(picture, heap, {0, 0, 0});
+  cv::circle(picture, {540, 100}, 3, beside, cv::FILLED);
+  return picture;
+}
+
+TEST(ChooseReading, OfTwoColoursAsksOneSegmentation) {
+  const Choice two = choice_of(masked_heap({0, 0, 0}));
+  EXPECT_EQ(two.best.segmentation.name, kTwoTones);
+  EXPECT_EQ(two.disagreement_rad, 0);
+  EXPECT_NEAR(two.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
+  const Choice three = choice_of(masked_heap({0, 0, 200}));
+  EXPECT_NE(three.best.segmentation.name, kTwoTones);
+  EXPECT_NEAR(three.best.angle_rad(), two.best.angle_rad(), 0.3 * kDegree);
+}
+
+TEST(ChooseReading, OfTwoColoursHearsWhatAPersonSays) {
+  MeasureOptions options;
+  options.hints.heap = Box{.x = 60, .y = 150, .width = 480, .height = 200};
+  const WorkingPicture work =
+      working_picture(picture_of(masked_heap({0, 0, 0})), {}, options.hints);
+  const Choice choice = choose_reading(work, options);
+  EXPECT_NE(choice.best.segmentation.name, kTwoTones);
+  EXPECT_NEAR(choice.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
+}
+
 TEST(ChooseReading, TakesTheSegmentationThatSeesTheHeap) {
   // As bright as its backdrop, of another colour: lightness shows nothing.
   cv::Mat3b picture(400, 600, cv::Vec3b(150, 130, 130));

@@ -81,6 +81,34 @@ TEST(GreyOtsu, FindsDarkHeapsAndLightOnes) {
   }
 }
 
+TEST(TwoToneSegmentation, TakesThatToneForTheHeapWhichTheBackdropIsNot) {
+  for (const auto& [heap, backdrop] : {std::pair(cv::Vec3b(0, 0, 0), cv::Vec3b(255, 255, 255)),
+                                       {cv::Vec3b(40, 90, 200), cv::Vec3b(40, 110, 200)}}) {
+    const cv::Mat1b mask = heap_mask({300, 200});
+    cv::Mat3b picture(mask.size(), backdrop);
+    picture.setTo(heap, mask);
+    const WorkingPicture work = work_of(picture);
+    ASSERT_TRUE(work.tones.has_value());
+    EXPECT_GT(overlap(two_tone_segmentation(work, *work.tones).inside, mask), 0.99);
+  }
+}
+
+TEST(TwoToneSegmentation, EdgeOfAShrunkPictureLiesWhereHalfOfAPixelIsCovered) {
+  // Steps of a pixel are .25 working pixels.
+  for (int first = 1600; first < 1608; ++first) {
+    cv::Mat3b picture(2400, 3200, cv::Vec3b(255, 255, 255));
+    picture.rowRange(first, 2400).setTo(cv::Scalar(0, 0, 0));
+    const WorkingPicture work = work_of(picture);
+    ASSERT_EQ(work.shrink, 4);
+    const cv::Mat1f inside = two_tone_segmentation(work, *work.tones).inside;
+    int row = 0;
+    while (inside(row, 400) <= 0) ++row;
+    const double below = inside(row, 400);
+    const double above = inside(row - 1, 400);
+    EXPECT_NEAR(row + 0.5 - below / (below - above), first / 4.0, 0.05) << first;
+  }
+}
+
 const Segmentation& segmentation_named(const std::vector<Segmentation>& all,
                                        const std::string& name) {
   return *std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });

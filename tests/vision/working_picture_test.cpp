@@ -49,6 +49,36 @@ TEST(WorkingPicture, ShrinkingAveragesThePixels) {
   EXPECT_EQ(work_of(checks).bgr(300, 300), cv::Vec3b(100, 100, 100));
 }
 
+/// The left part of another colour, and single pixels of a third one.
+cv::Mat3b of_colours(const cv::Vec3b& left, const cv::Vec3b& right, int others,
+                     const cv::Vec3b& other) {
+  cv::Mat3b picture(750, 1000, right);
+  picture.colRange(0, 333).setTo(left);
+  for (int k = 0; k < others; ++k) picture(749 - k, 999 - k) = other;
+  return picture;
+}
+
+TEST(WorkingPicture, TonesAreThoseOfAPictureWithoutAThirdColour) {
+  const cv::Vec3b one(10, 20, 30);
+  const cv::Vec3b other(10, 20, 31);
+  const cv::Vec3b third(11, 20, 31);
+  EXPECT_EQ(work_of(of_colours(one, other, 0, third)).tones, (Tones{one, other}));
+  EXPECT_FALSE(work_of(of_colours(one, other, 1, third)).tones.has_value());
+  EXPECT_FALSE(work_of(of_colours(one, one, 0, third)).tones.has_value());
+  EXPECT_TRUE(work_of(of_colours(one, one, 1, third)).tones.has_value());
+}
+
+TEST(WorkingPicture, GreysOfTwoTonesAreThoseOfAnyPicture) {
+  const cv::Vec3b dark(20, 20, 20);
+  const cv::Vec3b light(230, 230, 230);
+  const WorkingPicture two = work_of(of_colours(dark, light, 0, {}));
+  const WorkingPicture any = work_of(of_colours(dark, light, 1, {231, 230, 230}));
+  ASSERT_TRUE(two.tones && !any.tones);
+  const cv::Rect without_third(0, 0, 700, 500);
+  EXPECT_EQ(cv::norm(two.bgr(without_third), any.bgr(without_third), cv::NORM_INF), 0);
+  EXPECT_LT(cv::norm(two.lab(without_third), any.lab(without_third), cv::NORM_INF), 1e-3);
+}
+
 TEST(WorkingPicture, LightnessRunsFromBlackToWhite) {
   cv::Mat3b picture = grey_picture(100, 100);
   picture.rowRange(0, 50).setTo(cv::Scalar(255, 255, 255));

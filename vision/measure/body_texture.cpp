@@ -6,6 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/measure/flatness.h"
+
 namespace repose::vision {
 namespace {
 
@@ -37,7 +39,6 @@ Inside inside_of(const cv::Mat1b& body, const WorkingPicture& work) {
             1, cv::BORDER_CONSTANT, 0);
   inside.lab = work.lab(box);
   inside.bgr = work.bgr(box);
-  cv::extractChannel(inside.lab, inside.lightness, 0);
   return inside;
 }
 
@@ -193,7 +194,9 @@ double regular_part(const Inside& inside) {
 }  // namespace
 
 BodyTexture texture_of(const cv::Mat1b& body, double crest_height, const WorkingPicture& work) {
-  const Inside inside = inside_of(body, work);
+  Inside inside = inside_of(body, work);
+  if (is_flat(inside.bgr, inside.core)) return {.noise = 0, .even = 1};
+  cv::extractChannel(inside.lab, inside.lightness, 0);
   BodyTexture texture;
   add_steps(texture, inside);
   texture.straight = longest_edge_in(inside) / std::max(1.0, crest_height);

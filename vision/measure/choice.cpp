@@ -72,8 +72,10 @@ double disagreement(const Reading& best, const std::vector<const Reading*>& riva
   return rms(distance);
 }
 
-/// Several segmentations see the same sharp edge: another look would tell nothing new.
+/// One segmentation sees all there is, or several the same sharp edge: another look would tell
+/// nothing new.
 bool is_settled(const Reading& best, const std::vector<Reading>& readings) {
+  if (best.segmentation.name == kTwoTones) return true;
   const std::vector<const Reading*> rivals = rivals_of(best, readings);
   return best.score > kClearlyGood && rivals.size() >= 2 &&
          disagreement(best, rivals) < kAgreement_rad;
@@ -256,6 +258,9 @@ void keep_what_is_traced(std::vector<Reading>& readings) {
 
 /// The readings that need nothing but the picture and what a person has said.
 std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOptions& options) {
+  if (work.tones && work.told.is_nothing()) {
+    return {read_heap(two_tone_segmentation(work, *work.tones), work, options)};
+  }
   std::vector<Reading> readings;
   for (const Segmentation& segmentation : blind_segmentations(work)) {
     readings.push_back(read_heap(segmentation, work, options));

@@ -4,6 +4,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/measure/flatness.h"
+
 namespace repose::vision {
 namespace {
 
@@ -55,6 +57,7 @@ std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& bo
   if (box.width < 20 || box.height < 10) return std::nullopt;
   cv::Mat1b core;
   cv::erode(body(box), core, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  if (is_flat(work.bgr(box), core)) return std::nullopt;
   cv::Mat1f inside;
   core.convertTo(inside, CV_32F, 1 / 255.0);
   cv::Mat1f lightness;

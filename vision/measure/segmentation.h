@@ -23,6 +23,12 @@ struct Segmentation {
 /// backdrop model, adaptive threshold.
 std::vector<Segmentation> blind_segmentations(const WorkingPicture& work);
 
+inline constexpr const char* kTwoTones = "two tones";  ///< name of the next one
+
+/// Of a picture that has only two colours: no segmentation could tell more. The edge is where half
+/// of a pixel has the one, and half the other.
+Segmentation two_tone_segmentation(const WorkingPicture& work, const Tones& tones);
+
 /// By texture alone: finds grains before a backdrop of their own colour, with a blurred edge.
 Segmentation rough_segmentation(const WorkingPicture& work);
 

@@ -41,6 +41,15 @@ cv::Rect without_letterbox(const cv::Mat1b& grey) {
   return inner.width > 0 && inner.height > 0 ? inner : cv::Rect({}, grey.size());
 }
 
+/// The same of each channel, where all are the same.
+cv::Mat3b reduced(const cv::Mat3b& bgr, const cv::Size& size, bool is_grey) {
+  cv::Mat small = bgr;
+  if (is_grey) cv::extractChannel(bgr, small, 0);
+  cv::resize(small, small, size, 0, 0, cv::INTER_AREA);
+  if (is_grey) cv::cvtColor(small, small, cv::COLOR_GRAY2BGR);
+  return small;
+}
+
 cv::Rect shrunk(const Box& box, double shrink) {
   const auto floored = [&](int value) { return static_cast<int>(std::floor(value / shrink)); };
   const auto ceiled = [&](int value) { return static_cast<int>(std::ceil(value / shrink)); };
@@ -50,7 +59,7 @@ cv::Rect shrunk(const Box& box, double shrink) {
 }
 
 /// L*a*b* of a picture of blue, green and red from 0 to 1.
-cv::Mat3f lab_of(const cv::Mat3f& bgr) {
+cv::Mat3f lab_of_colours(const cv::Mat3f& bgr) {
   // OpenCV builds its tables at the first conversion, without a lock: one thread must do that
   // alone.
   static const bool tables_ready = [] {
@@ -62,6 +71,32 @@ cv::Mat3f lab_of(const cv::Mat3f& bgr) {
   cv::Mat3f lab;
   cv::cvtColor(bgr, lab, cv::COLOR_BGR2Lab);
   return lab;
+}
+
+/// The same where there are only 256 greys.
+cv::Mat3f lab_of_greys(const cv::Mat3b& bgr) {
+  static const cv::Mat3f table = [] {
+    cv::Mat3f greys(1, 256);
+    for (int level = 0; level < 256; ++level) {
+      greys(level) = cv::Vec3f::all(static_cast<float>(level) / 255);
+    }
+    return lab_of_colours(greys);
+  }();
+  cv::Mat3f lab(bgr.size());
+  for (int row = 0; row < bgr.rows; ++row) {
+    const cv::Vec3b* greys = bgr[row];
+    std::transform(
+        greys, greys + bgr.cols, lab[row],
+        [lab_of_grey = table[0]](const cv::Vec3b& grey) { return lab_of_grey[grey[0]]; });
+  }
+  return lab;
+}
+
+cv::Mat3f lab_of(const cv::Mat3b& bgr, bool is_grey) {
+  if (is_grey) return lab_of_greys(bgr);
+  cv::Mat3f scaled;
+  bgr.convertTo(scaled, CV_32F, 1 / 255.0);
+  return lab_of_colours(scaled);
 }
 
 constexpr double kPointed_px = 2;  // working px: how well a person points at a line
@@ -131,18 +166,18 @@ WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& e
   const int longest = std::max(seen.width, seen.height);
   WorkingPicture work;
   work.origin = {static_cast<double>(seen.x), static_cast<double>(seen.y)};
+  work.tones = tones_of(full);
+  const bool has_greys = work.tones && is_grey(*work.tones);
   work.shrink = std::max(1.0, static_cast<double>(longest) / kWorkingSide);
   if (work.shrink > 1) {
     const double scale = 1 / work.shrink;
     const cv::Size size(std::max(1, static_cast<int>(std::lround(seen.width * scale))),
                         std::max(1, static_cast<int>(std::lround(seen.height * scale))));
-    cv::resize(full, work.bgr, size, 0, 0, cv::INTER_AREA);
+    work.bgr = reduced(full, size, has_greys);
   } else {
     full.copyTo(work.bgr);
   }
-  cv::Mat3f scaled;
-  work.bgr.convertTo(scaled, CV_32F, 1 / 255.0);
-  work.lab = lab_of(scaled);
+  work.lab = lab_of(work.bgr, has_greys);
   cv::Mat1b grey;
   cv::cvtColor(work.bgr, grey, cv::COLOR_BGR2GRAY);
   work.frame = hints.heap ? cv::Rect({}, grey.size()) : without_letterbox(grey);

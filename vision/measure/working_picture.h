@@ -7,6 +7,7 @@
 
 #include "vision/measure/geometry.h"
 #include "vision/measure/hints.h"
+#include "vision/measure/tones.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
@@ -20,6 +21,7 @@ struct Told {
   cv::Mat1b beside_heap;            ///< likewise
 
   bool has_places() const { return !on_heap.empty() || !beside_heap.empty(); }
+  bool is_nothing() const { return !has_box && !ground && !has_places(); }
 };
 
 /// The picture at the size at which heaps are found: at most kWorkingSide pixels a side.
@@ -28,11 +30,12 @@ struct Told {
 /// cost time and tell nothing more.
 struct WorkingPicture {
   cv::Mat3b bgr;
-  cv::Mat3f lab;         ///< CIE L*a*b*, L 0 to 100
-  cv::Mat1b valid_mask;  ///< 255 where the picture counts: not excluded, no letterbox
-  cv::Rect frame;        ///< the picture without its letterbox
-  double shrink = 1;     ///< pixels of the picture in a working pixel
-  Point origin;          ///< its corner in the picture: that of the box around the heap
+  cv::Mat3f lab;               ///< CIE L*a*b*, L 0 to 100
+  cv::Mat1b valid_mask;        ///< 255 where the picture counts: not excluded, no letterbox
+  cv::Rect frame;              ///< the picture without its letterbox
+  std::optional<Tones> tones;  ///< of a picture that has only two colours
+  double shrink = 1;           ///< pixels of the picture in a working pixel
+  Point origin;                ///< its corner in the picture: that of the box around the heap
   Told told;
 
   /// A point of the working picture in the picture.
