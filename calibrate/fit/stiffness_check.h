@@ -36,7 +36,8 @@ struct StiffnessPlan {
   double run_s = 0;                   ///< work of all jobs, by Experiment::run_s
 };
 
-/// `repeats` of each; the cheapest first, as long as a fifth of FitSettings::budget_s lasts.
+/// `repeats` of each, or no fewer than five where time is short; the cheapest first, as long as a
+/// fifth of FitSettings::budget_s lasts.
 StiffnessPlan plan_stiffness(const Problem& problem, const std::vector<double>& values,
                              int repeats);
 

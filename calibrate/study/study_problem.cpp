@@ -221,14 +221,14 @@ Budget budget_named(const std::string& name) {
     return {.name = name,
             .description = "14 minutes of one core for the fit",
             .settings = {.budget_s = 14 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
-            .verification_repeats = 6,
+            .verification_repeats = 10,
             .family_sets = 2};
   }
   if (name == "standard") {
     return {.name = name,
             .description = "125 minutes of one core for the fit",
             .settings = {.budget_s = 125 * kMinute_s, .max_jobs = 2000, .max_rounds = 6},
-            .verification_repeats = 5,
+            .verification_repeats = 10,
             .family_sets = 3};
   }
   if (name == "paper") {

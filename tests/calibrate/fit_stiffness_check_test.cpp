@@ -109,6 +109,19 @@ TEST(StiffnessCheck, WhatIsTooDearForTheBudgetIsNamedAndTheCheaperOnesAreSimulat
               SizeIs(1));
 }
 
+TEST(StiffnessCheck, WhereTimeIsShortThereAreFewerRepeatsButFiveAtLeast) {
+  Problem problem = softening("heap");
+  const double run_s = 25 * std::sqrt(10);
+  const auto jobs_within = [&](double seconds) {
+    problem.settings.budget_s = seconds / .2;
+    return plan_stiffness(problem, kTruth, 10).jobs.size();
+  };
+  EXPECT_EQ(jobs_within(10.5 * run_s), 10);
+  EXPECT_EQ(jobs_within(7.5 * run_s), 7);
+  EXPECT_EQ(jobs_within(5.5 * run_s), 5);
+  EXPECT_EQ(jobs_within(4.5 * run_s), 0);
+}
+
 TEST(StiffnessCheck, IntervalsHoldTheChangeAsOftenAsTheySay) {
   constexpr int kStudies = 300;
   int held = 0, seen = 0;

@@ -151,7 +151,7 @@ TEST_F(StudyRun, SoftenedExperimentsAreSimulatedWithStifferGrainsAtTheEnd) {
   const StiffnessCheck& drop = outcome->stiffness[0];
   EXPECT_EQ(drop.name, "drop");
   EXPECT_EQ(drop.stiffness, 4) << "as stiff as real grains, no stiffer";
-  EXPECT_EQ(drop.runs, 6);
+  EXPECT_EQ(drop.runs, 10);
   EXPECT_LT(std::abs(drop.change), .5) << "restitution does not depend on stiffness";
   EXPECT_EQ(drop.verdict, AgreementVerdict::agrees);
   for (const auto& known : outcome->runs)
@@ -162,9 +162,8 @@ TEST_F(StudyRun, SoftenedExperimentsAreSimulatedWithStifferGrainsAtTheEnd) {
 TEST_F(StudyRun, WhereTheBudgetAllowsForNoStifferGrainsThatIsSaid) {
   const dem::Study study = read({"experiment.drop.stiffness_factor = 0.25"});
   Problem problem = small_problem(study);
-  problem.settings.budget_s = 1.5;
+  problem.settings.budget_s = .1;
   Budget many = budget();
-  many.verification_repeats = 60;
   StudySimulator simulator = simulator_of(study);
   const RunFolder runs(folder_.path() / "dear");
   ThreadExecutor executor(simulator, 2);
