@@ -227,12 +227,13 @@ REPOSE_INLINE Lanes contact_inertia(const Contacts& c, const FourTouching<Other>
 /// The torque on a of the models that work on the relative spin.
 template <RollingModel model, typename Other>
 REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_force,
-                                         const Law<Lanes>& law, double timestep,
-                                         const FourTouching<Other>& four,
+                                         const Lanes& last_force, const Law<Lanes>& law,
+                                         double timestep, const FourTouching<Other>& four,
                                          std::span<const TouchingPair> pairs) {
   Roll<Lanes> roll = {.normal = c.touch.normal,
                       .spin = -c.spin,
                       .normal_force = normal_force,
+                      .last_force = last_force,
                       .overlap = c.touch.overlap,
                       .reduced_radius = c.touch.reduced_radius,
                       .reduced_inertia = c.reduced_inertia,
@@ -271,7 +272,7 @@ REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep,
     rolling_a = resistance * sqrt(c.arm_a.squared_norm());
     rolling_b = resistance * sqrt(c.arm_b.squared_norm());
   } else if constexpr (model != RollingModel::none) {
-    torque_a += rolling_torque<model>(c, force.normal, law, timestep, four, pairs);
+    torque_a += rolling_torque<model>(c, force.normal, last_push, law, timestep, four, pairs);
   }
   const Rows memories = rows_of(springs.tangential, springs.radius);
   const Rows forces = rows_of(force.total, rolling_b);

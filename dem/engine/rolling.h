@@ -10,6 +10,7 @@ struct Roll {
   Vec3<Number> normal;  ///< unit, from a to b
   Vec3<Number> spin;    ///< of a against b, rad/s
   Number normal_force = {};
+  Number last_force = {};  ///< normal, of the step before
   Number overlap = {};
   Number reduced_radius = {};
   Number reduced_inertia = {};  ///< of both bodies about their centres, kg m^2
@@ -30,6 +31,21 @@ REPOSE_INLINE Vec3<Number> relative_constant_torque(const Roll<Number>& roll,
   return full - roll.normal * roll.normal.dot(full);
 }
 
+/// Part of a step in which a spring is below its limit. Where it begins to yield that is up to
+/// there: with the whole step or none of it, what its damper takes would depend on the time step
+/// (clumps on a plate rolled 1.6 % farther at .14 of the stable one; now within .1 %).
+template <typename Number>
+REPOSE_INLINE Number part_below(const Number& old_limit, const Number& limit,
+                                const Number& old_size, const Number& size) {
+  const auto yields = size >= limit;
+  const auto yielded = old_size >= .999999999 * old_limit;  // less than by rounding
+  const Number begins =
+      greatest(Number{}, least(Number(1), Number(limit - old_size) / (size - old_size)));
+  const auto grows = size > old_size;
+  const Number up_to_there = select(grows, begins, Number{});
+  return select(yields, select(yielded, Number{}, up_to_there), Number(1));
+}
+
 /// Elastic-plastic spring-dashpot: k_r = 2.25 k_n mu_r^2 R*^2 up to mu_r R* F_n, and below that
 /// limit a damper of .3 of the critical (Ai, Chen, Rotter, Ooi 2011, Powder Technology 206, model
 /// C, eqs. 27-33, with the stiffness of Jiang et al. 2005). Proved by Rolling.* in
@@ -45,13 +61,14 @@ REPOSE_INLINE Vec3<Number> elastic_plastic_torque(const Roll<Number>& roll, cons
   const Number stiffness = 2.25 * (4.0 / 3) * law.reduced_young * a * arm * arm;
   const Vec3<Number>& n = roll.normal;
   const Vec3<Number> spin = roll.spin - n * n.dot(roll.spin);
-  spring = spring - n * n.dot(spring) - spin * (stiffness * timestep);
-  const Number size2 = spring.squared_norm();
-  const auto yields = size2 >= limit * limit;
-  const Number fraction = select(size2 > Number(0), Number(limit / sqrt(size2)), Number{});
-  spring = spring * select(yields, fraction, Number(1));
+  const Vec3<Number> old = spring - n * n.dot(spring);
+  spring = old - spin * (stiffness * timestep);
+  const Number size = sqrt(spring.squared_norm());
+  const Number part =
+      part_below(Number(arm * roll.last_force), limit, Number(sqrt(old.squared_norm())), size);
+  spring = spring * select(size > limit, Number(limit / size), Number(1));
   const Number damper = 2 * kDampingRatio * sqrt(stiffness * roll.contact_inertia);
-  return spring - spin * select(yields, Number{}, damper);
+  return spring - spin * (part * damper);
 }
 
 }  // namespace repose::dem

@@ -13,13 +13,13 @@ namespace repose::dem {
 /// make less than 1e-4 of energy. A sphere on a wall is resolved by 48 steps an impact, two equal
 /// spheres by 42.
 inline constexpr double kImpactFraction = .07;
-/// For readings that no single impact decides: how far a grain rolls, when it slides. Restitution
-/// within .002, 24 steps an impact, less than 1e-3 of energy (LongTimestep.*).
+/// For when a grain slides. Restitution within .002, 24 steps an impact, less than 1e-3 of energy
+/// (LongTimestep.*).
 inline constexpr double kCourseFraction = .14;
-/// For what hundreds of grains do together: fill, heap, flow out. The mean restitution of impacts
-/// that begin anywhere in a step is within .002, a single one's within .012; 11 steps an impact,
-/// less than 6e-3 of energy. Heaps' angles are those of .14 within half a degree
-/// (dem/PERFORMANCE.md).
+/// For what many impacts decide together: how hundreds of grains fill, heap and flow out, and how
+/// far one rolls. The mean restitution of impacts that begin anywhere in a step is within .002, a
+/// single one's within .012; 11 steps an impact, less than 6e-3 of energy. Heaps' angles are those
+/// of .14 within half a degree, rolls as long within .1 % (dem/PERFORMANCE.md).
 inline constexpr double kBulkFraction = .3;
 
 /// The longest time step at which these grains are simulated accurately, s, when they strike each

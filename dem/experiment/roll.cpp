@@ -76,7 +76,7 @@ ExperimentRun rolled(const Model& model, const RollProtocol& protocol, const Gra
   const double speed =
       std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
   ExperimentRun run(Simulation(model_setup(model, model.grain, walls_of(protocol, slope, reach),
-                                           speed, kCourseFraction)),
+                                           speed, kBulkFraction)),
                     observers);
   run.simulation().add(grain);
   roll_to_rest(run);

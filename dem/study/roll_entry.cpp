@@ -19,7 +19,7 @@ Range possible_roll(const Model& model, const Protocol& protocol) {
 
 double cost_of_roll_s(const Model& model, const Protocol& /*protocol*/) {
   constexpr double kSpeed_m_s = 1, kRun_s = 2;
-  return step_on_wall_s(model, 1) * kRun_s / course_timestep_s(model, kSpeed_m_s);
+  return step_on_wall_s(model, 1) * kRun_s / bulk_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace

@@ -107,6 +107,25 @@ TEST(Roll, ClumpsComeToRestWhereTheirSeedSays) {
   EXPECT_NE(one.value, run_roll(model, {}, 2).value);
 }
 
+/// Mean distance of some clumps, in steps that are a fraction of the longest.
+double distance_mm(Model model, double timestep_fraction) {
+  constexpr int kClumps = 4;
+  model.timestep_fraction = timestep_fraction;
+  double sum = 0;
+  for (int seed = 1; seed <= kClumps; ++seed) {
+    sum += run_roll(model, {}, static_cast<std::uint64_t>(seed)).value;
+  }
+  return sum / kClumps;
+}
+
+TEST(Roll, DoesNotDependOnTheTimestep) {
+  Model model = test::clump_bench();
+  model.stiffness_factor = .01;
+  model.grain_wall.rolling_friction = .06;
+  const double exact_mm = distance_mm(model, .2);
+  EXPECT_NEAR(distance_mm(model, 1), exact_mm, .002 * exact_mm);
+}
+
 TEST(Roll, TellsEveryErrorAtOnce) {
   const std::string message = error_of([&] {
     run_roll(test::sphere_bench(), {.incline_deg = 90, .release_m = 0, .release_turn_deg = 91}, 1);

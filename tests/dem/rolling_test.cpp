@@ -23,6 +23,7 @@ Roll<double> roll_of(const Vec3<double>& spin) {
   return {.normal = {0, 0, 1},
           .spin = spin,
           .normal_force = 2,
+          .last_force = 2,
           .overlap = 1e-6,
           .reduced_radius = .005,
           .reduced_inertia = 1e-7,
@@ -72,6 +73,30 @@ TEST(Rolling, ElasticPlasticTorqueYieldsAtTheLimitAndSpringsBack) {
   EXPECT_NEAR(torque.x, -.1 * .005 * 2, 1e-15);
   const Vec3<double> held = elastic_plastic_torque(roll_of({}), law, kRollingTimestep, spring);
   EXPECT_NEAR(held.x, -.1 * .005 * 2, 1e-15);  // a type A model would let go here
+}
+
+/// What the damper takes on the way to the limit at a steady spin, N m s.
+double damper_impulse(double timestep) {
+  const Law<double> law = rolling_law(.1);
+  const Roll<double> roll = roll_of({1e3, 0, 0});
+  Vec3<double> spring;
+  double impulse = 0;
+  for (double time = 0; time < 5e-5; time += timestep) {
+    const double torque = elastic_plastic_torque(roll, law, timestep, spring).x;
+    impulse += (spring.x - torque) * timestep;
+  }
+  return impulse;
+}
+
+TEST(Rolling, ElasticPlasticDamperActsUpToWhereTheSpringYieldsHoweverLongAStepIs) {
+  const Roll<double> roll = roll_of({});
+  const double a = std::sqrt(roll.reduced_radius * roll.overlap);
+  const double stiffness = 2.25 * 4 / 3 * 1e9 * a * std::pow(.1 * roll.reduced_radius, 2);
+  const double yields_rad = .1 * roll.reduced_radius * roll.normal_force / stiffness;
+  const double impulse = .6 * std::sqrt(stiffness * roll.contact_inertia) * yields_rad;
+  for (const double timestep : {1e-8, 1.3e-6, 4e-6, 1.1e-5}) {
+    EXPECT_NEAR(damper_impulse(timestep), impulse, 1e-9 * impulse) << timestep;
+  }
 }
 
 TEST(Rolling, ElasticPlasticTorqueHasNoPartAboutTheNormal) {
