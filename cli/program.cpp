@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/freed_memory.h"
 #include "cli/arguments.h"
 #include "cli/common/exit_code.h"
 #include "cli/common/memory.h"
@@ -53,7 +54,7 @@ ExitCode report(const std::exception& error, const std::string& command) {
 
 int run_program(int count, const char* const* words) {
   prepare_streams();
-  keep_freed_memory();
+  base::keep_freed_memory();
   ExitCode code = ExitCode::internal_error;
   try {
     code = run(count, words);

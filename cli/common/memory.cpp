@@ -5,19 +5,7 @@
 
 #include <fmt/format.h>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 namespace repose::cli {
-
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int kMiB = 1 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, 32 * kMiB);  // the most that it takes
-  ::mallopt(M_TRIM_THRESHOLD, 256 * kMiB);
-#endif
-}
 
 bool is_out_of_memory(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||

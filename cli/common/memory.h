@@ -7,11 +7,6 @@
 /// limit that somebody set (`ulimit -v`), is no fault of the program.
 namespace repose::cli {
 
-/// Memory that was freed stays with the program, where the C library can be told so. Pictures need
-/// buffers of a megabyte for a moment: to give each of them back to the system, and to have it
-/// cleared anew, takes a fifth of the time of measuring a silhouette.
-void keep_freed_memory();
-
 /// Also as OpenCV says it.
 bool is_out_of_memory(const std::exception& error);
 

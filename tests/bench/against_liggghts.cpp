@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/freed_memory.h"
 #include "tests/bench/heap_race.h"
 #include "tests/bench/liggghts_race.h"
 #include "tests/bench/median.h"
@@ -88,6 +89,7 @@ void print_heap(const std::vector<std::string>& settings, int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  repose::base::keep_freed_memory();  // as the program does
   CLI::App app(
       "Speed of LIGGGHTS and of repose on the same packings, one core each, turn about; and of\n"
       "repose alone. Boxes of more than 10,000 spheres, and of many clumps, are mirrored from a\n"
