@@ -50,11 +50,11 @@ TEST(WorkingPicture, ShrinkingAveragesThePixels) {
 }
 
 /// The left part of another colour, and single pixels of a third one.
-cv::Mat3b of_colours(const cv::Vec3b& left, const cv::Vec3b& right, int others,
-                     const cv::Vec3b& other) {
+cv::Mat3b of_colours(const cv::Vec3b& left, const cv::Vec3b& right, int singles,
+                     const cv::Vec3b& third) {
   cv::Mat3b picture(750, 1000, right);
   picture.colRange(0, 333).setTo(left);
-  for (int k = 0; k < others; ++k) picture(749 - k, 999 - k) = other;
+  for (int k = 0; k < singles; ++k) picture(749 - k, 999 - k) = third;
   return picture;
 }
 
