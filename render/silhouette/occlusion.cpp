@@ -1,7 +1,6 @@
 #include "render/silhouette/occlusion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -51,20 +50,19 @@ struct Pixels {
   int left, right, top, bottom;
 };
 
-Pixels around(const vision::Point& middle, double half_width_px, double half_height_px,
-              const PictureSize& size) {
+Pixels around(const vision::Point& middle, double radius_px, const PictureSize& size) {
   const auto clipped = [](double value, int most) {
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most)));
   };
-  return {.left = clipped(std::floor(middle.x - half_width_px), size.width),
-          .right = clipped(std::ceil(middle.x + half_width_px), size.width),
-          .top = clipped(std::floor(middle.y - half_height_px), size.height),
-          .bottom = clipped(std::ceil(middle.y + half_height_px), size.height)};
+  return {.left = clipped(std::floor(middle.x - radius_px), size.width),
+          .right = clipped(std::ceil(middle.x + radius_px), size.width),
+          .top = clipped(std::floor(middle.y - radius_px), size.height),
+          .bottom = clipped(std::ceil(middle.y + radius_px), size.height)};
 }
 
 void cover_disc(std::vector<std::uint8_t>& mask, const PictureSize& size,
                 const vision::Point& middle, double radius_px) {
-  const Pixels box = around(middle, radius_px, radius_px, size);
+  const Pixels box = around(middle, radius_px, size);
   for (int y = box.top; y < box.bottom; ++y) {
     const double dy = y + .5 - middle.y;
     const double half2 = radius_px * radius_px - dy * dy;
@@ -94,18 +92,7 @@ class Sums {
       }
     }
   }
-  /// All of the rectangles that a disc lies in, an eighth of a turn in each.
-  bool cover_disc(const vision::Point& middle, double radius_px, const PictureSize& size) const {
-    const std::array<double, 5> cosines = {1, .9239, .7072, .3827, 0};  // of 0, 22.5, ... degrees
-    for (std::size_t k = 0; k + 1 < cosines.size(); ++k) {
-      const double half_width_px = radius_px * cosines[k];
-      const double half_height_px = radius_px * cosines[cosines.size() - 2 - k];
-      if (!covers(around(middle, half_width_px, half_height_px, size))) return false;
-    }
-    return true;
-  }
 
- private:
   bool covers(const Pixels& box) const {
     const auto at = [this](int x, int y) {
       return std::int64_t{
@@ -116,6 +103,7 @@ class Sums {
     return covered == std::int64_t{box.right - box.left} * (box.bottom - box.top);
   }
 
+ private:
   std::size_t width_;
   std::vector<std::uint32_t> sums_;
 };
@@ -154,8 +142,8 @@ Occlusion occluded_part(const Scene& scene, const View& view, Shown shown) {
   const Sums sums(occlusion.mask, view.size);
   for (const PlacedGrain& grain : scene.grains) {
     const double reach_px = reaches_px[static_cast<std::size_t>(grain.shape)];
-    const bool is_hidden = sums.cover_disc(*view.project(grain.pose.position), reach_px, view.size);
-    if (!is_hidden) occlusion.visible.push_back(grain);
+    const Pixels box = around(*view.project(grain.pose.position), reach_px, view.size);
+    if (!sums.covers(box)) occlusion.visible.push_back(grain);
   }
   return occlusion;
 }
