@@ -91,7 +91,8 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
   std::vector<ExperimentEstimate> estimates;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const std::string& name = experiments[e].name;
-    const int checks = kMostCheckRounds * check_runs(problem, name, budget.verification_repeats) +
+    const int checks = (kMostCheckRounds - 1) * check_runs(problem, name, budget.round_repeats) +
+                       check_runs(problem, name, budget.verification_repeats) +
                        budget.family_sets * check_runs(problem, name, kFamilyRepeats);
     estimates.push_back({.experiment = name,
                          .run_s = experiments[e].run_s,
@@ -120,8 +121,11 @@ double last_runs_s(const Problem& problem, int repeats) {
   return seconds;
 }
 
-double check_s(const Problem& problem, int repeats) {
-  return run_s_of_all(problem, verification_jobs(problem, middle_of(problem), repeats, 0));
+double checks_s(const Problem& problem, const Budget& budget, int rounds) {
+  const auto check_s = [&](int repeats) {
+    return run_s_of_all(problem, verification_jobs(problem, middle_of(problem), repeats, 0));
+  };
+  return (rounds - 1) * check_s(budget.round_repeats) + check_s(budget.verification_repeats);
 }
 
 std::vector<int> runs_for(const Problem& problem, double seconds) {

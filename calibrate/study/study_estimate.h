@@ -24,8 +24,9 @@ struct ExperimentEstimate {
 
 std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& budget);
 
-/// Work of one check of one set of coefficients, s by the program's own measure.
-double check_s(const Problem& problem, int repeats);
+/// Work of so many rounds of checks at most, s by the program's own measure, and of what makes the
+/// last of them, or of those before, a large one.
+double checks_s(const Problem& problem, const Budget& budget, int rounds);
 
 /// Work of what follows the last check, likewise: predictions of what is held out, stiffer grains.
 double last_runs_s(const Problem& problem, int repeats);

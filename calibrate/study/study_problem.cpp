@@ -221,21 +221,24 @@ Budget budget_named(const std::string& name) {
     return {.name = name,
             .description = "14 minutes of one core for the fit",
             .settings = {.budget_s = 14 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
-            .verification_repeats = 10,
+            .round_repeats = 6,
+            .verification_repeats = 24,
             .family_sets = 2};
   }
   if (name == "standard") {
     return {.name = name,
             .description = "125 minutes of one core for the fit",
             .settings = {.budget_s = 125 * kMinute_s, .max_jobs = 2000, .max_rounds = 6},
-            .verification_repeats = 10,
+            .round_repeats = 6,
+            .verification_repeats = 24,
             .family_sets = 3};
   }
   if (name == "paper") {
     return {.name = name,
             .description = "62 simulations at most for the fit, as many as the publication made",
             .settings = {.budget_s = 60 * kMinute_s, .max_jobs = 62, .max_rounds = 3},
-            .verification_repeats = 10,
+            .round_repeats = 6,
+            .verification_repeats = 24,
             .family_sets = 0};
   }
   throw std::invalid_argument(

@@ -14,7 +14,8 @@ struct Budget {
   std::string name;
   std::string description;  ///< "14 minutes of one core for the fit"
   FitSettings settings;
-  int verification_repeats = 3;  ///< fresh seeds at the best fit
+  int round_repeats = 2;         ///< fresh seeds at the best fit while checks still move it
+  int verification_repeats = 3;  ///< in the last check, which the verdicts are made of
   int family_sets = 2;           ///< sets of the equivalence family that are checked
 };
 

@@ -84,7 +84,7 @@ bool try_family(const Problem& problem, const Budget& budget, JobRunner& runner,
     tried.push_back(set.values);
   }
   const auto checks = runner.get("checking equally good sets", jobs,
-                                 kMostCheckRounds * check_s(problem, budget.verification_repeats) +
+                                 checks_s(problem, budget, kMostCheckRounds) +
                                      last_runs_s(problem, budget.verification_repeats));
   if (!checks) return false;
   outcome.runs = joined(std::move(outcome.runs), *checks);
@@ -101,33 +101,68 @@ bool is_near(const JointFit& fit, const PredictedSet& checked) {
   return true;
 }
 
-/// Simulates the fit with fresh seeds and fits again with these runs, until that changes nothing
-/// any more or there were enough rounds. Whether bench and simulation agree plays no part in it:
-/// a fit is not chosen because it does. False when interrupted.
+/// One set of coefficients, checked: as many runs as it was asked for, whenever.
+class Check {
+ public:
+  Check(const Problem& problem, StudyOutcome& outcome)
+      : problem_(problem),
+        outcome_(outcome),
+        before_(outcome.fit),
+        values_(values_of(outcome.fit)),
+        set_(outcome.check_rounds++) {
+    outcome_.checks.clear();
+  }
+
+  /// Those of so many repeats that were not simulated yet.
+  std::vector<Job> jobs(int repeats) const {
+    std::vector<Job> jobs = verification_jobs(problem_, values_, repeats, set_);
+    std::erase_if(jobs, [&](const Job& job) {
+      return std::ranges::find(outcome_.checks, job, &Run::job) != outcome_.checks.end();
+    });
+    return jobs;
+  }
+
+  /// Fits again with their runs. Whether that changes hardly anything.
+  bool add(const std::vector<Run>& runs, const std::vector<std::vector<double>>& tried) {
+    outcome_.checks = joined(std::move(outcome_.checks), runs);
+    outcome_.runs = joined(std::move(outcome_.runs), runs);
+    outcome_.surrogates = check_surrogates(problem_, before_, outcome_.checks);
+    std::vector<std::vector<double>> asked = {values_};
+    asked.insert(asked.end(), tried.begin(), tried.end());
+    outcome_.fit = fit_jointly(problem_, outcome_.runs, asked);
+    outcome_.best = verify(problem_, values_, outcome_.checks, &outcome_.fit);
+    return is_near(outcome_.fit, outcome_.fit.asked.front());
+  }
+
+ private:
+  const Problem& problem_;
+  StudyOutcome& outcome_;
+  const JointFit before_;
+  const std::vector<double> values_;
+  const int set_;
+};
+
+/// Simulates the fit with a few fresh seeds and fits again with these runs, until that changes
+/// nothing any more or there were enough rounds; the last of these checks is then made a large one.
+/// Whether bench and simulation agree plays no part in it: a fit is not chosen because it does.
+/// False when interrupted.
 bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runner,
                    const std::vector<std::vector<double>>& tried, StudyOutcome& outcome) {
+  const double last_s = last_runs_s(problem, budget.verification_repeats);
   outcome.fit = fit_jointly(problem, outcome.runs);
-  bool is_settled = false;
-  while (!is_settled && outcome.check_rounds < kMostCheckRounds) {
-    const std::vector<double> values = values_of(outcome.fit);
-    const auto checks = runner.get(
-        fmt::format("check {} of at most {}", outcome.check_rounds + 1, kMostCheckRounds),
-        verification_jobs(problem, values, budget.verification_repeats, outcome.check_rounds),
-        (kMostCheckRounds - outcome.check_rounds - 1) *
-                check_s(problem, budget.verification_repeats) +
-            last_runs_s(problem, budget.verification_repeats));
-    if (!checks) return false;
-    ++outcome.check_rounds;
-    outcome.checks = *checks;
-    outcome.surrogates = check_surrogates(problem, outcome.fit, *checks);
-    outcome.runs = joined(std::move(outcome.runs), *checks);
-    std::vector<std::vector<double>> asked = {values};
-    asked.insert(asked.end(), tried.begin(), tried.end());
-    outcome.fit = fit_jointly(problem, outcome.runs, asked);
-    outcome.best = verify(problem, values, *checks, &outcome.fit);
-    is_settled = is_near(outcome.fit, outcome.fit.asked.front());
+  for (;;) {
+    Check check(problem, outcome);
+    const int rounds_left = kMostCheckRounds - outcome.check_rounds;
+    const auto few = runner.get(
+        fmt::format("check {} of at most {}", outcome.check_rounds, kMostCheckRounds),
+        check.jobs(budget.round_repeats), checks_s(problem, budget, rounds_left) + last_s);
+    if (!few) return false;
+    if (!check.add(*few, tried) && rounds_left > 0) continue;
+    const auto rest = runner.get("last check", check.jobs(budget.verification_repeats), last_s);
+    if (!rest) return false;
+    check.add(*rest, tried);
+    return true;
   }
-  return true;
 }
 
 /// Those of the sets that were simulated and that the fit still takes for as good as the best: with
@@ -207,6 +242,25 @@ void note_stiffness(StudyOutcome& outcome) {
   }
 }
 
+/// A fit that its last check has moved by more than that check could miss.
+void note_last_step(StudyOutcome& outcome) {
+  const PredictedSet& checked = outcome.fit.asked.front();
+  std::string moved;
+  for (std::size_t i = 0; i < outcome.fit.observables.size(); ++i) {
+    const FittedObservable& fitted = outcome.fit.observables[i];
+    const double step = fitted.simulated - checked.simulated[i];
+    const double unseen = outcome.best.observables[i].simulated_uncertainty;
+    if (std::abs(step) <= std::max(kNear * fitted.measured_uncertainty, unseen)) continue;
+    moved +=
+        fmt::format("{}{} {:+.3g} {}", moved.empty() ? "" : ", ", fitted.name, step, fitted.unit);
+  }
+  if (moved.empty()) return;
+  outcome.notes.push_back(fmt::format(
+      "after {} rounds of checks the coefficients still change: according to the surrogates, those "
+      "reported differ from those checked last by: {}. A larger budget would settle them.",
+      outcome.check_rounds, moved));
+}
+
 void note_checks(const Problem& problem, StudyOutcome& outcome) {
   for (const SurrogateCheck& check : outcome.surrogates) {
     if (!check.misses) continue;
@@ -219,18 +273,7 @@ void note_checks(const Problem& problem, StudyOutcome& outcome) {
         check.observable, check.predicted, base::kNormal95 * check.uncertainty, check.simulated,
         100 * check.chance));
   }
-  const PredictedSet& checked = outcome.fit.asked.front();
-  if (is_near(outcome.fit, checked)) return;
-  std::string moved;
-  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
-    const FittedObservable& fitted = outcome.fit.observables[i];
-    moved += fmt::format("{}{} {:+.3g} {}", moved.empty() ? "" : ", ", fitted.name,
-                         fitted.simulated - checked.simulated[i], fitted.unit);
-  }
-  outcome.notes.push_back(fmt::format(
-      "after {} rounds of checks the coefficients still change: according to the surrogates, those "
-      "reported differ from those checked last by: {}. A larger budget would settle them.",
-      outcome.check_rounds, moved));
+  note_last_step(outcome);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -151,7 +153,7 @@ TEST_F(StudyRun, SoftenedExperimentsAreSimulatedWithStifferGrainsAtTheEnd) {
   const StiffnessCheck& drop = outcome->stiffness[0];
   EXPECT_EQ(drop.name, "drop");
   EXPECT_EQ(drop.stiffness, 4) << "as stiff as real grains, no stiffer";
-  EXPECT_EQ(drop.runs, 10);
+  EXPECT_EQ(drop.runs, 24);
   EXPECT_LT(std::abs(drop.change), .5) << "restitution does not depend on stiffness";
   EXPECT_EQ(drop.verdict, AgreementVerdict::agrees);
   for (const auto& known : outcome->runs)
@@ -296,6 +298,27 @@ TEST_F(StudyRun, EveryCheckEntersTheFitWhetherItAgreesOrNot) {
         outcome->fit.chi2);
     EXPECT_NEAR(outcome->best.values[1], outcome->fit.parameters[1].value, .01);
   }
+}
+
+TEST_F(StudyRun, ChecksAreFewRunsWhileTheyMoveTheFitAndManyAtTheEnd) {
+  const auto outcome = run("runs", 2);
+  ASSERT_TRUE(outcome);
+  std::map<double, int> drops;  // by restitution: those with the seeds of checks
+  for (const auto& known : outcome->runs) {
+    const bool is_check = known.job.seed >= 1'000'000'000U;
+    if (is_check && known.job.experiment == "drop") ++drops[known.job.values[0]];
+  }
+  const double last = outcome->best.values[0];
+  EXPECT_EQ(drops.at(last), 24);
+  EXPECT_EQ(outcome->best.observables[0].runs, 24);
+  drops.erase(last);
+  EXPECT_EQ(std::ranges::count(drops, 6, &std::pair<const double, int>::second),
+            outcome->check_rounds - 1);
+  std::set<std::uint64_t> seeds;
+  for (const auto& check : outcome->checks) {
+    if (check.job.experiment == "drop") seeds.insert(check.job.seed);
+  }
+  EXPECT_THAT(seeds, SizeIs(24)) << "all different";
 }
 
 TEST_F(StudyRun, IsTheSameWithAnyNumberOfThreadsAndInterruptions) {

@@ -108,7 +108,7 @@ TEST_F(Calibrate, ShowsWhatStifferGrainsChange) {
   const json result = json::parse(text("result.json"));
   ASSERT_EQ(result["stiffness_checks"].size(), 1U);
   EXPECT_EQ(result["stiffness_checks"][0]["name"], "drop");
-  EXPECT_EQ(result["stiffness_checks"][0]["runs"], 10);
+  EXPECT_EQ(result["stiffness_checks"][0]["runs"], 24);
   EXPECT_NE(result["stiffness_checks"][0]["verdict"], "disagrees")
       << "restitution does not depend on stiffness";
   EXPECT_THAT(done.out, HasSubstr("coefficient with stiffer grains"));
