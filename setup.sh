@@ -31,6 +31,8 @@ if [ "${1-}" = --tests ]; then
 fi
 preset=release
 if [ $# -gt 0 ]; then preset=$1; shift; fi
+# For tests/thread_tbb.
+if [ "$preset" = thread ] && [ $tests = ON ]; then needed="$needed dpkg-dev"; fi
 
 log=$(mktemp)
 trap 'rm -f -- "$log"' EXIT
