@@ -8,6 +8,7 @@
 
 #include "vision/camera/markers.h"
 #include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv_threads.h"
 
 namespace repose::vision {
 namespace {
@@ -83,6 +84,7 @@ std::vector<BoardPatch> board_patches() {
 }
 
 std::vector<SeenCorner> find_board(const Picture& picture) {
+  keep_opencv_to_one_thread();
   cv::Mat1b grey;
   cv::cvtColor(mat_of(picture), grey, cv::COLOR_BGR2GRAY);
   std::vector<SeenCorner> corners = agreeing(detected_corners(grey));

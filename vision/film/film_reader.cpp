@@ -14,6 +14,7 @@
 
 #include "vision/film/frame_files.h"
 #include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv_threads.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
@@ -157,6 +158,7 @@ class FilmReader::FolderSource : public FilmReader::Source {
 };
 
 FilmReader::FilmReader(const FilmFile& file) : file_(file.path), lens_(file.lens) {
+  keep_opencv_to_one_thread();
   std::error_code error;
   if (file.frames_per_s && fs::is_directory(file_, error)) {
     source_ = std::make_unique<FolderSource>(file_, *file.frames_per_s);

@@ -15,6 +15,7 @@
 #include "vision/measure/paper_method.h"
 #include "vision/measure/uncertainty.h"
 #include "vision/measure/verdict.h"
+#include "vision/picture/opencv_threads.h"
 
 namespace repose::vision {
 namespace {
@@ -35,17 +36,6 @@ void check(const Picture& picture, const MeasureOptions& options) {
     errors.push_back(std::move(problem));
   }
   if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
-}
-
-/// Pictures are measured side by side. Threads inside OpenCV would gain nothing then, and while one
-/// of them waited it could start on another picture and reseed the generator that GrabCut draws
-/// from.
-void one_thread_a_picture() {
-  static const bool once = [] {
-    cv::setNumThreads(1);
-    return true;
-  }();
-  static_cast<void>(once);
 }
 
 /// Pitch that a camera may have which was taken for level: what the base's bow tells, where the
@@ -263,7 +253,7 @@ std::vector<std::string> MeasureOptions::problems_in(int width, int height) cons
 
 ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options) {
   check(picture, options);
-  one_thread_a_picture();
+  keep_opencv_to_one_thread();
   const WorkingPicture work = working_picture(picture, options.excluded, options.hints);
   if (std::min(work.frame.width, work.frame.height) < kSmallestSide) {
     return too_small(picture, options);

@@ -85,17 +85,15 @@ double noise_of(const std::vector<cv::Mat>& samples, const cv::Mat& scene) {
 cv::Mat median_of(std::span<const cv::Mat> frames) {
   cv::Mat median(frames.front().size(), frames.front().type());
   const auto bytes = static_cast<std::size_t>(median.cols) * median.elemSize();
-  cv::parallel_for_({0, median.rows}, [&](const cv::Range& rows) {
-    std::vector<uchar> values(frames.size());
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    for (int row = rows.start; row < rows.end; ++row) {
-      for (std::size_t k = 0; k < bytes; ++k) {
-        for (std::size_t n = 0; n < frames.size(); ++n) values[n] = frames[n].ptr(row)[k];
-        std::nth_element(values.begin(), middle, values.end());
-        median.ptr(row)[k] = *middle;
-      }
+  std::vector<uchar> values(frames.size());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  for (int row = 0; row < median.rows; ++row) {
+    for (std::size_t k = 0; k < bytes; ++k) {
+      for (std::size_t n = 0; n < frames.size(); ++n) values[n] = frames[n].ptr(row)[k];
+      std::nth_element(values.begin(), middle, values.end());
+      median.ptr(row)[k] = *middle;
     }
-  });
+  }
   return median;
 }
 

@@ -17,22 +17,20 @@ cv::Mat backdrop_of(const cv::Mat& strip) {
   const int reach = std::max(1, strip.cols / 4);
   const int columns = strip.cols / kStep_px + 1;
   cv::Mat coarse(strip.rows, columns, CV_8UC3);
-  cv::parallel_for_({0, strip.rows}, [&](const cv::Range& rows) {
-    std::vector<uchar> values;
-    for (int y = rows.start; y < rows.end; ++y) {
-      for (int k = 0; k < columns; ++k) {
-        const int from = std::max(0, k * kStep_px - reach);
-        const int to = std::min(strip.cols, k * kStep_px + reach + 1);
-        for (int channel = 0; channel < 3; ++channel) {
-          values.clear();
-          for (int x = from; x < to; ++x) values.push_back(strip.at<cv::Vec3b>(y, x)[channel]);
-          const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-          std::nth_element(values.begin(), middle, values.end());
-          coarse.at<cv::Vec3b>(y, k)[channel] = *middle;
-        }
+  std::vector<uchar> values;
+  for (int y = 0; y < strip.rows; ++y) {
+    for (int k = 0; k < columns; ++k) {
+      const int from = std::max(0, k * kStep_px - reach);
+      const int to = std::min(strip.cols, k * kStep_px + reach + 1);
+      for (int channel = 0; channel < 3; ++channel) {
+        values.clear();
+        for (int x = from; x < to; ++x) values.push_back(strip.at<cv::Vec3b>(y, x)[channel]);
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        coarse.at<cv::Vec3b>(y, k)[channel] = *middle;
       }
     }
-  });
+  }
   cv::Mat backdrop;
   cv::resize(coarse, backdrop, strip.size(), 0, 0, cv::INTER_LINEAR);
   return backdrop;
