@@ -261,7 +261,7 @@ void note_last_step(StudyOutcome& outcome) {
       outcome.check_rounds, moved));
 }
 
-void note_checks(const Problem& problem, StudyOutcome& outcome) {
+void note_checks(StudyOutcome& outcome) {
   for (const SurrogateCheck& check : outcome.surrogates) {
     if (!check.misses) continue;
     outcome.notes.push_back(fmt::format(
@@ -294,7 +294,7 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }
-  note_checks(problem, outcome);
+  note_checks(outcome);
   note_stiffness(outcome);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();
