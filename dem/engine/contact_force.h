@@ -7,7 +7,7 @@
 namespace repose::dem {
 
 /// What a contact remembers from step to step. All zero: it does not touch.
-struct ContactMemory {
+struct alignas(64) ContactMemory {
   Vector tangential = Vector::Zero();  ///< tangential spring's force on a, N
   double radius = 0;                   ///< of the contact area, m
   Vector rolling = Vector::Zero();     ///< rolling spring's torque on a, N m

@@ -32,12 +32,31 @@ struct PairMotion {
   Row mean_spin;
   const ContactLaw* law = nullptr;
   PairLoad* load = nullptr;
+  const BodyMotion* a = nullptr;
+  const BodyMotion* b = nullptr;
+};
+
+/// What touches what: spheres of bodies a, and Others, which are spheres of bodies b or the
+/// FacetContacts of walls.
+template <typename Other>
+struct Sides {
+  const PlacedSphere* spheres = nullptr;
+  const Other* others = nullptr;
+  ContactMemory* memories = nullptr;
+  const BodyMotion* motions_a = nullptr;
+  const BodyMotion* motions_b = nullptr;
+  const Row* positions_a = nullptr;
+  const Row* positions_b = nullptr;
+  const double* touching_a = nullptr;  ///< of all that each body a touched at the last step
+  const double* touching_b = nullptr;  ///< none: walls
 };
 
 /// Up to four contacts; those beyond the last one repeat it.
 template <typename Other>
 struct FourTouching {
-  std::array<const Touching<Other>*, kLanes> touching;
+  std::array<const PlacedSphere*, kLanes> sphere;
+  std::array<const Other*, kLanes> other;
+  std::array<ContactMemory*, kLanes> memory;
   std::array<const PairMotion*, kLanes> pair;
 };
 
@@ -76,36 +95,45 @@ REPOSE_INLINE Lanes cross_of_rows(const Lanes& u, const Lanes& v) {
   return next(u * next(v) - next(u) * v);
 }
 
+/// A row of 0, 0, 0 and a number.
+REPOSE_INLINE Lanes beside(double number) { return Lanes::Vector4{0, 0, 0, number}; }
+
 /// Those of the last step, or of this pair when it has more.
-REPOSE_INLINE double contacts_per_kg(const TouchingPair& pair, const double* at_last_step,
+REPOSE_INLINE double contacts_per_kg(const TouchingPair& pair, double at_last_step,
                                      const BodyMotion& body) {
-  return std::max(pair.touching, *at_last_step) / body.spin.w;
+  return std::max(static_cast<double>(pair.touching), at_last_step) / body.spin.w;
 }
 
 /// Contacts' velocities are those at a's centre and, for their arms, the difference of both spins.
-REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, double timestep, PairLoad& load) {
-  const Lanes position_a = load_row(*pair.position_a);
-  const Lanes apart = load_row(*pair.position_b) - position_a;
-  const Lanes spin_a = load_row(pair.a->spin);
-  const Lanes spin_b = load_row(pair.b->spin);
-  const Lanes kick_a = load_row(pair.a->spin_kick);
-  const Lanes kick_b = load_row(pair.b->spin_kick);
-  const Lanes velocity = load_row(pair.b->velocity) - load_row(pair.a->velocity);
-  const Lanes velocity_kick = load_row(pair.b->velocity_kick) - load_row(pair.a->velocity_kick);
+template <typename Other>
+REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, const Sides<Other>& sides,
+                                   double timestep, PairLoad& load) {
+  const BodyMotion& a = sides.motions_a[pair.a];
+  const BodyMotion& b = sides.motions_b[pair.b];
+  const Lanes position_a = load_row(sides.positions_a[pair.a]);
+  const Lanes apart = load_row(sides.positions_b[pair.b]) - position_a;
+  const Lanes spin_a = load_row(a.spin);
+  const Lanes spin_b = load_row(b.spin);
+  const Lanes kick_a = load_row(a.spin_kick);
+  const Lanes kick_b = load_row(b.spin_kick);
+  const Lanes velocity = load_row(b.velocity) - load_row(a.velocity);
+  const Lanes velocity_kick = load_row(b.velocity_kick) - load_row(a.velocity_kick);
   PairMotion motion;
   store_row(position_a, motion.position_a);
-  store_row(apart + load_row(pair.reduced_inertia), motion.apart);
-  store_row(velocity - cross_of_rows(spin_b, apart) + load_row(pair.reduced_mass), motion.velocity);
+  store_row(apart + beside(pair.reduced_inertia), motion.apart);
+  store_row(velocity - cross_of_rows(spin_b, apart) + beside(pair.reduced_mass), motion.velocity);
   store_row(spin_b - spin_a, motion.spin);
-  motion.spin.w =
-      shared_limit(contacts_per_kg(pair, pair.touching_a, *pair.a),
-                   pair.touching_b ? contacts_per_kg(pair, pair.touching_b, *pair.b) : 0, timestep);
-  store_row(velocity_kick - cross_of_rows(kick_b, apart) + load_row(pair.damper_limit),
+  motion.spin.w = shared_limit(
+      contacts_per_kg(pair, sides.touching_a[pair.a], a),
+      sides.touching_b ? contacts_per_kg(pair, sides.touching_b[pair.b], b) : 0, timestep);
+  store_row(velocity_kick - cross_of_rows(kick_b, apart) + beside(pair.damper_limit),
             motion.velocity_kick);
   store_row(kick_b - kick_a, motion.spin_kick);
   store_row((spin_a + spin_b) * .5, motion.mean_spin);
   motion.law = pair.law;
   motion.load = &load;
+  motion.a = &a;
+  motion.b = &b;
   return motion;
 }
 
@@ -113,7 +141,7 @@ REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, double timestep, Pa
 REPOSE_INLINE void begin_load(const TouchingPair& pair, PairLoad& load) {
   load.force = {};
   load.torque_a = {};
-  load.touching = pair.touching;
+  load.touching = static_cast<double>(pair.touching);
 }
 
 /// Once all contacts are added: b's torque is that of the opposite force, seen from b's centre.
@@ -134,7 +162,7 @@ REPOSE_INLINE Columns gather(const FourTouching<Other>& four, Row PairMotion::*r
 template <bool is_round, typename Other>
 REPOSE_INLINE Columns to_sphere(const FourTouching<Other>& four) {
   const Columns to_a = gather([&](std::size_t k) {
-    const Lanes sphere = load_row(*four.touching[k]->sphere);
+    const Lanes sphere = load_row(*four.sphere[k]);
     return is_round ? sphere : sphere - load_row(four.pair[k]->position_a);
   });
   if constexpr (is_round) return {{}, to_a.w};
@@ -146,7 +174,7 @@ REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const La
                                 Contacts& c) {
   const Lanes minus_w = Lanes::Vector4{1, 1, 1, -1};
   const Columns apart = gather([&](std::size_t k) {
-    return load_row(*four.touching[k]->other) - load_row(*four.touching[k]->sphere) * minus_w;
+    return load_row(*four.other[k]) - load_row(*four.sphere[k]) * minus_w;
   });  // w: the sum of the radii
   const Lanes distance = sqrt(apart.xyz.squared_norm());
   const Lanes other_radius = apart.w - radius;
@@ -158,8 +186,8 @@ REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const La
 
 REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Lanes& radius,
                                 Contacts& c) {
-  const Columns facet = gather([&](std::size_t k) { return load_row(*four.touching[k]->other); });
-  const Lanes curvature = each([&](std::size_t k) { return four.touching[k]->other->curvature; });
+  const Columns facet = gather([&](std::size_t k) { return load_row(*four.other[k]); });
+  const Lanes curvature = each([&](std::size_t k) { return four.other[k]->curvature; });
   c.touch.normal = -facet.xyz;
   c.touch.overlap = radius - facet.w;
   c.touch.reduced_radius = radius / (1 + radius * curvature);
@@ -208,19 +236,16 @@ REPOSE_INLINE Law<Lanes> laws_of(const FourTouching<Other>& four) {
 
 /// Of both bodies about the contact; a wall has no inertia.
 template <typename Other>
-REPOSE_INLINE Lanes contact_inertia(const Contacts& c, const FourTouching<Other>& four,
-                                    std::span<const TouchingPair> pairs) {
-  const auto about_contact = [&](BodyMotion const* TouchingPair::*body, const Vec3<Lanes>& arm)
+REPOSE_INLINE Lanes contact_inertia(const Contacts& c, const FourTouching<Other>& four) {
+  const auto about_contact = [&](BodyMotion const* PairMotion::*body, const Vec3<Lanes>& arm)
       __attribute__((always_inline)) {
-    const auto motion = [&](std::size_t k) -> const BodyMotion& {
-      return *(pairs[four.touching[k]->pair].*body);
-    };
+    const auto motion = [&](std::size_t k) -> const BodyMotion& { return *(four.pair[k]->*body); };
     return each([&](std::size_t k) { return motion(k).spin_kick.w; }) +
            each([&](std::size_t k) { return motion(k).spin.w; }) * arm.squared_norm();
   };
-  const Lanes a = about_contact(&TouchingPair::a, c.arm_a);
+  const Lanes a = about_contact(&PairMotion::a, c.arm_a);
   if constexpr (std::is_same_v<Other, FacetContact>) return a;
-  const Lanes b = about_contact(&TouchingPair::b, c.arm_b);
+  const Lanes b = about_contact(&PairMotion::b, c.arm_b);
   return reduced(a, b);
 }
 
@@ -228,8 +253,7 @@ REPOSE_INLINE Lanes contact_inertia(const Contacts& c, const FourTouching<Other>
 template <RollingModel model, typename Other>
 REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_force,
                                          const Lanes& last_force, const Law<Lanes>& law,
-                                         double timestep, const FourTouching<Other>& four,
-                                         std::span<const TouchingPair> pairs) {
+                                         double timestep, const FourTouching<Other>& four) {
   Roll<Lanes> roll = {.normal = c.touch.normal,
                       .spin = -c.spin,
                       .normal_force = normal_force,
@@ -241,13 +265,13 @@ REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_
   if constexpr (model == RollingModel::relative_constant_torque) {
     return relative_constant_torque(roll, law, timestep);
   }
-  roll.contact_inertia = contact_inertia(c, four, pairs);
+  roll.contact_inertia = contact_inertia(c, four);
   // The row's w is the push: read, and left alone.
   Vec3<Lanes> spring =
-      gather([&](std::size_t k) { return load(four.touching[k]->memory->rolling.data()); }).xyz;
+      gather([&](std::size_t k) { return load(four.memory[k]->rolling.data()); }).xyz;
   const Vec3<Lanes> torque = elastic_plastic_torque(roll, law, timestep, spring);
   for (std::size_t k = 0; k < kLanes; ++k) {
-    four.touching[k]->memory->rolling = {spring.x[k], spring.y[k], spring.z[k]};
+    four.memory[k]->rolling = {spring.x[k], spring.y[k], spring.z[k]};
   }
   return torque;
 }
@@ -255,12 +279,11 @@ REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_
 /// Adds four contacts to the loads of their pairs, and brings their memories up to date.
 /// @return how deep they are, as fractions of the smaller sphere's radius
 template <bool is_round, RollingModel model, typename Other>
-REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep,
-                             std::span<const TouchingPair> pairs) {
+REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep) {
   const Contacts c = contacts_of<is_round>(four);
   const Law<Lanes> law = laws_of(four);
-  const Columns memory = gather([&](std::size_t k) { return load_row(*four.touching[k]->memory); });
-  const Lanes last_push = each([&](std::size_t k) { return four.touching[k]->memory->push; });
+  const Columns memory = gather([&](std::size_t k) { return load_row(*four.memory[k]); });
+  const Lanes last_push = each([&](std::size_t k) { return four.memory[k]->push; });
   Springs<Lanes> springs = {memory.xyz, memory.w, last_push};
   const ContactForce<Lanes> force = contact_force(c.touch, law, timestep, springs);
 
@@ -272,13 +295,13 @@ REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep,
     rolling_a = resistance * sqrt(c.arm_a.squared_norm());
     rolling_b = resistance * sqrt(c.arm_b.squared_norm());
   } else if constexpr (model != RollingModel::none) {
-    torque_a += rolling_torque<model>(c, force.normal, last_push, law, timestep, four, pairs);
+    torque_a += rolling_torque<model>(c, force.normal, last_push, law, timestep, four);
   }
   const Rows memories = rows_of(springs.tangential, springs.radius);
   const Rows forces = rows_of(force.total, rolling_b);
   const Rows torques_a = rows_of(torque_a, rolling_a);
   for (std::size_t k = 0; k < kLanes; ++k) {
-    ContactMemory& own = *four.touching[k]->memory;
+    ContactMemory& own = *four.memory[k];
     store_row(memories.row[k], own);
     own.push = springs.push[k];
     PairLoad& load = *four.pair[k]->load;
@@ -288,64 +311,69 @@ REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep,
   return c.touch.overlap / c.smaller_radius;
 }
 
+/// Puts a contact into a lane.
+template <typename Other>
+REPOSE_INLINE void set_lane(FourTouching<Other>& four, std::size_t lane, const Touching& touching,
+                            const Sides<Other>& sides, const PairMotion* motions) {
+  four.sphere[lane] = &sides.spheres[touching.sphere];
+  four.other[lane] = &sides.others[touching.other];
+  four.memory[lane] = &sides.memories[touching.memory];
+  four.pair[lane] = &motions[touching.pair];
+}
+
 /// The last contacts, fewer than four: the lanes beyond repeat the last one, for nothing.
 template <typename Other>
 struct LastTouching {
   FourTouching<Other> four;
   ContactMemory memory;
-  Touching<Other> touching;
   PairLoad load;
   PairMotion pair;
 
-  REPOSE_INLINE LastTouching(std::span<const Touching<Other>> last, const PairMotion* motions)
-      : memory(*last.back().memory), touching(last.back()), pair(motions[last.back().pair]) {
-    touching.memory = &memory;
+  REPOSE_INLINE LastTouching(std::span<const Touching> last, const Sides<Other>& sides,
+                             const PairMotion* motions)
+      : memory(sides.memories[last.back().memory]), pair(motions[last.back().pair]) {
     pair.load = &load;
-    four.touching.fill(&touching);
-    four.pair.fill(&pair);
-    for (std::size_t k = 0; k < last.size(); ++k) {
-      four.touching[k] = &last[k];
-      four.pair[k] = &motions[last[k].pair];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      set_lane(four, k, last[std::min(k, last.size() - 1)], sides, motions);
+      if (k < last.size()) continue;
+      four.memory[k] = &memory;
+      four.pair[k] = &pair;
     }
   }
 };
 
 template <bool is_round, RollingModel model, typename Other>
-REPOSE_INLINE Lanes add_with(std::span<const Touching<Other>> touching,
-                             std::span<const TouchingPair> pairs, const PairMotion* motions,
-                             double timestep) {
+REPOSE_INLINE Lanes add_with(std::span<const Touching> touching, const Sides<Other>& sides,
+                             const PairMotion* motions, double timestep) {
   Lanes deepest;
   for (std::size_t at = 0; at < touching.size(); at += kLanes) {
-    const std::span<const Touching<Other>> left = touching.subspan(at);
+    const std::span<const Touching> left = touching.subspan(at);
     if (left.size() < kLanes) {
-      const LastTouching<Other> last(left, motions);
-      deepest = greatest(add_four<is_round, model>(last.four, timestep, pairs), deepest);
+      const LastTouching<Other> last(left, sides, motions);
+      deepest = greatest(add_four<is_round, model>(last.four, timestep), deepest);
       break;
     }
     FourTouching<Other> four = {};
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      four.touching[k] = &left[k];
-      four.pair[k] = &motions[left[k].pair];
-    }
-    deepest = greatest(add_four<is_round, model>(four, timestep, pairs), deepest);
+    for (std::size_t k = 0; k < kLanes; ++k) set_lane(four, k, left[k], sides, motions);
+    deepest = greatest(add_four<is_round, model>(four, timestep), deepest);
   }
   return deepest;
 }
 
 template <bool is_round, typename Other>
-REPOSE_INLINE Lanes add_contacts_of(std::span<const Touching<Other>> touching,
-                                    std::span<const TouchingPair> pairs, const PairMotion* motions,
-                                    RollingModel model, double timestep) {
+REPOSE_INLINE Lanes add_contacts_of(std::span<const Touching> touching, const Sides<Other>& sides,
+                                    const PairMotion* motions, RollingModel model,
+                                    double timestep) {
   switch (model) {
     case RollingModel::none:
-      return add_with<is_round, RollingModel::none>(touching, pairs, motions, timestep);
+      return add_with<is_round, RollingModel::none>(touching, sides, motions, timestep);
     case RollingModel::constant_torque:
-      return add_with<is_round, RollingModel::constant_torque>(touching, pairs, motions, timestep);
+      return add_with<is_round, RollingModel::constant_torque>(touching, sides, motions, timestep);
     case RollingModel::relative_constant_torque:
-      return add_with<is_round, RollingModel::relative_constant_torque>(touching, pairs, motions,
+      return add_with<is_round, RollingModel::relative_constant_torque>(touching, sides, motions,
                                                                         timestep);
     case RollingModel::elastic_plastic:
-      return add_with<is_round, RollingModel::elastic_plastic>(touching, pairs, motions, timestep);
+      return add_with<is_round, RollingModel::elastic_plastic>(touching, sides, motions, timestep);
   }
   return {};
 }
@@ -355,19 +383,19 @@ REPOSE_INLINE Lanes add_contacts_of(std::span<const Touching<Other>> touching,
 /// @param motions  room for as many as there are pairs
 /// @return the deepest overlap, as a fraction of the smaller sphere's radius
 template <typename Other>
-REPOSE_INLINE double add_contacts(std::span<const Touching<Other>> touching,
-                                  std::span<const TouchingPair> pairs, const ContactStep& step,
-                                  PairMotion* motions, PairLoad* loads) {
+REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
+                                  std::span<const TouchingPair> pairs, const Sides<Other>& sides,
+                                  const ContactStep& step, PairMotion* motions, PairLoad* loads) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     PairLoad& load = loads[pairs[k].number];
     begin_load(pairs[k], load);
-    motions[k] = motion_of(pairs[k], step.timestep_s, load);
+    motions[k] = motion_of(pairs[k], sides, step.timestep_s, load);
   }
   const RollingModel model = step.contacts.rolling();
   const Lanes deepest =
       step.bodies.is_round
-          ? add_contacts_of<true>(touching, pairs, motions, model, step.timestep_s)
-          : add_contacts_of<false>(touching, pairs, motions, model, step.timestep_s);
+          ? add_contacts_of<true>(touching, sides, motions, model, step.timestep_s)
+          : add_contacts_of<false>(touching, sides, motions, model, step.timestep_s);
   for (std::size_t k = 0; k < pairs.size(); ++k) finish_load(motions[k], *motions[k].load);
   return std::max(std::max(deepest[0], deepest[1]), std::max(deepest[2], deepest[3]));
 }

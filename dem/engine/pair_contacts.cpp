@@ -62,45 +62,52 @@ REPOSE_INLINE bool look_at_all(const ContactStep& step, NeighbourList& list, std
   return has_changed;
 }
 
-TouchingPair touching_pair(const ContactStep& step, const NearGrains& near, std::size_t number) {
-  const Bodies& bodies = step.bodies;
-  const auto a = static_cast<std::size_t>(near.a);
-  const auto b = static_cast<std::size_t>(near.b);
-  TouchingPair pair = {.a = &bodies.motion[a],
-                       .b = &bodies.motion[b],
-                       .position_a = &bodies.position[a],
-                       .position_b = &bodies.position[b],
-                       .touching_a = &bodies.touching[a],
-                       .touching_b = &bodies.touching[b],
-                       .law = &step.contacts.law(step.material(near.a), step.material(near.b)),
-                       .number = number};
-  pair.reduced_mass.w = reduced(pair.a->spin.w, pair.b->spin.w);
-  pair.reduced_inertia.w = reduced(pair.a->spin_kick.w, pair.b->spin_kick.w);
-  return pair;
+TouchingPair touching_pair(const ContactStep& step, const NearGrains& near, std::size_t number,
+                           std::size_t touching) {
+  const BodyMotion& a = step.bodies.motion[static_cast<std::size_t>(near.a)];
+  const BodyMotion& b = step.bodies.motion[static_cast<std::size_t>(near.b)];
+  const double reduced_mass = reduced(a.spin.w, b.spin.w);
+  return {
+      .a = near.a,
+      .b = near.b,
+      .law = &step.contacts.law(step.material(near.a), step.material(near.b)),
+      .number = static_cast<int>(number),
+      .touching = static_cast<int>(touching),
+      .reduced_mass = reduced_mass,
+      .damper_limit = damper_limit(reduced_mass, step.timestep_s, static_cast<double>(touching)),
+      .reduced_inertia = reduced(a.spin_kick.w, b.spin_kick.w)};
 }
 
-/// Looks up all that the contacts of pairs `first` ... depend on.
-void look_up(const ContactStep& step, NeighbourList& list, std::size_t first, std::size_t count,
-             TouchingChunk& chunk) {
+Sides<PlacedSphere> sides_of(const Bodies& bodies, std::vector<ContactMemory>& memories) {
+  return {.spheres = bodies.spheres.data(),
+          .others = bodies.spheres.data(),
+          .memories = memories.data(),
+          .motions_a = bodies.motion.data(),
+          .motions_b = bodies.motion.data(),
+          .positions_a = bodies.position.data(),
+          .positions_b = bodies.position.data(),
+          .touching_a = bodies.touching.data(),
+          .touching_b = bodies.touching.data()};
+}
+
+/// Looks up which of pairs `first` ... touch, and what their contacts share.
+void look_up(const ContactStep& step, const NeighbourList& list, std::size_t first,
+             std::size_t count, TouchingChunk& chunk) {
   chunk.pairs.clear();
   chunk.contacts.clear();
   for (std::size_t number = 0; number < count; ++number) {
     const NearGrains& near = list.grains[first + number];
     const std::size_t start = chunk.contacts.size();
-    const auto from = static_cast<std::size_t>(near.first);
-    for (std::size_t k = from; k < from + static_cast<std::size_t>(near.count); ++k) {
-      if (list.has_touched[k] == 0) continue;
-      const NearSpheres& spheres = list.spheres[k];
-      chunk.contacts.push_back({.sphere = &step.bodies.spheres[static_cast<std::size_t>(spheres.a)],
-                                .other = &step.bodies.spheres[static_cast<std::size_t>(spheres.b)],
-                                .memory = &list.memories[k],
-                                .pair = chunk.pairs.size()});
+    for (int k = near.first; k < near.first + near.count; ++k) {
+      if (list.has_touched[static_cast<std::size_t>(k)] == 0) continue;
+      const NearSpheres& spheres = list.spheres[static_cast<std::size_t>(k)];
+      chunk.contacts.push_back({.sphere = spheres.a,
+                                .other = spheres.b,
+                                .memory = k,
+                                .pair = static_cast<int>(chunk.pairs.size())});
     }
-    if (chunk.contacts.size() == start) continue;
-    TouchingPair pair = touching_pair(step, near, number);
-    pair.touching = static_cast<double>(chunk.contacts.size() - start);
-    pair.damper_limit.w = damper_limit(pair.reduced_mass.w, step.timestep_s, pair.touching);
-    chunk.pairs.push_back(pair);
+    const std::size_t touching = chunk.contacts.size() - start;
+    if (touching > 0) chunk.pairs.push_back(touching_pair(step, near, number, touching));
   }
   chunk.is_known = true;
 }
@@ -111,9 +118,9 @@ bool have_changed(const ContactStep& step, NeighbourList& list, std::size_t from
 }
 
 REPOSE_FOR_EACH_MACHINE
-double add_pair_contacts(const TouchingChunk& chunk, const ContactStep& step, PairMotion* motions,
-                         PairLoad* loads) {
-  return add_contacts<PlacedSphere>(chunk.contacts, chunk.pairs, step, motions, loads);
+double add_pair_contacts(const TouchingChunk& chunk, const Sides<PlacedSphere>& sides,
+                         const ContactStep& step, PairMotion* motions, PairLoad* loads) {
+  return add_contacts(chunk.contacts, chunk.pairs, sides, step, motions, loads);
 }
 
 }  // namespace
@@ -131,7 +138,8 @@ double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t
     look_up(step, list, first, loads.size(), chunk);
   }
   for (PairLoad& load : loads) load.touching = 0;
-  return add_pair_contacts(chunk, step, motions.data(), loads.data());
+  return add_pair_contacts(chunk, sides_of(step.bodies, list.memories), step, motions.data(),
+                           loads.data());
 }
 
 }  // namespace repose::dem

@@ -16,37 +16,31 @@ namespace repose::dem {
 inline constexpr std::size_t kPairsTogether = 64;
 
 /// What all contacts of a pair of grains, or of a grain and a wall, share for as long as the same
-/// spheres touch. Rows are all 0 but their w: they are added to rows of vectors.
+/// spheres touch. Small: of many grains these do not stay in the caches from step to step.
 struct TouchingPair {
-  const BodyMotion* a = nullptr;
-  const BodyMotion* b = nullptr;
-  const Row* position_a = nullptr;
-  const Row* position_b = nullptr;
-  const double* touching_a = nullptr;  ///< of all that body a touched at the last step
-  const double* touching_b = nullptr;  ///< none: a wall
+  int a = 0;  ///< a body
+  int b = 0;  ///< a body, or a wall
   const ContactLaw* law = nullptr;
-  std::size_t number = 0;    ///< among the pairs that are worked on together
-  double touching = 0;       ///< how many spheres
-  Row reduced_mass = {};     ///< w: of both bodies, kg
-  Row damper_limit = {};     ///< w: see damper_limit(), N s/m
-  Row reduced_inertia = {};  ///< w: of both bodies about their centres, kg m^2
+  int number = 0;              ///< among the pairs that are worked on together
+  int touching = 0;            ///< how many spheres
+  double reduced_mass = 0;     ///< of both bodies, kg
+  double damper_limit = 0;     ///< see damper_limit(), N s/m
+  double reduced_inertia = 0;  ///< of both bodies about their centres, kg m^2
 };
 
-/// A sphere of body a that touches the Other: a PlacedSphere of body b, or the FacetContact of a
-/// wall.
-template <typename Other>
+/// A sphere of body a that touches something: numbers.
 struct Touching {
-  const PlacedSphere* sphere = nullptr;
-  const Other* other = nullptr;
-  ContactMemory* memory = nullptr;
-  std::size_t pair = 0;  ///< number of its TouchingPair
+  int sphere = 0;
+  int other = 0;   ///< a sphere of body b, or a facet of a wall
+  int memory = 0;  ///< its ContactMemory
+  int pair = 0;    ///< its TouchingPair
 };
 
 /// The contacts of up to kPairsTogether pairs of grains.
 struct TouchingChunk {
   bool is_known = false;  ///< false: what follows is to be looked up
   std::vector<TouchingPair> pairs;
-  std::vector<Touching<PlacedSphere>> contacts;
+  std::vector<Touching> contacts;
 };
 
 }  // namespace repose::dem

@@ -5,8 +5,6 @@
 namespace repose::dem {
 namespace {
 
-using TouchingWall = Touching<FacetContact>;
-
 const PlacedSphere& sphere_of(const ContactStep& step, const NeighbourList& list, std::size_t k) {
   return step.bodies.spheres[static_cast<std::size_t>(list.facets[k].sphere)];
 }
@@ -42,57 +40,67 @@ void hand_over_memories(const ContactStep& step, const NearWall& pair, Neighbour
 struct TouchingWalls {
   std::vector<FacetContact> facets;
   std::vector<TouchingPair> pairs;
-  std::vector<TouchingWall> contacts;
+  std::vector<Touching> contacts;
   std::vector<PairMotion> motions;
 };
 
-TouchingPair touching_pair(const ContactStep& step, const WallMotions& wall_motions,
-                           const NearWall& near, std::size_t number, std::size_t touching) {
-  const auto body = static_cast<std::size_t>(near.body);
-  const auto wall = static_cast<std::size_t>(near.wall);
-  TouchingPair pair = {
-      .a = &step.bodies.motion[body],
-      .b = &wall_motions.motion[wall],
-      .position_a = &step.bodies.position[body],
-      .position_b = &wall_motions.position[wall],
-      .touching_a = &step.bodies.touching[body],
-      .law = &step.contacts.law(step.material(near.body), step.walls.wall(near.wall).material),
-      .number = number,
-      .touching = static_cast<double>(touching)};
-  pair.reduced_mass.w = pair.a->spin.w;
-  pair.reduced_inertia.w = pair.a->spin_kick.w;
-  pair.damper_limit.w = damper_limit(pair.reduced_mass.w, step.timestep_s, pair.touching);
-  return pair;
+TouchingPair touching_pair(const ContactStep& step, const NearWall& near, std::size_t number,
+                           std::size_t touching) {
+  const BodyMotion& motion = step.bodies.motion[static_cast<std::size_t>(near.body)];
+  const double mass = motion.spin.w;
+  return {.a = near.body,
+          .b = near.wall,
+          .law = &step.contacts.law(step.material(near.body), step.walls.wall(near.wall).material),
+          .number = static_cast<int>(number),
+          .touching = static_cast<int>(touching),
+          .reduced_mass = mass,
+          .damper_limit = damper_limit(mass, step.timestep_s, static_cast<double>(touching)),
+          .reduced_inertia = motion.spin_kick.w};
+}
+
+Sides<FacetContact> sides_of(const Bodies& bodies, const WallMotions& wall_motions,
+                             const std::vector<FacetContact>& facets,
+                             std::vector<ContactMemory>& memories) {
+  return {.spheres = bodies.spheres.data(),
+          .others = facets.data(),
+          .memories = memories.data(),
+          .motions_a = bodies.motion.data(),
+          .motions_b = wall_motions.motion.data(),
+          .positions_a = bodies.position.data(),
+          .positions_b = wall_motions.position.data(),
+          .touching_a = bodies.touching.data()};
 }
 
 /// Adds what touches. What has parted forgets.
-void add_touching(const ContactStep& step, const WallMotions& wall_motions, const NearWall& near,
-                  std::size_t number, NeighbourList& list, FacetContact* facet,
-                  TouchingWalls& touching) {
+void add_touching(const ContactStep& step, const NearWall& near, std::size_t number,
+                  NeighbourList& list, TouchingWalls& touching) {
   if (step.walls.has_facets(near.wall)) hand_over_memories(step, near, list);
   const std::size_t start = touching.contacts.size();
-  const auto first = static_cast<std::size_t>(near.first);
-  for (std::size_t k = first; k < first + static_cast<std::size_t>(near.count); ++k) {
-    const PlacedSphere& sphere = sphere_of(step, list, k);
-    ContactMemory& memory = list.wall_memories[k];
+  for (int k = near.first; k < near.first + near.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const PlacedSphere& sphere = sphere_of(step, list, at);
+    ContactMemory& memory = list.wall_memories[at];
     const bool is_clear = step.walls.is_clear(near.wall, sphere.centre, sphere.radius);
-    if (!is_clear) *facet = facet_contact(step, near, list, k);
-    if (!is_clear && facet->distance < sphere.radius) {
-      touching.contacts.push_back({&sphere, facet++, &memory, touching.pairs.size()});
+    FacetContact& facet = touching.facets[touching.contacts.size()];
+    if (!is_clear) facet = facet_contact(step, near, list, at);
+    if (!is_clear && facet.distance < sphere.radius) {
+      touching.contacts.push_back({.sphere = list.facets[at].sphere,
+                                   .other = static_cast<int>(touching.contacts.size()),
+                                   .memory = k,
+                                   .pair = static_cast<int>(touching.pairs.size())});
     } else if (memory.radius > 0) {
       memory = {};
     }
   }
   const std::size_t found = touching.contacts.size() - start;
-  if (found > 0) {
-    touching.pairs.push_back(touching_pair(step, wall_motions, near, number, found));
-  }
+  if (found > 0) touching.pairs.push_back(touching_pair(step, near, number, found));
 }
 
 REPOSE_FOR_EACH_MACHINE
-double add_wall_contacts(TouchingWalls& touching, const ContactStep& step, PairLoad* loads) {
-  return add_contacts<FacetContact>(touching.contacts, touching.pairs, step,
-                                    touching.motions.data(), loads);
+double add_wall_contacts(TouchingWalls& touching, const Sides<FacetContact>& sides,
+                         const ContactStep& step, PairLoad* loads) {
+  return add_contacts(touching.contacts, touching.pairs, sides, step, touching.motions.data(),
+                      loads);
 }
 
 }  // namespace
@@ -125,12 +133,12 @@ double find_wall_loads(const ContactStep& step, const WallMotions& wall_motions,
   touching.pairs.clear();
   touching.contacts.clear();
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    const NearWall& pair = list.walls[first + k];
     loads[k].touching = 0;
-    add_touching(step, wall_motions, pair, k, list,
-                 &touching.facets[static_cast<std::size_t>(pair.first) - from], touching);
+    add_touching(step, list.walls[first + k], k, list, touching);
   }
-  return add_wall_contacts(touching, step, loads.data());
+  return add_wall_contacts(touching,
+                           sides_of(step.bodies, wall_motions, touching.facets, list.wall_memories),
+                           step, loads.data());
 }
 
 }  // namespace repose::dem

@@ -65,10 +65,12 @@ void print_single_grains(int rounds) {
 
 void print_many_clumps(int many, int rounds) {
   const repose::bench::Growth growth = repose::bench::clump_step_growth(many, rounds);
-  const double few_ns = median(growth.few_ns);
-  const double many_ns = median(growth.many_ns);
-  fmt::print("a clump-step: {:.0f} CPU ns of 500 clumps, {:.0f} of {}, {:.2f} times as long\n",
-             few_ns, many_ns, many, many_ns / few_ns);
+  const double few_ns = median(growth.few.times_ns);
+  const double many_ns = median(growth.many.times_ns);
+  fmt::print(
+      "a clump-step: {:.0f} CPU ns of 500 clumps ({:.2f} contacts each), {:.0f} of {} ({:.2f}), "
+      "{:.2f} times as long\n",
+      few_ns, growth.few.contacts, many_ns, many, growth.many.contacts, many_ns / few_ns);
   fmt::print("two threads against one, {} clumps: {:.2f} times as fast by the clock\n", many,
              median(repose::bench::two_thread_gains(many, rounds)));
   std::fflush(stdout);

@@ -29,6 +29,12 @@ double clump_step_ns(dem::Simulation& simulation) {
   return 1e9 * (cpu_s() - start) / static_cast<double>(steps * simulation.grain_count());
 }
 
+/// Each is one of two clumps', or of a clump and a wall.
+double contacts_a_clump(const dem::Simulation& simulation) {
+  return static_cast<double>(simulation.contacts().size()) /
+         static_cast<double>(simulation.grain_count());
+}
+
 double elapsed_s(dem::Simulation& simulation) {
   const auto start = Clock::now();
   simulation.advance(steps_for(simulation.grain_count()));
@@ -67,10 +73,10 @@ Growth clump_step_growth(int many, int rounds) {
   dem::Simulation wide = testing::wide_box_of_clumps(many, 1);
   few.advance(kFew);
   wide.advance(kFew);
-  Growth growth;
+  Growth growth = {.few = {{}, contacts_a_clump(few)}, .many = {{}, contacts_a_clump(wide)}};
   for (int round = 0; round < rounds; ++round) {
-    growth.few_ns.push_back(clump_step_ns(few));
-    growth.many_ns.push_back(clump_step_ns(wide));
+    growth.few.times_ns.push_back(clump_step_ns(few));
+    growth.many.times_ns.push_back(clump_step_ns(wide));
   }
   return growth;
 }

@@ -9,10 +9,16 @@ namespace repose::bench {
 /// "tilt" or "roll". One of each round, s.
 std::vector<double> single_grain_times(const std::string& experiment, int rounds);
 
-/// CPU time of a clump-step of 500 settled clumps, and of many, one thread, turn about, ns.
+/// CPU time of a clump-step, ns, and how many contacts each clump has.
+struct ClumpSteps {
+  std::vector<double> times_ns;
+  double contacts = 0;
+};
+
+/// Of 500 settled clumps, and of many; one thread, turn about.
 struct Growth {
-  std::vector<double> few_ns;
-  std::vector<double> many_ns;
+  ClumpSteps few;
+  ClumpSteps many;
 };
 Growth clump_step_growth(int many, int rounds);
 
