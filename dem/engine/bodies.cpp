@@ -15,7 +15,6 @@ void grow(Bodies& bodies) {
   bodies.bounding_radius.resize(size, 0);
   bodies.position.resize(size);
   bodies.load.resize(size);
-  bodies.touching.resize(size);
   bodies.motion.resize(size);
 }
 

@@ -29,7 +29,7 @@ class VectorArray {
 
 /// What contacts need to know of a body, together in two lines of the cache. World axes.
 struct alignas(64) BodyMotion {
-  Row velocity;
+  Row velocity;       ///< w: spheres that touched something at the last step
   Row spin;           ///< w: mass, kg
   Row velocity_kick;  ///< what half a step of the last force adds to the velocity
   Row spin_kick;      ///< and of the last torque to the spin; w: least moment of inertia, kg m^2
@@ -37,7 +37,7 @@ struct alignas(64) BodyMotion {
 
 /// What contacts and gravity do to a body.
 struct alignas(64) BodyLoad {
-  Row force;   ///< N
+  Row force;   ///< N; w: spheres that touch something
   Row torque;  ///< N m; w: the torque that constant-torque rolling friction can take
 };
 
@@ -57,7 +57,6 @@ struct Bodies {
   VectorArray velocity;
   VectorArray angular_momentum;
   std::vector<BodyLoad> load;      ///< of the last step, or gathered in this one
-  std::vector<double> touching;    ///< spheres that touched something at the last step
   std::vector<BodyMotion> motion;  ///< in the step at hand
   std::vector<int> first_sphere;   ///< one more than grains: where each one's spheres start
   std::vector<PlacedSphere> spheres;

@@ -206,7 +206,7 @@ REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
   const Lanes inertia =
       1 / greatest(inverse_inertia.x, greatest(inverse_inertia.y, inverse_inertia.z));
   BodyMotion* motion = &bodies.motion[k];
-  store_rows(velocity, Lanes{}, motion, &BodyMotion::velocity);
+  store_rows(velocity, force.w, motion, &BodyMotion::velocity);
   store_rows(spin_by(momentum, axes, inverse_inertia), mass, motion, &BodyMotion::spin);
   store_rows(velocity_kick, Lanes{}, motion, &BodyMotion::velocity_kick);
   store_rows(spin_by(momentum - old_momentum, axes, inverse_inertia), inertia, motion,

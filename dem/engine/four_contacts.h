@@ -15,10 +15,12 @@ namespace repose::dem {
 
 /// What the contacts of one pair of grains, or of a grain and a wall, do to both.
 struct PairLoad {
-  Lanes force;          ///< row: on a, N; b gets the opposite
-  Lanes torque_a;       ///< row: N m; w: what constant-torque rolling friction may take
-  Lanes torque_b;       ///< likewise
-  double touching = 0;  ///< how many spheres; 0: nothing else stands here
+  Lanes force;     ///< row: on a, N; b gets the opposite. w: how many spheres touch; 0: nothing
+                   ///< else stands here
+  Lanes torque_a;  ///< row: N m; w: what constant-torque rolling friction may take
+  Lanes torque_b;  ///< likewise
+
+  REPOSE_INLINE bool is_empty() const { return force[3] == 0; }
 };
 
 /// A TouchingPair in the step at hand.
@@ -47,8 +49,6 @@ struct Sides {
   const BodyMotion* motions_b = nullptr;
   const Row* positions_a = nullptr;
   const Row* positions_b = nullptr;
-  const double* touching_a = nullptr;  ///< of all that each body a touched at the last step
-  const double* touching_b = nullptr;  ///< none: walls
 };
 
 /// Up to four contacts; those beyond the last one repeat it.
@@ -95,13 +95,14 @@ REPOSE_INLINE Lanes cross_of_rows(const Lanes& u, const Lanes& v) {
   return next(u * next(v) - next(u) * v);
 }
 
-/// A row of 0, 0, 0 and a number.
-REPOSE_INLINE Lanes beside(double number) { return Lanes::Vector4{0, 0, 0, number}; }
+/// Puts a number into a row's w.
+REPOSE_INLINE Lanes with_w(const Lanes& row, double number) {
+  return select(Lanes(Lanes::Vector4{0, 0, 0, 1}) > Lanes(0), Lanes(number), row);
+}
 
 /// Those of the last step, or of this pair when it has more.
-REPOSE_INLINE double contacts_per_kg(const TouchingPair& pair, double at_last_step,
-                                     const BodyMotion& body) {
-  return std::max(static_cast<double>(pair.touching), at_last_step) / body.spin.w;
+REPOSE_INLINE double contacts_per_kg(const TouchingPair& pair, const BodyMotion& body) {
+  return std::max(static_cast<double>(pair.touching), body.velocity.w) / body.spin.w;
 }
 
 /// Contacts' velocities are those at a's centre and, for their arms, the difference of both spins.
@@ -120,13 +121,13 @@ REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, const Sides<Other>&
   const Lanes velocity_kick = load_row(b.velocity_kick) - load_row(a.velocity_kick);
   PairMotion motion;
   store_row(position_a, motion.position_a);
-  store_row(apart + beside(pair.reduced_inertia), motion.apart);
-  store_row(velocity - cross_of_rows(spin_b, apart) + beside(pair.reduced_mass), motion.velocity);
+  store_row(with_w(apart, pair.reduced_inertia), motion.apart);
+  store_row(with_w(velocity - cross_of_rows(spin_b, apart), pair.reduced_mass), motion.velocity);
   store_row(spin_b - spin_a, motion.spin);
-  motion.spin.w = shared_limit(
-      contacts_per_kg(pair, sides.touching_a[pair.a], a),
-      sides.touching_b ? contacts_per_kg(pair, sides.touching_b[pair.b], b) : 0, timestep);
-  store_row(velocity_kick - cross_of_rows(kick_b, apart) + beside(pair.damper_limit),
+  constexpr bool is_wall = std::is_same_v<Other, FacetContact>;
+  motion.spin.w =
+      shared_limit(contacts_per_kg(pair, a), is_wall ? 0 : contacts_per_kg(pair, b), timestep);
+  store_row(with_w(velocity_kick - cross_of_rows(kick_b, apart), pair.damper_limit),
             motion.velocity_kick);
   store_row(kick_b - kick_a, motion.spin_kick);
   store_row((spin_a + spin_b) * .5, motion.mean_spin);
@@ -138,19 +139,17 @@ REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, const Sides<Other>&
 }
 
 /// Begins the load of a pair whose contacts are to be added.
-REPOSE_INLINE void begin_load(const TouchingPair& pair, PairLoad& load) {
+REPOSE_INLINE void begin_load(PairLoad& load) {
   load.force = {};
   load.torque_a = {};
-  load.touching = static_cast<double>(pair.touching);
 }
 
 /// Once all contacts are added: b's torque is that of the opposite force, seen from b's centre.
 /// Until then the force's w is what constant-torque rolling friction may take from b.
-REPOSE_INLINE void finish_load(const PairMotion& motion, PairLoad& load) {
-  const LaneMask is_w = Lanes(Lanes::Vector4{0, 0, 0, 1}) > Lanes(0);
+REPOSE_INLINE void finish_load(const TouchingPair& pair, const PairMotion& motion, PairLoad& load) {
   const Lanes force = load.force;
-  load.force = select(is_w, Lanes(0), force);
-  load.torque_b = select(is_w, force, cross_of_rows(load_row(motion.apart), force) - load.torque_a);
+  load.force = with_w(force, static_cast<double>(pair.touching));
+  load.torque_b = with_w(cross_of_rows(load_row(motion.apart), force) - load.torque_a, force[3]);
 }
 
 template <typename Other>
@@ -388,7 +387,7 @@ REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
                                   const ContactStep& step, PairMotion* motions, PairLoad* loads) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     PairLoad& load = loads[pairs[k].number];
-    begin_load(pairs[k], load);
+    begin_load(load);
     motions[k] = motion_of(pairs[k], sides, step.timestep_s, load);
   }
   const RollingModel model = step.contacts.rolling();
@@ -396,7 +395,9 @@ REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
       step.bodies.is_round
           ? add_contacts_of<true>(touching, sides, motions, model, step.timestep_s)
           : add_contacts_of<false>(touching, sides, motions, model, step.timestep_s);
-  for (std::size_t k = 0; k < pairs.size(); ++k) finish_load(motions[k], *motions[k].load);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    finish_load(pairs[k], motions[k], *motions[k].load);
+  }
   return std::max(std::max(deepest[0], deepest[1]), std::max(deepest[2], deepest[3]));
 }
 

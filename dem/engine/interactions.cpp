@@ -18,7 +18,7 @@ REPOSE_INLINE void add_to_a(Bodies& bodies, const NearGrains& pair, const PairLo
 
 REPOSE_INLINE void add_to_b(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
   BodyLoad& sum = bodies.load[static_cast<std::size_t>(pair.b)];
-  add_row(-load.force, sum.force);
+  add_row(load.force * Lanes(Lanes::Vector4{-1, -1, -1, 1}), sum.force);
   add_row(load.torque_b, sum.torque);
 }
 
@@ -46,7 +46,7 @@ void for_each_chunk(std::size_t size, int threads, const Body& body) {
 REPOSE_FOR_EACH_MACHINE
 void add_loads(std::span<const NearGrains> pairs, std::span<const PairLoad> loads, Bodies& bodies) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (loads[k].touching == 0) continue;
+    if (loads[k].is_empty()) continue;
     add_to_a(bodies, pairs[k], loads[k]);
     add_to_b(bodies, pairs[k], loads[k]);
   }
@@ -57,10 +57,8 @@ void add_loads(std::span<const NearGrains> pairs, std::span<const PairLoad> load
 ContactTally Interactions::apply(Bodies& bodies, const ContactStep& step, NeighbourList& list,
                                  int threads) {
   tally_ = {};
-  counts_.assign(bodies.size(), 0);
   apply_pairs(bodies, step, list, threads);
   apply_walls(bodies, step, list, threads);
-  std::copy(counts_.begin(), counts_.end(), bodies.touching.begin());
   return tally_;
 }
 
@@ -73,11 +71,6 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
       const double deepest = find_pair_loads(step, list, chunk, {loads_.data(), count});
       tally_.deepest_overlap = std::max(tally_.deepest_overlap, deepest);
       add_loads({&list.grains[first], count}, {loads_.data(), count}, bodies);
-      for (std::size_t k = 0; k < count; ++k) {
-        const NearGrains& pair = list.grains[first + k];
-        counts_[static_cast<std::size_t>(pair.a)] += loads_[k].touching;
-        counts_[static_cast<std::size_t>(pair.b)] += loads_[k].touching;
-      }
     });
     return;
   }
@@ -91,9 +84,8 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
     const auto end = static_cast<std::size_t>(list.body_start[body + 1]);
     for (std::size_t at = begin; at < end; ++at) {
       const auto k = static_cast<std::size_t>(list.body_pairs[at]);
-      if (loads_[k].touching == 0) continue;
+      if (loads_[k].is_empty()) continue;
       const NearGrains& pair = list.grains[k];
-      counts_[body] += loads_[k].touching;
       if (pair.a == static_cast<int>(body)) {
         add_to_a(bodies, pair, loads_[k]);
       } else {
@@ -122,11 +114,10 @@ void Interactions::apply_walls(Bodies& bodies, const ContactStep& step, Neighbou
   note_deepest();
   for (std::size_t k = 0; k < pairs; ++k) {
     const PairLoad& load = loads_[k];
-    if (load.touching == 0) continue;
+    if (load.is_empty()) continue;
     BodyLoad& sum = bodies.load[static_cast<std::size_t>(list.walls[k].body)];
     add_row(load.force, sum.force);
     add_row(load.torque_a, sum.torque);
-    counts_[static_cast<std::size_t>(list.walls[k].body)] += load.touching;
     tally_.wall_power_w +=
         power_of(load, wall_motions_.motion[static_cast<std::size_t>(list.walls[k].wall)]);
   }

@@ -28,7 +28,6 @@ class Interactions {
 
   ContactTally tally_;
   std::vector<PairLoad> loads_;
-  std::vector<double> counts_;
   std::vector<double> deepest_;  ///< of each chunk
   WallMotions wall_motions_;
 };

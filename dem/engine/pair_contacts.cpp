@@ -85,9 +85,7 @@ Sides<PlacedSphere> sides_of(const Bodies& bodies, std::vector<ContactMemory>& m
           .motions_a = bodies.motion.data(),
           .motions_b = bodies.motion.data(),
           .positions_a = bodies.position.data(),
-          .positions_b = bodies.position.data(),
-          .touching_a = bodies.touching.data(),
-          .touching_b = bodies.touching.data()};
+          .positions_b = bodies.position.data()};
 }
 
 /// Looks up which of pairs `first` ... touch, and what their contacts share.
@@ -137,7 +135,7 @@ double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t
       !chunk.is_known) {
     look_up(step, list, first, loads.size(), chunk);
   }
-  for (PairLoad& load : loads) load.touching = 0;
+  for (PairLoad& load : loads) load.force = {};
   return add_pair_contacts(chunk, sides_of(step.bodies, list.memories), step, motions.data(),
                            loads.data());
 }

@@ -218,8 +218,8 @@ Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
   s.neighbours.update(s.bodies, s.walls, s.time_s(), s.setup.timestep_s);
   s.neighbours.restore(s.bodies, from.contacts);
   for (const ContactState& contact : from.contacts) {
-    s.bodies.touching[static_cast<std::size_t>(contact.grain_a)] += 1;
-    if (contact.grain_b >= 0) s.bodies.touching[static_cast<std::size_t>(contact.grain_b)] += 1;
+    s.bodies.load[static_cast<std::size_t>(contact.grain_a)].force.w += 1;
+    if (contact.grain_b >= 0) s.bodies.load[static_cast<std::size_t>(contact.grain_b)].force.w += 1;
   }
 }
 

@@ -67,8 +67,7 @@ Sides<FacetContact> sides_of(const Bodies& bodies, const WallMotions& wall_motio
           .motions_a = bodies.motion.data(),
           .motions_b = wall_motions.motion.data(),
           .positions_a = bodies.position.data(),
-          .positions_b = wall_motions.position.data(),
-          .touching_a = bodies.touching.data()};
+          .positions_b = wall_motions.position.data()};
 }
 
 /// Adds what touches. What has parted forgets.
@@ -133,7 +132,7 @@ double find_wall_loads(const ContactStep& step, const WallMotions& wall_motions,
   touching.pairs.clear();
   touching.contacts.clear();
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    loads[k].touching = 0;
+    loads[k].force = {};
     add_touching(step, list.walls[first + k], k, list, touching);
   }
   return add_wall_contacts(touching,
