@@ -32,17 +32,6 @@ double power_of(const PairLoad& load, const BodyMotion& wall) {
   return power;
 }
 
-std::size_t chunks_of(std::size_t size) { return (size + kPairsTogether - 1) / kPairsTogether; }
-
-/// Calls body(chunk, first, count) for chunks of up to kPairsTogether.
-template <typename Body>
-void for_each_chunk(std::size_t size, int threads, const Body& body) {
-  const auto chunk = [&](std::size_t k) {
-    body(k, k * kPairsTogether, std::min(kPairsTogether, size - k * kPairsTogether));
-  };
-  for_each_index(chunks_of(size), threads, chunk, 1);
-}
-
 REPOSE_FOR_EACH_MACHINE
 void add_loads(std::span<const NearGrains> pairs, std::span<const PairLoad> loads, Bodies& bodies) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -67,17 +56,19 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
   const std::size_t pairs = list.grains.size();
   if (threads == 1) {
     loads_.resize(std::max(loads_.size(), kPairsTogether));
-    for_each_chunk(pairs, threads, [&](std::size_t chunk, std::size_t first, std::size_t count) {
-      const double deepest = find_pair_loads(step, list, chunk, {loads_.data(), count});
+    for_each_chunk(pairs, kPairsTogether, threads, [&](const Chunk& chunk) {
+      const std::span<PairLoad> loads = {loads_.data(), chunk.size()};
+      const double deepest = find_pair_loads(step, list, chunk.number, loads);
       tally_.deepest_overlap = std::max(tally_.deepest_overlap, deepest);
-      add_loads({&list.grains[first], count}, {loads_.data(), count}, bodies);
+      add_loads({&list.grains[chunk.first], chunk.size()}, loads, bodies);
     });
     return;
   }
   loads_.resize(std::max(loads_.size(), pairs));
-  deepest_.assign(chunks_of(pairs), 0);
-  for_each_chunk(pairs, threads, [&](std::size_t chunk, std::size_t first, std::size_t count) {
-    deepest_[chunk] = find_pair_loads(step, list, chunk, {&loads_[first], count});
+  deepest_.assign(chunks_of(pairs, kPairsTogether), 0);
+  for_each_chunk(pairs, kPairsTogether, threads, [&](const Chunk& chunk) {
+    deepest_[chunk.number] =
+        find_pair_loads(step, list, chunk.number, {&loads_[chunk.first], chunk.size()});
   });
   for_each_index(bodies.size(), threads, [&](std::size_t body) {
     const auto begin = static_cast<std::size_t>(list.body_start[body]);
@@ -107,9 +98,10 @@ void Interactions::apply_walls(Bodies& bodies, const ContactStep& step, Neighbou
   find_wall_motions(step.walls, wall_motions_);
   const std::size_t pairs = list.walls.size();
   loads_.resize(std::max(loads_.size(), pairs));
-  deepest_.assign(chunks_of(pairs), 0);
-  for_each_chunk(pairs, threads, [&](std::size_t chunk, std::size_t first, std::size_t count) {
-    deepest_[chunk] = find_wall_loads(step, wall_motions_, list, first, {&loads_[first], count});
+  deepest_.assign(chunks_of(pairs, kPairsTogether), 0);
+  for_each_chunk(pairs, kPairsTogether, threads, [&](const Chunk& chunk) {
+    deepest_[chunk.number] = find_wall_loads(step, wall_motions_, list, chunk.first,
+                                             {&loads_[chunk.first], chunk.size()});
   });
   note_deepest();
   for (std::size_t k = 0; k < pairs; ++k) {

@@ -1,8 +1,10 @@
 #include "dem/engine/margins.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "dem/engine/four_contacts.h"
+#include "dem/engine/parallel.h"
 
 namespace repose::dem {
 namespace {
@@ -43,8 +45,8 @@ REPOSE_INLINE LaneMask have_used(double share, const Bodies& bodies, const Row* 
 
 REPOSE_FOR_EACH_MACHINE
 bool any_has_used(double share, const Bodies& bodies, const Row* position,
-                  const Orientations& orientation, const double* margin) {
-  for (std::size_t k = 0; k < bodies.size(); k += kLanes) {
+                  const Orientations& orientation, const double* margin, const Chunk& chunk) {
+  for (std::size_t k = chunk.first; k < chunk.end; k += kLanes) {
     if (any(have_used(share, bodies, position, orientation, margin, k))) return true;
   }
   return false;
@@ -52,11 +54,11 @@ bool any_has_used(double share, const Bodies& bodies, const Row* position,
 
 REPOSE_FOR_EACH_MACHINE
 void note_used(double share, const Bodies& bodies, const Row* position,
-               const Orientations& orientation, const double* margin,
+               const Orientations& orientation, const double* margin, const Chunk& chunk,
                std::vector<std::uint8_t>& is_used) {
-  for (std::size_t k = 0; k < bodies.size(); k += kLanes) {
+  for (std::size_t k = chunk.first; k < chunk.end; k += kLanes) {
     const LaneMask now = have_used(share, bodies, position, orientation, margin, k);
-    for (std::size_t lane = 0; lane < std::min(kLanes, bodies.size() - k); ++lane) {
+    for (std::size_t lane = 0; lane < std::min(kLanes, chunk.end - k); ++lane) {
       is_used[k + lane] = now[lane] ? 1 : 0;
     }
   }
@@ -81,14 +83,24 @@ void Margins::renew(const Bodies& bodies, std::size_t body, double timestep_s) {
       reach * std::min(kGreatestMargin, kRestMargin + kHorizonSteps * timestep_s * speed / reach);
 }
 
-bool Margins::is_used_up(const Bodies& bodies) const {
-  return any_has_used(1, bodies, position_.data(), orientation_, margin_.data());
+bool Margins::is_used_up(const Bodies& bodies, int threads) const {
+  std::atomic<bool> is_used_up = false;
+  for_each_chunk(bodies.size(), kLookedAtTogether, threads, [&](const Chunk& chunk) {
+    if (!is_used_up &&
+        any_has_used(1, bodies, position_.data(), orientation_, margin_.data(), chunk)) {
+      is_used_up = true;
+    }
+  });
+  return is_used_up;
 }
 
-void Margins::note_half_used(const Bodies& bodies, std::vector<std::uint8_t>& is_half_used) const {
+void Margins::note_half_used(const Bodies& bodies, std::vector<std::uint8_t>& is_half_used,
+                             int threads) const {
   constexpr double kHalf = .5;
   is_half_used.resize(bodies.size());
-  note_used(kHalf, bodies, position_.data(), orientation_, margin_.data(), is_half_used);
+  for_each_chunk(bodies.size(), kLookedAtTogether, threads, [&](const Chunk& chunk) {
+    note_used(kHalf, bodies, position_.data(), orientation_, margin_.data(), chunk, is_half_used);
+  });
 }
 
 }  // namespace repose::dem

@@ -21,9 +21,10 @@ class Margins {
   void renew(const Bodies& bodies, std::size_t body, double timestep_s);
 
   /// Whether some body has used up its margin.
-  bool is_used_up(const Bodies& bodies) const;
+  bool is_used_up(const Bodies& bodies, int threads) const;
   /// Notes with a 1 whose margin is half used up, with a 0 whose is not.
-  void note_half_used(const Bodies& bodies, std::vector<std::uint8_t>& is_half_used) const;
+  void note_half_used(const Bodies& bodies, std::vector<std::uint8_t>& is_half_used,
+                      int threads) const;
 
  private:
   // Longer than there are bodies, as their own arrays.

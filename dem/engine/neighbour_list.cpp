@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "dem/engine/parallel.h"
+
 namespace repose::dem {
 namespace {
 
@@ -133,33 +135,34 @@ class Renewal {
 }  // namespace
 
 void Neighbours::update(const Bodies& bodies, const WallSet& walls, double time_s,
-                        double timestep_s) {
+                        double timestep_s, int threads) {
   const bool is_all_due = is_expired_ || time_s >= due_s_;
-  if (!is_all_due && !margins_.is_used_up(bodies)) return;
+  if (!is_all_due && !margins_.is_used_up(bodies, threads)) return;
   if (is_all_due) {
     has_moved_.assign(bodies.size(), 1);
   } else {
-    margins_.note_half_used(bodies, has_moved_);
+    margins_.note_half_used(bodies, has_moved_, threads);
   }
-  renew_margins(bodies, timestep_s);
+  renew_margins(bodies, timestep_s, threads);
   if (is_all_due) set_wall_margin(bodies, walls, time_s, timestep_s);
-  find_pairs(bodies);
-  list_grains(bodies);
+  find_pairs(bodies, threads);
+  find_spheres(bodies, threads);
+  list_grains();
   list_walls(bodies, walls);
   std::swap(list_, next_);
   note_touching();
-  index_by_body(bodies.size());
+  if (threads > 1) index_by_body(bodies.size());
   is_expired_ = false;
 }
 
-void Neighbours::renew_margins(const Bodies& bodies, double timestep_s) {
+void Neighbours::renew_margins(const Bodies& bodies, double timestep_s, int threads) {
   margins_.resize(bodies);
   columns_.resize(bodies.spheres.size());
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (has_moved_[k] == 0) continue;
+  for_each_index(bodies.size(), threads, [&](std::size_t k) {
+    if (has_moved_[k] == 0) return;
     margins_.renew(bodies, k, timestep_s);
     columns_.take_in(bodies, k);
-  }
+  });
 }
 
 void Neighbours::set_wall_margin(const Bodies& bodies, const WallSet& walls, double time_s,
@@ -178,34 +181,64 @@ void Neighbours::set_wall_margin(const Bodies& bodies, const WallSet& walls, dou
 }
 
 /// All pairs of which one has moved, in order.
-void Neighbours::find_pairs(const Bodies& bodies) {
+void Neighbours::find_pairs(const Bodies& bodies, int threads) {
   grid_.sort(bodies, margins_);
-  pairs_.clear();
-  for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
-    const auto k = static_cast<std::size_t>(body);
-    if (has_moved_[k] == 0 || !bodies.is_present(k)) continue;
-    near_.clear();
-    grid_.add_near(body, near_);
-    for (const int other : near_) {
-      if (other > body) {
-        pairs_.push_back({.a = body, .b = other});
-      } else if (has_moved_[static_cast<std::size_t>(other)] == 0) {
-        pairs_.push_back({.a = other, .b = body});
-      }
+  found_.resize(std::max(found_.size(), chunks_of(bodies.size(), kLookedAtTogether)));
+  for (Found& found : found_) found.pairs.clear();
+  for_each_chunk(bodies.size(), kLookedAtTogether, threads, [&](const Chunk& chunk) {
+    for (std::size_t k = chunk.first; k < chunk.end; ++k) {
+      add_pairs(bodies, k, found_[chunk.number]);
     }
+  });
+  pairs_.clear();
+  for (const Found& found : found_) {
+    pairs_.insert(pairs_.end(), found.pairs.begin(), found.pairs.end());
   }
-  std::sort(pairs_.begin(), pairs_.end(),
-            [](const NearGrains& x, const NearGrains& y) { return comes_before(x, y); });
+  sort_all(pairs_, threads,
+           [](const NearGrains& x, const NearGrains& y) { return comes_before(x, y); });
 }
 
-void Neighbours::list_grains(const Bodies& bodies) {
+/// Those that a body has, if it has moved; with another that has moved too, if it is the first.
+void Neighbours::add_pairs(const Bodies& bodies, std::size_t body, Found& found) const {
+  if (has_moved_[body] == 0 || !bodies.is_present(body)) return;
+  const auto number = static_cast<int>(body);
+  found.near.clear();
+  grid_.add_near(number, found.near);
+  for (const int other : found.near) {
+    if (other > number) {
+      found.pairs.push_back({.a = number, .b = other});
+    } else if (has_moved_[static_cast<std::size_t>(other)] == 0) {
+      found.pairs.push_back({.a = other, .b = number});
+    }
+  }
+}
+
+/// The near spheres of these pairs.
+void Neighbours::find_spheres(const Bodies& bodies, int threads) {
+  found_.resize(std::max(found_.size(), chunks_of(pairs_.size(), kLookedAtTogether)));
+  for_each_chunk(pairs_.size(), kLookedAtTogether, threads, [&](const Chunk& chunk) {
+    std::vector<NearSpheres>& spheres = found_[chunk.number].spheres;
+    spheres.clear();
+    for (std::size_t k = chunk.first; k < chunk.end; ++k) {
+      NearGrains& pair = pairs_[k];
+      pair.first = static_cast<int>(spheres.size());
+      columns_.add_near(bodies, margins_, pair.a, pair.b, spheres);
+      pair.count = static_cast<int>(spheres.size()) - pair.first;
+    }
+  });
+}
+
+void Neighbours::list_grains() {
   const auto has_moved = [&](const NearGrains& pair) {
     return (has_moved_[static_cast<std::size_t>(pair.a)] |
             has_moved_[static_cast<std::size_t>(pair.b)]) != 0;
   };
   Renewal renewal(pairs_in(list_), pairs_in(next_), has_moved);
-  for (const NearGrains& pair : pairs_) {
-    renewal.add(pair, [&] { columns_.add_near(bodies, margins_, pair.a, pair.b, next_.spheres); });
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const NearGrains& pair = pairs_[k];
+    const auto first = found_[k / kLookedAtTogether].spheres.begin() + pair.first;
+    renewal.add(pair,
+                [&] { next_.spheres.insert(next_.spheres.end(), first, first + pair.count); });
   }
   renewal.finish();
 }
@@ -240,7 +273,7 @@ void Neighbours::look_up_again() {
 }
 
 void Neighbours::note_touching() {
-  list_.touching.resize((list_.grains.size() + kPairsTogether - 1) / kPairsTogether);
+  list_.touching.resize(chunks_of(list_.grains.size(), kPairsTogether));
   look_up_again();
   list_.has_touched.resize(list_.memories.size());
   for (std::size_t k = 0; k < list_.memories.size(); ++k) {

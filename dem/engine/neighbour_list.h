@@ -46,7 +46,8 @@ struct NeighbourList {
   std::vector<TouchingChunk> touching;  ///< of each kPairsTogether `grains`
   std::vector<int>
       body_start;  ///< one more than bodies: where each one's part of body_pairs starts
-  std::vector<int> body_pairs;  ///< numbers of `grains` in which a body takes part, rising
+  std::vector<int> body_pairs;  ///< numbers of `grains` in which a body takes part, rising; for
+                                ///< more threads than one alone, as `body_start`
   std::vector<NearWall> walls;
   std::vector<NearFacet> facets;
   std::vector<ContactMemory> wall_memories;  ///< one for each of `facets`
@@ -75,15 +76,25 @@ class Neighbours {
   /// when one of them is of spheres that are not near each other.
   void restore(const Bodies& bodies, const std::vector<ContactState>& contacts);
 
-  /// Brings the list up to date if that is due.
-  void update(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s);
+  /// Brings the list up to date if that is due. It does not depend on the number of threads.
+  void update(const Bodies& bodies, const WallSet& walls, double time_s, double timestep_s,
+              int threads);
 
  private:
-  void renew_margins(const Bodies& bodies, double timestep_s);
+  /// What one thread has found: of a part of the bodies, or of the pairs.
+  struct Found {
+    std::vector<int> near;
+    std::vector<NearGrains> pairs;
+    std::vector<NearSpheres> spheres;
+  };
+
+  void renew_margins(const Bodies& bodies, double timestep_s, int threads);
   void set_wall_margin(const Bodies& bodies, const WallSet& walls, double time_s,
                        double timestep_s);
-  void find_pairs(const Bodies& bodies);
-  void list_grains(const Bodies& bodies);
+  void find_pairs(const Bodies& bodies, int threads);
+  void add_pairs(const Bodies& bodies, std::size_t body, Found& found) const;
+  void find_spheres(const Bodies& bodies, int threads);
+  void list_grains();
   void list_walls(const Bodies& bodies, const WallSet& walls);
   void note_touching();
   void index_by_body(std::size_t bodies);
@@ -98,7 +109,8 @@ class Neighbours {
   CellGrid grid_;
   SphereColumns columns_;
   std::vector<int> near_;
-  std::vector<NearGrains> pairs_;  ///< of bodies that have moved, not counted yet
+  std::vector<Found> found_;       ///< of each part
+  std::vector<NearGrains> pairs_;  ///< of bodies that have moved; their spheres in found_
 };
 
 }  // namespace repose::dem

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 namespace repose::dem {
 
@@ -18,6 +21,44 @@ void for_each_index(std::size_t count, int threads, const Body& body, std::size_
                     [&body](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t k = range.begin(); k != range.end(); ++k) body(k);
                     });
+}
+
+/// How many chunks of up to `length` are needed for `size`.
+inline std::size_t chunks_of(std::size_t size, std::size_t length) {
+  return (size + length - 1) / length;
+}
+
+/// Some of many, which one thread works on.
+struct Chunk {
+  std::size_t number = 0;
+  std::size_t first = 0;
+  std::size_t end = 0;
+
+  std::size_t size() const { return end - first; }
+};
+
+/// Bodies, or pairs of them, that are looked at together when what is near is listed.
+inline constexpr std::size_t kLookedAtTogether = 256;
+
+/// Calls body(chunk) for chunks of up to `length` of 0 ... size - 1, likewise.
+template <typename Body>
+void for_each_chunk(std::size_t size, std::size_t length, int threads, const Body& body) {
+  for_each_index(
+      chunks_of(size, length), threads,
+      [&](std::size_t k) {
+        body(Chunk{.number = k, .first = k * length, .end = std::min(size, (k + 1) * length)});
+      },
+      1);
+}
+
+/// Sorts what has one order only.
+template <typename Item, typename Before>
+void sort_all(std::vector<Item>& items, int threads, const Before& before) {
+  if (threads == 1) {
+    std::sort(items.begin(), items.end(), before);
+  } else {
+    tbb::parallel_sort(items.begin(), items.end(), before);
+  }
 }
 
 }  // namespace repose::dem

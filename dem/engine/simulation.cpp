@@ -109,7 +109,7 @@ void Simulation::State::take_step() {
   start_step(bodies, setup.kinds, setup.gravity, timestep, setup.threads);
   ++step;
   walls.move_to(time_s());
-  neighbours.update(bodies, walls, time_s(), timestep);
+  neighbours.update(bodies, walls, time_s(), timestep, setup.threads);
   tally = interactions.apply(bodies, contact_step(), neighbours.list(), setup.threads);
   wall_work_j += tally.wall_power_w * timestep;
   finish_step(bodies, timestep, setup.threads);
@@ -215,7 +215,7 @@ Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
                         .torque = {.xyz = from.torque[k], .w = from.rolling_limit[k]}};
     s.bodies.presence[k] = from.is_present[k] ? 1 : 0;
   }
-  s.neighbours.update(s.bodies, s.walls, s.time_s(), s.setup.timestep_s);
+  s.neighbours.update(s.bodies, s.walls, s.time_s(), s.setup.timestep_s, s.setup.threads);
   s.neighbours.restore(s.bodies, from.contacts);
   for (const ContactState& contact : from.contacts) {
     s.bodies.load[static_cast<std::size_t>(contact.grain_a)].force.w += 1;

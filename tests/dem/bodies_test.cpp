@@ -37,6 +37,31 @@ void expect_same(const Simulation& one, const Simulation& other) {
   }
 }
 
+/// Columns beside each other on a wide floor, so many that each thread has some to list.
+Simulation many_columns(int threads) {
+  constexpr int kColumns = 24;
+  SimulationSetup setup = packing_setup();
+  setup.walls = {{.material = 1}};
+  setup.threads = threads;
+  Simulation simulation(setup);
+  for (int k = 0; k < kColumns * kGrains; ++k) {
+    Grain grain = loose_grain(k / kColumns);
+    const int row = k % kColumns / 8;
+    grain.position += Vector(.05 * (k % 8), .05 * row, 0);
+    simulation.add(grain);
+  }
+  return simulation;
+}
+
+TEST(Bodies, SoManyThatThreadsShareTheListAreTheSameToTheByte) {
+  Simulation one = many_columns(1);
+  Simulation two = many_columns(2);
+  one.advance(9000);
+  two.advance(9000);
+  EXPECT_GT(one.contacts().size(), 200U);
+  expect_same(one, two);
+}
+
 class RollingModels : public ::testing::TestWithParam<RollingModel> {};
 
 TEST_P(RollingModels, TwoThreadsGiveTheSameBytes) {
