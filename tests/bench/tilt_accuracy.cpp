@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "render/film/film.h"
+#include "tests/support/drawn_film_file.h"
 #include "tests/support/drawn_tilt.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/track/tilt_track.h"
@@ -64,9 +64,7 @@ DrawnTilt random_tilt(double frames_per_s, unsigned seed) {
 TiltRow row_of(const DrawnTilt& drawn) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "tilt.mp4";
-  render::Film film(file, drawn.frames_per_s);
-  for (int frame = 0; frame < drawn.frames(); ++frame) film.add(drawn.picture(frame));
-  film.close();
+  testing::write_film(file, drawn);
   return {drawn, vision::track_tilt(file)};
 }
 

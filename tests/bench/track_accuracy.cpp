@@ -17,11 +17,11 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include "render/film/film.h"
 #include "tests/bench/median.h"
 #include "tests/bench/rendered_films.h"
 #include "tests/bench/tilt_accuracy.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_film_file.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/track/drop_track.h"
@@ -64,9 +64,7 @@ DrawnDrop random_drop(double frames_per_s, unsigned seed) {
 Row row_of(const DrawnDrop& drawn) {
   const repose::testing::TemporaryFolder folder;
   const auto file = folder.path() / "drop.mp4";
-  repose::render::Film film(file, drawn.frames_per_s);
-  for (int frame = 0; frame < drawn.frames(); ++frame) film.add(drawn.picture(frame));
-  film.close();
+  repose::testing::write_film(file, drawn);
   return {drawn, repose::vision::track_drop(file)};
 }
 
@@ -135,9 +133,7 @@ RollRow roll_row_of(DrawnRoll drawn, bool has_scale) {
   if (!has_scale) drawn.has_hand = false;
   const repose::testing::TemporaryFolder folder;
   const auto file = folder.path() / "roll.mp4";
-  repose::render::Film film(file, drawn.frames_per_s);
-  for (int frame = 0; frame < drawn.frames(); ++frame) film.add(drawn.picture(frame));
-  film.close();
+  repose::testing::write_film(file, drawn);
   // A person points at its marks, within a pixel or so.
   std::mt19937 random(drawn.seed);
   std::normal_distribution<double> pointing(0, .5);

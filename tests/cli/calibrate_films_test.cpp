@@ -8,6 +8,7 @@
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_film_file.h"
 #include "tests/support/drawn_heap_film.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/drawn_tilt.h"
@@ -51,9 +52,7 @@ measured = { videos = ["drops/*.mp4"] }
                          .restitution = restitution,
                          .radius_px = 5,
                          .release_s = .1};
-    render::Film film(path(name), plays_at);
-    for (int frame = 0; frame < drop.frames(); ++frame) film.add(drop.picture(frame));
-    film.close();
+    write_film(path(name), drop, plays_at);
   }
 
   Finished calibrated() const {
@@ -131,9 +130,7 @@ TEST_F(CalibrateFilms, OfRollsHaveTheirMillimetresFromTheRelease) {
                        .radius_px = 6,
                        .release_s = .2,
                        .roll_s = 1.2};
-  render::Film film(path("roll.mp4"), roll.frames_per_s);
-  for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
-  film.close();
+  write_film(path("roll.mp4"), roll);
   const auto with_incline = [](const std::string& degrees) {
     return "experiment.roll = { incline_deg = " + degrees +
            ", release_mm = 100, measured = { videos = [\"roll.mp4\"] } }";
@@ -154,9 +151,7 @@ TEST_F(CalibrateFilms, OfRollsHaveTheirMillimetresFromTheRelease) {
 
 TEST_F(CalibrateFilms, OfTiltsMustHaveAboutTheRateOfTheStudy) {
   const DrawnTilt tilt = small_tilt();
-  render::Film film(path("tilt.mp4"), tilt.frames_per_s);
-  for (int frame = 0; frame < tilt.frames(); ++frame) film.add(tilt.picture(frame));
-  film.close();
+  write_film(path("tilt.mp4"), tilt);
   const auto told = [&](const std::string& rate) {
     return run({"study.toml", "--dry-run", "--set", "experiment.drop.measured = { values = [90] }",
                 "--set",

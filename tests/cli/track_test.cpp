@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "render/film/film.h"
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_film_file.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/drawn_tilt.h"
 #include "vision/picture/picture.h"
@@ -31,16 +31,10 @@ struct TrackCommand : CommandTest {
                          .restitution = restitution,
                          .radius_px = 5,
                          .release_s = .1};
-    render::Film film(path(name), drop.frames_per_s);
-    for (int frame = 0; frame < drop.frames(); ++frame) film.add(drop.picture(frame));
-    film.close();
+    write_film(path(name), drop);
   }
 
-  void write(const char* name, const DrawnRoll& roll) {
-    render::Film film(path(name), roll.frames_per_s);
-    for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
-    film.close();
-  }
+  void write(const char* name, const DrawnRoll& roll) { write_film(path(name), roll); }
 
   DrawnRoll draw_roll(const char* name, double stopped_mm) {
     const DrawnRoll roll{.width = 300,
@@ -104,8 +98,10 @@ TEST_F(TrackCommand, AFolderOfFramesIsAFilmWithItsRate) {
                        .radius_px = 5,
                        .release_s = .1};
   std::filesystem::create_directory(path("frames"));
+  const cv::Mat scene = drop.scene();
   for (int frame = 0; frame < drop.frames(); ++frame) {
-    vision::write_picture(path("frames/f" + std::to_string(frame) + ".png"), drop.picture(frame));
+    vision::write_picture(path("frames/f" + std::to_string(frame) + ".png"),
+                          drop.picture(frame, scene));
   }
   const Finished done =
       run({"drop", "frames/", "--fps", "60", "--json", "t.json", "--overlay", "overlays"});
@@ -191,9 +187,7 @@ TEST_F(TrackCommand, ARollNeedsOneScaleAndNoBounces) {
 
 TEST_F(TrackCommand, FilmsOfTiltsBecomeATableThatTheBenchReads) {
   const DrawnTilt tilt = small_tilt();
-  render::Film drawn(path("a.mp4"), tilt.frames_per_s);
-  for (int frame = 0; frame < tilt.frames(); ++frame) drawn.add(tilt.picture(frame));
-  drawn.close();
+  write_film(path("a.mp4"), tilt);
   const Finished done =
       run({"tilt", "a.mp4", "--csv", "tilts.csv", "--json", "t.json", "--overlay", "a.png"});
   ASSERT_EQ(done.exit_code, 0) << done.err;

@@ -10,8 +10,6 @@
 #include "tests/support/drawn_film.h"
 
 namespace repose::testing {
-namespace {}  // namespace
-
 double DrawnDrop::height_mm(double time_s) const {
   double t = time_s - release_s;
   if (t <= 0) return drop_mm;
@@ -27,16 +25,20 @@ double DrawnDrop::height_mm(double time_s) const {
   return t * (speed - .5 * kGravity_mm_s2 * t);
 }
 
-vision::Picture DrawnDrop::picture(int frame) const {
-  cv::Mat scene = drawn_scene({width, height}, seed, cut >= 0 && frame >= cut);
-  if (board_square_px > 0) draw_film_board(scene, {.73 * width, .42 * height}, board_square_px);
-  cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
+cv::Mat DrawnDrop::scene() const {
+  cv::Mat still = drawn_scene({width, height}, seed);
+  if (board_square_px > 0) draw_film_board(still, {.73 * width, .42 * height}, board_square_px);
+  return still;
+}
+
+vision::Picture DrawnDrop::picture(int frame, const cv::Mat& scene) const {
+  const bool is_other = cut >= 0 && frame >= cut;
+  const cv::Mat behind = is_other ? drawn_scene({width, height}, seed, true) : scene;
   const int parts = exposure > 0 ? 8 : 1;
   const double floor = kFloorPart * height + radius_px * .3;
   const double turn_c = std::cos(lean_rad), turn_s = std::sin(lean_rad);
-  for (int part = 0; part < parts; ++part) {
+  cv::Mat seen = exposed(behind, parts, [&](cv::Mat& now, int part) {
     const double begin_s = (frame + exposure * ((part + .5) / parts - .5)) / frames_per_s;
-    cv::Mat now = scene.clone();
     for (int grain = 0; grain < grains; ++grain) {
       cv::Point2d at;
       double time_s = begin_s;
@@ -60,14 +62,13 @@ vision::Picture DrawnDrop::picture(int frame) const {
       cv::ellipse(now, hand, {cvRound(3 * radius_px), cvRound(1.6 * radius_px)}, -20, 0, 360,
                   cv::Scalar(120, 140, 190), cv::FILLED, cv::LINE_AA);
     }
-    sum += now / parts;
-  }
+  });
   if (shake_px > 0) {
     const cv::Matx23d move(1, 0, shake_px * std::sin(.9 * frame), 0, 1,
                            shake_px * std::cos(1.3 * frame));
-    cv::warpAffine(sum, sum, move, sum.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    cv::warpAffine(seen, seen, move, seen.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   }
-  return noisy_picture(sum, noise, seed * 1000003U + static_cast<unsigned>(frame));
+  return noisy_picture(seen, noise, seed * 1000003U + static_cast<unsigned>(frame));
 }
 
 }  // namespace repose::testing

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "vision/picture/picture.h"
 
 /// Frames of a film of a grain that falls and bounces, drawn with everything about its path known.
@@ -31,7 +33,8 @@ struct DrawnDrop {
   int frames() const { return static_cast<int>(frames_per_s * seconds); }
   /// Height of the grain's centre above where it is at an impact [mm].
   double height_mm(double time_s) const;
-  vision::Picture picture(int frame) const;
+  cv::Mat scene() const;  ///< what stands still
+  vision::Picture picture(int frame, const cv::Mat& scene) const;
 };
 
 }  // namespace repose::testing

@@ -75,6 +75,17 @@ void draw_shadow(cv::Mat& scene, const cv::Point2d& at, double width, double dep
   }
 }
 
+cv::Mat exposed(const cv::Mat& scene, int parts,
+                const std::function<void(cv::Mat& now, int part)>& draw) {
+  cv::Mat now, sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
+  for (int part = 0; part < parts; ++part) {
+    scene.copyTo(now);
+    draw(now, part);
+    cv::scaleAdd(now, 1.0 / parts, sum, sum);
+  }
+  return sum;
+}
+
 vision::Picture noisy_picture(cv::Mat drawn, double noise, unsigned seed) {
   cv::RNG random(seed);
   cv::Mat grain(drawn.size(), CV_32FC3);

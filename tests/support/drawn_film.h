@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <opencv2/core.hpp>
 
 #include "vision/picture/picture.h"
@@ -21,6 +23,10 @@ void draw_film_board(cv::Mat& scene, const cv::Point2d& middle, double square_px
 void draw_ball(cv::Mat& scene, const cv::Point2d& centre, double radius, const cv::Vec3f& colour);
 
 void draw_shadow(cv::Mat& scene, const cv::Point2d& at, double width, double depth);
+
+/// The mean of what is drawn onto a scene at `parts` moments while the shutter is open.
+cv::Mat exposed(const cv::Mat& scene, int parts,
+                const std::function<void(cv::Mat& now, int part)>& draw);
 
 /// What a camera makes of it.
 /// @param noise  standard deviation of a grey level

@@ -82,16 +82,18 @@ void draw_grain(cv::Mat& scene, DrawnRoll roll, int grain, double time_s) {
 
 }  // namespace
 
-vision::Picture DrawnRoll::picture(int frame) const {
+cv::Mat DrawnRoll::scene() const {
+  cv::Mat still = drawn_scene({width, height}, seed);
+  if (has_incline) draw_incline(still, *this, Course(*this));
+  if (board_square_px > 0) draw_film_board(still, {.75 * width, .36 * height}, board_square_px);
+  return still;
+}
+
+vision::Picture DrawnRoll::picture(int frame, const cv::Mat& scene) const {
   const Course course(*this);
-  cv::Mat scene = drawn_scene({width, height}, seed);
-  if (has_incline) draw_incline(scene, *this, course);
-  if (board_square_px > 0) draw_film_board(scene, {.75 * width, .36 * height}, board_square_px);
-  cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
   const int parts = exposure > 0 ? 8 : 1;
-  for (int part = 0; part < parts; ++part) {
+  const cv::Mat seen = exposed(scene, parts, [&](cv::Mat& now, int part) {
     const double time_s = (frame + exposure * ((part + .5) / parts - .5)) / frames_per_s;
-    cv::Mat now = scene.clone();
     for (int grain = 0; grain < grains; ++grain) draw_grain(now, *this, grain, time_s);
     if (has_hand && time_s < release_s + .4) {
       const double gone = std::max(0.0, time_s - release_s) * 500;
@@ -100,9 +102,8 @@ vision::Picture DrawnRoll::picture(int frame) const {
       cv::ellipse(now, hand, {cvRound(3 * radius_px), cvRound(1.6 * radius_px)}, -20, 0, 360,
                   cv::Scalar(120, 140, 190), cv::FILLED, cv::LINE_AA);
     }
-    sum += now / parts;
-  }
-  return noisy_picture(sum, noise, seed * 1000003U + static_cast<unsigned>(frame));
+  });
+  return noisy_picture(seen, noise, seed * 1000003U + static_cast<unsigned>(frame));
 }
 
 }  // namespace repose::testing

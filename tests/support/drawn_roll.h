@@ -1,5 +1,7 @@
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "vision/picture/picture.h"
 
 /// Frames of a film of a ball that rolls down an incline and out on a flat, drawn with everything
@@ -31,7 +33,8 @@ struct DrawnRoll {
   unsigned seed = 1;
 
   int frames() const { return static_cast<int>(frames_per_s * seconds); }
-  vision::Picture picture(int frame) const;
+  cv::Mat scene() const;  ///< what stands still
+  vision::Picture picture(int frame, const cv::Mat& scene) const;
 };
 
 }  // namespace repose::testing

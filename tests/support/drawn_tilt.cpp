@@ -141,27 +141,26 @@ double DrawnTilt::onset_s() const {
 
 int DrawnTilt::frames() const { return static_cast<int>(frames_per_s * (onset_s() + after_s)); }
 
-vision::Picture DrawnTilt::picture(int frame) const {
-  cv::Mat scene = drawn_scene({width, height}, seed);
+cv::Mat DrawnTilt::scene() const { return drawn_scene({width, height}, seed); }
+
+vision::Picture DrawnTilt::picture(int frame, const cv::Mat& scene) const {
   const double middle_s = frame / frames_per_s;
   // Only what moves by a good part of a pixel while the shutter is open is blurred.
   constexpr double kBefore_s = .05;
   const bool is_blurred = exposure > 0 && middle_s > onset_s() - kBefore_s;
   const cv::Matx23d shaken(1, 0, Placing(*this, middle_s).shift, 0, 1, 0);
+  cv::Mat moved = scene;
   if (shakes_px != 0) {
-    cv::warpAffine(scene, scene, shaken, scene.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    cv::warpAffine(scene, moved, shaken, scene.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   }
   const int parts = is_blurred ? 8 : 1;
-  cv::Mat sum(scene.size(), CV_32FC3, cv::Scalar::all(0));
-  for (int part = 0; part < parts; ++part) {
+  const cv::Mat seen = exposed(moved, parts, [&](cv::Mat& now, int part) {
     const double time_s = (frame + exposure * ((part + .5) / parts - .5)) / frames_per_s;
     const Placing placing(*this, time_s);
-    cv::Mat now = scene.clone();
     for (int grain = 0; grain < grains; ++grain) draw_grain(now, *this, placing, grain, time_s);
     draw_plate(now, *this, placing);
-    sum += now / parts;
-  }
-  return noisy_picture(sum, noise, seed * 1000003U + static_cast<unsigned>(frame));
+  });
+  return noisy_picture(seen, noise, seed * 1000003U + static_cast<unsigned>(frame));
 }
 
 }  // namespace repose::testing

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "vision/picture/picture.h"
 
 /// Frames of a film of grains on a plate that is tilted until they slide, drawn with the angle of
@@ -42,7 +44,8 @@ struct DrawnTilt {
   double angle_deg(double time_s) const;
   double onset_s() const;
   int frames() const;
-  vision::Picture picture(int frame) const;
+  cv::Mat scene() const;  ///< what stands still
+  vision::Picture picture(int frame, const cv::Mat& scene) const;
 };
 
 /// Small and short: quick to draw and to read.

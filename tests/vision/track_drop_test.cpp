@@ -7,6 +7,7 @@
 
 #include "render/film/film.h"
 #include "tests/support/drawn_drop.h"
+#include "tests/support/drawn_film_file.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/warnings.h"
@@ -18,6 +19,7 @@ namespace {
 
 using repose::testing::DrawnDrop;
 using repose::testing::TemporaryFolder;
+using repose::testing::write_film;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -35,9 +37,7 @@ DrawnDrop small_drop() {
 std::filesystem::path film_of(const TemporaryFolder& folder, const DrawnDrop& drop,
                               double plays_at = 0) {
   const auto file = folder.path() / "drop.mp4";
-  render::Film film(file, plays_at > 0 ? plays_at : drop.frames_per_s);
-  for (int frame = 0; frame < drop.frames(); ++frame) film.add(drop.picture(frame));
-  film.close();
+  write_film(file, drop, plays_at);
   return file;
 }
 
@@ -211,7 +211,10 @@ TEST(TrackDrop, TheLensIsTakenOutOfTheFrames) {
   {
     render::Film film(file, drop.frames_per_s);
     const Distortion distorted(lens_for(lens, drop.width, drop.height));
-    for (int frame = 0; frame < drop.frames(); ++frame) film.add(distorted(drop.picture(frame)));
+    const cv::Mat scene = drop.scene();
+    for (int frame = 0; frame < drop.frames(); ++frame) {
+      film.add(distorted(drop.picture(frame, scene)));
+    }
     film.close();
   }
   const TrackOptions options{.board = BoardPlacing{.square_mm = 14 * drop.mm_per_px}};
@@ -274,10 +277,12 @@ TEST(TrackDropFiles, WhatIsNoFilmIsAnErrorThatSaysSo) {
 TEST(TrackDrop, AFolderOfItsFramesIsTheSameFilm) {
   const DrawnDrop drop = small_drop();
   const TemporaryFolder folder;
+  const cv::Mat scene = drop.scene();
   for (int frame = 0; frame < drop.frames(); ++frame) {
     // Two are missing: their time goes by all the same.
     if (frame == 5 || frame == 30) continue;
-    write_picture(folder.path() / ("frame" + std::to_string(frame) + ".png"), drop.picture(frame));
+    write_picture(folder.path() / ("frame" + std::to_string(frame) + ".png"),
+                  drop.picture(frame, scene));
   }
   const DropTrack track = track_drop({folder.path(), drop.frames_per_s});
   ASSERT_FALSE(track.bounces.empty()) << track.reason;
@@ -292,9 +297,10 @@ std::filesystem::path interlaced_film(const TemporaryFolder& folder, DrawnDrop d
   drop.frames_per_s *= 2;
   const auto file = folder.path() / "interlaced.mp4";
   render::Film film(file, frames_per_s);
+  const cv::Mat scene = drop.scene();
   for (int frame = 0; frame + 1 < drop.frames(); frame += 2) {
-    Picture woven = drop.picture(frame);
-    const Picture later = drop.picture(frame + 1);
+    Picture woven = drop.picture(frame, scene);
+    const Picture later = drop.picture(frame + 1, scene);
     const auto row_bytes = static_cast<std::ptrdiff_t>(3) * woven.width;
     for (std::ptrdiff_t row = 1; row < woven.height; row += 2) {
       std::copy_n(later.bgr.begin() + row * row_bytes, row_bytes,

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "render/film/film.h"
+#include "tests/support/drawn_film_file.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/drawing/roll_overlay.h"
@@ -14,6 +14,7 @@ namespace {
 
 using repose::testing::DrawnRoll;
 using repose::testing::TemporaryFolder;
+using repose::testing::write_film;
 using ::testing::Contains;
 using ::testing::Field;
 using ::testing::HasSubstr;
@@ -32,9 +33,7 @@ DrawnRoll small_roll() {
 
 std::filesystem::path film_of_roll(const TemporaryFolder& folder, const DrawnRoll& roll) {
   const auto file = folder.path() / "roll.mp4";
-  render::Film film(file, roll.frames_per_s);
-  for (int frame = 0; frame < roll.frames(); ++frame) film.add(roll.picture(frame));
-  film.close();
+  write_film(file, roll);
   return file;
 }
 

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "render/film/film.h"
+#include "tests/support/drawn_film_file.h"
 #include "tests/support/drawn_tilt.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/warnings.h"
@@ -15,6 +15,7 @@ namespace {
 
 using repose::testing::DrawnTilt;
 using repose::testing::TemporaryFolder;
+using repose::testing::write_film;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -36,9 +37,7 @@ DrawnTilt small_tilt() {
 TiltTrack tracked_tilt(const DrawnTilt& tilt, const TrackOptions& options = {}) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "tilt.mp4";
-  render::Film film(file, tilt.frames_per_s);
-  for (int frame = 0; frame < tilt.frames(); ++frame) film.add(tilt.picture(frame));
-  film.close();
+  write_film(file, tilt);
   return track_tilt(file, options);
 }
 
