@@ -30,11 +30,12 @@ double slid_mm(const DrawnTilt& tilt, double onset_deg, double since_s) {
 struct Placing {
   Placing(const DrawnTilt& tilt, double time_s)
       : tilt_(tilt),
-        angle(tilt.angle_deg(time_s) * kDegree),
+        plate_(turn_by(tilt.angle_deg(time_s) * kDegree)),
+        lean_(turn_by(tilt.lean_rad)),
         shift(tilt.shakes_px * std::sin(std::numbers::pi * time_s)) {}
 
   cv::Point2d in_picture(const cv::Point2d& at) const {
-    const double c = std::cos(angle), s = std::sin(angle);
+    const double c = plate_.x, s = plate_.y;
     // Below the hinge lies half the plate's thickness.
     const double y = at.y + .5 * tilt_.thickness_px;
     const cv::Point2d plain(tilt_.hinge_part * tilt_.width + at.x * c - y * s,
@@ -44,7 +45,7 @@ struct Placing {
   cv::Point2d on_plate(const cv::Point2d& seen) const {
     const cv::Point2d plain = straightened(seen - cv::Point2d(shift, 0));
     const double x = plain.x - tilt_.hinge_part * tilt_.width, y = row_of_hinge() - plain.y;
-    const double c = std::cos(angle), s = std::sin(angle);
+    const double c = plate_.x, s = plate_.y;
     return {x * c + y * s, -x * s + y * c - .5 * tilt_.thickness_px};
   }
 
@@ -54,22 +55,26 @@ struct Placing {
     const cv::Point2d middle(.5 * tilt_.width, .5 * tilt_.height);
     cv::Point2d off = plain - middle;
     if (tilt_.goes_left) off.x = -off.x;
-    const double c = std::cos(tilt_.lean_rad), s = std::sin(tilt_.lean_rad);
+    const double c = lean_.x, s = lean_.y;
     return middle + cv::Point2d(off.x * c - off.y * s, off.x * s + off.y * c);
   }
   cv::Point2d straightened(const cv::Point2d& seen) const {
     const cv::Point2d middle(.5 * tilt_.width, .5 * tilt_.height);
-    const double c = std::cos(tilt_.lean_rad), s = std::sin(tilt_.lean_rad);
+    const double c = lean_.x, s = lean_.y;
     cv::Point2d off = seen - middle;
     off = {off.x * c + off.y * s, -off.x * s + off.y * c};
     if (tilt_.goes_left) off.x = -off.x;
     return middle + off;
   }
 
+  /// Cosine and sine.
+  static cv::Point2d turn_by(double rad) { return {std::cos(rad), std::sin(rad)}; }
+
   const DrawnTilt& tilt_;
+  cv::Point2d plate_;
+  cv::Point2d lean_;
 
  public:
-  double angle;
   double shift;
 };
 
