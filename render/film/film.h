@@ -14,8 +14,9 @@ namespace repose::render {
 /// Pictures one after the other in an MP4 (H.264) or GIF file, which is there whole or not at all:
 /// until then the earlier one is.
 ///
-/// The same pictures give the same bytes in a program's first film. In later ones an MP4's frame
-/// may begin elsewhere in memory, and the library then rounds its colours otherwise.
+/// The same pictures give the same bytes in a program's first film. In later ones an MP4 whose
+/// width is no multiple of 128 depends on what was in memory before: so the encoder (x264) was seen
+/// to do.
 class Film {
  public:
   /// By the name's ending.
