@@ -16,6 +16,7 @@ needed="g++ cmake ninja-build pkg-config
   libopencv-dev libceres-dev libeigen3-dev libboost-dev libtbb-dev
   libassimp-dev libtomlplusplus-dev libpugixml-dev
   libosmesa6-dev libmeshoptimizer-dev libgif-dev
+  libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libexif-dev libcsv-dev libcairo2-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core"
 # npm may also come from elsewhere than Debian.

@@ -12,11 +12,11 @@
 #include "cli/render/render_options.h"
 #include "cli/render/render_run.h"
 #include "dem/state/state_file.h"
-#include "render/film/film.h"
 #include "render/model_file.h"
 #include "render/renderer.h"
 #include "render/truth.h"
 #include "vision/picture/picture.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::cli {
 namespace {
@@ -56,7 +56,7 @@ void render_picture(const RenderArguments& arguments, const RenderPlan& plan,
 void render_turntable(const RenderArguments& arguments, const RenderPlan& plan,
                       const render::Scene& scene) {
   render::Renderer renderer;
-  render::Film film(arguments.out_file, kFramesPerSecond);
+  vision::FilmWriter film(arguments.out_file, kFramesPerSecond);
   RenderPlan turned = plan;
   turned.level = render::fitted_all_around(plan.level, scene, plan.size);
   Progress progress(static_cast<std::size_t>(plan.turntable_frames), kDrawn);

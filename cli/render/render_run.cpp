@@ -8,10 +8,10 @@
 #include "cli/render/render_json.h"
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
-#include "render/film/film.h"
 #include "render/renderer.h"
 #include "render/run/film_truth.h"
 #include "render/run/filmed_run.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::cli {
 namespace {
@@ -56,7 +56,7 @@ void render_run_film(const RenderArguments& arguments, const RenderPlan& plan) {
                         plan.shutter.value_or(render::Shutter{.frames_per_s = rate}));
   const render::Camera camera = camera_of(plan, run.first());
   render::Renderer renderer;
-  render::Film film(arguments.out_file, rate);
+  vision::FilmWriter film(arguments.out_file, rate);
   // Without a shutter each state is a frame.
   const int frames = plan.shutter ? run.frames() : static_cast<int>(times_s.size());
   Progress progress(static_cast<std::size_t>(frames), "drew");

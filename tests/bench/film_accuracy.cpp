@@ -14,7 +14,6 @@
 #include <tbb/parallel_for.h>
 
 #include "base/units.h"
-#include "render/film/film.h"
 #include "tests/bench/median.h"
 #include "tests/support/drawn_heap_film.h"
 #include "tests/support/heap_conditions.h"
@@ -22,6 +21,7 @@
 #include "tests/support/temporary_folder.h"
 #include "vision/film/film_angle.h"
 #include "vision/film/frame_series.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::bench {
 namespace {
@@ -53,7 +53,7 @@ testing::DrawnHeapFilm random_film(std::uint64_t seed, double noise) {
 Row row_of(const testing::DrawnHeapFilm& drawn) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "heap.mp4";
-  render::Film film(file, drawn.frames_per_s);
+  vision::FilmWriter film(file, drawn.frames_per_s);
   for (const vision::Picture& picture : drawn.pictures()) film.add(picture);
   film.close();
   vision::FilmAngle measured = vision::measure_film(file);

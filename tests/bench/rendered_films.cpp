@@ -15,7 +15,6 @@
 #include <tbb/parallel_for.h>
 
 #include "dem/experiment/experiment.h"
-#include "render/film/film.h"
 #include "render/renderer.h"
 #include "render/run/film_truth.h"
 #include "render/run/filmed_run.h"
@@ -23,6 +22,7 @@
 #include "vision/track/drop_track.h"
 #include "vision/track/roll_track.h"
 #include "vision/track/tilt_track.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::bench {
 namespace {
@@ -155,7 +155,7 @@ std::unique_ptr<FilmedFile> filmed(const Recorder& recorder, const Look& look) {
   render::PerspectiveCamera camera = camera_on(look.stand, run.first(), look.size);
   camera.roll_rad = look.roll_rad;
   render::Renderer renderer;
-  render::Film film(made->file, look.shutter.frames_per_s);
+  vision::FilmWriter film(made->file, look.shutter.frames_per_s);
   for (int frame = 0; frame < run.frames(); ++frame) {
     render::PhotoStyle style = look.style;
     style.frame = static_cast<std::uint64_t>(frame);

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "render/film/film.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_drop.h"
@@ -12,6 +11,7 @@
 #include "tests/support/drawn_heap_film.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/drawn_tilt.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::testing {
 namespace {
@@ -180,7 +180,7 @@ TEST_F(CalibrateFilms, OfHeapsCountAtRestAndOthersAreLeftOut) {
   const std::vector<vision::Picture> frames =
       DrawnHeapFilm{.scene = small_heap(), .grows_s = .5, .rests_s = .8}.pictures();
   const auto write = [&](const char* name, std::size_t count) {
-    render::Film film(path(name), DrawnHeapFilm{}.frames_per_s);
+    vision::FilmWriter film(path(name), DrawnHeapFilm{}.frames_per_s);
     for (std::size_t k = 0; k < count; ++k) film.add(frames[count == 9 ? k % 5 : k]);
     film.close();
   };

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "render/film/film.h"
 #include "tests/cli/command_test.h"
 #include "tests/support/drawn_heap_film.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::testing {
 namespace {
@@ -27,7 +27,7 @@ struct MeasureFilms : CommandTest {
     return drawn;
   }
   void draw(const std::string& name, std::size_t first = 0) const {
-    render::Film film(path(name), DrawnHeapFilm{}.frames_per_s);
+    vision::FilmWriter film(path(name), DrawnHeapFilm{}.frames_per_s);
     for (std::size_t k = first; k < frames().size(); ++k) film.add(frames()[k]);
     film.close();
   }
@@ -125,7 +125,7 @@ TEST_F(MeasureFilms, OfAFolderAllCountButThoseTakenAlongWithAPicture) {
 }
 
 TEST_F(MeasureFilms, AFilmWithoutRestIsRefusedAndOneThatIsNoneNotRead) {
-  render::Film film(path("falls.mp4"), DrawnHeapFilm{}.frames_per_s);
+  vision::FilmWriter film(path("falls.mp4"), DrawnHeapFilm{}.frames_per_s);
   for (std::size_t k = 0; k < 9; ++k) film.add(frames()[k % 6]);
   film.close();
   folder_.write("none.mp4", std::string("no film"));

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "render/film/film.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::testing {
 
@@ -10,7 +10,7 @@ namespace repose::testing {
 /// @param plays_at  frames a second; 0: as the camera took them
 template <typename Drawn>
 void write_film(const std::filesystem::path& file, const Drawn& drawn, double plays_at = 0) {
-  render::Film film(file, plays_at > 0 ? plays_at : drawn.frames_per_s);
+  vision::FilmWriter film(file, plays_at > 0 ? plays_at : drawn.frames_per_s);
   const auto scene = drawn.scene();
   for (int frame = 0; frame < drawn.frames(); ++frame) film.add(drawn.picture(frame, scene));
   film.close();

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/picture/jpeg.h"
 #include "vision/picture/mat_of_picture.h"
 
 namespace repose::testing {
@@ -89,9 +89,7 @@ vision::Picture take_picture(const Stage& stage, const HeapScene& scene, Random&
 }
 
 vision::Picture jpeg_compressed(const vision::Picture& picture, int quality) {
-  std::vector<std::uint8_t> file;
-  cv::imencode(".jpg", vision::mat_of(picture), file, {cv::IMWRITE_JPEG_QUALITY, quality});
-  return picture_of(cv::imdecode(file, cv::IMREAD_COLOR));
+  return vision::decode_jpeg(vision::jpeg_of(picture, quality));
 }
 
 }  // namespace repose::testing

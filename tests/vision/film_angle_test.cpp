@@ -12,12 +12,12 @@
 #include <gmock/gmock.h>
 
 #include "base/units.h"
-#include "render/film/film.h"
 #include "tests/support/drawn_heap_film.h"
 #include "tests/support/error_of.h"
 #include "tests/support/heap_picture.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/warnings.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::vision {
 namespace {
@@ -36,7 +36,7 @@ class FilmAngleOf : public ::testing::Test {
   std::filesystem::path write(const std::vector<Picture>& frames, double frames_per_s,
                               const char* name = "heap.mp4") const {
     const auto file = folder_.path() / name;
-    render::Film film(file, frames_per_s);
+    vision::FilmWriter film(file, frames_per_s);
     for (const Picture& frame : frames) film.add(frame);
     film.close();
     return file;

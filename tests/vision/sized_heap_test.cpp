@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 
 #include "base/units.h"
-#include "render/film/film.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/heap_random.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/mat_of_picture.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::vision {
 namespace {
@@ -257,7 +257,7 @@ TEST(SizedHeap, OfAFilmHasItsBoardAndLensToo) {
   const Stage stage;
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "heap.mp4";
-  render::Film film(file, 12);
+  vision::FilmWriter film(file, 12);
   const Picture picture = stage.picture_with_board();
   for (int frame = 0; frame < 14; ++frame) film.add(picture);
   film.close();

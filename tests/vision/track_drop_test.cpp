@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include "render/film/film.h"
 #include "tests/support/drawn_drop.h"
 #include "tests/support/drawn_film_file.h"
 #include "tests/support/error_of.h"
@@ -13,6 +12,7 @@
 #include "tests/vision/warnings.h"
 #include "vision/drawing/drop_overlay.h"
 #include "vision/track/drop_track.h"
+#include "vision/video/film_writer.h"
 
 namespace repose::vision {
 namespace {
@@ -209,7 +209,7 @@ TEST(TrackDrop, TheLensIsTakenOutOfTheFrames) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "drop.mp4";
   {
-    render::Film film(file, drop.frames_per_s);
+    vision::FilmWriter film(file, drop.frames_per_s);
     const Distortion distorted(lens_for(lens, drop.width, drop.height));
     const cv::Mat scene = drop.scene();
     for (int frame = 0; frame < drop.frames(); ++frame) {
@@ -296,7 +296,7 @@ std::filesystem::path interlaced_film(const TemporaryFolder& folder, DrawnDrop d
   const double frames_per_s = drop.frames_per_s;
   drop.frames_per_s *= 2;
   const auto file = folder.path() / "interlaced.mp4";
-  render::Film film(file, frames_per_s);
+  vision::FilmWriter film(file, frames_per_s);
   const cv::Mat scene = drop.scene();
   for (int frame = 0; frame + 1 < drop.frames(); frame += 2) {
     Picture woven = drop.picture(frame, scene);

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/videoio.hpp>
 
 #include "vision/film/frame_files.h"
 #include "vision/picture/mat_of_picture.h"
 #include "vision/picture/opencv_threads.h"
 #include "vision/picture/picture.h"
+#include "vision/video/video_decoder.h"
 
 namespace repose::vision {
 namespace {
@@ -86,47 +86,45 @@ class FilmReader::Source {
   virtual int claimed_frames() const = 0;
 };
 
-/// A file that FFmpeg decodes.
+/// A file.
 class FilmReader::VideoSource : public FilmReader::Source {
  public:
-  explicit VideoSource(const fs::path& file) {
-    check(file);
-    if (!film_.open(file.string(), cv::CAP_FFMPEG)) {
-      refuse_film(file, "the film cannot be decoded: it is damaged, or of an unknown kind",
-                  "copy it from the telephone again, or convert it to MP4 (H.264).");
-    }
-    check_size(file, film_.get(cv::CAP_PROP_FRAME_WIDTH), film_.get(cv::CAP_PROP_FRAME_HEIGHT));
-    const double count = film_.get(cv::CAP_PROP_FRAME_COUNT);
-    claimed_frames_ = count > 0 && count < 1e9 ? static_cast<int>(count) : 0;
-    const double rate = film_.get(cv::CAP_PROP_FPS);
-    claimed_interval_s_ = 1 / (std::isfinite(rate) && rate > 0 ? rate : kUsualFramesPerS);
+  explicit VideoSource(const fs::path& file)
+      : film_((check(file), file)),
+        claimed_interval_s_(1 / film_.claimed_frames_per_s().value_or(kUsualFramesPerS)) {
+    check_size(file, film_.width(), film_.height());
   }
 
   bool next(FilmFrame& frame, bool is_skipped) override {
-    if (!film_.grab()) return false;
-    if (!is_skipped && (!film_.retrieve(frame.bgr) || frame.bgr.empty())) return false;
+    if (!film_.advance()) return false;
+    if (!is_skipped) film_.copy_to(frame.bgr);
     frame.time_s = last_s_ = time_of_frame();
     ++frames_;
     return true;
   }
-  int claimed_frames() const override { return claimed_frames_; }
+  int claimed_frames() const override {
+    const std::int64_t count = film_.claimed_frames();
+    return count > 0 && count < kMostFrames ? static_cast<int>(count) : 0;
+  }
 
  private:
   /// Where time stamps are missing or do not advance, one frame after the other.
   double time_of_frame() {
-    constexpr double kSPerMs = 1e-3;
-    const double stamp_s = kSPerMs * film_.get(cv::CAP_PROP_POS_MSEC);
+    const std::optional<double> stamp_s = film_.time_stamp_s();
     if (frames_ == 0) {
-      first_s_ = stamp_s;
+      first_s_ = stamp_s.value_or(0);
       return 0;
     }
-    const double time_s = stamp_s - first_s_;
-    return std::isfinite(time_s) && time_s > last_s_ ? time_s : last_s_ + claimed_interval_s_;
+    const double usual_s = last_s_ + claimed_interval_s_;
+    if (!stamp_s) return usual_s;
+    const double time_s = *stamp_s - first_s_;
+    return time_s > last_s_ ? time_s : usual_s;
   }
 
-  cv::VideoCapture film_;
-  int claimed_frames_ = 0;
-  double claimed_interval_s_ = 0;
+  static constexpr std::int64_t kMostFrames = 1'000'000'000;
+
+  VideoDecoder film_;
+  double claimed_interval_s_;
   int frames_ = 0;
   double first_s_ = 0;
   double last_s_ = 0;
@@ -174,7 +172,7 @@ int FilmReader::claimed_frames() const { return source_->claimed_frames(); }
 bool FilmReader::next(FilmFrame& frame) {
   if (!source_->next(frame, false)) return false;
   if (size_.empty()) size_ = frame.bgr.size();
-  if (frame.bgr.size() != size_ || frame.bgr.type() != CV_8UC3) {
+  if (frame.bgr.size() != size_) {
     refuse_film(file_, "the size of its frames changes", "keep the part of one size.");
   }
   if (!lens_) return true;

@@ -2,12 +2,17 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
+#include <new>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
+extern "C" {
+#include <libavutil/imgutils.h>
+}
 
 #include "vision/picture/claimed_size.h"
-#include "vision/picture/flatten.h"
+#include "vision/picture/ffmpeg.h"
+#include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
 namespace {
@@ -27,7 +32,7 @@ std::uint32_t number_at(Bytes bytes, std::size_t at) {
       "PNG.");
 }
 
-/// OpenCV prints to stderr what is wrong with a palette, so it is checked before.
+/// The decoder does without what a palette lacks, so it is checked before.
 void check_palette(Bytes bytes) {
   constexpr std::int64_t kFileHeaderBytes = 14, kMostColours = 256, kColourBytes = 4;
   const std::int64_t bits_per_pixel = bytes[28];
@@ -40,7 +45,7 @@ void check_palette(Bytes bytes) {
   }
 }
 
-/// OpenCV prints to stderr when the data end early, so their length is checked before.
+/// The decoder takes a smaller size for the right one, so it is checked before.
 void check_bmp_length(Bytes bytes) {
   if (bytes.size() < kHeaderBytes) refuse_damaged_bmp();
   const std::int64_t pixels_from = number_at(bytes, 10);
@@ -68,16 +73,37 @@ void check_bmp_length(Bytes bytes) {
   }
 }
 
+ffmpeg::Frame decoded(Bytes bytes) {
+  const auto* decoder = avcodec_find_decoder(AV_CODEC_ID_BMP);
+  const ffmpeg::Codec codec(avcodec_alloc_context3(decoder));
+  const ffmpeg::Packet packet = ffmpeg::empty_packet();
+  if (!codec || av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) {
+    throw std::bad_alloc();
+  }
+  std::memcpy(packet->data, bytes.data(), bytes.size());
+  ffmpeg::Frame frame = ffmpeg::empty_frame();
+  if (!decoder || avcodec_open2(codec.get(), decoder, nullptr) < 0 ||
+      avcodec_send_packet(codec.get(), packet.get()) < 0 ||
+      avcodec_receive_frame(codec.get(), frame.get()) < 0) {
+    refuse_damaged_bmp();
+  }
+  return frame;
+}
+
 }  // namespace
 
 Picture decode_bmp(Bytes bytes) {
   check_bmp_length(bytes);
   check_palette(bytes);
-  const cv::Mat coded(1, static_cast<int>(bytes.size()), CV_8U,
-                      const_cast<std::uint8_t*>(bytes.data()));
-  const cv::Mat samples = cv::imdecode(coded, cv::IMREAD_COLOR);
-  if (samples.empty()) refuse_damaged_bmp();
-  return flatten(samples);
+  ffmpeg::silence();
+  const ffmpeg::Frame frame = decoded(bytes);
+  const ffmpeg::Frame bgr = ffmpeg::blank_frame(frame->width, frame->height, AV_PIX_FMT_BGR24);
+  ffmpeg::Conversion().run(*frame, *bgr);
+  Picture picture = blank_picture(frame->width, frame->height);
+  const int row_bytes = 3 * picture.width;
+  av_image_copy_plane(picture.bgr.data(), row_bytes, bgr->data[0], bgr->linesize[0], row_bytes,
+                      picture.height);
+  return picture;
 }
 
 }  // namespace repose::vision

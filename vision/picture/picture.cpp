@@ -8,8 +8,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/whole_file.h"
@@ -29,10 +27,6 @@ namespace fs = std::filesystem;
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr int kJpegQuality = 95;
-constexpr int kPngCompression = 1;  // 9 takes ten times as long for a tenth less space
-
-/// Only the command line prints.
-void silence_opencv() { cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT); }
 
 std::string_view text_at(Bytes bytes, std::size_t from, std::size_t length) {
   if (from + length > bytes.size()) return {};
@@ -87,7 +81,6 @@ std::string lower_case_ending(const fs::path& file) {
 }  // namespace
 
 Picture read_picture(const fs::path& file) {
-  silence_opencv();
   const std::string bytes = base::read_whole_file(file);
   try {
     if (bytes.empty()) {
@@ -100,7 +93,6 @@ Picture read_picture(const fs::path& file) {
 }
 
 void write_picture(const fs::path& file, const Picture& picture) {
-  silence_opencv();
   const std::string ending = lower_case_ending(file);
   const bool is_jpeg = ending == ".jpg" || ending == ".jpeg";
   if (!is_jpeg && ending != ".png") {
@@ -113,10 +105,8 @@ void write_picture(const fs::path& file, const Picture& picture) {
         "{}: a picture of {} x {} pixels cannot be written. Fix: give at least one pixel.",
         file.string(), picture.width, picture.height));
   }
-  std::vector<std::uint8_t> content;
-  cv::imencode(is_jpeg ? ".jpg" : ".png", mat_of(picture), content,
-               is_jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, kJpegQuality}
-                       : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, kPngCompression});
+  std::vector<std::uint8_t> content =
+      is_jpeg ? encode_jpeg(picture, kJpegQuality) : encode_png(picture);
   mark_as_made_here(content);
   base::write_whole_file(file, std::as_bytes(std::span(content)));
 }
@@ -125,9 +115,7 @@ std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality) {
   if (picture.empty()) {
     throw std::invalid_argument("a picture without pixels cannot be written. Fix: give one.");
   }
-  std::vector<std::uint8_t> content;
-  cv::imencode(".jpg", mat_of(picture), content, {cv::IMWRITE_JPEG_QUALITY, quality});
-  return content;
+  return encode_jpeg(picture, quality);
 }
 
 Picture reduced(const Picture& picture, int longest_side_px) {

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
-#include "tests/vision/coded_pictures.h"
+#include "tests/vision/picture/coded_pictures.h"
 
 namespace repose::vision {
 namespace {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+/// What FFmpeg's libraries hand out, freed when it goes out of scope.
+namespace repose::vision::ffmpeg {
+
+struct Free {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+  void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
+};
+using Input = std::unique_ptr<AVFormatContext, Free>;
+using Frame = std::unique_ptr<AVFrame, Free>;
+using Packet = std::unique_ptr<AVPacket, Free>;
+using Codec = std::unique_ptr<AVCodecContext, Free>;
+
+/// They print to stderr what they stumble over; only the command line prints.
+void silence();
+
+/// Without pixels: a decoder's to fill.
+/// @throws std::bad_alloc, as do the next two
+Frame empty_frame();
+Packet empty_packet();
+/// Black, with rows that are padded.
+Frame blank_frame(int width, int height, AVPixelFormat format);
+
+/// From one way to store the pixels of a frame to another of the same size. Between RGB and YUV by
+/// ITU-R BT.601, whatever a film says of its colours.
+class Conversion {
+ public:
+  /// @throws std::invalid_argument  "what. Fix: ...": pixels of a kind that cannot be converted.
+  void run(const AVFrame& from, AVFrame& to);
+
+ private:
+  std::unique_ptr<SwsContext, Free> scaler_;
+};
+
+}  // namespace repose::vision::ffmpeg

@@ -1,0 +1,152 @@
+#include "vision/video/video_decoder.h"
+
+#include <cmath>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+extern "C" {
+#include <libavutil/display.h>
+}
+
+namespace repose::vision {
+namespace {
+
+/// Damaged pieces one after the other, after which the rest of a film is given up.
+constexpr int kMostDamaged = 512;
+
+[[noreturn]] void refuse_film(const std::filesystem::path& file) {
+  throw std::invalid_argument(
+      fmt::format("{}: the film cannot be decoded: it is damaged, or of an unknown kind. Fix: copy "
+                  "it from the telephone again, or convert it to MP4 (H.264).",
+                  file.string()));
+}
+
+/// Of files only, and of no kind that points to other files or places.
+ffmpeg::Input opened(const std::filesystem::path& file) {
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  av_dict_set(&options, "format_whitelist", "mov,matroska,webm,avi,gif", 0);
+  AVFormatContext* format = nullptr;
+  const int result =
+      avformat_open_input(&format, ("file:" + file.string()).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (result < 0) refuse_film(file);
+  return ffmpeg::Input(format);
+}
+
+/// @returns null where it cannot be opened
+ffmpeg::Codec decoder_of(const AVStream& stream) {
+  ffmpeg::Codec codec(avcodec_alloc_context3(nullptr));
+  if (!codec) throw std::bad_alloc();
+  codec->thread_count = 0;  // as many as there are processors
+  if (avcodec_parameters_to_context(codec.get(), stream.codecpar) < 0) return nullptr;
+  const auto* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
+  if (!decoder || avcodec_open2(codec.get(), decoder, nullptr) < 0) return nullptr;
+  return codec;
+}
+
+const std::int32_t* display_matrix(const AVStream& stream) {
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
+  const AVPacketSideData* found =
+      av_packet_side_data_get(stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data,
+                              AV_PKT_DATA_DISPLAYMATRIX);
+  const std::uint8_t* data = found ? found->data : nullptr;
+#else
+  const std::uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+#endif
+  return reinterpret_cast<const std::int32_t*>(data);
+}
+
+/// How telephones say how they were held: clockwise, to be applied to the picture.
+int quarter_turns(const AVStream& stream) {
+  const std::int32_t* matrix = display_matrix(stream);
+  const double degrees = matrix ? av_display_rotation_get(matrix) : 0;  // anticlockwise
+  return std::isfinite(degrees) ? static_cast<int>(std::lround(-degrees / 90) + 4) % 4 : 0;
+}
+
+void turn(const cv::Mat& lying, int quarters, cv::Mat& upright) {
+  switch (quarters) {
+    case 1:
+      return cv::rotate(lying, upright, cv::ROTATE_90_CLOCKWISE);
+    case 2:
+      return cv::rotate(lying, upright, cv::ROTATE_180);
+    case 3:
+      return cv::rotate(lying, upright, cv::ROTATE_90_COUNTERCLOCKWISE);
+    default:
+      return lying.copyTo(upright);
+  }
+}
+
+}  // namespace
+
+VideoDecoder::VideoDecoder(const std::filesystem::path& file)
+    : file_(file), packet_(ffmpeg::empty_packet()), frame_(ffmpeg::empty_frame()) {
+  ffmpeg::silence();
+  input_ = opened(file);
+  if (avformat_find_stream_info(input_.get(), nullptr) < 0) refuse_film(file);
+  const int best = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (best < 0) refuse_film(file);
+  stream_ = input_->streams[best];
+  codec_ = decoder_of(*stream_);
+  if (!codec_) refuse_film(file);
+}
+
+int VideoDecoder::width() const { return codec_->width; }
+int VideoDecoder::height() const { return codec_->height; }
+
+std::optional<double> VideoDecoder::claimed_frames_per_s() const {
+  const double rate = av_q2d(av_guess_frame_rate(input_.get(), stream_, nullptr));
+  return std::isfinite(rate) && rate > 0 ? std::optional(rate) : std::nullopt;
+}
+
+std::int64_t VideoDecoder::claimed_frames() const {
+  if (stream_->nb_frames > 0) return stream_->nb_frames;
+  if (input_->duration <= 0) return 0;
+  return std::llround(static_cast<double>(input_->duration) / AV_TIME_BASE *
+                      claimed_frames_per_s().value_or(0));
+}
+
+/// At the end an empty one, for which the decoder hands out what it kept back.
+bool VideoDecoder::send_next_packet() {
+  while (av_read_frame(input_.get(), packet_.get()) >= 0) {
+    const bool is_picture = packet_->stream_index == stream_->index;
+    const bool is_good = !is_picture || avcodec_send_packet(codec_.get(), packet_.get()) >= 0;
+    av_packet_unref(packet_.get());
+    if (is_picture) return is_good;
+  }
+  return avcodec_send_packet(codec_.get(), nullptr) >= 0;
+}
+
+bool VideoDecoder::advance() {
+  for (int damaged = 0; damaged < kMostDamaged;) {
+    const int result = avcodec_receive_frame(codec_.get(), frame_.get());
+    if (result == 0) return true;
+    if (result == AVERROR_EOF) return false;
+    if (result != AVERROR(EAGAIN) || !send_next_packet()) ++damaged;
+  }
+  return false;
+}
+
+std::optional<double> VideoDecoder::time_stamp_s() const {
+  const std::int64_t stamp = frame_->best_effort_timestamp;
+  if (stamp == AV_NOPTS_VALUE) return std::nullopt;
+  return static_cast<double>(stamp) * av_q2d(stream_->time_base);
+}
+
+void VideoDecoder::copy_to(cv::Mat& bgr) {
+  if (!bgr_ || bgr_->width != frame_->width || bgr_->height != frame_->height) {
+    bgr_ = ffmpeg::blank_frame(frame_->width, frame_->height, AV_PIX_FMT_BGR24);
+  }
+  try {
+    to_bgr_.run(*frame_, *bgr_);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", file_.string(), error.what()));
+  }
+  const cv::Mat padded(bgr_->height, bgr_->width, CV_8UC3, bgr_->data[0],
+                       static_cast<std::size_t>(bgr_->linesize[0]));
+  turn(padded, quarter_turns(*stream_), bgr);
+}
+
+}  // namespace repose::vision
