@@ -1,13 +1,16 @@
 #include "vision/camera/board_pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gmock/gmock.h>
 
 #include "base/units.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/heap_random.h"
+#include "vision/camera/board_view.h"
 #include "vision/camera/heap_view.h"
 
 namespace repose::vision {
@@ -114,6 +117,40 @@ TEST(BoardPose, WithoutALensThePitchIsUncertainAndTheScaleIsNot) {
   EXPECT_GT(deviation([](const HeapView& view) { return view.pitch_rad(); }), kDegree / 2);
   EXPECT_LT(deviation(scale), .01 * scale(view_of(pose)));
   EXPECT_NEAR(scale(view_of(pose)), 1200 / kCamera.focal_px, .02);
+}
+
+TEST(BoardPose, OfASmallBoardOnlyASquareViewTellsTheTurn) {
+  const double distance_mm = 8'000, pitch_rad = 3 * kDegree;
+  const Point beside{kCamera.centre_x_px - 200, kCamera.centre_y_px};
+  const auto scale = [&](const HeapView& view) { return mm_per_px_along(view, beside, {0, 1}); };
+  const auto pitch = [](const HeapView& view) { return view.pitch_rad(); };
+  double most_turned = 0, most_turned_square = 0;
+  int held_pitch = 0, held_scale = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const auto corners = corners_of(pitch_rad, 0, distance_mm, .6, seed);
+    const auto fitted = [&](std::optional<double> square_within_rad) {
+      return fit_pose(corners, std::nullopt, kCamera.width, kCamera.height, square_within_rad);
+    };
+    const auto deviation = [&](const BoardPose& pose, const auto& number) {
+      return std::sqrt(propagated({.values = pose.numbers, .covariance = pose.covariance},
+                                  [&](const Eigen::VectorXd& numbers) -> Eigen::VectorXd {
+                                    return Eigen::VectorXd::Constant(
+                                        1, number(view_by_board(numbers, {.square_mm = 24})));
+                                  })(0, 0));
+    };
+    most_turned = std::max(most_turned, deviation(fitted({}), pitch));
+    const BoardPose square = fitted(10 * kDegree);
+    const HeapView view = view_of(square);
+    most_turned_square = std::max(most_turned_square, deviation(square, pitch));
+    const auto holds = [&](double error, double sd) { return std::abs(error) <= kNormal95 * sd; };
+    held_pitch += holds(pitch(view) - pitch_rad, deviation(square, pitch)) ? 1 : 0;
+    held_scale +=
+        holds(scale(view) - distance_mm / kCamera.focal_px, deviation(square, scale)) ? 1 : 0;
+  }
+  EXPECT_GT(most_turned, 10 * kDegree);
+  EXPECT_LT(most_turned_square, 10 * kDegree);
+  EXPECT_GE(held_pitch, 26);
+  EXPECT_GE(held_scale, 26);
 }
 
 TEST(HeapView, ThePropagatedVarianceOfASumOfRelatedInputsIsExact) {

@@ -80,6 +80,21 @@ struct PriorError {
   }
 };
 
+/// How far the board's normal is off the camera's axis, aside and up.
+struct SquareError {
+  double deviation;
+
+  template <typename T>
+  bool operator()(const T* numbers, T* residual) const {
+    const std::array<T, 3> board = {T(0), T(0), T(1)};
+    std::array<T, 3> normal = {};
+    ceres::AngleAxisRotatePoint(numbers, board.data(), normal.data());
+    residual[0] = normal[0] / deviation;
+    residual[1] = normal[1] / deviation;
+    return true;
+  }
+};
+
 struct Minimum {
   BoardPose::Numbers numbers;
   BoardPose::Covariance covariance;
@@ -87,7 +102,8 @@ struct Minimum {
 };
 
 Minimum minimum_from(const BoardPose::Numbers& start, const std::vector<SeenCorner>& corners,
-                     const Prior& prior, double deviation_px) {
+                     const Prior& prior, std::optional<double> square_within_rad,
+                     double deviation_px) {
   Minimum minimum{.numbers = start, .covariance = BoardPose::Covariance::Zero()};
   double* numbers = minimum.numbers.data();
   ceres::Problem problem;
@@ -100,6 +116,12 @@ Minimum minimum_from(const BoardPose::Numbers& start, const std::vector<SeenCorn
   problem.AddResidualBlock(
       new ceres::AutoDiffCostFunction<PriorError, 3, BoardPose::kNumbers>(new PriorError{prior}),
       nullptr, numbers);
+  if (square_within_rad) {
+    const double deviation = std::sin(*square_within_rad) / base::kNormal95;
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<SquareError, 2, BoardPose::kNumbers>(
+                                 new SquareError{deviation}),
+                             nullptr, numbers);
+  }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 200;
@@ -196,7 +218,7 @@ Point seen_at(const BoardPose::Numbers& numbers, Point on_board) {
 }
 
 BoardPose fit_pose(const std::vector<SeenCorner>& corners, const std::optional<Lens>& lens,
-                   int width, int height) {
+                   int width, int height, std::optional<double> square_within_rad) {
   const Prior prior = prior_of(lens, width, height);
   std::vector<BoardPose::Numbers> starts = starts_for(corners, prior);
   constexpr double kFirstGuess_px = 0.2;
@@ -205,7 +227,7 @@ BoardPose fit_pose(const std::vector<SeenCorner>& corners, const std::optional<L
   for (int round = 0; round < 2; ++round) {
     std::vector<Minimum> minima;
     for (const BoardPose::Numbers& start : starts) {
-      minima.push_back(minimum_from(start, corners, prior, deviation_px));
+      minima.push_back(minimum_from(start, corners, prior, square_within_rad, deviation_px));
     }
     best = best_of(minima);
     for (std::size_t i = 0; i < starts.size(); ++i) starts[i] = minima[i].numbers;

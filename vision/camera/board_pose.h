@@ -34,6 +34,9 @@ Point seen_at(const BoardPose::Numbers& numbers, Point on_board);
 /// the lens's as far as it is known: without one, the focal length is taken for one picture width
 /// within a factor of three, and the centre for the picture's within 3 % of its width.
 ///
+/// The camera can be known to look at the board squarely, within an angle (95 % half-width): where
+/// the focal length is not known, it leaves open how a small board is turned.
+///
 /// A board that is small in the picture looks the same when it is tilted the other way; where the
 /// corners do not tell which, the difference is part of the covariance.
 ///
@@ -41,6 +44,6 @@ Point seen_at(const BoardPose::Numbers& numbers, Point on_board);
 /// @param corners  in the corrected picture, at least six, not in a line
 /// @param lens  none: unknown; of pictures of this size
 BoardPose fit_pose(const std::vector<SeenCorner>& corners, const std::optional<Lens>& lens,
-                   int width, int height);
+                   int width, int height, std::optional<double> square_within_rad = {});
 
 }  // namespace repose::vision

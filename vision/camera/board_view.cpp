@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
 
 #include "base/distributions.h"
 #include "base/units.h"
@@ -93,22 +92,6 @@ void BoardView::take_pitch(double pitch_rad) {
   inputs_.values[k_lean] += pitch_rad - view().pitch_rad();
   // The corners' own say of it is in the lean now.
   inputs_.covariance(k_lean, k_lean) = std::pow(kTold_rad / base::kNormal95, 2);
-}
-
-void BoardView::take_square(double within_rad) {
-  const auto with_aside = [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
-    Eigen::VectorXd all(k_count + 2);
-    all << values, view(values).normal.head<2>();
-    return all;
-  };
-  const Eigen::MatrixXd covariance = propagated(inputs_, with_aside);
-  const Eigen::MatrixXd shared = covariance.topRightCorner<k_count, 2>();
-  const double variance = std::pow(std::sin(within_rad) / base::kNormal95, 2);
-  const Eigen::Matrix2d of_difference =
-      covariance.bottomRightCorner<2, 2>() + variance * Eigen::Matrix2d::Identity();
-  const Eigen::MatrixXd gain = shared * of_difference.inverse();
-  inputs_.values -= gain * view().normal.head<2>();
-  inputs_.covariance -= gain * shared.transpose();
 }
 
 Estimate BoardView::estimate(const std::function<double(const HeapView&)>& number) const {

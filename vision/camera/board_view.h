@@ -29,11 +29,6 @@ class BoardView {
   /// The pitch is told: the board leans by what it differs.
   void take_pitch(double pitch_rad);
 
-  /// The camera looks at the plane squarely, within this half-width: what is known of a lens that
-  /// is not, whose focal length leaves open how a small board is turned. A Kalman update of the
-  /// inputs to first order (Kalman 1960, J. Basic Eng. 82, 35).
-  void take_square(double within_rad);
-
   /// A number of the view with its 95 % half-width.
   Estimate estimate(const std::function<double(const HeapView&)>& number) const;
 

@@ -27,10 +27,10 @@ FilmScale::FilmScale(const TrackOptions& options, const cv::Mat& scene,
   if (!options.board) return;
   const std::vector<SeenCorner> corners = corners_in(scene);
   if (corners.empty()) return;
-  const BoardPose pose = fit_pose(corners, here, scene.cols, scene.rows);
-  board_.emplace(pose, *options.board);
   constexpr double kSquare_rad = 10 * CV_PI / 180;
-  if (!here) board_->take_square(kSquare_rad);
+  const BoardPose pose = fit_pose(corners, here, scene.cols, scene.rows,
+                                  here ? std::nullopt : std::optional(kSquare_rad));
+  board_.emplace(pose, *options.board);
   outline_ = sheet_outline(pose, corners);
 }
 
