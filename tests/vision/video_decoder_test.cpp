@@ -26,7 +26,7 @@ constexpr int kDark = 40, kLight = 220;
 Picture light_above(int width, int height) {
   Picture picture{.width = width, .height = height, .bgr = {}};
   for (int y = 0; y < height; ++y) {
-    picture.bgr.insert(picture.bgr.end(), static_cast<std::size_t>(3 * width),
+    picture.bgr.insert(picture.bgr.end(), 3 * static_cast<std::size_t>(width),
                        static_cast<std::uint8_t>(y < height / 4 ? kLight : kDark));
   }
   return picture;

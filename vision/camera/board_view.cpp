@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 #include "base/distributions.h"
 #include "base/units.h"
 

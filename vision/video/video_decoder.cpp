@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 extern "C" {
 #include <libavutil/display.h>
 }
