@@ -8,10 +8,13 @@ namespace {
 constexpr double kRoot5 = 2.2360679774997896964;
 constexpr double kLevel2 = 4;  // the mean of the data is no surprise within two of their sd's
 
-double matern(double r) { return (1 + kRoot5 * r + 5. / 3 * r * r) * std::exp(-kRoot5 * r); }
+/// `decay` is exp(-sqrt5 r).
+double matern(double r, double decay) { return (1 + kRoot5 * r + 5. / 3 * r * r) * decay; }
+double matern(double r) { return matern(r, std::exp(-kRoot5 * r)); }
 
 /// -M'(r) / r, finite at 0.
-double matern_slope(double r) { return 5. / 3 * (1 + kRoot5 * r) * std::exp(-kRoot5 * r); }
+double matern_slope(double r, double decay) { return 5. / 3 * (1 + kRoot5 * r) * decay; }
+double matern_slope(double r) { return matern_slope(r, std::exp(-kRoot5 * r)); }
 
 }  // namespace
 
@@ -50,10 +53,11 @@ Eigen::MatrixXd Covariance::of_runs(const Eigen::MatrixXd& x) const {
   return k;
 }
 
-void Covariance::with_runs(const Eigen::MatrixXd& scaled_runs, const Eigen::RowVectorXd& here,
-                           Eigen::VectorXd& k, Eigen::MatrixXd* slopes) const {
+void Covariance::with_runs(const Eigen::MatrixXd& scaled_runs,
+                           const Eigen::Ref<const Eigen::RowVectorXd>& here, Eigen::VectorXd& k,
+                           Eigen::MatrixXd* slopes) const {
   const Eigen::RowVectorXd s = (here.array() - .5) / length_.array();
-  k = trend2_ * (scaled_runs * s.transpose());
+  k.noalias() = trend2_ * (scaled_runs * s.transpose());
   const Eigen::VectorXd distance = (scaled_runs.rowwise() - s).rowwise().norm();
   for (Eigen::Index i = 0; i < k.size(); ++i) {
     k(i) += kLevel2 + signal2_ * matern(distance(i));
@@ -67,11 +71,12 @@ void Covariance::with_runs(const Eigen::MatrixXd& scaled_runs, const Eigen::RowV
   }
 }
 
-double Covariance::own(const Eigen::RowVectorXd& here) const {
+double Covariance::own(const Eigen::Ref<const Eigen::RowVectorXd>& here) const {
   return kLevel2 + signal2_ + trend2_ * ((here.array() - .5) / length_.array()).square().sum();
 }
 
-Eigen::RowVectorXd Covariance::own_gradient(const Eigen::RowVectorXd& here) const {
+Eigen::RowVectorXd Covariance::own_gradient(
+    const Eigen::Ref<const Eigen::RowVectorXd>& here) const {
   return 2 * trend2_ * (here.array() - .5) / length_.array().square();
 }
 
@@ -80,12 +85,14 @@ Eigen::VectorXd Covariance::weighted_gradient(const Eigen::MatrixXd& x,
   const Eigen::MatrixXd s = scaled(x);
   const Eigen::Index d = s.cols();
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(d + 3);
+  Eigen::ArrayXd square(d);
   for (Eigen::Index j = 0; j < s.rows(); ++j) {
     for (Eigen::Index i = 0; i < s.rows(); ++i) {
-      const Eigen::ArrayXd square = (s.row(i) - s.row(j)).array().square();
+      square = (s.row(i) - s.row(j)).array().square();
       const double r = std::sqrt(square.sum());
-      gradient.head(d).array() += weight(i, j) * signal2_ * matern_slope(r) * square;
-      gradient(d) += 2 * weight(i, j) * signal2_ * matern(r);
+      const double decay = std::exp(-kRoot5 * r);
+      gradient.head(d).array() += weight(i, j) * signal2_ * matern_slope(r, decay) * square;
+      gradient(d) += 2 * weight(i, j) * signal2_ * matern(r, decay);
     }
   }
   const Eigen::MatrixXd weighted = weight * s;

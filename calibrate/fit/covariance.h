@@ -26,10 +26,11 @@ class Covariance {
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& x) const;
   /// Between one place and all runs, whose rows are scaled() already; `slopes` (a row per run) with
   /// the place's coordinates.
-  void with_runs(const Eigen::MatrixXd& scaled_runs, const Eigen::RowVectorXd& here,
-                 Eigen::VectorXd& k, Eigen::MatrixXd* slopes) const;
-  double own(const Eigen::RowVectorXd& here) const;
-  Eigen::RowVectorXd own_gradient(const Eigen::RowVectorXd& here) const;
+  void with_runs(const Eigen::MatrixXd& scaled_runs,
+                 const Eigen::Ref<const Eigen::RowVectorXd>& here, Eigen::VectorXd& k,
+                 Eigen::MatrixXd* slopes) const;
+  double own(const Eigen::Ref<const Eigen::RowVectorXd>& here) const;
+  Eigen::RowVectorXd own_gradient(const Eigen::Ref<const Eigen::RowVectorXd>& here) const;
 
   /// Sums of weight(i, j) dk(i, j) / d(log of a hyperparameter): lengths, signal, trend, noise.
   Eigen::VectorXd weighted_gradient(const Eigen::MatrixXd& x, const Eigen::MatrixXd& weight) const;

@@ -21,7 +21,7 @@ struct GaussianProcess::State {
   Eigen::LLT<Eigen::MatrixXd> root;  ///< of K: small variances survive in it, not in K^-1
   Eigen::VectorXd alpha;             ///< K^-1 y
 
-  Covariance covariance() const { return Covariance(hyper); }
+  Covariance covariance{hyper};
 };
 
 GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y,
@@ -39,27 +39,29 @@ GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<
 
   const SearchResult found = search_hyperparameters(state->x, values, is_stochastic, start, starts);
   state->hyper = found.hyper;
+  state->covariance = Covariance(found.hyper);
   // The density of y, not of the scaled y.
   state->log_posterior =
       found.log_posterior - static_cast<double>(y.size()) * std::log(state->scale);
-  state->scaled = state->covariance().scaled(state->x);
-  state->root.compute(state->covariance().of_runs(state->x));
+  state->scaled = state->covariance.scaled(state->x);
+  state->root.compute(state->covariance.of_runs(state->x));
   state->alpha = state->root.solve(values);
   state_ = std::move(state);
 }
 
 Expectation GaussianProcess::at(const Point& x, bool with_gradients) const {
   const State& s = *state_;
-  const Covariance covariance = s.covariance();
+  const Covariance& covariance = s.covariance;
   const Eigen::Index d = s.x.cols();
-  const Eigen::RowVectorXd here = Eigen::Map<const Eigen::RowVectorXd>(x.data(), d);
+  const Eigen::Map<const Eigen::RowVectorXd> here(x.data(), d);
   Eigen::VectorXd k(s.x.rows());
-  Eigen::MatrixXd slopes(s.x.rows(), d);
+  Eigen::MatrixXd slopes(with_gradients ? s.x.rows() : 0, d);
   covariance.with_runs(s.scaled, here, k, with_gradients ? &slopes : nullptr);
-  const Eigen::VectorXd half = s.root.matrixL().solve(k);
   const double scale2 = s.scale * s.scale;
   Expectation expectation;
   expectation.mean = s.middle + s.scale * k.dot(s.alpha);
+  s.root.matrixL().solveInPlace(k);
+  const Eigen::VectorXd& half = k;
   expectation.variance = scale2 * std::max(0.0, covariance.own(here) - half.squaredNorm());
   if (with_gradients) {
     const Eigen::VectorXd weights = s.root.matrixU().solve(half);
@@ -74,7 +76,7 @@ Expectation GaussianProcess::at(const Point& x, bool with_gradients) const {
 
 std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points) const {
   const State& s = *state_;
-  const Covariance covariance = s.covariance();
+  const Covariance& covariance = s.covariance;
   const Eigen::MatrixXd places = as_rows(points);
   const Eigen::MatrixXd scaled_places = covariance.scaled(places);
   Eigen::MatrixXd across(s.x.rows(), places.rows());

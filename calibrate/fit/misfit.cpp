@@ -87,8 +87,10 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     targets_.push_back({w, sd / warp.slope(w)});
   }
   if (!errors.empty()) throw std::invalid_argument(errors);
-  together_ = by_experiment(problem);
   correlation_ = reading_correlation_of(problem, surrogates_);
+  for (const std::vector<std::size_t>& observables : by_experiment(problem)) {
+    together_.push_back({observables, part_of(correlation_, observables)});
+  }
   for (const Observable& observable : problem.observables) counts_.push_back(observable.n);
   for (const Experiment& experiment : measured_experiments(problem)) {
     FailureRisk risk(attempts_of(problem, experiment, runs));
@@ -124,10 +126,12 @@ double Misfit::chi2(const Point& point) const {
   return sum;
 }
 
-void Misfit::add_together(const std::vector<std::size_t>& observables, const Point& point,
-                          bool with_jacobian, Residuals& all) const {
+void Misfit::add_together(const Together& together, const Point& point, bool with_jacobian,
+                          Residuals& all) const {
+  const auto& [observables, correlation] = together;
   const std::size_t penalties = all.values.size() - surrogates_.size() - parameters_.size();
   std::vector<CorrelatedPart> parts;
+  parts.reserve(observables.size());
   for (const std::size_t i : observables) {
     const Expectation w = surrogates_[i].at(point, with_jacobian);
     const Target& target = targets_[i];
@@ -141,8 +145,7 @@ void Misfit::add_together(const std::vector<std::size_t>& observables, const Poi
                                        (2 * distrust * sigma2 * sigma2);
     }
   }
-  const Residuals independent =
-      made_independent(parts, part_of(correlation_, observables), with_jacobian);
+  const Residuals independent = made_independent(parts, correlation, with_jacobian);
   for (std::size_t k = 0; k < observables.size(); ++k) {
     const auto [value, slope] =
         robust_ ? robust_residual(independent.values[k]) : std::pair{independent.values[k], 1.};
@@ -172,7 +175,7 @@ Residuals Misfit::residuals(const Point& point, bool with_jacobian) const {
   const std::size_t count = 2 * surrogates_.size() + risks_.size() + 2 * parameters_.size();
   Residuals all{std::vector<double>(count, 0), {}};
   if (with_jacobian) all.jacobian.assign(count, Point(point.size(), 0));
-  for (const auto& observables : together_) add_together(observables, point, with_jacobian, all);
+  for (const Together& together : together_) add_together(together, point, with_jacobian, all);
   for (std::size_t i = 0; i < risks_.size(); ++i) {
     const Risk risk = risks_[i].at(point);
     all.values[surrogates_.size() + i] = kFailure * risk.fraction;

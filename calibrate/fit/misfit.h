@@ -49,9 +49,14 @@ class Misfit {
     double value = 0;
     double sd = 0;
   };
-  /// Observables of one experiment: their residuals, made independent of each other.
-  void add_together(const std::vector<std::size_t>& observables, const Point& point,
-                    bool with_jacobian, Residuals& all) const;
+  /// The observables of one experiment.
+  struct Together {
+    std::vector<std::size_t> observables;
+    std::vector<std::vector<double>> correlation;
+  };
+  /// Their residuals, made independent of each other.
+  void add_together(const Together& together, const Point& point, bool with_jacobian,
+                    Residuals& all) const;
   void add_priors(const Point& point, bool with_jacobian, Residuals& all) const;
 
   std::vector<Parameter> parameters_;
@@ -60,7 +65,7 @@ class Misfit {
   std::vector<double> measured_;  ///< standard uncertainties
   std::vector<int> counts_;       ///< readings of the bench
   std::vector<std::vector<double>> correlation_;
-  std::vector<std::vector<std::size_t>> together_;  ///< observables by experiment
+  std::vector<Together> together_;
   std::vector<FailureRisk> risks_;
   bool robust_ = false;
 };

@@ -14,17 +14,17 @@ using Vector = Eigen::VectorXd;
 
 Eigen::Index index(std::size_t place) { return static_cast<Eigen::Index>(place); }
 
+double covariance_of(const CorrelatedPart& one, const CorrelatedPart& other) {
+  return shared_readings(one.readings, other.readings) * one.measured_sd * other.measured_sd +
+         std::sqrt(one.variance * other.variance);
+}
+
 Matrix covariance_of(const std::vector<CorrelatedPart>& parts,
                      const std::vector<std::vector<double>>& correlation) {
   Matrix covariance(index(parts.size()), index(parts.size()));
   for (std::size_t a = 0; a < parts.size(); ++a) {
     for (std::size_t b = 0; b < parts.size(); ++b) {
-      const CorrelatedPart& one = parts[a];
-      const CorrelatedPart& other = parts[b];
-      covariance(index(a), index(b)) =
-          correlation[a][b] *
-          (shared_readings(one.readings, other.readings) * one.measured_sd * other.measured_sd +
-           std::sqrt(one.variance * other.variance));
+      covariance(index(a), index(b)) = correlation[a][b] * covariance_of(parts[a], parts[b]);
     }
   }
   return covariance;
@@ -74,6 +74,11 @@ std::vector<std::vector<double>> part_of(const std::vector<std::vector<double>>&
 Residuals made_independent(const std::vector<CorrelatedPart>& parts,
                            const std::vector<std::vector<double>>& correlation,
                            bool with_jacobian) {
+  // What a search asks for most often, without a matrix.
+  if (parts.size() == 1 && !with_jacobian) {
+    const CorrelatedPart& alone = parts.front();
+    return {{alone.difference / std::sqrt(covariance_of(alone, alone))}, {}};
+  }
   const Eigen::LLT<Matrix> root(covariance_of(parts, correlation));
   const auto lower = root.matrixL();
   Vector differences(index(parts.size()));

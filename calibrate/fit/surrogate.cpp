@@ -103,6 +103,7 @@ double Surrogate::best_warp(const std::optional<Hyperparameters>& start) const {
 
 Point Surrogate::seen(const Point& point) const {
   Point own;
+  own.reserve(training_set_.parameters.size());
   for (const std::size_t i : training_set_.parameters) own.push_back(point[i]);
   return own;
 }

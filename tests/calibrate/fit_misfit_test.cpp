@@ -119,6 +119,13 @@ TEST(ReadingCorrelation, WhatTwoReadingsShareCountsOnce) {
   EXPECT_NEAR(shared_readings(5, 10), std::sqrt(.5), 1e-12);
 }
 
+TEST(ReadingCorrelation, AReadingAloneIsTheSameWithAndWithoutDerivatives) {
+  const std::vector<CorrelatedPart> alone = {{.7, .3, .11, 7, {.2}, {.05}}};
+  const Residuals with = made_independent(alone, {{1}}, true);
+  EXPECT_EQ(made_independent(alone, {{1}}, false).values, with.values);
+  EXPECT_NEAR(with.values[0], .7 / std::sqrt(.3 * .3 + .11), 1e-15);
+}
+
 TEST(Misfit, AReadingOfOneGrainScattersMoreThanTheMeanOfTen) {
   Problem problem = full_problem(false);
   problem.observables[0].sd.reset();
