@@ -4,7 +4,7 @@
 #   ./setup.sh [--tests] [PRESET [TARGET]...]
 #
 #   --tests   also install what only the tests need, and build them: GoogleTest, clang-format,
-#             clang-tidy, a compiler cache, MPI, Chromium, zsh, groff
+#             clang-tidy, Clang, a compiler cache, MPI, Chromium, zsh, groff
 #   PRESET    release (default), dev, sanitize or thread
 #   TARGET    build only this, not everything
 #
@@ -24,7 +24,8 @@ command -v npm >/dev/null || needed="$needed npm"
 node_packages=calibrate/report
 tests=OFF
 if [ "${1-}" = --tests ]; then
-  needed="$needed libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-22 ccache
+  needed="$needed libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-22 clang-22
+    libclang-rt-22-dev llvm-22 ccache
     libopenmpi-dev openmpi-bin chromium python3-jsonschema zsh groff-base"
   tests=ON
   node_packages="$node_packages tests/report"
@@ -110,19 +111,22 @@ for folder in $node_packages; do
   touch -- "$folder/node_modules/.package-lock.json"
 done
 build=build/$preset
-# Once configured, Ninja itself sees when CMake must run again, but for a change in the presets, for
-# tests that were not asked for before, and for packages that were missing: what was looked for in
-# vain is not looked for again, so that the last needs a fresh start.
+# Once configured, Ninja itself sees when CMake must run again, but for tests that were not asked for
+# before, for a change in the presets, and for packages that were missing. The last two need a fresh
+# start: CMake forgets the presets' settings with another compiler, and does not look again for what
+# it looked for in vain.
 fresh=
-[ -z "$installed" ] || fresh=--fresh
+[ -z "$installed" ] && [ "$build/build.ninja" -nt CMakePresets.json ] || fresh=--fresh
 is_built_with_tests() { grep -q '^REPOSE_TESTS:BOOL=ON' "$build/CMakeCache.txt" 2>/dev/null; }
-if [ -n "$fresh" ] || [ ! "$build/build.ninja" -nt CMakePresets.json ] ||
-  { [ $tests = ON ] && ! is_built_with_tests; }; then
+if [ -n "$fresh" ] || { [ $tests = ON ] && ! is_built_with_tests; }; then
   if is_built_with_tests; then tests=ON; fi
   step "configuring $build" cmake --preset "$preset" $fresh -DREPOSE_TESTS=$tests
 fi
 if [ $# -gt 0 ]; then set -- --target "$@"; fi
 first_time=
 [ -e "$build/.ninja_log" ] || first_time=" (this takes some minutes the first time)"
+# As many compilers as there are cores, and 3 GB for each.
+jobs=$(awk -v cores="$(nproc)" '/^MemAvailable/ { most = int($2 / 3e6) }
+  END { print most < 1 ? 1 : most < cores ? most : cores }' /proc/meminfo)
 # -k 0: a failing build names every error, not only the first.
-step "building $build$first_time" cmake --build "$build" --parallel "$(nproc)" "$@" -- -k 0
+step "building $build$first_time" cmake --build "$build" --parallel "$jobs" "$@" -- -k 0

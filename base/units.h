@@ -7,4 +7,6 @@ namespace repose {
 /// In radians: what an angle in degrees is multiplied by.
 inline constexpr double kDegree = std::numbers::pi / 180;
 
+inline constexpr double kMmPerM = 1e3;
+
 }  // namespace repose

@@ -19,7 +19,8 @@ using dem::Vector;
 
 /// Of a grain's extent: spheres look round, and files of many-sided clumps stay small.
 constexpr double kSphereTolerance = 0.002;
-constexpr double kSlab = 3;  ///< half the side of what stands for a plane, in radii of the grains
+constexpr double kModelSlab =
+    3;  ///< half the side of what stands for a plane, in radii of the grains
 constexpr double kWholeSide_m = 1e9;
 
 /// z up to y up.
@@ -132,7 +133,7 @@ void add_walls(Assembly& assembly, const Scene& scene) {
     const Vector middle =
         wall.pose.orientation.conjugate() * (bounds.center() - wall.pose.position);
     const Surface surface =
-        wall_surface(wall.shape, middle, .5 * kSlab * bounds.diagonal().norm(), kWholeSide_m);
+        wall_surface(wall.shape, middle, .5 * kModelSlab * bounds.diagonal().norm(), kWholeSide_m);
     const std::string name = "wall " + std::to_string(k);
     assembly.place(assembly.add_mesh(surface, name, wall_material), name, wall.pose);
   }

@@ -12,7 +12,7 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr std::size_t kPlaces = 256;
+constexpr std::size_t kSearched = 256;
 constexpr std::size_t kStarts = 12;
 
 /// All residuals; every coordinate is a block of its own, so that any can be held.
@@ -80,7 +80,7 @@ Minimum minimum_from(const Misfit& misfit, Point start, std::optional<std::size_
 Minimum least_minimum(const Misfit& misfit, const std::vector<Point>& extra) {
   std::vector<std::pair<double, std::size_t>> order;
   std::vector<Point> spread;
-  for (std::size_t i = 0; i < kPlaces; ++i) {
+  for (std::size_t i = 0; i < kSearched; ++i) {
     spread.push_back(sequence_point(i, misfit.dimensions()));
     order.emplace_back(misfit.chi2(spread.back()), i);
   }

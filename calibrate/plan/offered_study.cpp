@@ -8,14 +8,13 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/start/usual_experiment.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
-
-constexpr double kMmPerM = 1e3;
 
 /// Length, and the width of a spheroid as large.
 std::array<double, 3> sizes_mm(const dem::ClumpShape& grain) {

@@ -7,7 +7,7 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kNearlyAll = .97;
+constexpr double kNearlyWhole = .97;
 
 /// Of two sets the better one has the higher score; narrow intervals decide among equals.
 struct Score {
@@ -44,7 +44,7 @@ std::vector<std::size_t> chosen(const std::vector<std::size_t>& places, unsigned
 
 std::vector<std::size_t> best_set(const Foresight& foresight,
                                   const std::vector<std::size_t>& places) {
-  const double enough = kNearlyAll * score_of(foresight.with(places)).determined;
+  const double enough = kNearlyWhole * score_of(foresight.with(places)).determined;
   std::vector<std::size_t> best = places;
   Score best_score = score_of(foresight.with(places));
   for (unsigned bits = 0; bits < 1U << places.size(); ++bits) {

@@ -16,7 +16,8 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr std::size_t kWall = 0, kGrains = 3;  // first of three places in Problem::parameters
+// First of three places in Problem::parameters.
+constexpr std::size_t kFirstOfWall = 0, kFirstOfGrains = 3;
 constexpr int kSweepLevels = 9;
 constexpr int kVerificationRuns = 10;
 // Of the steps k (.1, .1, .01): published for restitution, sliding and rolling friction.
@@ -34,7 +35,7 @@ const Observable& observable_of(const Problem& problem, const std::string& exper
 }
 
 void require_all_sought(const Problem& problem) {
-  if (problem.parameters.size() == kGrains + kStep.size()) return;
+  if (problem.parameters.size() == kFirstOfGrains + kStep.size()) return;
   throw std::invalid_argument(
       "the published method: finds restitution, sliding and rolling friction of both pairs, and "
       "some of the six have no bounds. Fix: give all bounds, or use the joint method.");
@@ -65,8 +66,8 @@ class PublishedMethod {
   }
 
   std::optional<PublishedOutcome> run() {
-    const std::array sweeps = {std::pair("drop", kWall), std::pair("tilt", kWall + 1),
-                               std::pair("roll", kWall + 2)};
+    const std::array sweeps = {std::pair("drop", kFirstOfWall), std::pair("tilt", kFirstOfWall + 1),
+                               std::pair("roll", kFirstOfWall + 2)};
     for (const auto& [experiment, place] : sweeps) {
       if (!sweep(experiment, place)) return std::nullopt;
     }
@@ -136,7 +137,7 @@ class PublishedMethod {
                                                   std::vector<Run>* saved = nullptr) {
     std::vector<Job> jobs;
     for (const std::vector<double>& coefficients : sets) {
-      std::copy(coefficients.begin(), coefficients.end(), set_.begin() + kGrains);
+      std::copy(coefficients.begin(), coefficients.end(), set_.begin() + kFirstOfGrains);
       jobs.push_back(job("heap", heap_seeds_++));
     }
     const auto runs = runner_.get(stage, jobs);
@@ -179,7 +180,7 @@ class PublishedMethod {
     const std::vector<double>& centre = outcome_.ascent[outcome_.best_step].coefficients;
     std::vector<Factor> factors;
     for (std::size_t i = 0; i < kStep.size(); ++i) {
-      factors.push_back({.name = problem_.parameters[kGrains + i].name,
+      factors.push_back({.name = problem_.parameters[kFirstOfGrains + i].name,
                          .low = centre[i] - kStep[i],
                          .high = centre[i] + kStep[i]});
     }
@@ -220,7 +221,7 @@ class PublishedMethod {
   }
 
   double within(std::size_t grain_coefficient, double value) const {
-    const Parameter& parameter = problem_.parameters[kGrains + grain_coefficient];
+    const Parameter& parameter = problem_.parameters[kFirstOfGrains + grain_coefficient];
     return std::clamp(value, parameter.min, parameter.max);
   }
 

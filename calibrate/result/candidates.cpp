@@ -11,16 +11,16 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kSmallestChance = 1e-300;
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kLeastChance = 1e-300;
 
 /// Of the differences of all means: the chi-square that is exceeded with their joint probability.
 double deviance_of_means(const JointResult& joint) {
   for (const ResultObservable& observable : joint.observables) {
-    if (observable.verification.runs == 0) return kInfinite;
+    if (observable.verification.runs == 0) return kUnbounded;
   }
-  if (!std::isfinite(joint.agreement.chance)) return kInfinite;
-  const double chance = std::clamp(joint.agreement.chance, kSmallestChance, 1.);
+  if (!std::isfinite(joint.agreement.chance)) return kUnbounded;
+  const double chance = std::clamp(joint.agreement.chance, kLeastChance, 1.);
   return base::chi_square_exceeded(chance, static_cast<double>(joint.observables.size()));
 }
 
@@ -69,7 +69,7 @@ Candidate candidate_of(const std::string& name, const JointResult& joint) {
 
 double deviance_of(const Candidate& candidate) {
   const double sum = candidate.means + candidate.scatter;
-  return std::isfinite(sum) ? sum : kInfinite;
+  return std::isfinite(sum) ? sum : kUnbounded;
 }
 
 std::optional<std::size_t> preferred(const std::vector<Candidate>& candidates) {
@@ -93,7 +93,7 @@ std::string candidates_text(const std::vector<Candidate>& candidates) {
         kStrongEvidence);
   }
   const Candidate& best = candidates[*place];
-  double next = kInfinite;
+  double next = kUnbounded;
   for (const Candidate& other : candidates) {
     if (&other != &best) next = std::min(next, deviance_of(other));
   }

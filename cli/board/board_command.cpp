@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kBoardNotes = R"(
 A board to print, which gives pictures a scale, and cameras their pitch and lens:
 a chessboard of 10 x 7 squares of 24 mm with a marker in each white one (ChArUco,
 DICT_4X4_50, markers of 18 mm). FILE ends in .pdf, or in .png.
@@ -32,7 +32,7 @@ Command board_command() {
       .options = {{"--out", "FILE.pdf|FILE.png", "Where the page goes", &given->out_file, true},
                   {"--paper", "a4|letter", "Size of the paper, on its side (a4)", &given->paper},
                   {"--dpi", "N", "Of a PNG: pixels per inch (300)", &given->dpi}},
-      .notes = kNotes,
+      .notes = kBoardNotes,
       .missing = "no file is named. Fix: repose board --out board.pdf.",
       .run = [given] { return run_board(*given); }};
 }

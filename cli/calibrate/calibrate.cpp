@@ -36,7 +36,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What of a result tells whose it is, for the name of a file.
-std::string name_of(const std::optional<calibrate::StudyIdentity>& study) {
+std::string study_name(const std::optional<calibrate::StudyIdentity>& study) {
   if (!study) return "unknown";
   return fmt::format("{}{}_{}", study->method == "joint" ? std::string() : study->method + '_',
                      study->budget, study->hash.substr(0, study->hash.find('-')));
@@ -50,11 +50,11 @@ void set_aside_old_result(const CalibratePlan& plan) {
   if (!text) return;
   const auto old = calibrate::study_in_result(*text);
   if (old && is_same_study(*old, identity_of(plan.record))) return;
-  const std::string name = fmt::format("result_{}.json", name_of(old));
+  const std::string name = fmt::format("result_{}.json", study_name(old));
   const fs::path heap = plan.out_folder / calibrate::kHeapFile;
   std::error_code error;
   if (fs::exists(heap, error)) {
-    fs::rename(heap, plan.out_folder / fmt::format("heap_{}.vtp", name_of(old)), error);
+    fs::rename(heap, plan.out_folder / fmt::format("heap_{}.vtp", study_name(old)), error);
   }
   if (!error) fs::rename(file, plan.out_folder / name, error);
   if (error) {

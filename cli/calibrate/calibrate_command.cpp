@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kCalibrateNotes = R"(
 STUDY is a study file in which contact coefficients have bounds instead of a
 value, as in restitution = { min = 0.1, max = 0.6 }, and experiments state what
 was measured. All unknowns are fitted to all measurements at once; each gets an
@@ -63,7 +63,7 @@ Command calibrate_command() {
                   {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
                   {"--dry-run", "", "Only estimate how long each budget takes", &given->is_dry_run},
                   {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
-      .notes = kNotes,
+      .notes = kCalibrateNotes,
       .missing = "no study file given. Fix: repose calibrate STUDY.toml.",
       .option_names = {{"the joint method", "--method joint"}},
       .run = [given] { return run_calibrate(*given); }};

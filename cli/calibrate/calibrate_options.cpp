@@ -26,8 +26,8 @@ namespace repose::cli {
 namespace {
 
 constexpr int kMaxJobs = 1024;
-constexpr std::array kNames{OptionName{.value = "budget", .option = "--budget"},
-                            OptionName{.value = "setting", .option = "--set"}};
+constexpr std::array kCalibrateNames{OptionName{.value = "budget", .option = "--budget"},
+                                     OptionName{.value = "setting", .option = "--set"}};
 
 /// Does `work`; what it refuses becomes errors.
 template <typename Work>
@@ -36,7 +36,7 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
     work();
     return true;
   } catch (const std::invalid_argument& error) {
-    add_lines(naming_options(error.what(), kNames), errors);
+    add_lines(naming_options(error.what(), kCalibrateNames), errors);
     return false;
   }
 }

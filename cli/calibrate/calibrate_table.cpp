@@ -20,7 +20,7 @@ std::string short_name(const std::string& coefficient) {
 namespace {
 
 /// "0.310", or with as many digits as a quantity of that size needs.
-std::string number(double value) {
+std::string four_digits(double value) {
   if (!std::isfinite(value)) return kNothing;
   const double size = std::abs(value);
   return fmt::format("{:.{}f}", value, size < 10 ? 3 : size < 100 ? 2 : 1);
@@ -32,16 +32,16 @@ Table parameters_table(const calibrate::JointResult& joint) {
                {.heading = "95 % interval"},
                {.heading = "verdict"}});
   for (const calibrate::ResultParameter& parameter : joint.parameters) {
-    table.add_row(
-        {short_name(parameter.name), number(parameter.value),
-         fmt::format("{} … {}", number(parameter.interval.low), number(parameter.interval.high)),
-         name_of(parameter.verdict)});
+    table.add_row({short_name(parameter.name), four_digits(parameter.value),
+                   fmt::format("{} … {}", four_digits(parameter.interval.low),
+                               four_digits(parameter.interval.high)),
+                   name_of(parameter.verdict)});
   }
   return table;
 }
 
 std::string pair(double value, double uncertainty) {
-  return fmt::format("{} ± {}", number(value), number(uncertainty));
+  return fmt::format("{} ± {}", four_digits(value), four_digits(uncertainty));
 }
 
 Table observables_table(const calibrate::JointResult& joint) {
@@ -88,16 +88,17 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
                number_column("difference / σ"),
                {.heading = "verdict"}});
   for (const calibrate::Prediction& prediction : joint.held_out) {
-    table.add_row(
-        {prediction.unit.empty() ? prediction.name
-                                 : fmt::format("{} [{}]", prediction.name, prediction.unit),
-         pair(prediction.measured, prediction.measured_uncertainty),
-         pair(prediction.predicted, prediction.uncertainty),
-         fmt::format("{} … {}", number(prediction.interval.low), number(prediction.interval.high)),
-         std::isfinite(prediction.difference_sigma)
-             ? fmt::format("{:+.1f}", prediction.difference_sigma)
-             : kNothing,
-         name_of(prediction.verdict)});
+    table.add_row({prediction.unit.empty()
+                       ? prediction.name
+                       : fmt::format("{} [{}]", prediction.name, prediction.unit),
+                   pair(prediction.measured, prediction.measured_uncertainty),
+                   pair(prediction.predicted, prediction.uncertainty),
+                   fmt::format("{} … {}", four_digits(prediction.interval.low),
+                               four_digits(prediction.interval.high)),
+                   std::isfinite(prediction.difference_sigma)
+                       ? fmt::format("{:+.1f}", prediction.difference_sigma)
+                       : kNothing,
+                   name_of(prediction.verdict)});
   }
   page.add_gap();
   page.add(table);
@@ -117,10 +118,11 @@ void add_stiffness(const calibrate::JointResult& joint, Page& page) {
                number_column("limit"),
                {.heading = "verdict"}});
   for (const calibrate::StiffnessCheck& check : joint.stiffness_checks) {
-    table.add_row({check.unit.empty() ? check.name : fmt::format("{} [{}]", check.name, check.unit),
-                   fmt::format("{:.3g}", check.stiffness_factor), number(check.change),
-                   fmt::format("{} … {}", number(check.interval.low), number(check.interval.high)),
-                   number(check.limit), name_of(check.verdict)});
+    table.add_row(
+        {check.unit.empty() ? check.name : fmt::format("{} [{}]", check.name, check.unit),
+         fmt::format("{:.3g}", check.stiffness_factor), four_digits(check.change),
+         fmt::format("{} … {}", four_digits(check.interval.low), four_digits(check.interval.high)),
+         four_digits(check.limit), name_of(check.verdict)});
   }
   page.add_gap();
   page.add(table);
@@ -134,8 +136,8 @@ void add_stiffness(const calibrate::JointResult& joint, Page& page) {
                       {.heading = "verdict"}});
   for (const calibrate::StifferCoefficient& one : joint.stiffer_coefficients) {
     coefficients.add_row(
-        {short_name(one.name), number(one.value),
-         fmt::format("{} … {}", number(one.interval.low), number(one.interval.high)),
+        {short_name(one.name), four_digits(one.value),
+         fmt::format("{} … {}", four_digits(one.interval.low), four_digits(one.interval.high)),
          name_of(one.verdict)});
   }
   page.add_gap();
@@ -152,7 +154,7 @@ void add_family(const calibrate::JointResult& joint, Page& page) {
   Table table(std::move(columns));
   for (const calibrate::EquivalentSet& set : joint.equivalence_family) {
     std::vector<std::string> cells;
-    for (const double value : set.values) cells.push_back(number(value));
+    for (const double value : set.values) cells.push_back(four_digits(value));
     if (set.verdict) cells.push_back("simulated: " + name_of(*set.verdict));
     table.add_row(std::move(cells));
   }

@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kCameraNotes = R"(
 PICTURE shows the board of repose board; a folder stands for all pictures in it.
 Take ten or more with the zoom and focus that the heaps are photographed with:
 the board filling half of the picture or more, sharp, in the middle and in every
@@ -41,7 +41,7 @@ Command camera_command() {
                       {"--square-mm", "MM", "Side of a printed square (24)", &given->square_mm},
                       {"--json", "FILE|-", "Full results, for programs", &given->json_file},
                       {"--threads", "N", "Pictures in parallel (all cores)", &given->threads}},
-          .notes = kNotes,
+          .notes = kCameraNotes,
           .missing = "no picture given. Fix: repose camera PICTURE ..., or a folder of pictures.",
           .run = [given] { return run_camera(*given); }};
 }

@@ -2,6 +2,7 @@
 
 #include "cli/camera/camera_result.h"
 #include "cli/common/degrees.h"
+#include "cli/common/shared_json.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::cli {
@@ -12,14 +13,12 @@ using vision::Lens;
 using vision::LensNumber;
 using vision::MeasureStatus;
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-Json picture_json(const CameraResult& result, std::size_t place) {
+Json calibrated_picture_json(const CameraResult& result, std::size_t place) {
   const vision::FittedPicture& picture = result.fit.pictures[place];
   return {{"file", result.files[place]},
           {"corners", picture.corners},
           {"used", picture.is_used},
-          {"error_px", number(picture.error_px)},
+          {"error_px", or_null(picture.error_px)},
           {"turned_deg", picture.tilt_rad ? Json(rounded_degrees(*picture.tilt_rad)) : Json()},
           {"distance_mm", picture.distance ? Json(*picture.distance * result.square_mm) : Json()}};
 }
@@ -47,12 +46,12 @@ std::string camera_json(const CameraResult& result) {
   add(json, "p1", "p1_uncertainty", lens.p1, exists);
   add(json, "p2", "p2_uncertainty", lens.p2, exists);
   add(json, "k3", "k3_uncertainty", lens.k3, exists);
-  json["error_px"] = number(fit.error_px);
-  json["coverage"] = number(fit.coverage);
+  json["error_px"] = or_null(fit.error_px);
+  json["coverage"] = or_null(fit.coverage);
   json["square_mm"] = result.square_mm;
   json["pictures"] = Json::array();
   for (std::size_t i = 0; i < result.files.size(); ++i) {
-    json["pictures"].push_back(picture_json(result, i));
+    json["pictures"].push_back(calibrated_picture_json(result, i));
   }
   json["warnings"] = Json::array();
   for (const vision::Warning& warning : fit.warnings) {

@@ -16,8 +16,6 @@
 namespace repose::cli {
 namespace {
 
-constexpr int kMaxThreads = 1024;
-
 /// "a", "a or b", "a, b or c".
 std::string one_of(const std::vector<std::string>& words) {
   const std::string last = words.size() > 1 ? " or " + words.back() : "";

@@ -14,6 +14,8 @@
 /// is an option that was not given, and for a wrong one, which adds an error.
 namespace repose::cli {
 
+inline constexpr int kMaxThreads = 1024;
+
 /// What was typed after an option, and where to say what is wrong with it.
 struct Typed {
   const char* option = "";

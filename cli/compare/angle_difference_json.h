@@ -9,11 +9,6 @@
 
 namespace repose::cli {
 
-inline nlohmann::ordered_json degrees(const std::optional<double>& angle_rad) {
-  if (!angle_rad) return nullptr;
-  return rounded_degrees(*angle_rad);
-}
-
 /// The keys of a difference of angles, in comparisons of two pictures and of two sets.
 inline void add_angle_difference(nlohmann::ordered_json& json,
                                  const std::optional<vision::AngleDifference>& angle) {

@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kCompareNotes = R"(
 Each picture is a level side view of one heap: a photograph or a rendered
 silhouette. Both are measured as by repose measure, rotated until their ground
 is level, and aligned by axis and ground line. The axis is the middle of the
@@ -59,7 +59,7 @@ Command compare_command() {
                    &given->exclude_second},
                   {"--overlay", "FILE.png", "Draw both outlines", &given->overlay_file},
                   {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
-      .notes = kNotes,
+      .notes = kCompareNotes,
       .missing =
           "two pictures or folders are needed. Fix: repose compare photo.jpg render.png, or repose "
           "compare photos heaps.",

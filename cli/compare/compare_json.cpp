@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
+#include "cli/common/shared_json.h"
 #include "cli/compare/angle_difference_json.h"
 #include "cli/compare/compare_names.h"
 #include "vision/measure/status_name.h"
@@ -35,11 +36,9 @@ class LengthJson {
   double per_unit_;
 };
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json side_json(const vision::SideComparison& side, const LengthJson& length) {
   Json json{{"compared", name_of(side.cover)},
-            {"iou", number(side.iou)},
+            {"iou", or_null(side.iou)},
             {"profile_rmse", length(side.profile_rmse)},
             {"profile_mean", length(side.profile_mean)},
             {"run_out", length(side.run_out)},
@@ -48,7 +47,7 @@ Json side_json(const vision::SideComparison& side, const LengthJson& length) {
   return json;
 }
 
-Json warnings_json(const std::vector<vision::CompareWarning>& warnings) {
+Json compare_warnings_json(const std::vector<vision::CompareWarning>& warnings) {
   Json json = Json::array();
   for (const vision::CompareWarning& warning : warnings) {
     json.push_back({{"picture", warning.picture ? Json(*warning.picture) : Json(nullptr)},
@@ -72,7 +71,7 @@ std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& 
   const bool is_refused = comparison.status == vision::MeasureStatus::refused;
   Json json{{"files", {plan.sources[0].name, plan.sources[1].name}},
             {"status", name_of(comparison.status)},
-            {"iou", number(comparison.iou)},
+            {"iou", or_null(comparison.iou)},
             {"profile_rmse", length(comparison.profile_rmse)},
             {"profile_mean", length(comparison.profile_mean)},
             {"profile_rmse_grains", in_grains(plan, comparison)},
@@ -95,7 +94,7 @@ std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& 
                                                         : Json("axis");
   json["best_shift"] = length(comparison.best_shift);
   json["best_shift_rmse"] = length(comparison.best_shift_rmse);
-  json["warnings"] = warnings_json(comparison.warnings);
+  json["warnings"] = compare_warnings_json(comparison.warnings);
   if (is_refused) json["reason"] = comparison.reason;
   constexpr int kIndent = 2;
   // File names need not be UTF-8, JSON must be.

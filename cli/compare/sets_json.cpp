@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/degrees.h"
+#include "cli/common/shared_json.h"
 #include "cli/compare/angle_difference_json.h"
 #include "cli/compare/compare_names.h"
 #include "vision/measure/status_name.h"

@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kExportNotes = R"(
 FOLDER is the output folder of repose calibrate. Material, contacts, clump and a
 deck for each experiment are written to FOLDER/export/PROGRAM, with a README.txt
 that gives both programs' definitions of each coefficient.
@@ -38,7 +38,7 @@ Command export_command() {
                   {"--approximate", "", "Allow approximate conversions", &given->takes_approximate},
                   {"--out", "FOLDER", "Output folder (FOLDER/export/PROGRAM)", &given->out_folder},
                   {"--json", "FILE|-", "Files and conversions, for programs", &given->json_file}},
-      .notes = kNotes,
+      .notes = kExportNotes,
       .missing =
           "a study's folder and a program are needed. Fix: repose export FOLDER --to liggghts.",
       .run = [given] { return run_export(*given); }};

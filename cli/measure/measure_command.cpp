@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kMeasureNotes = R"(
 PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP; or a film of one by
 a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A folder stands for
 all pictures and films in it, but for films with a picture's name, as telephones
@@ -91,7 +91,7 @@ Command measure_command() {
                {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
                {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
                {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
-          .notes = kNotes,
+          .notes = kMeasureNotes,
           .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
           .run = [given] { return run_measure(*given); }};
 }

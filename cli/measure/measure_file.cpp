@@ -57,7 +57,7 @@ void draw(const Seen& seen, const fs::path& file, const fs::path& overlay,
   }
 }
 
-const std::vector<OptionName> kNames = [] {
+const std::vector<OptionName> kMeasureNames = [] {
   const auto common = measuring_names("--exclude X,Y,W,H");
   std::vector<OptionName> names(common.begin(), common.end());
   names.push_back({.value = "heap box", .option = "--heap"});
@@ -75,7 +75,7 @@ void attempt(MeasuredPicture& measured, const Work& work) {
     work();
   } catch (const std::invalid_argument& error) {
     measured.outcome = Outcome::bad_input;
-    measured.error = naming_options(naming_file(measured.file, error.what()), kNames);
+    measured.error = naming_options(naming_file(measured.file, error.what()), kMeasureNames);
   } catch (const std::exception& error) {
     const bool is_too_large = is_out_of_memory(error);
     measured.outcome = is_too_large ? Outcome::bad_input : Outcome::internal_error;
@@ -129,8 +129,8 @@ void finish(const MeasurePlan& plan, std::size_t index, const Seen& seen,
     measured.proposal = vision::propose_hint(picture, seen.options);
     if (measured.proposal && measured.lens) move_back(*measured.lens, *measured.proposal);
   }
-  name_options(measured.angle, kNames);
-  measured.sizes.reason = naming_options(std::move(measured.sizes.reason), kNames);
+  name_options(measured.angle, kMeasureNames);
+  measured.sizes.reason = naming_options(std::move(measured.sizes.reason), kMeasureNames);
   if (plan.saves_hints) vision::save_hints(measured.told, file);
   if (!plan.overlays.empty() && !picture.empty()) {
     draw(seen, file, plan.overlays[index], measured);
@@ -177,7 +177,7 @@ MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
     vision::SizedHeap heap =
         vision::measure_sized_heap(timed.picture, measured.told.measuring, measured.told.scale);
     take(heap, measured);
-    name_options(measured.angle, kNames);
+    name_options(measured.angle, kMeasureNames);
     if (!plan.overlays.empty()) {
       const double length_s = rest.filmed->film.length_s;
       draw({seen_in(timed.picture, heap), heap.options}, plan.pictures[index],

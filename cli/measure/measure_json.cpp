@@ -15,12 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json degrees(const std::optional<double>& angle_rad) {
-  return angle_rad ? Json(rounded_degrees(*angle_rad)) : Json(nullptr);
-}
-
 /// A length and its half-width, null where there is none.
 void add_estimate(Json& json, const std::string& key,
                   const std::optional<vision::Estimate>& estimate) {
@@ -37,7 +31,7 @@ Json flank_json(const vision::Flank& flank) {
   Json json{{"status", name_of(flank.status)},
             {"angle_deg", degrees(flank.angle_rad)},
             {"uncertainty_deg", degrees(flank.uncertainty_rad)},
-            {"r2", number(flank.r2)},
+            {"r2", or_null(flank.r2)},
             {"points", flank.points},
             {"window_used", flank.window_used ? Json(*flank.window_used) : Json()},
             {"least_squares_deg", degrees(flank.least_squares_rad)},
@@ -152,7 +146,7 @@ void add_film(const std::optional<FilmedPicture>& filmed, Json& json) {
     json["stretch"] = {
         {"from_s", stretch.from_s}, {"to_s", stretch.to_s}, {"frames", stretch.frames}};
   }
-  json["time_s"] = filmed ? number(filmed->time_s) : Json();
+  json["time_s"] = filmed ? or_null(filmed->time_s) : Json();
 }
 
 Json picture_json(const MeasuredPicture& picture) {
@@ -174,9 +168,9 @@ Json picture_json(const MeasuredPicture& picture) {
             {"proposal", proposal_json(picture.proposal)},
             {"segmentation", angle.segmentation},
             {"strays", angle.strays},
-            {"grain_px", number(angle.grain_px)},
-            {"height_px", number(angle.height_px)},
-            {"base_px", number(angle.base_px)},
+            {"grain_px", or_null(angle.grain_px)},
+            {"height_px", or_null(angle.height_px)},
+            {"base_px", or_null(angle.base_px)},
             {"definitions", definitions_json(angle.definitions)}};
   add_sizes(picture, json);
   add_film(picture.filmed, json);

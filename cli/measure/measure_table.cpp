@@ -14,8 +14,8 @@
 namespace repose::cli {
 namespace {
 
-std::string angle_cell(const std::optional<double>& angle_rad,
-                       const std::optional<double>& uncertainty_rad) {
+std::string degrees_cell(const std::optional<double>& angle_rad,
+                         const std::optional<double>& uncertainty_rad) {
   if (!angle_rad) return kNothing;
   std::string angle = fmt::format("{:5.2f}", to_degrees(*angle_rad));
   if (!uncertainty_rad) return angle;
@@ -23,7 +23,7 @@ std::string angle_cell(const std::optional<double>& angle_rad,
 }
 
 std::string flank_cell(const vision::Flank& flank, vision::MeasureStatus status) {
-  if (flank.angle_rad) return angle_cell(flank.angle_rad, flank.uncertainty_rad);
+  if (flank.angle_rad) return degrees_cell(flank.angle_rad, flank.uncertainty_rad);
   return status == vision::MeasureStatus::refused ? kNothing : name_of(flank.status);
 }
 
@@ -62,7 +62,7 @@ void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& s
   const vision::ReposeAngle& angle = picture.angle;
   table.add_row(
       {fmt::format("{:7.2f} s", *picture.filmed->time_s),
-       angle_cell(angle.angle_rad, angle.uncertainty_rad), flank_cell(angle.left, angle.status),
+       degrees_cell(angle.angle_rad, angle.uncertainty_rad), flank_cell(angle.left, angle.status),
        flank_cell(angle.right, angle.status),
        angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
@@ -122,7 +122,7 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
     return;
   }
   table.add_row(
-      {picture.file, angle_cell(angle.angle_rad, angle.uncertainty_rad),
+      {picture.file, degrees_cell(angle.angle_rad, angle.uncertainty_rad),
        flank_cell(angle.left, angle.status), flank_cell(angle.right, angle.status),
        angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},

@@ -8,7 +8,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kNewNotes = R"(
 Writes a commented study file and, in a folder of the same name beside it, a
 CSV sheet for each experiment to fill in at the bench: soybean.toml and
 soybean/drops.csv, tilts.csv, rolls.csv, heaps.csv. Values not given are typical
@@ -50,7 +50,7 @@ Command new_command() {
                    &given->tube_mm},
                   {"--experiments", "A,B,...", "Of the experiments (drop,tilt,roll,heap)",
                    &given->experiments}},
-      .notes = kNotes,
+      .notes = kNewNotes,
       .missing = "no study file given. Fix: repose new my_study.toml.",
       .run = [given] { return run_new(*given); }};
 }

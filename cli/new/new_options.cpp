@@ -19,7 +19,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr std::array kNames{OptionName{.value = "size", .option = "--grain-mm"}};
+constexpr std::array kNewNames{OptionName{.value = "size", .option = "--grain-mm"}};
 constexpr const char* kUsualPlate = "steel";
 constexpr double kMostGrains = 100'000;  // of an experiment
 
@@ -58,7 +58,7 @@ void read_grain(const NewArguments& arguments, NewPlan& plan) {
                                  .width_m = study.sizes_mm[1] * kMPerMm,
                                  .thickness_m = study.sizes_mm[2] * kMPerMm};
   for (const std::string& problem : sizes.problems()) {
-    plan.errors.push_back(naming_options(problem, kNames));
+    plan.errors.push_back(naming_options(problem, kNewNames));
   }
   constexpr double kLightest = 10, kHeaviest = 25000;  // foam, osmium; g/cm3 lie below
   const auto density =

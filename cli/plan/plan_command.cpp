@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kPlanNotes = R"(
 Which experiments would determine the coefficients that a study seeks? Simulates
 every experiment that repose offers, those of the study as it describes them and
 the others in the usual way, all over the bounds of the coefficients, and prints
@@ -42,7 +42,7 @@ Command plan_command() {
            {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
            {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
            {"--json", "FILE|-", "The plan, for programs", &given->json_file}},
-      .notes = kNotes,
+      .notes = kPlanNotes,
       .missing = "no study file given. Fix: repose plan STUDY.toml.",
       .option_names = {},
       .run = [given] { return run_plan(*given); }};

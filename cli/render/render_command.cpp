@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kRenderNotes = R"(
 STATE is a .vtp file written by repose simulate --out or, for a film, the
 trajectory.pvd of a run.
 
@@ -66,7 +66,7 @@ Command render_command() {
                   {"--hold-s", "S", "With --fps: show its ends so much longer (0)", &given->hold_s},
                   {"--out", "FILE", "Picture .png .jpg, model .glb, film .mp4 .gif",
                    &given->out_file}},
-      .notes = kNotes,
+      .notes = kRenderNotes,
       .missing = "no state given. Fix: repose render STATE.vtp --out heap.png.",
       .option_names = {{"picture size", "--size"}},
       .run = [given] { return run_render(*given); }};

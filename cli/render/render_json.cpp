@@ -5,13 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/units.h"
+
 namespace repose::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
-constexpr double kMmPerM = 1e3;
 constexpr double kMsPerS = 1e3;
 
 Json vector_mm(const dem::Vector& vector_m) {

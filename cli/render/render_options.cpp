@@ -83,7 +83,6 @@ bool read_camera_part(std::string_view part, LensPlan& lens) {
   const std::string_view key = part.substr(0, equals);
   const auto value = number_in<double>(part.substr(equals + 1));
   if (!value) return false;
-  constexpr double kMmPerM = 1e3;
   if (key == "distance_mm") {
     lens.stand.distance_m = *value / kMmPerM;
   } else if (key == "height_mm") {

@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kReportNotes = R"(
 FOLDER is the output folder of repose calibrate. The report is a single file that
 needs no network: it can be sent by e-mail, printed on A4, and read on a phone.
 It begins with the coefficients and shows how they were found. An unfinished
@@ -32,7 +32,7 @@ Command report_command() {
                   {"--out", "FILE.html", "Report (FOLDER/report.html)", &given->out_file},
                   {"--tables", "FOLDER|none", "Its data as CSV (FOLDER/tables)",
                    &given->tables_folder}},
-      .notes = kNotes,
+      .notes = kReportNotes,
       .missing =
           "no folder given. Fix: repose report FOLDER, the output folder of repose calibrate.",
       .run = [given] { return run_report(*given); }};

@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kShapeNotes = R"(
 Turns a scan (STL, OBJ, PLY) or calliper sizes into a clump: a rigid grain of
 overlapping spheres for a discrete element program. Volume, mass and inertia
 come from the surface, never from the spheres. Small defects of a scan are
@@ -39,7 +39,7 @@ Command shape_command() {
            {"--out", "FILE.json", "Clump file", &given->out_file},
            {"--mesh", "FILE.glb|FILE.stl", "Surface and spheres, for viewing", &given->mesh_file},
            {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
-      .notes = kNotes,
+      .notes = kShapeNotes,
       .option_names = {{"its unit", "--unit"},
                        {"more spheres", "--spheres"},
                        {"smaller volume error", "--volume-error"}},

@@ -14,13 +14,13 @@ namespace repose::cli {
 namespace {
 
 /// How the library calls the options.
-constexpr std::array kNames{OptionName{.value = "size", .option = "--size-mm"},
-                            OptionName{.value = "tip", .option = "--tip"},
-                            OptionName{.value = "volume error", .option = "--volume-error"}};
+constexpr std::array kShapeNames{OptionName{.value = "size", .option = "--size-mm"},
+                                 OptionName{.value = "tip", .option = "--tip"},
+                                 OptionName{.value = "volume error", .option = "--volume-error"}};
 
 void add_problems(const std::vector<std::string>& problems, ShapePlan& plan) {
   for (const std::string& problem : problems) {
-    plan.errors.push_back(naming_options(problem, kNames));
+    plan.errors.push_back(naming_options(problem, kShapeNames));
   }
 }
 

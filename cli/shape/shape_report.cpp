@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.h"
 #include "cli/common/table.h"
 
 namespace repose::cli {
@@ -12,7 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMmPerM = 1e3;
 constexpr double kMm2PerM2 = 1e6;
 constexpr double kMm3PerM3 = 1e9;
 constexpr double kGramPerKg = 1e3;

@@ -10,7 +10,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kSimulateNotes = R"(
 EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, degrees),
 roll (distance along the flat, mm), heap (angle of repose, degrees) or, to
 tell grains apart, drop_on_grains (mm), tilt_on_grains, roll_on_grains
@@ -63,7 +63,7 @@ Command simulate_command() {
                    &given->trajectory_s},
                   {"--views", "N", "Views of each heap to measure (9)", &given->views},
                   {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
-      .notes = kNotes,
+      .notes = kSimulateNotes,
       .missing = "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml.",
       .run = [given] { return run_simulate(*given); }};
 }

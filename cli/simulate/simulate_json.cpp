@@ -26,7 +26,7 @@ std::string text_of(const Json& json) {
 }
 
 /// JSON has no NaN: a number that does not exist is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json material_json(const dem::Material& material) {
   return {{"name", material.name},
@@ -75,8 +75,8 @@ void add_context(const SimulatePlan& plan, Json& json) {
   json["program"] = base::kProgram;
 }
 
-Json optional_number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
+Json finite_value_or_null(const std::optional<double>& value) {
+  return value ? finite_or_null(*value) : Json(nullptr);
 }
 
 /// A heap's angle from both sources, and each view of it.
@@ -84,9 +84,9 @@ void add_pictures(const Run& run, Json& json) {
   const calibrate::SimulatedRun& result = run.result;
   const auto seen = calibrate::mean_of_views(result.views).angle_deg;
   json["source"] = calibrate::is_from_pictures(result) ? "pictures" : "positions";
-  json["angle_from_pictures_deg"] = seen ? number(seen->mean) : Json(nullptr);
-  json["sd_between_views_deg"] = seen ? optional_number(seen->sd) : Json(nullptr);
-  json["angle_from_positions_deg"] = number(result.value);
+  json["angle_from_pictures_deg"] = seen ? finite_or_null(seen->mean) : Json(nullptr);
+  json["sd_between_views_deg"] = seen ? finite_value_or_null(seen->sd) : Json(nullptr);
+  json["angle_from_positions_deg"] = finite_or_null(result.value);
   json["views"] = Json::array();
   for (const calibrate::HeapView& view : result.views) {
     const auto& angle = view.picture.angle_rad;
@@ -103,10 +103,10 @@ void add_sources(const SimulatePlan& plan, const std::vector<Run>& runs, Json& j
   json["source"] = source_of(runs);
   const auto& pictures = angles->pictures;
   json["angle_from_pictures_deg"] = pictures ? Json(pictures->mean) : Json(nullptr);
-  json["angle_from_positions_deg"] = number(angles->positions.mean);
-  json["sd_from_pictures_deg"] = pictures ? optional_number(pictures->sd) : Json(nullptr);
-  json["sd_from_positions_deg"] = optional_number(angles->positions.sd);
-  json["sd_between_views_deg"] = optional_number(angles->between_views_pictures);
+  json["angle_from_positions_deg"] = finite_or_null(angles->positions.mean);
+  json["sd_from_pictures_deg"] = pictures ? finite_value_or_null(pictures->sd) : Json(nullptr);
+  json["sd_from_positions_deg"] = finite_value_or_null(angles->positions.sd);
+  json["sd_between_views_deg"] = finite_value_or_null(angles->between_views_pictures);
   json["views"] = angles->views;
   json["views_refused"] = angles->refused;
   json["views_flagged"] = angles->flagged;
@@ -119,12 +119,12 @@ void add_sources(const SimulatePlan& plan, const std::vector<Run>& runs, Json& j
 Json run_json(const Run& run) {
   const calibrate::SimulatedRun& result = run.result;
   Json readings = Json::object();
-  for (const auto& [name, value] : result.readings) readings[name] = number(value);
+  for (const auto& [name, value] : result.readings) readings[name] = finite_or_null(value);
   Json json{{"seed", result.seed},
-            {"value", number(calibrate::value_of(result))},
+            {"value", finite_or_null(calibrate::value_of(result))},
             {"wall_s", result.wall_s},
             {"steps", result.steps},
-            {"clump_steps_per_s", number(result.clump_steps / result.wall_s)},
+            {"clump_steps_per_s", finite_or_null(result.clump_steps / result.wall_s)},
             {"timestep_s", result.timestep_s},
             {"state", run.state_file.empty() ? Json(nullptr) : Json(run.state_file)},
             {"overlay", run.overlay_file.empty() ? Json(nullptr) : Json(run.overlay_file)},

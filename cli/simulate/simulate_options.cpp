@@ -14,6 +14,7 @@
 #include "cli/common/cores.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "cli/simulate/simulate_folder.h"
@@ -22,8 +23,7 @@ namespace repose::cli {
 namespace {
 
 constexpr int kMaxRepeats = 100'000;
-constexpr int kMaxThreads = 1024;
-constexpr std::array kNames{OptionName{.value = "setting", .option = "--set"}};
+constexpr std::array kSimulateNames{OptionName{.value = "setting", .option = "--set"}};
 constexpr int kMaxViews = 360;
 
 /// The whole text as a number from `least` to `most`; an error otherwise. None when it is empty.
@@ -159,7 +159,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
     plan.study =
         with_readings(plan.study, calibrate::read_sheets(plan.study, calibrate::NoRows::allowed));
   } catch (const std::invalid_argument& error) {
-    add_lines(naming_options(error.what(), kNames), plan.errors);
+    add_lines(naming_options(error.what(), kSimulateNames), plan.errors);
   }
   read_numbers(arguments, plan);
   if (experiment != nullptr) read_views(arguments, plan);

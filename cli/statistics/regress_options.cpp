@@ -20,8 +20,9 @@ namespace repose::cli {
 namespace {
 
 /// How the library calls the options.
-constexpr std::array kNames{OptionName{.value = "linear model", .option = "--model linear"},
-                            OptionName{.value = "factor columns", .option = "--factors A,B,C"}};
+constexpr std::array kRegressNames{
+    OptionName{.value = "linear model", .option = "--model linear"},
+    OptionName{.value = "factor columns", .option = "--factors A,B,C"}};
 constexpr std::array kTarget{OptionName{.value = "target value", .option = "--target"}};
 
 std::vector<std::string> names_in(const std::string& text, RegressPlan& plan) {
@@ -88,7 +89,7 @@ RegressPlan plan_regress(const RegressArguments& arguments) {
       diagnostic.message = naming_options(std::move(diagnostic.message), kTarget);
     }
   } catch (const std::invalid_argument& error) {
-    add_lines(naming_options(error.what(), kNames), plan.errors);
+    add_lines(naming_options(error.what(), kRegressNames), plan.errors);
   }
   return plan;
 }

@@ -21,7 +21,7 @@ std::string p_text(const std::optional<double>& p) {
   return *p < kTiny ? fmt::format("{:.1e}", *p) : fmt::format("{:.4f}", *p);
 }
 
-std::string cell(const std::optional<double>& value) {
+std::string figures_cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.4g}", *value) : kNothing;
 }
 
@@ -85,7 +85,7 @@ void add_variance(const std::string& name, const calibrate::Variance& variance, 
   table.add_row({name, fmt::format("{:.6g}", variance.sum_of_squares),
                  fmt::format("{}", variance.df),
                  variance.df > 0 ? fmt::format("{:.4g}", variance.mean_square()) : kNothing,
-                 cell(variance.f), p_text(variance.p)});
+                 figures_cell(variance.f), p_text(variance.p)});
 }
 
 void add_anova(const calibrate::Regression& fit, Page& page) {

@@ -7,7 +7,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr const char* kNotes = R"(
+constexpr const char* kTrackNotes = R"(
 VIDEO is a film of one grain from the side, by a camera that stands still: MP4,
 MOV, AVI, MKV, WebM or GIF. With --fps it may be a folder of its frames, pictures
 with numbers in their names. FILE may be - for standard output.
@@ -69,7 +69,7 @@ Command track_command() {
            {"--json", "FILE|-", "All results, for programs", &given->json_file},
            {"--csv", "FILE|-", "A row for each bounce, roll or tilt", &given->csv_file},
            {"--threads", "N", "Films at a time (all cores)", &given->threads}},
-      .notes = kNotes,
+      .notes = kTrackNotes,
       .missing = "an experiment and a film are needed. Fix: repose track drop VIDEO.",
       .run = [given] { return run_track(*given); }};
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* name_of(Filmed filmed) {
+const char* filmed_name(Filmed filmed) {
   switch (filmed) {
     case Filmed::drop:
       return "drop";
@@ -141,7 +141,7 @@ void add_readings(const TrackedFilm& film, Json& json) {
 
 Json json_of(const TrackedFilm& film) {
   Json json{{"file", film.file},
-            {"experiment", name_of(film.filmed)},
+            {"experiment", filmed_name(film.filmed)},
             {"status", name_of(status_of(film))}};
   add_readings(film, json);
   json["film"] = film.error.empty() ? film_json(facts_of(film)) : Json();

@@ -20,14 +20,14 @@ constexpr double kFewestInBox = 4;
 /// hardly ever jam, in two dimensions, which a slot is nearest to.
 constexpr double kSlot = 5;
 /// Sizes in mm are rounded once they are in m.
-constexpr double kRounding = 1e-9;
+constexpr double kBoxRounding = 1e-9;
 /// Of the upper box's floor and the gate.
 constexpr double kThickness_m = .002;
 
 void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::ErrorList& errors) {
   const auto at_least = [&](const char* name, double value, double least, const std::string& rule,
                             const char* fix) {
-    errors.require(std::isfinite(value) && value >= (1 - kRounding) * least,
+    errors.require(std::isfinite(value) && value >= (1 - kBoxRounding) * least,
                    fmt::format("draw_down.{} is {:g}. Rule: {}, {:.4g} m or more. Fix: {}.", name,
                                value, rule, least, fix));
   };

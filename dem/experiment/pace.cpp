@@ -50,7 +50,8 @@ double Pace::timestep_s(const Simulation& simulation, double ahead_s) {
   const double speed =
       fastest_surface_m_s(simulation) + ahead_s * simulation.setup().gravity.norm();
   const double rungs = std::log(speed / usual_speed_m_s_) / std::log(kRung);
-  const int rung = std::max(kLowestRung, static_cast<int>(std::ceil(rungs)));
+  // -inf of grains that all stand still.
+  const int rung = static_cast<int>(std::max<double>(kLowestRung, std::ceil(rungs)));
   const double longest = step_of(rung);
   if (now <= longest && now >= step_of(rung + 1)) return now;
   if (longest < now) return longest;

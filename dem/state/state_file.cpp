@@ -18,14 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Counts up when older programs cannot read the arrays any more.
-constexpr std::int64_t kFormat = 1;
+constexpr std::int64_t kStateFormat = 1;
 constexpr const char* kFix = "give a .vtp file that repose wrote, unchanged.";
 
 void check_format(const ArrayReader& fields) {
   const std::int64_t format = fields.integers("repose_state_format", 1).take();
-  if (format != kFormat) {
+  if (format != kStateFormat) {
     throw std::invalid_argument(
-        fmt::format("its format is {}, this program reads format {}", format, kFormat));
+        fmt::format("its format is {}, this program reads format {}", format, kStateFormat));
   }
 }
 
@@ -49,7 +49,7 @@ Seal seal_in(const std::string& text) {
 std::string state_text(const Simulation& simulation, const std::string& provenance_json) {
   VtkPoints points;
   ArrayWriter fields;
-  fields.integers("repose_state_format", 1, {kFormat});
+  fields.integers("repose_state_format", 1, {kStateFormat});
   fields.texts("provenance", {provenance_json});
   fields.numbers("TimeValue", 1, {simulation.time_s()});  // the name that VTK knows
   add_setup(fields, simulation.setup());

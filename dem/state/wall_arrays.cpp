@@ -28,7 +28,7 @@ const Mesh* mesh_of(const WallShape& shape) {
 
 constexpr const char* kBeds = "wall_bed_tile_from_to_spheres";
 constexpr const char* kBedSpheres = "wall_bed_sphere";
-constexpr int kBed = 4;  ///< number of the shape
+constexpr int kBedShape = 4;  ///< number of the shape
 
 /// Arrays of their own too, in files of walls with beds alone.
 void add_beds(ArrayWriter& arrays, const std::vector<Wall>& walls) {
@@ -96,7 +96,7 @@ WallShape shape_of(int shape, const Vector& size, Mesh mesh) {
   }
 }
 static_assert(std::is_same_v<WallShape, std::variant<Plane, Box, Tube, MeshSurface, SphereBed>>,
-              "shape_of and kBed know these");
+              "shape_of and kBedShape know these");
 
 void append_motion(std::vector<double>& values, const Motion& motion) {
   append(values, motion.velocity);
@@ -153,7 +153,7 @@ std::vector<Wall> walls_in(const ArrayReader& arrays) {
     const int shape = take_index(integers, std::variant_size_v<WallShape>);
     Wall wall;
     wall.shape = shape_of(shape, take_vector(sizes), std::move(mesh));
-    if (shape == kBed) {
+    if (shape == kBedShape) {
       if (next_bed == beds.end()) throw std::invalid_argument("a wall's bed of spheres is missing");
       wall.shape = *next_bed++;
     }

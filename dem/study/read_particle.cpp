@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMetres_mm = 1e-3;
+constexpr double kMPerMm = 1e-3;
 constexpr double kUsualWallDensity_kg_m3 = 7850;  // steel; of no effect, but must be a number
 
 /// A unit that a number may have been typed in by mistake.
@@ -23,7 +23,7 @@ struct Slip {
 };
 
 /// What a property of real materials is, and what the program can compute with.
-struct Property {
+struct ParticleProperty {
   const char* key = "";
   Range possible;
   Range plausible;
@@ -32,14 +32,14 @@ struct Property {
   std::array<Slip, 3> slips = {};  ///< the likeliest first
 };
 
-constexpr Property kYoung{
+constexpr ParticleProperty kYoung{
     .key = "young_modulus_pa",
     .possible = above(0, 1e13),
     .plausible = from_to(1e6, 1.3e12),
     .usual = from_to(1e7, 5e11),
     .examples = "Pa: soaked seeds 1e7, nuts and plastics 1e9, glass 7e10, steel 2e11",
     .slips = {{{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}}};
-constexpr Property kDensity{
+constexpr ParticleProperty kDensity{
     .key = "density_kg_m3",
     .possible = above(0, 1e6),
     .plausible = from_to(10, 25'000),
@@ -68,7 +68,7 @@ bool is_allowed(Section& section, const std::string& key) {
 }
 
 /// A number in another unit is possible, and simulates something else: nothing later finds it out.
-void check_plausible(Section& section, const Property& property) {
+void check_plausible(Section& section, const ParticleProperty& property) {
   const ConfigValue* value = section.value(property.key);
   if (value == nullptr || !property.possible.contains(value->number)) return;  // said elsewhere
   if (property.plausible.contains(value->number) || is_allowed(section, property.key)) return;
@@ -118,7 +118,7 @@ void read_scan_source(Section& particle, const NamedFiles& files, GrainSource& g
 
 void read_sizes(Section& particle, GrainSource& grain) {
   const char* example = "size_mm = [22.48, 18.23, 17.46]";
-  const Range range = from_to(kSmallestGrain_m / kMetres_mm, kLargestGrain_m / kMetres_mm);
+  const Range range = from_to(kSmallestGrain_m / kMPerMm, kLargestGrain_m / kMPerMm);
   const auto sizes = particle.numbers("size_mm", range, example);
   const auto tip = particle.number("tip", from_to(0, 1), "tip = 0.5");
   if (tip && !particle.has("size_mm")) {
@@ -130,9 +130,9 @@ void read_sizes(Section& particle, GrainSource& grain) {
                    fmt::format("for example {}", example));
     return;
   }
-  grain.sizes = CalliperSizes{.length_m = (*sizes)[0] * kMetres_mm,
-                              .width_m = (*sizes)[1] * kMetres_mm,
-                              .thickness_m = (*sizes)[2] * kMetres_mm,
+  grain.sizes = CalliperSizes{.length_m = (*sizes)[0] * kMPerMm,
+                              .width_m = (*sizes)[1] * kMPerMm,
+                              .thickness_m = (*sizes)[2] * kMPerMm,
                               .tip_fraction = tip.value_or(0)};
 }
 

@@ -12,7 +12,7 @@ namespace {
 // From 20 degrees on the readings scatter by 1 degree, .03 and 8 %. Nearer to the normal the
 // contact only slips at its rim (Mindlin & Deresiewicz 1953), which the engine's no-slip spring
 // leaves out: there it returns too much, and the tolerance is the size of that known error.
-struct Reading {
+struct Shot {
   double impact_deg;
   double value;
 
@@ -22,19 +22,18 @@ struct Reading {
 };
 
 void rebound_angles(Trial& trial) {
-  for (const Reading& reading :
-       {Reading{.24, .12}, Reading{2.29, 1.76}, Reading{4.29, 2.96}, Reading{9.94, 6.69},
-        Reading{20.56, 12.36}, Reading{30.38, 21.78}, Reading{39.62, 32.55}, Reading{49.78, 45.11},
-        Reading{60.06, 57.37}}) {
+  for (const Shot& reading :
+       {Shot{.24, .12}, Shot{2.29, 1.76}, Shot{4.29, 2.96}, Shot{9.94, 6.69}, Shot{20.56, 12.36},
+        Shot{30.38, 21.78}, Shot{39.62, 32.55}, Shot{49.78, 45.11}, Shot{60.06, 57.37}}) {
     trial.expect(fmt::format("rebound angle at {:.2f} deg, deg", reading.impact_deg), reading.value,
                  kharaz_impact(trial, reading.impact_deg).angle_deg, 1.2);
   }
 }
 
 void tangential_restitution(Trial& trial) {
-  for (const Reading& reading :
-       {Reading{2.03, .794}, Reading{3.93, .745}, Reading{9.63, .673}, Reading{20.08, .596},
-        Reading{30.22, .688}, Reading{39.30, .772}, Reading{49.55, .847}, Reading{59.84, .902}}) {
+  for (const Shot& reading :
+       {Shot{2.03, .794}, Shot{3.93, .745}, Shot{9.63, .673}, Shot{20.08, .596}, Shot{30.22, .688},
+        Shot{39.30, .772}, Shot{49.55, .847}, Shot{59.84, .902}}) {
     trial.expect(fmt::format("tangential restitution at {:.2f} deg", reading.impact_deg),
                  reading.value, kharaz_impact(trial, reading.impact_deg).tangential_restitution,
                  reading.tolerance(.13, .04));
@@ -42,9 +41,9 @@ void tangential_restitution(Trial& trial) {
 }
 
 void spins(Trial& trial) {
-  for (const Reading& reading :
-       {Reading{5.99, 135.6}, Reading{10.98, 264.5}, Reading{21.19, 577.0}, Reading{31.09, 612.6},
-        Reading{39.03, 595.5}, Reading{50.22, 452.9}, Reading{60.25, 381.3}}) {
+  for (const Shot& reading :
+       {Shot{5.99, 135.6}, Shot{10.98, 264.5}, Shot{21.19, 577.0}, Shot{31.09, 612.6},
+        Shot{39.03, 595.5}, Shot{50.22, 452.9}, Shot{60.25, 381.3}}) {
     trial.expect(fmt::format("spin at {:.2f} deg, rad/s", reading.impact_deg), reading.value,
                  kharaz_impact(trial, reading.impact_deg).spin_rad_s,
                  reading.tolerance(80, .1 * reading.value));

@@ -8,13 +8,14 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kRestitution = .5;  // damps what the start stirs up
+constexpr double kLowRestitution = .5;  // damps what the start stirs up
 
 /// A sphere set down sliding: slip ends after 2 u0 / (7 mu g), with 5/7 of the speed.
 void slip_to_roll(Trial& trial) {
   constexpr double kSpeed = .1;
   for (const double friction : {.2, .4, .6, .8, 1.0}) {
-    SimulationSetup setup = ball_scene({.restitution = kRestitution, .sliding_friction = friction});
+    SimulationSetup setup =
+        ball_scene({.restitution = kLowRestitution, .sliding_friction = friction});
     setup.walls = {tilted_plane(0)};
     setup.gravity = {0, 0, -kStandardGravity_m_s2};
     Simulation simulation = trial.simulate(setup, kSpeed);
@@ -46,7 +47,8 @@ void sphere_on_incline(Trial& trial) {
   constexpr double kTilt = 20 * kDegree;
   constexpr double kTime = .1;
   for (const double friction : {.05, .1, .2, .5, 1.0}) {
-    SimulationSetup setup = ball_scene({.restitution = kRestitution, .sliding_friction = friction});
+    SimulationSetup setup =
+        ball_scene({.restitution = kLowRestitution, .sliding_friction = friction});
     setup.walls = {tilted_plane(kTilt)};
     setup.gravity = {0, 0, -kStandardGravity_m_s2};
     Simulation simulation = trial.simulate(setup, .1);

@@ -18,9 +18,11 @@ cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other) {
   const int floor = cvRound(kFloorPart * size.height);
   scene(cv::Rect(0, floor, size.width, size.height - floor)) *= .55;
   for (int k = 0; k < 12; ++k) {
-    const cv::Point at(random.uniform(0, size.width), random.uniform(0, floor));
-    cv::circle(scene, at, random.uniform(2, 6), cv::Scalar::all(random.uniform(90., 150.)),
-               cv::FILLED, cv::LINE_AA);
+    // One by one: compilers draw a call's arguments in different orders.
+    const int y = random.uniform(0, floor), x = random.uniform(0, size.width);
+    const double grey = random.uniform(90., 150.);
+    const int radius = random.uniform(2, 6);
+    cv::circle(scene, {x, y}, radius, cv::Scalar::all(grey), cv::FILLED, cv::LINE_AA);
   }
   cv::GaussianBlur(scene, scene, {3, 3}, .7);
   return scene;

@@ -55,8 +55,10 @@ inline render::Scene nut_heap(int across, double angle_rad, std::uint64_t seed) 
     const double shift = (layer % 2) * .5 * step;
     for (int i = -across; i <= across; ++i) {
       for (int j = -across; j <= across; ++j) {
-        const dem::Vector place(i * step + shift + .1 * step * random.uniform(-1, 1),
-                                j * step + shift + .1 * step * random.uniform(-1, 1), z);
+        // One by one: compilers draw a call's arguments in different orders.
+        const double y = j * step + shift + .1 * step * random.uniform(-1, 1);
+        const double x = i * step + shift + .1 * step * random.uniform(-1, 1);
+        const dem::Vector place(x, y, z);
         if (std::hypot(place.x(), place.y()) > reach) continue;
         const auto number = static_cast<int>(scene.grains.size());
         scene.grains.push_back(

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "vision/picture/picture.h"
+#include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
 

@@ -47,7 +47,7 @@ enum : int { k_lean = BoardPose::kNumbers, k_tilt, k_turn, k_behind, k_count };
 
 /// How much of the sheet is left out around the board, in squares: what is printed below it is
 /// part of the sheet.
-constexpr double kBeside = 1.25, kAbove = 0.6, kBelow = 1.4;
+constexpr double kBesideBoard = 1.25, kAbove = 0.6, kBelow = 1.4;
 
 /// What of the board is seen: all of it, or what the heap leaves.
 Segment part_seen(const std::vector<SeenCorner>& corners) {
@@ -57,8 +57,8 @@ Segment part_seen(const std::vector<SeenCorner>& corners) {
     part.from = {std::min(part.from.x, place.x), std::min(part.from.y, place.y)};
     part.to = {std::max(part.to.x, place.x), std::max(part.to.y, place.y)};
   }
-  return {{part.from.x - 1 - kBeside, part.from.y - 1 - kAbove},
-          {part.to.x + 1 + kBeside, part.to.y + 1 + kBelow}};
+  return {{part.from.x - 1 - kBesideBoard, part.from.y - 1 - kAbove},
+          {part.to.x + 1 + kBesideBoard, part.to.y + 1 + kBelow}};
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ bool has_both_flanks(const ReposeAngle& measured) {
   return measured.left.status == FlankStatus::ok && measured.right.status == FlankStatus::ok;
 }
 
-Cover cover_of(const Flank& first, const Flank& second) {
+Cover flank_cover(const Flank& first, const Flank& second) {
   const auto both = {&first, &second};
   if (std::any_of(both.begin(), both.end(),
                   [](const Flank* flank) { return flank->status == FlankStatus::absent; })) {
@@ -83,7 +83,7 @@ std::array<double, 2> Reach::stretch(const Skyline& a, const Skyline& b, Side si
 
 Reach reach_of(const ReposeAngle& first, const ReposeAngle& second) {
   Reach reach;
-  reach.cover = {cover_of(first.left, second.left), cover_of(first.right, second.right)};
+  reach.cover = {flank_cover(first.left, second.left), flank_cover(first.right, second.right)};
   reach.is_cut = {{{first.left.leaves_frame, first.right.leaves_frame},
                    {second.left.leaves_frame, second.right.leaves_frame}}};
   return reach;

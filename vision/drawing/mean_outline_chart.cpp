@@ -10,8 +10,8 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kMargin = 0.06;  // of the outlines' width
-constexpr double kBand = 0.3;     // of its colour
+constexpr double kBeyond = 0.06;      // of the outlines' width
+constexpr double kBandOpacity = 0.3;  // of its colour
 
 /// From places along the ground and heights above it to the chart.
 class Chart {
@@ -27,7 +27,7 @@ class Chart {
         }
       }
     }
-    const double margin = kMargin * (to - from);
+    const double margin = kBeyond * (to - from);
     px_per_unit_ = width / (to - from + 2 * margin);
     corner_ = {from - margin, top + margin};
     const double rows = (top + 2 * margin) * px_per_unit_;
@@ -69,7 +69,7 @@ void fill_band(cv::Mat& image, const Chart& chart, const MeanOutline& outline,
   }
   cv::Mat filled = image.clone();
   cv::fillPoly(filled, std::vector<std::vector<cv::Point>>{corners}, colour, cv::LINE_AA);
-  cv::addWeighted(filled, kBand, image, 1 - kBand, 0, image);
+  cv::addWeighted(filled, kBandOpacity, image, 1 - kBandOpacity, 0, image);
 }
 
 }  // namespace

@@ -7,15 +7,15 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kMoved = 24;  ///< grey levels between two frames
-constexpr int kStep = 14;   ///< from each row of a comb to the next; noise goes on for fewer rows
+constexpr int kMoved = 24;    ///< grey levels between two frames
+constexpr int kRowStep = 14;  ///< from each row of a comb to the next; noise goes on for fewer rows
 
 /// Whether five rows from this one on go up and down by turns.
 bool is_comb(const cv::Mat& grey, int row, int column) {
   int before = 0;
   for (int k = 0; k < 4; ++k) {
     const int step = grey.at<uchar>(row + k + 1, column) - grey.at<uchar>(row + k, column);
-    if (std::abs(step) < kStep || step * before > 0) return false;
+    if (std::abs(step) < kRowStep || step * before > 0) return false;
     before = step;
   }
   return true;

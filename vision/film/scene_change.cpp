@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kLookWidth_px = 160;
 constexpr double kBlur_px = .8;
-constexpr double kDark = 8;  ///< grey levels; of less, a ratio says nothing
+constexpr double kDarkGrey = 8;  ///< grey levels; of less, a ratio says nothing
 
-double median_of(std::vector<double>& values) {
+double middle_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -26,14 +26,14 @@ double grey_of(const cv::Vec3f& colour) { return (colour[0] + colour[1] + colour
 double crowd_of(std::vector<double>& ratios) {
   constexpr int kRounds = 3;
   constexpr double kNear = .08;
-  double middle = median_of(ratios);
+  double middle = middle_of(ratios);
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> near;
     for (const double ratio : ratios) {
       if (std::abs(ratio - middle) < kNear) near.push_back(ratio);
     }
     if (near.empty()) break;
-    middle = median_of(near);
+    middle = middle_of(near);
   }
   return middle;
 }
@@ -44,13 +44,13 @@ std::vector<double> row_gains(const cv::Mat& look, const cv::Mat& earlier) {
   std::vector<double> ratios(static_cast<std::size_t>(look.cols)), all;
   for (int row = 0; row < look.rows; ++row) {
     for (int k = 0; k < look.cols; ++k) {
-      ratios[static_cast<std::size_t>(k)] = (grey_of(look.at<cv::Vec3f>(row, k)) + kDark) /
-                                            (grey_of(earlier.at<cv::Vec3f>(row, k)) + kDark);
+      ratios[static_cast<std::size_t>(k)] = (grey_of(look.at<cv::Vec3f>(row, k)) + kDarkGrey) /
+                                            (grey_of(earlier.at<cv::Vec3f>(row, k)) + kDarkGrey);
     }
     gains.at<double>(row) = crowd_of(ratios);
     all.push_back(gains.at<double>(row));
   }
-  const double whole = median_of(all);
+  const double whole = middle_of(all);
   constexpr double kFlicker = .15;
   constexpr int kRows = 5;
   gains = cv::max(cv::min(gains, whole * (1 + kFlicker)), whole * (1 - kFlicker));
@@ -68,8 +68,9 @@ std::array<double, 3> colour_gains(const cv::Mat& look, const cv::Mat& earlier,
     for (int row = 0; row < look.rows; row += kStep) {
       for (int k = 0; k < look.cols; k += kStep) {
         ratios.push_back(
-            (look.at<cv::Vec3f>(row, k)[channel] + kDark) /
-            (rows[static_cast<std::size_t>(row)] * earlier.at<cv::Vec3f>(row, k)[channel] + kDark));
+            (look.at<cv::Vec3f>(row, k)[channel] + kDarkGrey) /
+            (rows[static_cast<std::size_t>(row)] * earlier.at<cv::Vec3f>(row, k)[channel] +
+             kDarkGrey));
       }
     }
     gains[static_cast<std::size_t>(channel)] = crowd_of(ratios);
@@ -78,7 +79,7 @@ std::array<double, 3> colour_gains(const cv::Mat& look, const cv::Mat& earlier,
 }
 
 /// Of each place the difference in the colour that differs most, once the light is taken out.
-cv::Mat difference_of(const cv::Mat& look, const cv::Mat& earlier) {
+cv::Mat grey_difference(const cv::Mat& look, const cv::Mat& earlier) {
   const std::vector<double> rows = row_gains(look, earlier);
   const std::array<double, 3> colours = colour_gains(look, earlier, rows);
   cv::Mat difference(look.size(), CV_32F);
@@ -111,7 +112,7 @@ cv::Mat steepness_of(const cv::Mat& look) {
 double noise_in(const cv::Mat& difference) {
   constexpr double kSigmaPerMedian = 1.4826;
   std::vector<double> values(difference.begin<float>(), difference.end<float>());
-  return kSigmaPerMedian * median_of(values);
+  return kSigmaPerMedian * middle_of(values);
 }
 
 void drop_single_places(cv::Mat& places) {
@@ -151,7 +152,7 @@ cv::Mat reduced_look(const cv::Mat& frame) {
 cv::Mat changed_places(const cv::Mat& look, const cv::Mat& earlier) {
   constexpr double kClearly = 6, kLeast = 6, kMost = 30;  // times the noise; grey levels
   constexpr double kShiver_px = .3;
-  const cv::Mat difference = difference_of(look, earlier);
+  const cv::Mat difference = grey_difference(look, earlier);
   const double allowed = std::clamp(kClearly * noise_in(difference), kLeast, kMost);
   const cv::Mat steep = cv::max(steepness_of(look), steepness_of(earlier));
   cv::Mat places = difference > kShiver_px * steep + allowed;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBox = "[x, y, width, height] in pixels";
 constexpr const char* kLine = "[x1, y1, x2, y2] in pixels";
-constexpr const char* kPlace = "[x, y] in pixels";
+constexpr const char* kPlaceRule = "[x, y] in pixels";
 constexpr const char* kScale =
     "[x1, y1, x2, y2, mm]: two points in pixels, at least 10 apart, and their distance in mm";
 
@@ -42,7 +42,7 @@ void add_new(std::vector<Item>& items, const Item& item, IsSame is_same) {
 }
 
 void add_places(HintReader& reader, const char* key, std::vector<Point>& places) {
-  for (const auto& [x, y] : reader.groups<2>(key, kPlace)) {
+  for (const auto& [x, y] : reader.groups<2>(key, kPlaceRule)) {
     add_new(places, Point{x, y},
             [](const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; });
   }

@@ -60,7 +60,7 @@ FlankFit without(FlankStatus status, std::string reason) {
   return fit;
 }
 
-FlankFit upright(std::string reason) {
+FlankFit upright_end(std::string reason) {
   FlankFit fit = without(FlankStatus::absent, std::move(reason));
   fit.vertical = true;
   return fit;
@@ -91,7 +91,7 @@ Heights heights_of(const Descent& d, double crest, bool at_frame, const FlankOpt
   const auto none = [&](FlankFit why) { return Heights{asked, high, false, std::move(why)}; };
   if (d.u.size() < kFewestPoints || d.smooth.back() > high) {
     return none(at_frame ? without(FlankStatus::absent, "the crest lies at the picture's edge")
-                         : upright("the heap ends upright at its crest"));
+                         : upright_end("the heap ends upright at its crest"));
   }
   const bool frame_cut = at_frame && d.smooth.back() > asked;
   const double low = frame_cut ? d.smooth.back() : asked;
@@ -100,7 +100,7 @@ Heights heights_of(const Descent& d, double crest, bool at_frame, const FlankOpt
   }
   const Stretch rough = rough_stretch(d, low, high);
   if (rough.size() < 3 || static_cast<double>(rough.size()) < (high - asked) / kSteepest) {
-    return none(upright("this side falls off vertically"));
+    return none(upright_end("this side falls off vertically"));
   }
   if (rough.size() < kFewestPoints) {
     return none(without(FlankStatus::absent, "too few pixels on this side"));

@@ -102,7 +102,7 @@ cv::Mat3f lab_of(const cv::Mat3b& bgr, bool is_grey) {
 constexpr double kPointed_px = 2;  // working px: how well a person points at a line
 constexpr double kPlace = 0.008;   // of the picture's longest side: radius of a place
 constexpr double kLight = 192;     // a mask's lightness from which it says heap, of 255
-constexpr double kDark = 64;       // ... below which it says not
+constexpr double kTooDark = 64;    // ... below which it says not
 
 PictureLine line_of(const Segment& segment, double shrink) {
   const double slope = (segment.to.y - segment.from.y) / (segment.to.x - segment.from.x);
@@ -130,7 +130,7 @@ void add_mask(Told& told, const Picture& picture, const WorkingPicture& work) {
     places = places.empty() ? more : cv::Mat1b(places | more);
   };
   add(told.on_heap, grey >= kLight);
-  add(told.beside_heap, grey < kDark);
+  add(told.beside_heap, grey < kTooDark);
 }
 
 Told told_by(const Hints& hints, const WorkingPicture& work) {

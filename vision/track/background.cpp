@@ -19,7 +19,7 @@ cv::Mat greatest_difference(const cv::Mat& a, const cv::Mat& b) {
 
 namespace {
 
-constexpr double kOtherThing = 18;  ///< grey levels between two things
+constexpr double kOtherGrey = 18;  ///< grey levels between two things
 
 /// Mean step of brightness across a region's border.
 double edge_around(const cv::Mat& picture, const cv::Mat& border) {
@@ -34,7 +34,7 @@ double edge_around(const cv::Mat& picture, const cv::Mat& border) {
 /// Where the film's beginning and end differ, the one with much less of an edge around it is the
 /// scene.
 void settle_lasting_things(const cv::Mat& early, const cv::Mat& late, cv::Mat& scene) {
-  const cv::Mat differs = greatest_difference(early, late) > kOtherThing;
+  const cv::Mat differs = greatest_difference(early, late) > kOtherGrey;
   cv::Mat clean, labels, stats, centres;
   const cv::Mat dot = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
   cv::morphologyEx(differs, clean, cv::MORPH_OPEN, dot);

@@ -14,7 +14,7 @@ constexpr double kSigmas = 5;
 constexpr std::size_t kMostBlobs = 24;
 
 /// Of the channel that differs most.
-cv::Mat difference_of(const cv::Mat& a, const cv::Mat& b) {
+cv::Mat colour_difference(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat difference;
   cv::absdiff(a, b, difference);
   cv::Mat greatest(difference.size(), CV_8U);
@@ -100,7 +100,7 @@ BlobFinder::BlobFinder(Background background)
 
 std::vector<cv::Rect> BlobFinder::rough_places(const cv::Mat& small, cv::Mat& labels,
                                                std::vector<int>& numbers) const {
-  cv::Mat difference = difference_of(small, reduced_);
+  cv::Mat difference = colour_difference(small, reduced_);
   cv::GaussianBlur(difference, difference, {3, 3}, 0);
   const double least = std::max(kLeastDifference, kSigmas * background_.noise);
   const cv::Mat mask = difference > least;
@@ -129,7 +129,7 @@ std::vector<cv::Rect> BlobFinder::rough_places(const cv::Mat& small, cv::Mat& la
 
 Blob BlobFinder::refine(const cv::Mat& frame, const cv::Rect& place, const cv::Mat& mask) const {
   const cv::Mat seen = frame(place), scene = background_.bgr(place);
-  const cv::Mat difference = difference_of(seen, scene);
+  const cv::Mat difference = colour_difference(seen, scene);
   Blob blob{.box = place};
   blob.contrast = full_difference(difference, mask);
   blob.colour = own_colour(seen, difference, mask, blob.contrast);

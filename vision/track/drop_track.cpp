@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.h"
 #include "vision/track/drop_candidate.h"
 #include "vision/track/drop_verdict.h"
 #include "vision/track/film_grains.h"
@@ -14,7 +15,6 @@ namespace repose::vision {
 namespace {
 
 constexpr double kGravity_mm_s2 = 9806.65;
-constexpr double kMmPerM = 1e3;
 
 /// Those that flew most, the best first.
 std::vector<DropCandidate> candidates_in(const FilmGrains& film) {

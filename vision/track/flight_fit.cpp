@@ -10,7 +10,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kRounds = 4;
+constexpr int kFitRounds = 4;
 constexpr double kStraySigmas = 4;
 /// Between two flights with nothing but an impact between them, in frames.
 constexpr double kLongestGap = 4.5;
@@ -80,7 +80,7 @@ FlightFit::FlightFit(const std::vector<SeenAt>& path, const Flights& flights,
     for (std::size_t n = from; n < to; ++n) observations_.push_back({path[n], k});
   }
   drop_loose_ends();
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     solve();
     drop_blurred();
     drop_strays();

@@ -9,7 +9,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNotYet = std::numeric_limits<double>::infinity();
 
 double length(const cv::Point2d& v) { return std::hypot(v.x, v.y); }
 
@@ -23,7 +23,7 @@ double PathFinder::cost(const GrainPath& path, double time_s, const Blob& blob) 
   const double ratio = std::abs(std::log(blob.area_px / last.blob.area_px));
   const double colours = cv::norm(blob.colour - last.blob.colour);
   constexpr double kMostRatio = 1.0, kMostColours = 90;
-  if (ratio > kMostRatio || colours > kMostColours) return kNever;
+  if (ratio > kMostRatio || colours > kMostColours) return kNotYet;
   const double waited_s = time_s - last.time_s;
   cv::Point2d moved(0, 0);
   if (path.size() > 1) {
@@ -35,7 +35,7 @@ double PathFinder::cost(const GrainPath& path, double time_s, const Blob& blob) 
   const double off = std::min({length(gone - moved), .5 * length(gone) + .25 * length(moved),
                                length(gone - cv::Point2d(moved.x, -.6 * moved.y))});
   const double reach = 2 * width_px(last.blob) + .5 * length(moved) + 8;
-  if (off > reach) return kNever;
+  if (off > reach) return kNotYet;
   return off / reach + ratio / kMostRatio + colours / kMostColours;
 }
 
@@ -58,7 +58,7 @@ void PathFinder::add(int frame, double time_s, const std::vector<Blob>& blobs) {
   for (std::size_t path = 0; path < open_.size(); ++path) {
     for (std::size_t blob = 0; blob < blobs.size(); ++blob) {
       const double off = cost(open_[path], time_s, blobs[blob]);
-      if (off < kNever) pairs.emplace_back(off, path, blob);
+      if (off < kNotYet) pairs.emplace_back(off, path, blob);
     }
   }
   std::sort(pairs.begin(), pairs.end());
@@ -74,7 +74,7 @@ void PathFinder::add(int frame, double time_s, const std::vector<Blob>& blobs) {
 }
 
 std::vector<GrainPath> PathFinder::paths() && {
-  forget_lost(kNever);
+  forget_lost(kNotYet);
   std::vector<GrainPath> moved;
   for (GrainPath& path : closed_) {
     if (way_px(path) > std::max(4.0, .2 * width_px(path.front().blob)))

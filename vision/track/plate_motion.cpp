@@ -13,7 +13,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kLeastTurn_rad = .3 * kDegree;
+constexpr double kLeastPlateTurn_rad = .3 * kDegree;
 
 /// An edge that is followed.
 struct FollowedEdge {
@@ -161,7 +161,7 @@ std::optional<PlateMotion> motion_of(FollowedEdge& followed, int reduction) {
   motion.seen_part = followed.parts / static_cast<double>(motion.seen.size());
   read_rest(motion);
   read_turn(motion);
-  if (motion.turned_rad < kLeastTurn_rad) return std::nullopt;
+  if (motion.turned_rad < kLeastPlateTurn_rad) return std::nullopt;
   find_hinge(motion);
   find_level_error(motion);
   return motion;

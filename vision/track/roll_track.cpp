@@ -20,11 +20,11 @@ namespace {
 
 constexpr double kStep_px = 1;   ///< places nearer to each other count once
 constexpr double kStill_px = 1;  ///< a grain at rest moves less
-constexpr double kStill_s = .3;
+constexpr double kRollStill_s = .3;
 /// A bend is no foot beyond these.
-constexpr double kGentlest_rad = 3 * kDegree, kSteepest_rad = 70 * kDegree;
+constexpr double kGentlest_rad = 3 * kDegree, kSteepestRoll_rad = 70 * kDegree;
 constexpr double kLevel_rad = 12 * kDegree;
-constexpr double kLean_rad = 2 * kDegree;
+constexpr double kRollLean_rad = 2 * kDegree;
 
 /// A grain's path with the two lines along which its upper edge moves.
 struct Roll {
@@ -68,7 +68,7 @@ double slope_rad(const cv::Point2d& along) { return std::atan2(along.y, std::abs
 bool is_roll(const BentPath& bent, double width_px) {
   constexpr double kStraight = .15;  // of the grain's width
   constexpr double kMostLeftOut = .3;
-  return bent.bend_rad > kGentlest_rad && bent.bend_rad < kSteepest_rad &&
+  return bent.bend_rad > kGentlest_rad && bent.bend_rad < kSteepestRoll_rad &&
          slope_rad(bent.incline.along) > slope_rad(bent.flat.along) &&
          std::abs(slope_rad(bent.flat.along)) < kLevel_rad &&
          bent.incline.along.x * bent.flat.along.x > 0 && bent.left_out < kMostLeftOut &&
@@ -117,19 +117,19 @@ std::string fault_of_end(const GrainPath& path, const Rest& rest, const FilmGrai
     return "the grain rolls to the edge of the picture. Rule: it comes to rest within it. Fix: "
            "show all of the flat, or let go of the grain lower on the incline.";
   }
-  if (rest.lasts_s >= kStill_s) return {};
+  if (rest.lasts_s >= kRollStill_s) return {};
   constexpr int kFrames = 3;
   if (path.back().frame + kFrames < static_cast<int>(film.survey.times_s.size())) {
     return fmt::format(
         "the grain is lost at {:.0f}, {:.0f} before it lies still. Rule: in sight until it has "
         "been at rest for {:g} s. Fix: show all of the flat before a backdrop of another colour, "
         "with nothing in front of the grain.",
-        last.centre.x, last.centre.y, kStill_s);
+        last.centre.x, last.centre.y, kRollStill_s);
   }
   return fmt::format(
       "the grain still moves when the film ends. Rule: at rest for {:g} s. Fix: film on until it "
       "lies still.",
-      kStill_s);
+      kRollStill_s);
 }
 
 /// Ways from the foot, in pixels, with standard errors.
@@ -236,7 +236,7 @@ std::string read(const FilmGrains& film, const std::optional<Roll>& roll, const 
         "foot. Rule: a bend of {:.0f} to {:.0f} degrees with places on both sides of it. Fix: film "
         "level and from the side, with incline and flat in the picture, from before the grain is "
         "let go until it lies still.",
-        kGentlest_rad / kDegree, kSteepest_rad / kDegree);
+        kGentlest_rad / kDegree, kSteepestRoll_rad / kDegree);
   }
   if (has_another(film, *roll->path)) {
     return "several things move that may be grains. Rule: one grain in a film. Fix: film each roll "
@@ -260,7 +260,7 @@ std::string read(const FilmGrains& film, const std::optional<Roll>& roll, const 
 
 void warn_of_roll(const Roll& roll, RollTrack& track) {
   const double lean_rad = slope_rad(roll.bent.flat.along);
-  if (std::abs(lean_rad) > kLean_rad) {
+  if (std::abs(lean_rad) > kRollLean_rad) {
     track.warnings.push_back(
         {"leaning", fmt::format("the flat leans by {:.1f} degrees in the picture, and was "
                                 "followed: level the camera; the flat counts as level",

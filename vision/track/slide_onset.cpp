@@ -21,10 +21,10 @@ constexpr double kAlikeInSlide = 3;
 constexpr double kChiSquare95 = 3.84;
 
 /// A number for each place, free of the place at rest and of what goes with the plate's turn.
-class Column {
+class FitColumn {
  public:
   template <typename Value>
-  Column(std::span<const SlidAt> places, const Value& value) {
+  FitColumn(std::span<const SlidAt> places, const Value& value) {
     const auto count = static_cast<double>(places.size());
     double mean = 0, mean_turn = 0, turns = 0, product = 0;
     for (const SlidAt& one : places) {
@@ -41,7 +41,7 @@ class Column {
       values_.push_back(value(one) - mean - slope * (one.turned_rad - mean_turn));
     }
   }
-  double dot(const Column& other) const {
+  double dot(const FitColumn& other) const {
     return std::inner_product(values_.begin(), values_.end(), other.values_.begin(), 0.0);
   }
 
@@ -50,12 +50,12 @@ class Column {
 };
 
 /// Sum of squares of what a slide that begins at a time leaves over.
-double squares_left(std::span<const SlidAt> places, const Column& slid, double begin_s) {
-  const Column step(places, [&](const SlidAt& one) {
+double squares_left(std::span<const SlidAt> places, const FitColumn& slid, double begin_s) {
+  const FitColumn step(places, [&](const SlidAt& one) {
     const double t = std::max(0.0, one.time_s - begin_s);
     return .5 * t * t;
   });
-  const Column growth(places, [&](const SlidAt& one) {
+  const FitColumn growth(places, [&](const SlidAt& one) {
     const double t = std::max(0.0, one.time_s - begin_s);
     return t * t * t / 6;
   });
@@ -163,7 +163,7 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
   const double interval_s =
       (fitted.back().time_s - fitted.front().time_s) / static_cast<double>(fitted.size() - 1);
   constexpr double kParts = 20;  // of the time between frames
-  const Column slid(fitted, [](const SlidAt& one) { return one.slid_px; });
+  const FitColumn slid(fitted, [](const SlidAt& one) { return one.slid_px; });
   std::vector<std::pair<double, double>> profile;
   for (double t = fitted.front().time_s; t <= seen_s + 2 * interval_s; t += interval_s / kParts) {
     profile.emplace_back(t, squares_left(fitted, slid, t));

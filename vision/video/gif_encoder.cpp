@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace {
 
 class GifEncoder : public FilmEncoder {
  public:
-  GifEncoder(const fs::path& file, double frames_per_s, int width, int height)
+  GifEncoder(const std::filesystem::path& file, double frames_per_s, int width, int height)
       : width_(width),
         height_(height),
         delay_cs_(

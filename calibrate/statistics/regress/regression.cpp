@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// The box's faces are walked one by one: 3^8 of them.
-constexpr std::size_t kMaxFactors = 8;
+constexpr std::size_t kMaxRegressed = 8;
 /// A column of which less than this share is its own follows from the others.
 constexpr double kOwnFraction = 1e-9;
 
@@ -46,10 +46,10 @@ void check_column(const RunTable& table, const std::string& column,
 
 void check(const RunTable& table, std::size_t terms, base::ErrorList& errors) {
   const std::size_t factors = table.factors.size();
-  errors.require(factors >= 1 && factors <= kMaxFactors && factors == table.levels.size(),
+  errors.require(factors >= 1 && factors <= kMaxRegressed && factors == table.levels.size(),
                  fmt::format("{}: {} factors. Rule: 1 to {}. Fix: name the factor columns that "
                              "matter.",
-                             table.name, factors, kMaxFactors));
+                             table.name, factors, kMaxRegressed));
   for (std::size_t i = 0; i < std::min(factors, table.levels.size()); ++i) {
     const Factor& factor = table.factors[i];
     check_column(table, factor.name, table.levels[i], "leave this factor out", errors);

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using Interval = std::array<double, 2>;
+using LowHigh = std::array<double, 2>;
 
 /// Where c + b t + a t^2 = 0. Without cancellation: Numerical Recipes, sec. 5.6.
 std::vector<double> roots_of(double a, double b, double c) {
@@ -49,14 +49,14 @@ class TargetSearch {
 
   /// Levels of a factor at which the others can be chosen so that the target is met. Since the
   /// surface is continuous, that is where it lies between the extremes over the others.
-  std::vector<Interval> range_of(std::size_t factor, double known_level) const {
+  std::vector<LowHigh> range_of(std::size_t factor, double known_level) const {
     const auto& [low, high] = box_[factor];
     constexpr std::size_t kManyFactors = 5;
     const int steps = box_.size() <= kManyFactors ? 200 : 40;
     std::vector<double> levels = {known_level};
     for (int k = 0; k <= steps; ++k) levels.push_back(low + (high - low) * k / steps);
     std::sort(levels.begin(), levels.end());
-    std::vector<Interval> ranges;
+    std::vector<LowHigh> ranges;
     for (std::size_t k = 0; k < levels.size(); ++k) {
       if (!is_possible(factor, levels[k], known_level)) continue;
       const bool follows = !ranges.empty() && ranges.back()[1] == levels[k - 1];
@@ -66,7 +66,7 @@ class TargetSearch {
         ranges.push_back({levels[k], levels[k]});
       }
     }
-    for (Interval& range : ranges) sharpen(factor, known_level, (high - low) / steps, range);
+    for (LowHigh& range : ranges) sharpen(factor, known_level, (high - low) / steps, range);
     return ranges;
   }
 
@@ -143,7 +143,7 @@ class TargetSearch {
   }
 
   /// Bisection between the last possible level and the next one.
-  void sharpen(std::size_t factor, double known_level, double step, Interval& range) const {
+  void sharpen(std::size_t factor, double known_level, double step, LowHigh& range) const {
     constexpr int kHalvings = 30;
     for (const std::size_t end : {0U, 1U}) {
       double possible = range[end];
@@ -197,7 +197,7 @@ TargetSet solve_target(const Regression& regression, const WantedValue& target) 
       set.ranges.push_back(search.range_of(i, (*point)[static_cast<Index>(i)]));
       continue;
     }
-    std::vector<Interval>& levels = set.ranges.emplace_back();
+    std::vector<LowHigh>& levels = set.ranges.emplace_back();
     for (const Crossing& crossing : set.through_centre) {
       levels.push_back({crossing.point.coded[0], crossing.point.coded[0]});
     }

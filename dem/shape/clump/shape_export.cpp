@@ -14,27 +14,27 @@
 namespace repose::dem {
 namespace {
 
-constexpr int kRings = 16;
-constexpr int kAroundRing = 32;
+constexpr int kBallRings = 16;
+constexpr int kAroundBallRing = 32;
 
 void append_sphere(const ClumpSphere& sphere, Mesh& mesh) {
   const auto first = static_cast<int>(mesh.vertices.size());
-  for (int ring = 0; ring <= kRings; ++ring) {
-    const double tilt = std::numbers::pi * ring / kRings;
-    for (int k = 0; k < kAroundRing; ++k) {
-      const double turn = 2 * std::numbers::pi * k / kAroundRing;
+  for (int ring = 0; ring <= kBallRings; ++ring) {
+    const double tilt = std::numbers::pi * ring / kBallRings;
+    for (int k = 0; k < kAroundBallRing; ++k) {
+      const double turn = 2 * std::numbers::pi * k / kAroundBallRing;
       const Vector way(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
                        std::cos(tilt));
       mesh.vertices.push_back(sphere.centre + sphere.radius * way);
     }
   }
-  for (int ring = 0; ring < kRings; ++ring) {
-    for (int k = 0; k < kAroundRing; ++k) {
-      const int next = (k + 1) % kAroundRing;
-      const int a = first + ring * kAroundRing + k, b = first + ring * kAroundRing + next;
-      const int c = a + kAroundRing, d = b + kAroundRing;
+  for (int ring = 0; ring < kBallRings; ++ring) {
+    for (int k = 0; k < kAroundBallRing; ++k) {
+      const int next = (k + 1) % kAroundBallRing;
+      const int a = first + ring * kAroundBallRing + k, b = first + ring * kAroundBallRing + next;
+      const int c = a + kAroundBallRing, d = b + kAroundBallRing;
       if (ring > 0) mesh.triangles.push_back({a, c, b});
-      if (ring + 1 < kRings) mesh.triangles.push_back({b, c, d});
+      if (ring + 1 < kBallRings) mesh.triangles.push_back({b, c, d});
     }
   }
 }

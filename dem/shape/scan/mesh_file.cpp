@@ -72,7 +72,7 @@ Vector vector_of(const aiVector3D& from) {
   return {static_cast<double>(from.x), static_cast<double>(from.y), static_cast<double>(from.z)};
 }
 
-void append(const aiMesh& part, Mesh& mesh) {
+void append_part(const aiMesh& part, Mesh& mesh) {
   const auto first = static_cast<int>(mesh.vertices.size());
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     mesh.vertices.push_back(vector_of(part.mVertices[i]));
@@ -119,7 +119,7 @@ Mesh read_by_assimp(const std::filesystem::path& file, std::string_view bytes,
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) refuse_unreadable(file, importer.GetErrorString());
   Mesh mesh;
-  for (const aiMesh* part : std::span(scene->mMeshes, scene->mNumMeshes)) append(*part, mesh);
+  for (const aiMesh* part : std::span(scene->mMeshes, scene->mNumMeshes)) append_part(*part, mesh);
   return mesh;
 }
 

@@ -16,10 +16,10 @@ struct Neighbour {
   bool agrees = true;  ///< runs along the common edge the other way
 };
 
-using Neighbours = std::vector<std::array<Neighbour, 3>>;
+using FacetNeighbours = std::vector<std::array<Neighbour, 3>>;
 
-Neighbours neighbours_of(const Mesh& mesh) {
-  Neighbours neighbours(mesh.triangles.size());
+FacetNeighbours neighbours_of(const Mesh& mesh) {
+  FacetNeighbours neighbours(mesh.triangles.size());
   const std::vector<EdgeUse> uses = edge_uses(mesh);
   for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
     if (edge.size() != 2) return;
@@ -35,7 +35,7 @@ Neighbours neighbours_of(const Mesh& mesh) {
 
 /// Walks one piece from `seed`. A triangle's `turned` is 1 when it disagrees with the seed.
 /// @return the piece's triangles; `is_two_sided` becomes false where the walk contradicts itself.
-std::vector<int> walk_piece(const Neighbours& neighbours, int seed, std::vector<int>& turned,
+std::vector<int> walk_piece(const FacetNeighbours& neighbours, int seed, std::vector<int>& turned,
                             bool& is_two_sided) {
   std::vector<int> piece = {seed};
   turned[static_cast<std::size_t>(seed)] = 0;
@@ -60,7 +60,7 @@ std::vector<int> walk_piece(const Neighbours& neighbours, int seed, std::vector<
 
 Oriented orient_consistently(Mesh& mesh) {
   Oriented result;
-  const Neighbours neighbours = neighbours_of(mesh);
+  const FacetNeighbours neighbours = neighbours_of(mesh);
   std::vector<int> turned(mesh.triangles.size(), kNone);
   for (std::size_t seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (turned[seed] != kNone) continue;
@@ -82,7 +82,7 @@ Oriented orient_consistently(Mesh& mesh) {
 }
 
 std::vector<int> pieces_of(const Mesh& mesh) {
-  const Neighbours neighbours = neighbours_of(mesh);
+  const FacetNeighbours neighbours = neighbours_of(mesh);
   std::vector<int> piece_of(mesh.triangles.size(), kNone);
   std::vector<int> turned(mesh.triangles.size(), kNone);
   bool is_two_sided = true;
