@@ -19,8 +19,8 @@ else()
   add_compile_options(-Wshadow)
 endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  # In the standard library's own stable_sort. Precompiled headers without times: clones share them.
-  add_compile_options(-Wno-deprecated-declarations "SHELL:-Xclang -fno-pch-timestamp")
+  # In the standard library's own stable_sort.
+  add_compile_options(-Wno-deprecated-declarations)
 endif()
 
 if(REPOSE_FUZZERS)

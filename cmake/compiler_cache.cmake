@@ -1,5 +1,6 @@
 # Compiles through ccache where it is installed. Paths count from the project's top, so that clones
-# of it share what one of them has compiled, and precompiled headers are looked into.
+# of it share what one of them has compiled, and precompiled headers are looked into. (Clang's hold
+# paths of their own: with them clones share nothing.)
 
 find_program(REPOSE_CCACHE ccache)
 if(REPOSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -8,8 +8,8 @@
 # as repose::MODULE. All of its rooms are compiled with LIBRARIES and OPTIONS; HEADERS are compiled
 # once for all of them. repose_add_room adds all .cpp files of one folder but those after WITHOUT.
 # USES names rooms, or modules all of whose rooms may be used. A room is a target of its own; only where
-# sources are compiled as few (CMAKE_UNITY_BUILD) those of all rooms of a module are, in a third of the
-# time: what its sources have for themselves, in unnamed namespaces, has then names of its own.
+# sources are compiled as few (CMAKE_UNITY_BUILD) those of all rooms of a module are, in less than half
+# the time: what its sources have for themselves, in unnamed namespaces, has then names of its own.
 
 option(REPOSE_PRECOMPILED_HEADERS "Compile headers of libraries once for many sources" ON)
 

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "calibrate/start/toml_text.h"
 #include "calibrate/statistics/bench/sheet.h"
 
 namespace repose::calibrate {
 namespace {
 
-constexpr double kMetrePerMm = 1e-3;
 constexpr double kRound_mm = 10;
 
 /// Softer heaps move, stiffer ones take long.
@@ -28,16 +28,15 @@ double longest_mm(const UsualBench& bench) {
 
 void adapt(dem::HeapProtocol& heap, const UsualBench& bench) {
   constexpr double kPlateWidths = 6;  // how far a low heap reaches, and more
-  heap.tube_diameter_m = bench.tube_diameter_mm * kMetrePerMm;
-  heap.tube_height_m = bench.tube_height_mm * kMetrePerMm;
+  heap.tube_diameter_m = bench.tube_diameter_mm * kMPerMm;
+  heap.tube_height_m = bench.tube_height_mm * kMPerMm;
   heap.plate_m = kPlateWidths * heap.tube_diameter_m;
 }
 
 /// A tube that holds a bulk of large grains, too.
 void adapt(dem::FillProtocol& fill, const UsualBench& bench) {
   constexpr double kLengths = 5;
-  const double wide_m =
-      kMetrePerMm * kRound_mm * std::ceil(kLengths * longest_mm(bench) / kRound_mm);
+  const double wide_m = kMPerMm * kRound_mm * std::ceil(kLengths * longest_mm(bench) / kRound_mm);
   fill.tube_diameter_m = std::max(fill.tube_diameter_m, wide_m);
   fill.tube_height_m = std::max(fill.tube_height_m, wide_m);
 }
@@ -46,7 +45,7 @@ void adapt(dem::FillProtocol& fill, const UsualBench& bench) {
 void adapt(dem::DrawDownProtocol& boxes, const UsualBench& bench) {
   constexpr double kSlotGrains = 5.2, kStep_m = .005;
   const auto stepped = [](double size_m) { return kStep_m * std::ceil(size_m / kStep_m - 1e-9); };
-  const double slot_m = stepped(kSlotGrains * kMetrePerMm * longest_mm(bench));
+  const double slot_m = stepped(kSlotGrains * kMPerMm * longest_mm(bench));
   const double factor = slot_m / boxes.slot_m;
   boxes = {.length_m = stepped(factor * boxes.length_m),
            .depth_m = stepped(factor * boxes.depth_m),

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "base/units.h"
 #include "calibrate/start/usual_experiment.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
@@ -53,7 +54,6 @@ void read_grain(const NewArguments& arguments, NewPlan& plan) {
                    "--grain-mm 7.6,6.9,6.2");
     }
   }
-  constexpr double kMPerMm = 1e-3;
   const dem::CalliperSizes sizes{.length_m = study.sizes_mm[0] * kMPerMm,
                                  .width_m = study.sizes_mm[1] * kMPerMm,
                                  .thickness_m = study.sizes_mm[2] * kMPerMm};

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "base/units.h"
+
 namespace repose::dem {
 
 namespace {
 
-constexpr double kMetres_mm = 1e-3, kLongest_mm = 1e5;
+constexpr double kLongest_mm = 1e5;
 
 template <typename Number>
 std::optional<double> in_unit(const std::optional<Number>& number, double unit) {
@@ -19,7 +21,7 @@ ProtocolKey length_key(std::string name_mm, std::string example_mm, double& valu
   return {.name = std::move(name_mm),
           .example = std::move(example_mm),
           .range = above(0, kLongest_mm),
-          .unit = kMetres_mm,
+          .unit = kMPerMm,
           .value = &value_m};
 }
 
@@ -28,7 +30,7 @@ ProtocolKey length_key(std::string name_mm, std::string example_mm, std::optiona
   return {.name = std::move(name_mm),
           .example = std::move(example_mm),
           .range = above(0, kLongest_mm),
-          .unit = kMetres_mm,
+          .unit = kMPerMm,
           .value = &value_m,
           .absence = absence};
 }

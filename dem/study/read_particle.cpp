@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "dem/shape/clump/size_classes.h"
 
 namespace repose::dem {
@@ -13,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMPerMm = 1e-3;
 constexpr double kUsualWallDensity_kg_m3 = 7850;  // steel; of no effect, but must be a number
 
 /// A unit that a number may have been typed in by mistake.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "calibrate/statistics/bench/formulas.h"
 #include "calibrate/statistics/bench/method.h"
 #include "calibrate/statistics/bench/units.h"

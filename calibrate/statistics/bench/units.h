@@ -4,7 +4,6 @@
 
 namespace repose::calibrate {
 
-constexpr double kMPerMm = 1e-3;
 constexpr double kM3PerMl = 1e-6;
 constexpr double kKgPerG = 1e-3;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
