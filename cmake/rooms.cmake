@@ -3,15 +3,17 @@
 #
 #   repose_add_module(vision LIBRARIES fmt::fmt HEADERS <vector> <fmt/format.h>)
 #   repose_add_room(vision/measure USES base vision/picture LIBRARIES Ceres::ceres)
+#   repose_add_room(vision/hints COLD USES base vision/picture)
 #
 # repose_add_module makes the static library repose_MODULE, which users of the installed package know
 # as repose::MODULE. All of its rooms are compiled with LIBRARIES and OPTIONS; HEADERS are compiled
 # once for all of them. repose_add_room adds all .cpp files of one folder but those after WITHOUT.
-# USES names rooms, or modules all of whose rooms may be used. A room is a target of its own; only where
-# sources are compiled as few (CMAKE_UNITY_BUILD) those of all rooms of a module are, in less than half
-# the time: what its sources have for themselves, in unnamed namespaces, has then names of its own.
-
-option(REPOSE_PRECOMPILED_HEADERS "Compile headers of libraries once for many sources" ON)
+# USES names rooms, or modules all of whose rooms may be used. COLD says that the room's own code never
+# takes long: a release compiles it with -O1, in two thirds of the time.
+#
+# A room is a target of its own. Only where sources are compiled as few (CMAKE_UNITY_BUILD) those of
+# all rooms of a module are, in less than half the time, its cold ones apart: what its sources have for
+# themselves, in unnamed namespaces, has then names of its own.
 
 function(repose_add_module module)
   cmake_parse_arguments(PARSE_ARGV 1 given "" "" "LIBRARIES;OPTIONS;HEADERS")
@@ -28,7 +30,7 @@ function(repose_add_module module)
 endfunction()
 
 function(repose_add_room room)
-  cmake_parse_arguments(PARSE_ARGV 1 given "" "" "USES;LIBRARIES;WITHOUT")
+  cmake_parse_arguments(PARSE_ARGV 1 given "COLD" "" "USES;LIBRARIES;WITHOUT")
   list(JOIN given_USES " " uses)
   set_property(GLOBAL APPEND PROPERTY repose_rooms "${room}: ${uses}")
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/*.cpp)
@@ -39,41 +41,37 @@ function(repose_add_room room)
     return()
   endif()
   string(REGEX MATCH "^[^/]+" module ${room})
-  repose_room_target(target ${room})
+  if(CMAKE_UNITY_BUILD)
+    set(room ${module})
+    if(given_COLD)
+      string(APPEND room _cold)
+    endif()
+  endif()
+  string(REPLACE / _ target repose_room_${room})
   if(NOT TARGET ${target})
-    repose_add_room_target(${target} ${module})
+    repose_add_room_target(${target} ${module} ${given_COLD})
   endif()
   target_sources(${target} PRIVATE ${sources})
   target_link_libraries(${target} PRIVATE ${given_LIBRARIES})
   target_link_libraries(repose_${module} PRIVATE ${given_LIBRARIES})
 endfunction()
 
-# Sets VARIABLE to the target that a room's sources belong to.
-function(repose_room_target variable room)
-  if(CMAKE_UNITY_BUILD)
-    string(REGEX REPLACE "/.*" "" room ${room})
-  endif()
-  string(REPLACE / _ target repose_room_${room})
-  set(${variable} ${target} PARENT_SCOPE)
-endfunction()
-
-function(repose_add_room_target target module)
+function(repose_add_room_target target module is_cold)
   get_target_property(libraries repose_${module} REPOSE_LIBRARIES)
   get_target_property(options repose_${module} REPOSE_OPTIONS)
   add_library(${target} OBJECT)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 54)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_compile_options(${target} PRIVATE ${options})
+  target_compile_options(${target} PRIVATE ${options} $<$<AND:$<BOOL:${is_cold}>,$<CONFIG:Release>>:-O1>)
   target_link_libraries(${target} PRIVATE ${libraries})
   repose_use_headers(${target} repose_${module}_headers)
   target_sources(repose_${module} PRIVATE $<TARGET_OBJECTS:${target}>)
 endfunction()
 
-# Headers that many sources include, compiled once: a target of their own, which those that are
-# compiled with the same options may use.
+# Headers that many sources include, compiled once where each source is compiled alone: a target of
+# their own, which those that are compiled with the same options may use.
 function(repose_add_headers target)
   cmake_parse_arguments(PARSE_ARGV 1 given "" "" "LIBRARIES;OPTIONS;HEADERS")
-  if(NOT REPOSE_PRECOMPILED_HEADERS OR NOT given_HEADERS)
+  if(CMAKE_UNITY_BUILD OR NOT given_HEADERS)
     return()
   endif()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
