@@ -9,7 +9,8 @@
 # as repose::MODULE. All of its rooms are compiled with LIBRARIES and OPTIONS; HEADERS are compiled
 # once for all of them. repose_add_room adds all .cpp files of one folder but those after WITHOUT.
 # USES names rooms, or modules all of whose rooms may be used. COLD says that the room's own code never
-# takes long: a release compiles it with -O1, in two thirds of the time.
+# takes long: a release compiles it with -O1, in two thirds of the time. (g++ would take the level of
+# a precompiled header instead.)
 #
 # A room is a target of its own. Only where sources are compiled as few (CMAKE_UNITY_BUILD) those of
 # all rooms of a module are, in less than half the time, its cold ones apart: what its sources have for
@@ -61,7 +62,10 @@ function(repose_add_room_target target module is_cold)
   get_target_property(options repose_${module} REPOSE_OPTIONS)
   add_library(${target} OBJECT)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_compile_options(${target} PRIVATE ${options} $<$<AND:$<BOOL:${is_cold}>,$<CONFIG:Release>>:-O1>)
+  target_compile_options(${target} PRIVATE ${options})
+  if(is_cold)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
   target_link_libraries(${target} PRIVATE ${libraries})
   repose_use_headers(${target} repose_${module}_headers)
   target_sources(repose_${module} PRIVATE $<TARGET_OBJECTS:${target}>)

@@ -27,8 +27,8 @@ TEST(Table, NothingInItControlsTheTerminal) {
   table.add_row({"name\033]0;x\007", "\033[31mred"});
   table.add_note("! ", "note\rover");
   const std::string text = table.text(80) + paragraph("", "said\033c", 80);
-  EXPECT_THAT(text, testing::Not(testing::HasSubstr("\033")));
-  EXPECT_THAT(text, testing::Not(testing::HasSubstr("\r")));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("\033")));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("\r")));
   EXPECT_THAT(text, testing::HasSubstr("\\x1B[31mred"));
 }
 
