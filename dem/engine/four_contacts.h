@@ -310,6 +310,13 @@ REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep) {
   return c.touch.overlap / c.smaller_radius;
 }
 
+/// What the lanes beyond the last contact work on, for nothing: a copy of what that has.
+struct SpareLane {
+  ContactMemory memory;
+  PairLoad load;
+  PairMotion pair;
+};
+
 /// Puts a contact into a lane.
 template <typename Other>
 REPOSE_INLINE void set_lane(FourTouching<Other>& four, std::size_t lane, const Touching& touching,
@@ -320,40 +327,34 @@ REPOSE_INLINE void set_lane(FourTouching<Other>& four, std::size_t lane, const T
   four.pair[lane] = &motions[touching.pair];
 }
 
-/// The last contacts, fewer than four: the lanes beyond repeat the last one, for nothing.
+/// Puts the last contacts into lanes, fewer than four: the lanes beyond repeat the last one.
 template <typename Other>
-struct LastTouching {
-  FourTouching<Other> four;
-  ContactMemory memory;
-  PairLoad load;
-  PairMotion pair;
-
-  REPOSE_INLINE LastTouching(std::span<const Touching> last, const Sides<Other>& sides,
-                             const PairMotion* motions)
-      : memory(sides.memories[last.back().memory]), pair(motions[last.back().pair]) {
-    pair.load = &load;
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      set_lane(four, k, last[std::min(k, last.size() - 1)], sides, motions);
-      if (k < last.size()) continue;
-      four.memory[k] = &memory;
-      four.pair[k] = &pair;
-    }
+void set_last(FourTouching<Other>& four, std::span<const Touching> last, const Sides<Other>& sides,
+              const PairMotion* motions, SpareLane& spare) {
+  spare.memory = sides.memories[last.back().memory];
+  spare.pair = motions[last.back().pair];
+  spare.pair.load = &spare.load;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    set_lane(four, k, last[std::min(k, last.size() - 1)], sides, motions);
+    if (k < last.size()) continue;
+    four.memory[k] = &spare.memory;
+    four.pair[k] = &spare.pair;
   }
-};
+}
 
 template <bool is_round, RollingModel model, typename Other>
 REPOSE_INLINE Lanes add_with(std::span<const Touching> touching, const Sides<Other>& sides,
                              const PairMotion* motions, double timestep) {
   Lanes deepest;
+  SpareLane spare;
   for (std::size_t at = 0; at < touching.size(); at += kLanes) {
     const std::span<const Touching> left = touching.subspan(at);
-    if (left.size() < kLanes) {
-      const LastTouching<Other> last(left, sides, motions);
-      deepest = greatest(add_four<is_round, model>(last.four, timestep), deepest);
-      break;
-    }
     FourTouching<Other> four = {};
-    for (std::size_t k = 0; k < kLanes; ++k) set_lane(four, k, left[k], sides, motions);
+    if (left.size() < kLanes) {
+      set_last(four, left, sides, motions, spare);
+    } else {
+      for (std::size_t k = 0; k < kLanes; ++k) set_lane(four, k, left[k], sides, motions);
+    }
     deepest = greatest(add_four<is_round, model>(four, timestep), deepest);
   }
   return deepest;
