@@ -19,22 +19,23 @@ EdgePoint first_below(std::span<const EdgePoint> edge, double height) {
   throw std::invalid_argument("the edge does not fall through the window");
 }
 
-double height_at(std::span<const EdgePoint> edge, double out) {
-  const auto after = std::lower_bound(edge.begin() + 1, edge.end() - 1, out,
-                                      [](const EdgePoint& p, double o) { return p.out < o; });
-  const EdgePoint& from = *(after - 1);
-  if (after->out <= from.out) return after->height;
-  return from.height + (out - from.out) / (after->out - from.out) * (after->height - from.height);
+double height_between(const EdgePoint& a, const EdgePoint& b, double out) {
+  if (b.out <= a.out) return b.height;
+  return a.height + (out - a.out) / (b.out - a.out) * (b.height - a.height);
 }
 
 /// Columns are so narrow that their number does not matter.
+/// @param from, to  outwards
 double line_angle_rad(std::span<const EdgePoint> edge, double from, double to) {
   constexpr int kColumns = 4000;
   double covariance = 0;
   double variance = 0;
+  auto after = edge.begin() + 1;
   for (int i = 0; i < kColumns; ++i) {
     const double aside = (i + 0.5) / kColumns - 0.5;
-    covariance += aside * height_at(edge, from + (aside + 0.5) * (to - from));
+    const double out = from + (aside + 0.5) * (to - from);
+    while (after < edge.end() - 1 && after->out < out) ++after;
+    covariance += aside * height_between(*(after - 1), *after, out);
     variance += aside * aside;
   }
   return std::atan(-covariance / variance / (to - from));
