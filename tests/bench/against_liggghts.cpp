@@ -1,25 +1,19 @@
-#include <exception>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "base/freed_memory.h"
+#include "tests/bench/benches.h"
 #include "tests/bench/heap_race.h"
 #include "tests/bench/liggghts_race.h"
 #include "tests/bench/median.h"
 #include "tests/bench/own_speed.h"
 #include "tests/peers/liggghts.h"
 
+namespace repose::bench {
 namespace {
-
-using repose::bench::median;
-using repose::bench::Packing;
-using repose::bench::Race;
-using repose::bench::settled_clumps;
-using repose::bench::settled_spheres;
-using repose::bench::Timing;
 
 /// Grain steps a second, of each run: by the clock and by CPU time.
 struct Rates {
@@ -32,8 +26,8 @@ struct Rates {
   }
 };
 
-void print_row(const std::string& name, const repose::testing::TemporaryFolder& folder,
-               Packing packing, double skin_m, int rounds) {
+void print_row(const std::string& name, const testing::TemporaryFolder& folder, Packing packing,
+               double skin_m, int rounds) {
   const std::size_t grains = packing.grains.size();
   const double grain_steps = static_cast<double>(grains) * static_cast<double>(packing.steps);
   Race race(folder, std::move(packing), skin_m);
@@ -58,13 +52,13 @@ void print_row(const std::string& name, const repose::testing::TemporaryFolder& 
 void print_single_grains(int rounds) {
   for (const char* experiment : {"drop", "tilt", "roll"}) {
     fmt::print("the sample's {} at full stiffness: {:.3f} CPU s\n", experiment,
-               median(repose::bench::single_grain_times(experiment, rounds)));
+               median(single_grain_times(experiment, rounds)));
     std::fflush(stdout);
   }
 }
 
 void print_many_clumps(int many, int rounds) {
-  const repose::bench::Growth growth = repose::bench::clump_step_growth(many, rounds);
+  const Growth growth = clump_step_growth(many, rounds);
   const double few_ns = median(growth.few.times_ns);
   const double many_ns = median(growth.many.times_ns);
   fmt::print(
@@ -72,12 +66,12 @@ void print_many_clumps(int many, int rounds) {
       "{:.2f} times as long\n",
       few_ns, growth.few.contacts, many_ns, many, growth.many.contacts, many_ns / few_ns);
   fmt::print("two threads against one, {} clumps: {:.2f} times as fast by the clock\n", many,
-             median(repose::bench::two_thread_gains(many, rounds)));
+             median(two_thread_gains(many, rounds)));
   std::fflush(stdout);
 }
 
 void print_heap(const std::vector<std::string>& settings, int rounds) {
-  const repose::bench::HeapTimes times = repose::bench::race_heaps(settings, rounds);
+  const HeapTimes times = race_heaps(settings, rounds);
   const double ours_s = median(times.ours_s);
   fmt::print("the sample's heap, {} clumps, fill to angle: {:.1f} CPU s", times.grains, ours_s);
   if (!times.theirs_s.empty()) {
@@ -88,15 +82,7 @@ void print_heap(const std::vector<std::string>& settings, int rounds) {
              median(times.views_s), 100 * median(times.views_s) / ours_s);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  repose::base::keep_freed_memory();  // as the program does
-  CLI::App app(
-      "Speed of LIGGGHTS and of repose on the same packings, one core each, turn about; and of\n"
-      "repose alone. Boxes of more than 10,000 spheres, and of many clumps, are mirrored from a\n"
-      "ninth of them, wide and as deep as that. Everything takes an hour or more:\n"
-      "  against_liggghts --spheres 500,5000,50000 --many-clumps 50000 --heaps 5 --rounds 5");
+struct RaceSettings {
   std::vector<int> spheres = {500, 5000};
   std::vector<int> clumps = {500};
   int rounds = 3;
@@ -104,42 +90,59 @@ int main(int argc, char** argv) {
   int many_clumps = 0;
   int heaps = 0;
   std::vector<std::string> settings;
-  app.add_option("--spheres", spheres, "Spheres in each box (50000 takes minutes); 0: none")
-      ->delimiter(',');
-  app.add_option("--clumps", clumps, "Clumps of 11 spheres in each tube; 0: none")->delimiter(',');
-  app.add_option("--rounds", rounds, "Runs of each engine")->check(CLI::Range(1, 1000));
-  app.add_option("--skin-mm", skin_mm,
-                 "How far LIGGGHTS lists neighbours; for clumps at rest .3 is faster than more");
-  app.add_option("--many-clumps", many_clumps,
-                 "Clumps in a box: what a step costs against 500 of them, and two threads against "
-                 "one; 0: none");
-  app.add_option("--heaps", heaps, "Heaps of the sample in each engine; 0: none");
-  app.add_option("--set", settings, "Of the heap's study, as experiment.heap.grains=100");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    print_single_grains(rounds);
-    if (many_clumps > 0) print_many_clumps(many_clumps, rounds);
-    if (heaps > 0) print_heap(settings, heaps);
-    if (!repose::testing::has_liggghts()) {
-      fmt::print("{}\n", repose::testing::kNoLiggghts);
-      return 0;
-    }
-    fmt::print(
-        "{0:28}contacts a grain  million grain-steps/s     per CPU second\n"
-        "{1:<10}{2:>8}     ours   theirs     ours   theirs  ratio     ours   theirs  ratio\n",
-        "", "packing", "grains");
-    const double skin_m = skin_mm / 1000;
-    for (const int count : clumps) {
-      const repose::testing::TemporaryFolder folder;
-      if (count > 0) print_row("clumps", folder, settled_clumps(folder, count), skin_m, rounds);
-    }
-    for (const int count : spheres) {
-      const repose::testing::TemporaryFolder folder;
-      if (count > 0) print_row("spheres", folder, settled_spheres(folder, count), skin_m, rounds);
-    }
-    return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "against_liggghts: {}\n", error.what());
-    return 2;
+};
+
+void race_packings(const RaceSettings& race) {
+  fmt::print(
+      "{0:28}contacts a grain  million grain-steps/s     per CPU second\n"
+      "{1:<10}{2:>8}     ours   theirs     ours   theirs  ratio     ours   theirs  ratio\n",
+      "", "packing", "grains");
+  const double skin_m = race.skin_mm / 1000;
+  for (const int count : race.clumps) {
+    const testing::TemporaryFolder folder;
+    if (count > 0) print_row("clumps", folder, settled_clumps(folder, count), skin_m, race.rounds);
+  }
+  for (const int count : race.spheres) {
+    const testing::TemporaryFolder folder;
+    if (count > 0)
+      print_row("spheres", folder, settled_spheres(folder, count), skin_m, race.rounds);
   }
 }
+
+void race_all(const RaceSettings& race) {
+  print_single_grains(race.rounds);
+  if (race.many_clumps > 0) print_many_clumps(race.many_clumps, race.rounds);
+  if (race.heaps > 0) print_heap(race.settings, race.heaps);
+  if (testing::has_liggghts()) {
+    race_packings(race);
+  } else {
+    fmt::print("{}\n", testing::kNoLiggghts);
+  }
+}
+
+}  // namespace
+
+void add_against_liggghts(CLI::App& bench) {
+  CLI::App& app = *bench.add_subcommand(
+      "against_liggghts",
+      "Speed of LIGGGHTS and of repose on the same packings, one core each, turn about; and of\n"
+      "repose alone. Boxes of more than 10,000 spheres, and of many clumps, are mirrored from a\n"
+      "ninth of them, wide and as deep as that. Everything takes an hour or more:\n"
+      "  bench against_liggghts --spheres 500,5000,50000 --many-clumps 50000 --heaps 5 --rounds 5");
+  const auto race = std::make_shared<RaceSettings>();
+  app.add_option("--spheres", race->spheres, "Spheres in each box (50000 takes minutes); 0: none")
+      ->delimiter(',');
+  app.add_option("--clumps", race->clumps, "Clumps of 11 spheres in each tube; 0: none")
+      ->delimiter(',');
+  app.add_option("--rounds", race->rounds, "Runs of each engine")->check(CLI::Range(1, 1000));
+  app.add_option("--skin-mm", race->skin_mm,
+                 "How far LIGGGHTS lists neighbours; for clumps at rest .3 is faster than more");
+  app.add_option("--many-clumps", race->many_clumps,
+                 "Clumps in a box: what a step costs against 500 of them, and two threads against "
+                 "one; 0: none");
+  app.add_option("--heaps", race->heaps, "Heaps of the sample in each engine; 0: none");
+  app.add_option("--set", race->settings, "Of the heap's study, as experiment.heap.grains=100");
+  app.callback([race] { race_all(*race); });
+}
+
+}  // namespace repose::bench

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include <tbb/parallel_for.h>
 
 #include "base/units.h"
+#include "tests/bench/benches.h"
 #include "tests/bench/board_subjects.h"
 #include "tests/bench/median.h"
 #include "vision/camera/sized_heap.h"
@@ -225,28 +227,39 @@ void measure_heaps(bool stands_behind, const std::vector<Way>& ways, int count, 
   }
 }
 
-}  // namespace
-}  // namespace repose::bench
-
-int main(int argc, char** argv) {
-  using namespace repose::bench;
-  int lenses = 60, heaps = 60, pictures = 10;
+struct BoardSettings {
+  int lenses = 60;
+  int heaps = 60;
+  int pictures = 10;
   std::uint64_t seed = 1;
   std::string folder;
-  CLI::App app("How near numbers from a printed board come");
-  app.add_option("--lenses", lenses, "Lenses to fit");
-  app.add_option("--pictures", pictures, "Pictures of each");
-  app.add_option("--heaps", heaps, "Heaps to measure in each way");
-  app.add_option("--seed", seed, "The first");
-  app.add_option("--write", folder, "Folder for the pictures of heaps");
-  CLI11_PARSE(app, argc, argv);
-  measure_lenses(lenses, pictures, seed);
-  if (heaps == 0) return 0;
+};
+
+void measure_boards(const BoardSettings& settings) {
+  measure_lenses(settings.lenses, settings.pictures, settings.seed);
+  if (settings.heaps == 0) return;
   measure_heaps(false,
                 {{.name = "board in the heap's plane, known lens"},
                  {.name = "board in the heap's plane, no lens", .has_lens = false},
                  {.name = "two points and pitch, known lens", .has_bar = true},
                  {.name = "two points and pitch, no lens", .has_lens = false, .has_bar = true}},
-                heaps, seed, folder);
-  measure_heaps(true, {{.name = "board behind the heap, known lens"}}, heaps, seed, "");
+                settings.heaps, settings.seed, settings.folder);
+  measure_heaps(true, {{.name = "board behind the heap, known lens"}}, settings.heaps,
+                settings.seed, "");
 }
+
+}  // namespace
+
+void add_board_accuracy(CLI::App& bench) {
+  CLI::App& app =
+      *bench.add_subcommand("board_accuracy", "How near numbers from a printed board come");
+  const auto settings = std::make_shared<BoardSettings>();
+  app.add_option("--lenses", settings->lenses, "Lenses to fit");
+  app.add_option("--pictures", settings->pictures, "Pictures of each");
+  app.add_option("--heaps", settings->heaps, "Heaps to measure in each way");
+  app.add_option("--seed", settings->seed, "The first");
+  app.add_option("--write", settings->folder, "Folder for the pictures of heaps");
+  app.callback([settings] { measure_boards(*settings); });
+}
+
+}  // namespace repose::bench

@@ -7,11 +7,10 @@
 
 #include <Eigen/Geometry>
 
-#include "render/renderer.h"
 #include "render/truth.h"
 #include "tests/bench/grain_cone.h"
+#include "tests/bench/photograph.h"
 #include "tests/support/heap_draft.h"
-#include "tests/support/heap_palette.h"
 #include "tests/support/heap_random.h"
 #include "tests/support/nut_heap.h"
 
@@ -23,12 +22,8 @@ using testing::BoardCamera;
 using testing::radians;
 using testing::Random;
 
-constexpr render::PictureSize kSize{1280, 853};
-constexpr double kFilm_mm = 36;
 /// Nuts make heaps of a metre; the world is drawn smaller, so that a board of A4 suits it.
 constexpr double kMm_per_m = 250;
-
-render::Colour colour_of(const testing::Color& color) { return {color.r, color.g, color.b}; }
 
 render::PhotoStyle photo_style(Random& random) {
   testing::HeapScene scene;
@@ -53,13 +48,13 @@ vision::Picture drawn(const render::Scene& scene, const render::Camera& camera,
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   static render::Renderer renderer;
-  return renderer.draw(scene, camera, kSize, style).picture;
+  return renderer.draw(scene, camera, kPhotograph, style).picture;
 }
 
 /// Height of the lightly smoothed outline and its width, as the measurement defines them.
 void set_sizes(const render::Scene& scene, HeapWithBoard& heap) {
   const render::Truth truth =
-      truth_of(scene, render::OrthographicCamera{}, kSize, render::Shown::mesh);
+      truth_of(scene, render::OrthographicCamera{}, kPhotograph, render::Shown::mesh);
   const double scale = truth.mm_per_px * kMm_per_m / 1e3;
   const auto& outline = truth.outline;
   const std::size_t half = std::max<std::size_t>(3, outline.size() / 40) / 2;
@@ -86,18 +81,18 @@ render::PerspectiveCamera camera_before(const render::Scene& scene, double radiu
       render::camera_on({.distance_m = distance_m,
                          .pitch_rad = heap.pitch_rad,
                          .focal_mm = kFilm_mm * distance_m / width_m},
-                        scene, kSize);
+                        scene, kPhotograph);
   camera.roll_rad = heap.roll_rad;
   camera.position_m.x() += side * .2 * width_m;
   const double picture_side = .5 * kFilm_mm / camera.focal_mm;
   camera.k1 = random.uniform(-.05, .03) / (picture_side * picture_side);
   // A sheet that is a quarter of the picture wide.
   heap.square_mm = std::round(.25 * width_m * kMm_per_m / 12.3);
-  heap.camera = {.width = kSize.width,
-                 .height = kSize.height,
-                 .focal_px = camera.focal_mm / kFilm_mm * kSize.width,
-                 .centre_x_px = kSize.width / 2.0,
-                 .centre_y_px = kSize.height / 2.0,
+  heap.camera = {.width = kPhotograph.width,
+                 .height = kPhotograph.height,
+                 .focal_px = camera.focal_mm / kFilm_mm * kPhotograph.width,
+                 .centre_x_px = kPhotograph.width / 2.0,
+                 .centre_y_px = kPhotograph.height / 2.0,
                  .k1 = camera.k1};
   return camera;
 }
@@ -139,8 +134,8 @@ testing::BoardPlace board_beside(const Eigen::Matrix3d& view, const Vector3d& ey
 BoardCamera any_camera(std::uint64_t seed) {
   Random random(seed * 0x9E3779B97F4A7C15 ^ testing::hash_of("camera"));
   BoardCamera camera;
-  camera.width = kSize.width;
-  camera.height = kSize.height;
+  camera.width = kPhotograph.width;
+  camera.height = kPhotograph.height;
   camera.focal_px = camera.width * random.uniform(.75, 1.6);
   camera.centre_x_px = camera.width * (.5 + random.uniform(-.015, .015));
   camera.centre_y_px = camera.height * (.5 + random.uniform(-.015, .015));

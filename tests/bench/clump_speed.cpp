@@ -1,21 +1,16 @@
-#include <chrono>
 
 #include <benchmark/benchmark.h>
 
+#include "tests/bench/clock.h"
 #include "tests/bench/packing.h"
 
 // Counter `clump_steps_per_s`: grains times steps, of packings at rest. `--benchmark_filter=clumps`
 // leaves out the large boxes of spheres, which take minutes to pour.
 
+namespace repose::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void run_settled(benchmark::State& state, repose::dem::Simulation simulation) {
+void run_settled(benchmark::State& state, dem::Simulation simulation) {
   const int grains = simulation.grain_count();
   const auto steps = std::max<std::int64_t>(5, 400000 / grains);
   while (state.KeepRunning()) simulation.advance(steps);
@@ -27,20 +22,20 @@ void run_settled(benchmark::State& state, repose::dem::Simulation simulation) {
 }
 
 void clumps(benchmark::State& state) {
-  run_settled(state, repose::testing::tube_of_clumps(static_cast<int>(state.range(0)),
-                                                     static_cast<int>(state.range(1))));
+  run_settled(state, testing::tube_of_clumps(static_cast<int>(state.range(0)),
+                                             static_cast<int>(state.range(1))));
 }
 
 void spheres(benchmark::State& state) {
-  run_settled(state, repose::testing::box_of_spheres(static_cast<int>(state.range(0)),
-                                                     static_cast<int>(state.range(1))));
+  run_settled(state, testing::box_of_spheres(static_cast<int>(state.range(0)),
+                                             static_cast<int>(state.range(1))));
 }
 
 /// Counter `speed_up`: one thread's time / two threads' time on the same packing, turn about.
 void two_threads(benchmark::State& state) {
   const auto grains = static_cast<int>(state.range(0));
-  auto one = repose::testing::box_of_spheres(grains, 1);
-  auto two = repose::testing::box_of_spheres(grains, 2);
+  auto one = testing::box_of_spheres(grains, 1);
+  auto two = testing::box_of_spheres(grains, 2);
   const auto steps = std::max<std::int64_t>(5, 400000 / grains);
   double one_s = 0;
   double two_s = 0;
@@ -72,5 +67,4 @@ BENCHMARK(two_threads)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-
-BENCHMARK_MAIN();
+}  // namespace repose::bench

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "base/units.h"
+#include "tests/bench/benches.h"
 #include "tests/bench/median.h"
 #include "tests/support/drawn_heap_film.h"
 #include "tests/support/heap_conditions.h"
@@ -26,7 +28,7 @@
 namespace repose::bench {
 namespace {
 
-struct Row {
+struct HeapFilmRow {
   double truth_deg = 0;
   vision::ReposeAngle film;
   vision::ReposeAngle frame;
@@ -50,16 +52,16 @@ testing::DrawnHeapFilm random_film(std::uint64_t seed, double noise) {
           .has_timer = seed % 4 == 0};
 }
 
-Row row_of(const testing::DrawnHeapFilm& drawn) {
+HeapFilmRow row_of(const testing::DrawnHeapFilm& drawn) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "heap.mp4";
   vision::FilmWriter film(file, drawn.frames_per_s);
   for (const vision::Picture& picture : drawn.pictures()) film.add(picture);
   film.close();
   vision::FilmAngle measured = vision::measure_film(file);
-  Row row{.truth_deg = testing::heap_truth(drawn.scene).mean_rad().value_or(0) / kDegree,
-          .film = std::move(measured.heap.angle),
-          .frame = {}};
+  HeapFilmRow row{.truth_deg = testing::heap_truth(drawn.scene).mean_rad().value_or(0) / kDegree,
+                  .film = std::move(measured.heap.angle),
+                  .frame = {}};
   vision::FrameSeries series(file, measured.times_s, drawn.grows_s + drawn.rests_s / 2);
   series.next();
   const auto frame = series.next();
@@ -67,10 +69,11 @@ Row row_of(const testing::DrawnHeapFilm& drawn) {
   return row;
 }
 
-void print(const char* what, const std::vector<Row>& rows, vision::ReposeAngle Row::*angle) {
+void print(const char* what, const std::vector<HeapFilmRow>& rows,
+           vision::ReposeAngle HeapFilmRow::*angle) {
   std::vector<double> errors_deg, widths_deg;
   int held = 0;
-  for (const Row& row : rows) {
+  for (const HeapFilmRow& row : rows) {
     const vision::ReposeAngle& measured = row.*angle;
     if (!measured.angle_rad) continue;
     errors_deg.push_back(std::abs(*measured.angle_rad / kDegree - row.truth_deg));
@@ -85,28 +88,37 @@ void print(const char* what, const std::vector<Row>& rows, vision::ReposeAngle R
       *std::max_element(errors_deg.begin(), errors_deg.end()), median(widths_deg), held);
 }
 
-}  // namespace
-}  // namespace repose::bench
-
-int main(int argc, char** argv) {
-  using namespace repose::bench;
-  CLI::App app("Accuracy of repose measure on drawn films");
+struct FilmSettings {
   int films = 30;
   std::uint64_t first_seed = 1;
   std::size_t threads = 2;
   std::vector<double> noises = {8, 25};
-  app.add_option("--films", films, "films at each noise");
-  app.add_option("--first-seed", first_seed, "of the first film; the others follow");
-  app.add_option("--noises", noises, "standard deviations of a grey level")->delimiter(',');
-  app.add_option("--threads", threads, "films at a time");
-  CLI11_PARSE(app, argc, argv);
-  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
-  for (const double noise : noises) {
-    std::vector<Row> rows(static_cast<std::size_t>(films));
-    tbb::parallel_for(std::size_t{0}, rows.size(),
-                      [&](std::size_t k) { rows[k] = row_of(random_film(first_seed + k, noise)); });
+};
+
+void measure_films(const FilmSettings& settings) {
+  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, settings.threads);
+  for (const double noise : settings.noises) {
+    std::vector<HeapFilmRow> rows(static_cast<std::size_t>(settings.films));
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
+      rows[k] = row_of(random_film(settings.first_seed + k, noise));
+    });
     fmt::print("noise {:g}\n", noise);
-    print("at rest", rows, &Row::film);
-    print("one frame", rows, &Row::frame);
+    print("at rest", rows, &HeapFilmRow::film);
+    print("one frame", rows, &HeapFilmRow::frame);
   }
 }
+
+}  // namespace
+
+void add_film_accuracy(CLI::App& bench) {
+  CLI::App& app = *bench.add_subcommand("film_accuracy", "Of repose measure on drawn films");
+  const auto settings = std::make_shared<FilmSettings>();
+  app.add_option("--films", settings->films, "films at each noise");
+  app.add_option("--first-seed", settings->first_seed, "of the first film; the others follow");
+  app.add_option("--noises", settings->noises, "standard deviations of a grey level")
+      ->delimiter(',');
+  app.add_option("--threads", settings->threads, "films at a time");
+  app.callback([settings] { measure_films(*settings); });
+}
+
+}  // namespace repose::bench

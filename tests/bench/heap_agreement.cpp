@@ -3,9 +3,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <fstream>
+#include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,15 +19,13 @@
 #include "calibrate/statistics/summary.h"
 #include "dem/experiment/heap_envelope.h"
 #include "dem/study/grain_source.h"
+#include "tests/bench/benches.h"
 #include "tests/peers/exported.h"
 
+namespace repose::bench {
 namespace {
 
-namespace calibrate = repose::calibrate;
-namespace dem = repose::dem;
-namespace testing = repose::testing;
-
-constexpr int kViews = 18;
+constexpr int kDirections = 18;
 
 struct Heap {
   double angle_deg = 0;
@@ -82,7 +81,7 @@ Heap their_heap(const calibrate::StudyExport& decks, calibrate::ExportTarget tar
     testing::run_deck(folder, target, "heap", {"-var", "seed", seed});
     spheres = spheres_in(folder.path() / "heap.dump", kHead, kIdAndType);
   }
-  return heap_of(dem::heap_envelopes(spheres, kViews));
+  return heap_of(dem::heap_envelopes(spheres, kDirections));
 }
 
 Heap our_heap(const dem::Model& model, const dem::HeapProtocol& protocol, int number) {
@@ -100,30 +99,41 @@ void print_difference(const std::vector<double>& ours, const std::vector<double>
                       const std::string& program) {
   const calibrate::Summary a = calibrate::summarise(ours), b = calibrate::summarise(theirs);
   const auto mean_variance = [](const calibrate::Summary& of) {
-    return repose::base::EstimatedVariance{of.sd.value_or(0) * of.sd.value_or(0) / of.n, of.n - 1.};
+    return base::EstimatedVariance{of.sd.value_or(0) * of.sd.value_or(0) / of.n, of.n - 1.};
   };
   fmt::print("ours {:.2f}, sd {:.2f}; {} {:.2f}, sd {:.2f}, deg\n", a.mean, a.sd.value_or(0),
              program, b.mean, b.sd.value_or(0));
   if (!a.sd || !b.sd) return;
   constexpr double kUpper95 = .975;
   const double t =
-      repose::base::student_t_quantile(kUpper95, df_of_sum(mean_variance(a), mean_variance(b)));
+      base::student_t_quantile(kUpper95, df_of_sum(mean_variance(a), mean_variance(b)));
   fmt::print("ours less theirs {:+.2f} ± {:.2f} deg (95 %)\n", a.mean - b.mean,
              t * std::sqrt(mean_variance(a).variance + mean_variance(b).variance));
 }
 
-void compare(const std::string& file, const std::vector<std::string>& settings,
-             const std::string& program, int seeds) {
-  const dem::Study study = dem::read_study(file, settings);
-  const dem::ClumpShape grain = dem::build_grain(study.grain).shape;
+struct HeapAgreement {
+  std::string study;
+  std::vector<std::string> settings = {"contact.rolling_model=\"relative_constant_torque\""};
+  std::string program = "liggghts";
+  int seeds = 10;
+};
+
+void compare_heaps(const HeapAgreement& wanted) {
+  const std::string& program = wanted.program;
   const calibrate::ExportTarget target = *calibrate::export_target_named(program);
+  if (!testing::has_program_for(target)) {
+    throw std::invalid_argument(
+        fmt::format("{0} is not installed. Fix: apt-get install {0}", program));
+  }
+  const dem::Study study = dem::read_study(wanted.study, wanted.settings);
+  const dem::ClumpShape grain = dem::build_grain(study.grain).shape;
   const calibrate::StudyExport decks =
       calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true});
   dem::Model model = dem::model_for(study, dem::Experiment::heap);
   model.grain = grain;
   std::vector<double> ours, theirs;
   fmt::print("{:<12}{:>9}{:>11}{:>13}\n", "heap", "angle/deg", "height/mm", "base r/mm");
-  for (int k = 0; k < seeds; ++k) {
+  for (int k = 0; k < wanted.seeds; ++k) {
     const Heap our = our_heap(model, study.protocol<dem::HeapProtocol>(), k);
     print_row("ours", our);
     ours.push_back(our.angle_deg);
@@ -136,26 +146,17 @@ void compare(const std::string& file, const std::vector<std::string>& settings,
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app{"Angles of heaps of an exported deck against our own"};
-  std::string study;
-  std::vector<std::string> settings = {"contact.rolling_model=\"relative_constant_torque\""};
-  int seeds = 10;
-  app.add_option("study", study, "a study with a heap, all coefficients with a value")->required();
-  app.add_option("--set", settings, "of the study, in place of a rolling model that both have");
-  std::string program = "liggghts";
-  app.add_option("--program", program)->check(CLI::IsMember({"liggghts", "yade"}));
-  app.add_option("--seeds", seeds, "heaps of each engine")->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
-  if (!testing::has_program_for(*calibrate::export_target_named(program))) {
-    fmt::print("{0} is not installed. Fix: apt-get install {0}\n", program);
-    return 1;
-  }
-  try {
-    compare(study, settings, program, seeds);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "heap_agreement: {}\n", error.what());
-    return 1;
-  }
-  return 0;
+void add_heap_agreement(CLI::App& bench) {
+  CLI::App& app = *bench.add_subcommand("heap_agreement",
+                                        "Angles of heaps of an exported deck against our own");
+  const auto wanted = std::make_shared<HeapAgreement>();
+  app.add_option("study", wanted->study, "a study with a heap, all coefficients with a value")
+      ->required();
+  app.add_option("--set", wanted->settings,
+                 "of the study, in place of a rolling model that both have");
+  app.add_option("--program", wanted->program)->check(CLI::IsMember({"liggghts", "yade"}));
+  app.add_option("--seeds", wanted->seeds, "heaps of each engine")->check(CLI::PositiveNumber);
+  app.callback([wanted] { compare_heaps(*wanted); });
 }
+
+}  // namespace repose::bench

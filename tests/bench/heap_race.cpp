@@ -13,7 +13,7 @@
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
 #include "render/scene/scene.h"
-#include "tests/bench/cpu_time.h"
+#include "tests/bench/clock.h"
 #include "tests/peers/exported.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"

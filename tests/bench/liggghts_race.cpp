@@ -1,14 +1,13 @@
 #include "tests/bench/liggghts_race.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "tests/bench/clock.h"
 #include "tests/bench/packing.h"
 #include "tests/peers/liggghts.h"
 
@@ -175,13 +174,12 @@ std::string Race::their_deck(const std::string& start) const {
 Timing Race::time_ours() {
   dem::Simulation simulation(packing_.setup, start_);
   simulation.advance(1);  // makes its lists
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t cpu_start = std::clock();
+  const auto start = Clock::now();
+  const double cpu_start_s = cpu_s();
   simulation.advance(packing_.steps);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const double cpu_s = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  const Timing timing = {seconds_since(start), cpu_s() - cpu_start_s};
   our_contacts_ = contacts_a_grain(simulation);
-  return {elapsed.count(), cpu_s};
+  return timing;
 }
 
 Timing Race::time_theirs() {

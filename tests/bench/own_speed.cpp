@@ -1,19 +1,16 @@
 #include "tests/bench/own_speed.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "dem/experiment/experiment.h"
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
-#include "tests/bench/cpu_time.h"
+#include "tests/bench/clock.h"
 #include "tests/bench/packing.h"
 #include "tests/support/places.h"
 
 namespace repose::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kFew = 500;
 constexpr double kOwnStepsARun = 2e6;
@@ -38,7 +35,7 @@ double contacts_a_clump(const dem::Simulation& simulation) {
 double elapsed_s(dem::Simulation& simulation) {
   const auto start = Clock::now();
   simulation.advance(steps_for(simulation.grain_count()));
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return seconds_since(start);
 }
 
 }  // namespace

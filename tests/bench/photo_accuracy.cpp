@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -18,25 +18,24 @@
 
 #include "tests/bench/accuracy_row.h"
 #include "tests/bench/accuracy_table.h"
+#include "tests/bench/benches.h"
 #include "tests/bench/drawn_subjects.h"
 #include "tests/bench/other_subjects.h"
 #include "tests/bench/reliability_table.h"
 #include "tests/bench/rendered_subjects.h"
 
+namespace repose::bench {
 namespace {
 
-using repose::bench::Row;
-using repose::bench::Subject;
-using repose::testing::Group;
+using testing::Group;
 
 constexpr std::size_t kDumped = 30;
 
 std::vector<Subject> subjects_for(const std::string& section, const std::string& condition,
                                   int seeds, std::uint64_t first_seed) {
   std::vector<Subject> subjects;
-  for (auto&& part : {repose::bench::drawn_subjects(seeds, first_seed),
-                      repose::bench::rendered_subjects(seeds, first_seed),
-                      repose::bench::other_subjects(seeds, first_seed)}) {
+  for (auto&& part : {drawn_subjects(seeds, first_seed), rendered_subjects(seeds, first_seed),
+                      other_subjects(seeds, first_seed)}) {
     subjects.insert(subjects.end(), part.begin(), part.end());
   }
   std::erase_if(subjects, [&](const Subject& subject) {
@@ -54,9 +53,8 @@ std::vector<Subject> subjects_for(const std::string& section, const std::string&
 std::vector<Row> measured(const std::vector<Subject>& subjects,
                           std::span<const std::string_view> with_methods) {
   std::vector<std::vector<Row>> parts(subjects.size());
-  tbb::parallel_for(std::size_t{0}, subjects.size(), [&](std::size_t i) {
-    parts[i] = repose::bench::measure_rows(subjects[i], with_methods);
-  });
+  tbb::parallel_for(std::size_t{0}, subjects.size(),
+                    [&](std::size_t i) { parts[i] = measure_rows(subjects[i], with_methods); });
   std::vector<Row> rows;
   for (const auto& part : parts) rows.insert(rows.end(), part.begin(), part.end());
   return rows;
@@ -82,12 +80,12 @@ void dump_worst(const std::vector<Row>& rows, const std::string& folder) {
   });
   worst.resize(std::min(worst.size(), kDumped));
   tbb::parallel_for(std::size_t{0}, worst.size(), [&](std::size_t i) {
-    repose::bench::measure_rows(*worst[i]->subject, {&worst[i]->method, 1}, folder);
+    measure_rows(*worst[i]->subject, {&worst[i]->method, 1}, folder);
   });
 }
 
 void print_tables(const std::vector<Row>& rows, std::string_view section) {
-  for (const std::string_view method : repose::bench::methods()) {
+  for (const std::string_view method : methods()) {
     std::vector<Row> part;
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(part), [&](const Row& row) {
       return row.subject->section == section && row.method == method;
@@ -95,9 +93,9 @@ void print_tables(const std::vector<Row>& rows, std::string_view section) {
     std::string text;
     for (const Group group :
          {Group::clean, Group::degraded, Group::hollow, Group::sample, Group::misplaced}) {
-      text += repose::bench::group_table(part, group);
+      text += group_table(part, group);
     }
-    text += repose::bench::bias_table(part) + repose::bench::refusal_table(part);
+    text += bias_table(part) + refusal_table(part);
     if (!text.empty()) fmt::print("== {} pictures, method {} ==\n\n{}\n", section, method, text);
   }
 }
@@ -108,15 +106,11 @@ void print_reliability(const std::vector<Row>& rows) {
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(part),
                [](const Row& row) { return row.method == "auto"; });
   if (part.empty()) return;
-  fmt::print("== reliability, method auto ==\n\n{}\n{}", repose::bench::reliability_table(part),
-             repose::bench::coverage_table(part));
+  fmt::print("== reliability, method auto ==\n\n{}\n{}", reliability_table(part),
+             coverage_table(part));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app(
-      "Measures drawn and rendered heaps, whose angles are known, and pictures without a heap.");
+struct PhotoSettings {
   int seeds = 20;
   std::uint64_t first_seed = 1;
   std::string section;
@@ -125,33 +119,45 @@ int main(int argc, char** argv) {
   std::string folder;
   std::string csv;
   int threads = 0;
-  app.add_option("--seeds", seeds, "Pictures of each condition")->check(CLI::Range(1, 100000));
-  app.add_option("--first-seed", first_seed, "Seed of the first picture");
-  app.add_option("--section", section, "These pictures alone")
-      ->check(CLI::IsMember({"drawn", "rendered", "other"}));
-  app.add_option("--condition", condition, "This condition alone");
-  app.add_option("--method", method, "This method alone")
-      ->check(CLI::IsMember({"auto", "paper", "script"}));
-  app.add_option("--dump", folder, "Folder for overlays of the worst pictures");
-  app.add_option("--csv", csv, "File with one row for each picture and method");
-  app.add_option("--threads", threads, "0: all cores")->check(CLI::Range(0, 1024));
-  CLI11_PARSE(app, argc, argv);
-  try {
-    std::optional<tbb::global_control> limit;
-    if (threads > 0) {
-      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<unsigned>(threads));
-    }
-    const auto all_methods = repose::bench::methods();
-    const std::string_view one_method = method;
-    const auto subjects = subjects_for(section, condition, seeds, first_seed);
-    const auto rows = measured(subjects, method.empty() ? all_methods : std::span(&one_method, 1));
-    for (const std::string_view name : {"drawn", "rendered", "other"}) print_tables(rows, name);
-    print_reliability(rows);
-    if (!csv.empty()) repose::bench::write_csv(csv, rows);
-    if (!folder.empty()) dump_worst(rows, folder);
-    return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "photo_accuracy: {}\n", error.what());
-    return 2;
+};
+
+void measure_photos(const PhotoSettings& settings) {
+  std::optional<tbb::global_control> limit;
+  if (settings.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<unsigned>(settings.threads));
   }
+  const auto all_methods = methods();
+  const std::string_view one_method = settings.method;
+  const auto subjects =
+      subjects_for(settings.section, settings.condition, settings.seeds, settings.first_seed);
+  const auto rows =
+      measured(subjects, one_method.empty() ? all_methods : std::span(&one_method, 1));
+  for (const std::string_view name : {"drawn", "rendered", "other"}) print_tables(rows, name);
+  print_reliability(rows);
+  if (!settings.csv.empty()) write_csv(settings.csv, rows);
+  if (!settings.folder.empty()) dump_worst(rows, settings.folder);
 }
+
+}  // namespace
+
+void add_photo_accuracy(CLI::App& bench) {
+  CLI::App& app = *bench.add_subcommand(
+      "photo_accuracy",
+      "Measures drawn and rendered heaps, whose angles are known, and pictures without a heap");
+  const auto settings = std::make_shared<PhotoSettings>();
+  app.add_option("--seeds", settings->seeds, "Pictures of each condition")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--first-seed", settings->first_seed, "Seed of the first picture");
+  app.add_option("--section", settings->section, "These pictures alone")
+      ->check(CLI::IsMember({"drawn", "rendered", "other"}));
+  app.add_option("--condition", settings->condition, "This condition alone");
+  app.add_option("--method", settings->method, "This method alone")
+      ->check(CLI::IsMember({"auto", "paper", "script"}));
+  app.add_option("--dump", settings->folder, "Folder for overlays of the worst pictures");
+  app.add_option("--csv", settings->csv, "File with one row for each picture and method");
+  app.add_option("--threads", settings->threads, "0: all cores")->check(CLI::Range(0, 1024));
+  app.callback([settings] { measure_photos(*settings); });
+}
+
+}  // namespace repose::bench

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -10,16 +9,17 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "tests/bench/clock.h"
 #include "tests/support/heap_conditions.h"
 #include "tests/support/heap_picture.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
+namespace repose::bench {
 namespace {
 
-using repose::vision::measure_repose_angle;
-using repose::vision::read_picture;
-using Clock = std::chrono::steady_clock;
+using vision::measure_repose_angle;
+using vision::read_picture;
 
 constexpr int kBatch = 16;
 constexpr double kNoise = 0.016;
@@ -34,7 +34,7 @@ class Photographs {
     }
     folder_ = name;
     for (int i = 0; i < count; ++i) {
-      auto scene = repose::testing::condition_named("clean").scene(static_cast<unsigned>(i + 1));
+      auto scene = testing::condition_named("clean").scene(static_cast<unsigned>(i + 1));
       scene.width = 4000;
       scene.height = 3000;
       scene.camera.blur_px = 1.2;
@@ -43,7 +43,7 @@ class Photographs {
       scene.camera.jpeg_quality = 0;
       scene.camera.noise = kNoise;
       files_.push_back(folder_ / (std::to_string(i) + ".jpg"));
-      repose::vision::write_picture(files_.back(), repose::testing::draw_heap(scene).picture);
+      vision::write_picture(files_.back(), testing::draw_heap(scene).picture);
     }
   }
   ~Photographs() { std::filesystem::remove_all(folder_); }
@@ -62,10 +62,6 @@ class Photographs {
 const Photographs& photographs() {
   static const Photographs files(kBatch);
   return files;
-}
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 void decode(benchmark::State& state) {
@@ -124,5 +120,4 @@ BENCHMARK(batch_on_two_threads)
     ->Iterations(3);
 
 }  // namespace
-
-BENCHMARK_MAIN();
+}  // namespace repose::bench

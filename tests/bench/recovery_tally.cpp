@@ -6,17 +6,14 @@
 
 #include <fmt/core.h>
 
+#include "tests/bench/median.h"
+
 namespace repose::bench {
 namespace {
 
 using calibrate::FittedParameter;
 using calibrate::Parameter;
 using calibrate::Verdict;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 bool holds(const FittedParameter& fitted, double truth) {
   return truth >= fitted.interval.low && truth <= fitted.interval.high;

@@ -7,17 +7,18 @@
 #include "render/truth.h"
 #include "tests/support/nut_heap.h"
 
+namespace repose::bench {
 namespace {
 
-using repose::render::OrthographicCamera;
-using repose::render::PhotoStyle;
-using repose::render::PictureSize;
-using repose::render::Renderer;
-using repose::render::Scene;
-using repose::render::Shown;
-using repose::render::SilhouetteStyle;
+using render::OrthographicCamera;
+using render::PhotoStyle;
+using render::PictureSize;
+using render::Renderer;
+using render::Scene;
+using render::Shown;
+using render::SilhouetteStyle;
 
-constexpr PictureSize kSize{1920, 1080};
+constexpr PictureSize kFullHd{1920, 1080};
 
 /// The smallest heap of at least so many nuts.
 Scene heap_of(int grains) {
@@ -25,7 +26,7 @@ Scene heap_of(int grains) {
   int across = 2;
   Scene scene;
   do {
-    scene = repose::testing::nut_heap(++across, kAngle_rad, 1);
+    scene = testing::nut_heap(++across, kAngle_rad, 1);
   } while (scene.grains.size() < static_cast<std::size_t>(grains));
   return scene;
 }
@@ -39,7 +40,7 @@ void silhouette(benchmark::State& state) {
   while (state.KeepRunning()) {
     azimuth_rad += .1;
     benchmark::DoNotOptimize(renderer.draw(scene, OrthographicCamera{.azimuth_rad = azimuth_rad},
-                                           kSize, SilhouetteStyle{.shown = shown}));
+                                           kFullHd, SilhouetteStyle{.shown = shown}));
   }
   state.counters["grains"] = static_cast<double>(scene.grains.size());
 }
@@ -47,18 +48,18 @@ void silhouette(benchmark::State& state) {
 void truth(benchmark::State& state) {
   const Scene scene = heap_of(static_cast<int>(state.range(0)));
   while (state.KeepRunning()) {
-    benchmark::DoNotOptimize(truth_of(scene, OrthographicCamera{}, kSize, Shown::mesh));
+    benchmark::DoNotOptimize(truth_of(scene, OrthographicCamera{}, kFullHd, Shown::mesh));
   }
 }
 
 /// One of the passes that a photo is the mean of, and what is done once for each photo.
 void photo(benchmark::State& state) {
   const Scene scene = heap_of(500);
-  const auto camera = camera_on({.distance_m = 1.5}, scene, kSize);
+  const auto camera = camera_on({.distance_m = 1.5}, scene, kFullHd);
   Renderer renderer;
   const PhotoStyle style{.passes = static_cast<int>(state.range(0))};
   while (state.KeepRunning()) {
-    benchmark::DoNotOptimize(renderer.draw(scene, camera, kSize, style));
+    benchmark::DoNotOptimize(renderer.draw(scene, camera, kFullHd, style));
   }
 }
 
@@ -80,11 +81,4 @@ BENCHMARK(photo)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-
-int main(int count, char** words) {
-  // One core, as the numbers to reach say; the driver looks at this when it starts.
-  ::setenv("LP_NUM_THREADS", "0", 0);
-  benchmark::Initialize(&count, words);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}
+}  // namespace repose::bench

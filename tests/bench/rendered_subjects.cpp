@@ -7,14 +7,13 @@
 #include <numbers>
 #include <variant>
 
-#include "render/renderer.h"
 #include "render/truth.h"
 #include "tests/bench/grain_cone.h"
 #include "tests/bench/outline_angles.h"
+#include "tests/bench/photograph.h"
 #include "tests/support/flank_law.h"
 #include "tests/support/heap_camera.h"
 #include "tests/support/heap_draft.h"
-#include "tests/support/heap_palette.h"
 #include "tests/support/nut_heap.h"
 #include "vision/measure/camera_pitch.h"
 
@@ -25,9 +24,6 @@ using testing::Group;
 using testing::hash_of;
 using testing::radians;
 using testing::Random;
-
-constexpr render::PictureSize kSize{1280, 853};
-constexpr double kFilm_mm = 36;  // wide, as PerspectiveCamera::focal_mm has it
 
 /// All that makes a picture.
 struct Staging {
@@ -57,8 +53,6 @@ GrainCone cone_of(std::uint64_t seed) {
   cone.seed = random.seed();
   return cone;
 }
-
-render::Colour colour_of(const testing::Color& color) { return {color.r, color.g, color.b}; }
 
 render::PhotoStyle photo_style(double least_contrast, Random& random) {
   testing::HeapScene scene;
@@ -94,11 +88,11 @@ Draft draft_of(const GrainCone& cone, std::string_view condition, std::uint64_t 
   scene.walls.front().pose.orientation = Eigen::AngleAxisd(azimuth_rad, dem::Vector::UnitZ());
   const double radius_m = base_radius_m(staging.cone);
   const double fraction = random.uniform(.5, .75);
-  const double m_per_px = 2 * radius_m / (fraction * kSize.width);
+  const double m_per_px = 2 * radius_m / (fraction * kPhotograph.width);
   staging.camera = render::OrthographicCamera{
       .azimuth_rad = azimuth_rad,
       .mm_per_px = 1e3 * m_per_px,
-      .middle_m = dem::Vector(0, 0, random.uniform(.15, .3) * kSize.height * m_per_px)};
+      .middle_m = dem::Vector(0, 0, random.uniform(.15, .3) * kPhotograph.height * m_per_px)};
   staging.style = photo_style(kLeastContrast, random);
   staging.jpeg_quality = random.integer(85, 96);
   return draft;
@@ -116,13 +110,13 @@ render::PhotoStyle& photo(Draft& draft) {
 render::PerspectiveCamera& set_lens(Draft& draft, double distance, double pitch_rad = 0) {
   const auto& level = std::get<render::OrthographicCamera>(draft.staging.camera);
   const double radius_m = base_radius_m(draft.staging.cone);
-  const double width_m = 1e-3 * level.mm_per_px.value() * kSize.width;
+  const double width_m = 1e-3 * level.mm_per_px.value() * kPhotograph.width;
   const double distance_m = distance * radius_m;
   draft.staging.camera = render::camera_on({.azimuth_rad = level.azimuth_rad,
                                             .distance_m = distance_m,
                                             .pitch_rad = pitch_rad,
                                             .focal_mm = kFilm_mm * distance_m / width_m},
-                                           draft.scene, kSize);
+                                           draft.scene, kPhotograph);
   return std::get<render::PerspectiveCamera>(draft.staging.camera);
 }
 
@@ -252,11 +246,11 @@ vision::Picture drawn(const render::Scene& scene, const Staging& staging) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   static render::Renderer renderer;
-  return renderer.draw(scene, staging.camera, kSize, staging.style).picture;
+  return renderer.draw(scene, staging.camera, kPhotograph, staging.style).picture;
 }
 
 FlankAngles angles_seen_by(const render::Camera& camera, const Draft& draft) {
-  const render::Truth truth = truth_of(draft.scene, camera, kSize, render::Shown::mesh);
+  const render::Truth truth = truth_of(draft.scene, camera, kPhotograph, render::Shown::mesh);
   const double grain_px = 1e3 * testing::kNutWidth_m / truth.mm_per_px;
   return draft.staging.cone.hollow == 1 ? outline_angles(truth, grain_px)
                                         : defined_angles(truth, grain_px);

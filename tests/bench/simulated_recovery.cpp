@@ -18,8 +18,6 @@
 namespace repose::bench {
 namespace {
 
-using calibrate::Random;
-
 constexpr int kReadings = 8, kSingleReadings = 30;
 constexpr double kReading_deg = .5, kReadingFraction = .03;
 constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
@@ -115,7 +113,7 @@ class Material {
   calibrate::StudySimulator simulator_, bench_;
   std::vector<double> truth_;
   std::uint64_t number_;
-  Random random_;
+  calibrate::Random random_;
   std::atomic<bool> never_ = false;
 };
 
@@ -131,7 +129,7 @@ void recover_simulated(const SimulatedRecovery& plan) {
   const std::vector<calibrate::Parameter> parameters = sought_in(study, grain, budget);
   const calibrate::RunFolder folder(plan.folder);
   RecoveryTally tally(parameters);
-  Random random(plan.seed);
+  calibrate::Random random(plan.seed);
   for (int m = 0; m < plan.materials; ++m) {
     const std::vector<double> truth = made_up_material(parameters, random);
     Material material(study, bench, grain, folder, parameters, truth,

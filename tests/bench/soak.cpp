@@ -1,7 +1,7 @@
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -14,21 +14,22 @@
 #include "dem/shape/clump/fill.h"
 #include "dem/shape/scan/calliper.h"
 #include "dem/study/experiment_table.h"
+#include "tests/bench/benches.h"
+#include "tests/bench/clock.h"
 
 // Experiments of a few grains with random settings, all of them such as a study may have. Each must
 // end: with finite readings, or with a reason why there are none. What does not is printed with its
 // number, by which it can be made again: --first N --count 1.
 
+namespace repose::bench {
 namespace {
-
-using namespace repose;
-using Clock = std::chrono::steady_clock;
 
 struct Soak {
   std::uint64_t seed = 1;
   int first = 0;
   int count = 100;
   double longest_s = 20;  ///< of one run
+  std::string only;       ///< this experiment; empty: all
 };
 
 /// As often in each power of ten.
@@ -152,7 +153,7 @@ std::string ending(dem::Experiment experiment, std::uint64_t number, const Soak&
   base::Random random(soak.seed * 1'000'003 + number);
   const Clock::time_point start = Clock::now();
   const auto report = [&](double, const dem::Simulation&) {
-    return std::chrono::duration<double>(Clock::now() - start).count() < soak.longest_s;
+    return seconds_since(start) < soak.longest_s;
   };
   try {
     const dem::Model simulated = model(random);
@@ -193,17 +194,19 @@ void soak_all(dem::Experiment experiment, const Soak& soak) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  Soak soak;
-  std::string only;
-  CLI::App app("Many experiments with random settings");
-  app.add_option("--only", only, dem::experiment_names());
-  app.add_option("--count", soak.count, "of each experiment (100)");
-  app.add_option("--first", soak.first, "number of the first (0)");
-  app.add_option("--seed", soak.seed, "another seed, other settings (1)");
-  app.add_option("--longest-s", soak.longest_s, "of one run (20)");
-  CLI11_PARSE(app, count, words);
-  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    if (only.empty() || entry.name == only) soak_all(entry.experiment, soak);
-  }
+void add_soak(CLI::App& bench) {
+  CLI::App& app = *bench.add_subcommand("soak", "Many experiments with random settings");
+  const auto soak = std::make_shared<Soak>();
+  app.add_option("--only", soak->only, dem::experiment_names());
+  app.add_option("--count", soak->count, "of each experiment (100)");
+  app.add_option("--first", soak->first, "number of the first (0)");
+  app.add_option("--seed", soak->seed, "another seed, other settings (1)");
+  app.add_option("--longest-s", soak->longest_s, "of one run (20)");
+  app.callback([soak] {
+    for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+      if (soak->only.empty() || entry.name == soak->only) soak_all(entry.experiment, *soak);
+    }
+  });
 }
+
+}  // namespace repose::bench

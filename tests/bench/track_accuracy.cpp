@@ -1,13 +1,11 @@
 // How near repose track comes to what is known of films, and how often its intervals hold: films
 // with many settings, written as H.264 and read again. They are drawn, with paths by formulas, or
 // rendered, with paths that were simulated.
-//
-//   track_accuracy [--experiment drop|roll|tilt] [--source drawn|rendered] [--films 40]
-//   [--first-seed 1] [--rates 30,60,240] [--each] [--threads N]
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,6 +15,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "tests/bench/benches.h"
 #include "tests/bench/median.h"
 #include "tests/bench/rendered_films.h"
 #include "tests/bench/tilt_accuracy.h"
@@ -27,16 +26,17 @@
 #include "vision/track/drop_track.h"
 #include "vision/track/roll_track.h"
 
+namespace repose::bench {
 namespace {
 
-using repose::testing::DrawnDrop;
-using repose::testing::DrawnRoll;
-using repose::vision::Bounce;
-using repose::vision::DropTrack;
-using repose::vision::RollTrack;
+using testing::DrawnDrop;
+using testing::DrawnRoll;
+using vision::Bounce;
+using vision::DropTrack;
+using vision::RollTrack;
 
 /// What a film gave.
-struct Row {
+struct DropRow {
   DrawnDrop drawn;
   DropTrack track;
 };
@@ -61,19 +61,19 @@ DrawnDrop random_drop(double frames_per_s, unsigned seed) {
   return drop;
 }
 
-Row row_of(const DrawnDrop& drawn) {
-  const repose::testing::TemporaryFolder folder;
+DropRow row_of(const DrawnDrop& drawn) {
+  const testing::TemporaryFolder folder;
   const auto file = folder.path() / "drop.mp4";
-  repose::testing::write_film(file, drawn);
-  return {drawn, repose::vision::track_drop(file)};
+  testing::write_film(file, drawn);
+  return {drawn, vision::track_drop(file)};
 }
 
-void print(double frames_per_s, const std::vector<Row>& rows) {
+void print(double frames_per_s, const std::vector<DropRow>& rows) {
   std::vector<double> first, heights;
   int held = 0, bounces = 0, refused = 0, flagged = 0;
   double worst = 0;
-  for (const Row& row : rows) {
-    flagged += row.track.status == repose::vision::MeasureStatus::flagged ? 1 : 0;
+  for (const DropRow& row : rows) {
+    flagged += row.track.status == vision::MeasureStatus::flagged ? 1 : 0;
     if (row.track.bounces.empty()) {
       ++refused;
       fmt::print("  refused, seed {}: {}\n", row.drawn.seed, row.track.reason);
@@ -97,8 +97,8 @@ void print(double frames_per_s, const std::vector<Row>& rows) {
       "{:.4f}, 95 % {:.4f}, worst {:.4f}; drop height: median {:.2f} %; intervals hold {} of {} "
       "bounces ({:.0f} %)\n",
       frames_per_s, rows.size(), refused, flagged, first[first.size() / 2],
-      first[std::min(first.size() - 1, first.size() * 95 / 100)], worst,
-      100 * repose::bench::median(heights), held, bounces, 100.0 * held / bounces);
+      first[std::min(first.size() - 1, first.size() * 95 / 100)], worst, 100 * median(heights),
+      held, bounces, 100.0 * held / bounces);
   std::fflush(stdout);
 }
 
@@ -131,16 +131,15 @@ struct RollRow {
 RollRow roll_row_of(DrawnRoll drawn, bool has_scale) {
   // Without a ruler the place of release must be seen: the grain is held by a card or a thread.
   if (!has_scale) drawn.has_hand = false;
-  const repose::testing::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const auto file = folder.path() / "roll.mp4";
-  repose::testing::write_film(file, drawn);
+  testing::write_film(file, drawn);
   // A person points at its marks, within a pixel or so.
   std::mt19937 random(drawn.seed);
   std::normal_distribution<double> pointing(0, .5);
-  const repose::vision::ScaleBar ruler{
-      .line = {{40 + pointing(random), 20}, {440 + pointing(random), 20}},
-      .length_mm = 400 * drawn.mm_per_px};
-  repose::vision::TrackOptions options;
+  const vision::ScaleBar ruler{.line = {{40 + pointing(random), 20}, {440 + pointing(random), 20}},
+                               .length_mm = 400 * drawn.mm_per_px};
+  vision::TrackOptions options;
   if (has_scale) options.scale = ruler;
   if (!has_scale) options.released_mm = drawn.released_mm;
   return {drawn, track_roll(file, options)};
@@ -167,7 +166,7 @@ void print(double frames_per_s, bool has_scale, const std::vector<RollRow>& rows
       frames_per_s, has_scale ? "by a ruler" : "by the release", rows.size(),
       rows.size() - errors.size(), errors[errors.size() / 2],
       errors[std::min(errors.size() - 1, errors.size() * 95 / 100)], errors.back(),
-      repose::bench::median(inclines), held, errors.size());
+      median(inclines), held, errors.size());
   std::fflush(stdout);
 }
 
@@ -180,48 +179,59 @@ auto made(int films, unsigned first_seed, const Made& make) {
   return rows;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Accuracy of repose track on drawn or rendered films");
+struct TrackSettings {
   std::string experiment = "drop";
-  app.add_option("--experiment", experiment, "drop, roll or tilt")
-      ->check(CLI::IsMember({"drop", "roll", "tilt"}));
   std::string source = "drawn";
-  app.add_option("--source", source, "films that are drawn, or rendered from simulations")
-      ->check(CLI::IsMember({"drawn", "rendered"}));
   int films = 40;
   unsigned first_seed = 1;
-  std::size_t threads = 2;
-  app.add_option("--films", films, "films at each frame rate");
-  app.add_option("--first-seed", first_seed, "of the first film; the others follow");
   std::vector<double> rates = {30, 60, 240};
-  app.add_option("--rates", rates, "frames per second")->delimiter(',');
   bool prints_each = false;
-  app.add_flag("--each", prints_each, "a line for each film of a tilt, or rendered");
-  app.add_option("--threads", threads, "films at a time");
-  CLI11_PARSE(app, argc, argv);
-  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
-  for (const double frames_per_s : rates) {
-    if (source == "rendered") {
-      repose::bench::print_rendered_accuracy(experiment, frames_per_s, films, first_seed,
-                                             prints_each);
-      continue;
-    }
-    if (experiment == "tilt") {
-      repose::bench::print_tilt_accuracy(frames_per_s, films, first_seed, prints_each);
-      continue;
-    }
-    if (experiment == "drop") {
-      print(frames_per_s, made(films, first_seed, [&](unsigned seed) {
-              return row_of(random_drop(frames_per_s, seed));
-            }));
-      continue;
-    }
-    for (const bool has_scale : {true, false}) {
-      print(frames_per_s, has_scale, made(films, first_seed, [&](unsigned seed) {
-              return roll_row_of(random_roll(frames_per_s, seed), has_scale);
-            }));
-    }
+  std::size_t threads = 2;
+};
+
+void track_films(const TrackSettings& settings, double frames_per_s) {
+  if (settings.source == "rendered") {
+    print_rendered_accuracy(settings.experiment, frames_per_s, settings.films, settings.first_seed,
+                            settings.prints_each);
+    return;
+  }
+  if (settings.experiment == "tilt") {
+    print_tilt_accuracy(frames_per_s, settings.films, settings.first_seed, settings.prints_each);
+    return;
+  }
+  if (settings.experiment == "drop") {
+    print(frames_per_s, made(settings.films, settings.first_seed, [&](unsigned seed) {
+            return row_of(random_drop(frames_per_s, seed));
+          }));
+    return;
+  }
+  for (const bool has_scale : {true, false}) {
+    print(frames_per_s, has_scale, made(settings.films, settings.first_seed, [&](unsigned seed) {
+            return roll_row_of(random_roll(frames_per_s, seed), has_scale);
+          }));
   }
 }
+
+}  // namespace
+
+void add_track_accuracy(CLI::App& bench) {
+  CLI::App& app =
+      *bench.add_subcommand("track_accuracy", "Of repose track on drawn or rendered films");
+  const auto settings = std::make_shared<TrackSettings>();
+  app.add_option("--experiment", settings->experiment, "drop, roll or tilt")
+      ->check(CLI::IsMember({"drop", "roll", "tilt"}));
+  app.add_option("--source", settings->source, "films that are drawn, or rendered from simulations")
+      ->check(CLI::IsMember({"drawn", "rendered"}));
+  app.add_option("--films", settings->films, "films at each frame rate");
+  app.add_option("--first-seed", settings->first_seed, "of the first film; the others follow");
+  app.add_option("--rates", settings->rates, "frames per second")->delimiter(',');
+  app.add_flag("--each", settings->prints_each, "a line for each film of a tilt, or rendered");
+  app.add_option("--threads", settings->threads, "films at a time");
+  app.callback([settings] {
+    const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
+                                      settings->threads);
+    for (const double frames_per_s : settings->rates) track_films(*settings, frames_per_s);
+  });
+}
+
+}  // namespace repose::bench

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace repose::bench {
+
+/// Each adds a command of its name, with its options.
+void add_against_liggghts(CLI::App& bench);
+void add_board_accuracy(CLI::App& bench);
+void add_film_accuracy(CLI::App& bench);
+void add_heap_agreement(CLI::App& bench);
+void add_photo_accuracy(CLI::App& bench);
+void add_recovery(CLI::App& bench);
+void add_soak(CLI::App& bench);
+void add_track_accuracy(CLI::App& bench);
+
+}  // namespace repose::bench

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "render/renderer.h"
+#include "tests/support/heap_palette.h"
+
+namespace repose::bench {
+
+/// What rendered photographs have in common.
+inline constexpr render::PictureSize kPhotograph{1280, 853};
+inline constexpr double kFilm_mm = 36;  // wide, as PerspectiveCamera::focal_mm has it
+
+inline render::Colour colour_of(const testing::Color& color) { return {color.r, color.g, color.b}; }
+
+}  // namespace repose::bench
