@@ -5,11 +5,15 @@
 #
 #   --tests   also install what only the tests need, and build them: GoogleTest, clang-format,
 #             clang-tidy, Clang, a compiler cache, MPI, Chromium, zsh, groff
-#   PRESET    release (default), dev, sanitize or thread
+#   PRESET    release (default), dev, sanitize, thread or fuzz
 #   TARGET    build only this, not everything
 #
 # Started again it only checks whether there is something to do. It reports to stderr, one line a step.
 set -eu
+
+case "${1-}" in
+  -h|--help) sed -n '1d; s/^# \{0,1\}//p; /^set/q' "$0"; exit ;;
+esac
 
 root=$(dirname -- "$(readlink -f -- "$0")")
 needed="g++ cmake ninja-build pkg-config
@@ -33,6 +37,12 @@ if [ "${1-}" = --tests ]; then
 fi
 preset=release
 if [ $# -gt 0 ]; then preset=$1; shift; fi
+case $preset in
+  release|dev|sanitize|thread|fuzz) ;;
+  *)
+    printf 'repose: %s is no preset. Fix: release, dev, sanitize, thread or fuzz; ./setup.sh --help\n' "$preset" >&2
+    exit 2 ;;
+esac
 # For tests/thread_tbb.
 if [ "$preset" = thread ] && [ $tests = ON ]; then needed="$needed dpkg-dev"; fi
 
