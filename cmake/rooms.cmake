@@ -9,12 +9,13 @@
 # as repose::MODULE. All of its rooms are compiled with LIBRARIES and OPTIONS; HEADERS are compiled
 # once for all of them. repose_add_room adds all .cpp files of one folder but those after WITHOUT.
 # USES names rooms, or modules all of whose rooms may be used. COLD says that the room's own code never
-# takes long: a release compiles it with -O1, in two thirds of the time. (g++ would take the level of
-# a precompiled header instead.)
+# takes long: a release compiles it with -O1, in two thirds of the time. TEXT says that it does little
+# but put words together: the sanitizers see it with -O0, compiled in half the time, and a release
+# compiles it with -O1 too. (g++ would take the level of a precompiled header instead.)
 #
 # A room is a target of its own. Only where sources are compiled as few (CMAKE_UNITY_BUILD) those of
-# all rooms of a module are, in less than half the time, its cold ones apart: what its sources have for
-# themselves, in unnamed namespaces, has then names of its own.
+# all rooms of a module are, in less than half the time, those of COLD and of TEXT apart: what its
+# sources have for themselves, in unnamed namespaces, has then names of its own.
 
 function(repose_add_module module)
   cmake_parse_arguments(PARSE_ARGV 1 given "" "" "LIBRARIES;OPTIONS;HEADERS")
@@ -28,10 +29,35 @@ function(repose_add_module module)
   set_property(TARGET repose_${module} PROPERTY REPOSE_OPTIONS "${given_OPTIONS}")
   repose_add_headers(repose_${module}_headers
     LIBRARIES ${given_LIBRARIES} OPTIONS ${given_OPTIONS} HEADERS ${given_HEADERS})
+  if(CMAKE_UNITY_BUILD)  # what takes long comes first, as in repose_link_modules
+    foreach(kind "" _cold _text)
+      set(target repose_room_${module}${kind})
+      target_sources(repose_${module} PRIVATE
+        $<$<TARGET_EXISTS:${target}>:$<TARGET_OBJECTS:${target}>>)
+    endforeach()
+  endif()
+endfunction()
+
+# Of the copies of an inline function the linker takes the first: that of the module whose code takes
+# longest, compiled with most care, not one of a test or of a command. All of the modules is linked.
+function(repose_link_modules program)
+  foreach(module dem vision render calibrate base cli)
+    if(repose_${module} IN_LIST ARGN)
+      target_link_options(${program} PRIVATE
+        LINKER:--whole-archive,$<TARGET_FILE:repose_${module}>,--no-whole-archive)
+    endif()
+  endforeach()
+  target_link_libraries(${program} PRIVATE ${ARGN})
 endfunction()
 
 function(repose_add_room room)
-  cmake_parse_arguments(PARSE_ARGV 1 given "COLD" "" "USES;LIBRARIES;WITHOUT")
+  cmake_parse_arguments(PARSE_ARGV 1 given "COLD;TEXT" "" "USES;LIBRARIES;WITHOUT")
+  set(kind "")
+  if(given_COLD)
+    set(kind _cold)
+  elseif(given_TEXT)
+    set(kind _text)
+  endif()
   list(JOIN given_USES " " uses)
   set_property(GLOBAL APPEND PROPERTY repose_rooms "${room}: ${uses}")
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/*.cpp)
@@ -43,32 +69,34 @@ function(repose_add_room room)
   endif()
   string(REGEX MATCH "^[^/]+" module ${room})
   if(CMAKE_UNITY_BUILD)
-    set(room ${module})
-    if(given_COLD)
-      string(APPEND room _cold)
-    endif()
+    set(room ${module}${kind})
   endif()
   string(REPLACE / _ target repose_room_${room})
   if(NOT TARGET ${target})
-    repose_add_room_target(${target} ${module} ${given_COLD})
+    repose_add_room_target(${target} ${module} "${kind}")
   endif()
   target_sources(${target} PRIVATE ${sources})
   target_link_libraries(${target} PRIVATE ${given_LIBRARIES})
   target_link_libraries(repose_${module} PRIVATE ${given_LIBRARIES})
 endfunction()
 
-function(repose_add_room_target target module is_cold)
+function(repose_add_room_target target module kind)
   get_target_property(libraries repose_${module} REPOSE_LIBRARIES)
   get_target_property(options repose_${module} REPOSE_OPTIONS)
   add_library(${target} OBJECT)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_options(${target} PRIVATE ${options})
-  if(is_cold)
+  if(kind)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(kind STREQUAL _text AND CMAKE_UNITY_BUILD)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
   endif()
   target_link_libraries(${target} PRIVATE ${libraries})
   repose_use_headers(${target} repose_${module}_headers)
-  target_sources(repose_${module} PRIVATE $<TARGET_OBJECTS:${target}>)
+  if(NOT CMAKE_UNITY_BUILD)
+    target_sources(repose_${module} PRIVATE $<TARGET_OBJECTS:${target}>)
+  endif()
 endfunction()
 
 # Headers that many sources include, compiled once where each source is compiled alone: a target of
