@@ -16,12 +16,15 @@ endfunction()
 
 # Suites that run code which others run as well, often or for long, to see how nearly right its numbers
 # are: they have the label `statistics` too, and are left out where each run takes ten times as long.
-set(statistics "^(vision/Conditions/.*|vision/ComparePictures|calibrate/JointFit(OfTheBench)?|\
-calibrate/(Propose|Narrowing|StifferCoefficients|DrawDownFront|SimulatorVersion)|\
-dem/(FillAccuracy|FilledTubes|DrawDowns)|physics/Verify/Physics)$")
+set(statistics "^(vision/(ComparePictures|Conditions/.*|FilmAngleAccuracy|HeapPicture|LensFitAccuracy|Likeness|\
+OtherPictures|Scenes/.*)|calibrate/(DrawDownFront|JointFit(OfTheBench)?|Narrowing|PositionAngle(/Cone)?|Propose|\
+SimulatorVersion|StifferCoefficients)|dem/(DrawDowns|FillAccuracy|FilledTubes|HeapOfManySizes|LongTimestep|\
+NeighbourList|RollOnGrains|RollTimestep|RoughDeadGrains|TiltOnGrains)|physics/Verify/Physics)$")
 # Suites that start, kill and restart whole programs, each of which other suites run as well: they have
 # the label `processes`, and are left out there too.
-set(processes "^cli/(CalibrateKilled|CalibrateRanks|Folders|OutputsOf|SimulateRestart)$")
+set(processes "^cli/(CalibrateKilled|CalibrateRanks|CalibrateSheets|Folders|OutputsOf|SimulateRestart)$")
+# Suites that compare what different numbers of threads give: `threads`. Races are the thread sanitizer's.
+set(threads "Threads$")
 
 if(PROGRAM)
   execute_process(COMMAND ${PROGRAM} --gtest_list_tests
@@ -37,7 +40,7 @@ if(PROGRAM)
     add_test("${LABEL}/${name}" "${PROGRAM}" "--gtest_filter=${suite}*")
     set(labels "${LABEL}")
     set(cost 0)
-    foreach(kind statistics processes)
+    foreach(kind statistics processes threads)
       if("${LABEL}/${name}" MATCHES "${${kind}}")
         list(APPEND labels ${kind})
         set(cost 10)  # seconds: started early, so that none is left to end alone

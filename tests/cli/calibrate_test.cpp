@@ -41,6 +41,7 @@ class Calibrate : public CommandTest {
 
 using CalibrateKilled = Calibrate;
 using CalibrateRanks = Calibrate;
+using CalibrateSheets = Calibrate;
 
 TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
   const Finished done = run({"study.toml", "--json", "result.json"});
@@ -130,7 +131,7 @@ TEST_F(Calibrate, RefusesRollingModelsThatCannotBeWeighed) {
   EXPECT_FALSE(exists("study_calibration")) << "nothing is begun";
 }
 
-TEST_F(Calibrate, TakesReadingsFromASheetAsIfTheyWereListed) {
+TEST_F(CalibrateSheets, CountAsIfTheirReadingsWereListed) {
   std::string study = calibrate::test::kSphereStudy;
   const std::string values = "values = [20.1, 21.3, 20.7, 19.8]";
   study.replace(study.find(values), values.size(), "readings = \"tilts.csv\"");

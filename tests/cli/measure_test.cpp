@@ -63,6 +63,8 @@ std::size_t letters(const std::string& line) {
   }));
 }
 
+using MeasureThreads = Measure;
+
 TEST_F(Measure, AHeapGivesAnAngle) {
   draw_heap_to("heap.png");
   const Finished result = run({"heap.png"});
@@ -337,7 +339,7 @@ TEST_F(Measure, APictureNamedTwiceCountsOnce) {
   EXPECT_THAT(result.err, HasSubstr("named twice"));
 }
 
-TEST_F(Measure, AnyNumberOfThreadsGivesTheSameBytes) {
+TEST_F(MeasureThreads, GiveTheSameBytes) {
   for (const char* name : {"a.png", "b.jpg", "c.png", "d.jpg"}) draw_heap_to(name);
   draw_plain("e.png");
   const auto bytes_with = [&](const std::string& threads) {

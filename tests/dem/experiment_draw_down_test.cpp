@@ -117,7 +117,7 @@ TEST(DrawDowns, RunOutAsFastAsBeverloosLawSays) {
   EXPECT_NEAR(of_the_law[1] / of_the_law[0], 1, .15);
 }
 
-TEST(DrawDown, IsTheSameAtAnyNumberOfThreads) {
+TEST(DrawDownThreads, GiveTheSame) {
   Model two = balls();
   two.threads = 2;
   EXPECT_TRUE(test::same_state(*usual().state, *run_draw_down(two, kBoxes, 1).state));

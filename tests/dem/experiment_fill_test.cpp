@@ -92,7 +92,7 @@ TEST(FillingHeight, SpheresBeyondTheTubeCountAsFarAsTheyReachIn) {
   EXPECT_NEAR(filling_height_m(wide, .1), .1 - .05 * .05 / 4 / 1.1, 1e-5);
 }
 
-TEST(FilledTube, IsTheSameAtAnyNumberOfThreads) {
+TEST(FilledTubeThreads, GiveTheSame) {
   Model two = balls_to_fill();
   two.threads = 2;
   const Repeat one = run_fill(balls_to_fill(), kTubeToFill, 3);

@@ -38,7 +38,7 @@ TEST(Heap, FillsTheTubeAndLiftsItOff) {
   }
 }
 
-TEST(Heap, SameSeedSameBytesOnAnyNumberOfThreads) {
+TEST(HeapThreads, GiveTheSameBytes) {
   Model model = test::soft_bench();
   HeapProtocol protocol = small_tube();
   protocol.tube_diameter_m = .08;

@@ -75,7 +75,7 @@ TEST(OnGrains, WallsHaveNoEffect) {
   EXPECT_EQ(small_runs(other), small_runs(beads()));
 }
 
-TEST(OnGrains, AreTheSameAtAnyNumberOfThreads) {
+TEST(OnGrainsThreads, GiveTheSame) {
   Model two = beads();
   two.threads = 2;
   EXPECT_EQ(small_runs(two), small_runs(beads()));

@@ -118,7 +118,7 @@ double distance_mm(Model model, double timestep_fraction) {
   return sum / kClumps;
 }
 
-TEST(Roll, DoesNotDependOnTheTimestep) {
+TEST(RollTimestep, DoesNotMatter) {
   Model model = test::clump_bench();
   model.stiffness_factor = .01;
   model.grain_wall.rolling_friction = .06;

@@ -48,6 +48,8 @@ class FilmAngleOf : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+using FilmAngleAccuracy = FilmAngleOf;
+
 double error_deg(const ReposeAngle& angle, const DrawnHeapFilm& film) {
   return std::abs(angle.angle_rad.value() - heap_truth(film.scene).mean_rad().value()) / kDegree;
 }
@@ -72,7 +74,7 @@ TEST_F(FilmAngleOf, AHeapThatCameToRestIsThatOfItsLastSecond) {
   EXPECT_NEAR(film.film.frames_per_s, drawn.frames_per_s, .01);
 }
 
-TEST_F(FilmAngleOf, ManyFramesAreNearerToTheTruthThanOneOfThem) {
+TEST_F(FilmAngleAccuracy, ManyFramesAreNearerToTheTruthThanOneOfThem) {
   double of_films_deg = 0, of_single_frames_deg = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const DrawnHeapFilm drawn{.scene = small_heap(seed), .noise = 30};

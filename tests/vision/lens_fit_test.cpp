@@ -79,7 +79,7 @@ TEST(LensFit, TakesNoMoreCoefficientsThanThePicturesDetermine) {
   EXPECT_FALSE(fit_lens(pictures_of(plain, 10, 35, .1, 3)).lens.is_distorted());
 }
 
-TEST(LensFit, IntervalsHoldTheTruth) {
+TEST(LensFitAccuracy, IntervalsHoldTheTruth) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const LensFit fit = fit_lens(pictures_of(kBarrelCamera, 8, 35, .2, 100 + seed));
