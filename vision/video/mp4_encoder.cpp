@@ -20,14 +20,12 @@ namespace fs = std::filesystem;
 /// A frame rate such as 29.97 becomes 30000/1001.
 constexpr int kMostOfFraction = 1'001'000;
 
-/// The usual quality, of one thread: what several write depends on their number. "veryfast" takes
-/// some 7 % more bytes, and a third of the time. "mbtree" shares bits out by what later pictures
-/// reuse; with AVX-512, x264 then reads memory that nobody set where rows are no multiple of eight
-/// macroblocks (128 pixels), and the file's bytes depend on it.
+/// The usual quality, of one thread: what several write depends on their number. "mbtree" shares
+/// bits out by what later pictures reuse; with AVX-512, x264 then reads memory that nobody set
+/// where rows are no multiple of eight macroblocks (128 pixels), and the file's bytes depend on it.
 /// Test: FilmWriter.HasTheSameBytesWhateverWasInMemory.
 AVDictionary* encoder_options() {
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "preset", "veryfast", 0);
   av_dict_set(&options, "crf", "23", 0);
   av_dict_set(&options, "x264-params", "mbtree=0", 0);
   av_dict_set(&options, "threads", "1", 0);
