@@ -1,6 +1,7 @@
 # repose_register_suites(TARGET LABEL) makes every suite of a GoogleTest program one test of ctest,
 # LABEL/SUITE: tests of a suite share what is costly to prepare, and programs that draw in OpenCV
-# take longer to start than most tests.
+# take longer to start than most tests. Those of its tests that are in repeats.txt are another,
+# LABEL/SUITE/repeats.
 #
 # The same file is the script that ctest runs, once it has read PROGRAM and LABEL: suites are listed
 # then, not while building, so that a busy machine cannot break the build.
@@ -25,6 +26,25 @@ NeighbourList|RollOnGrains|RollTimestep|RoughDeadGrains|TiltOnGrains)|physics/Ve
 set(processes "^cli/(CalibrateKilled|CalibrateRanks|CalibrateSheets|Folders|OutputsOf|SimulateRestart)$")
 # Suites that compare what different numbers of threads give: `threads`. Races are the thread sanitizer's.
 set(threads "Threads$")
+# Single tests that run nothing that others do not run: `repeats`.
+set(repeats "/repeats$")
+
+# One test of ctest. It is skipped where no test passed and the list of those skipped ends what is
+# said: where one failed a list of those would follow.
+function(add_suite name filter)
+  set(labels "${LABEL}")
+  set(cost 0)
+  foreach(kind statistics processes threads repeats)
+    if(name MATCHES "${${kind}}")
+      list(APPEND labels ${kind})
+      set(cost 10)  # seconds: started early, so that none is left to end alone
+    endif()
+  endforeach()
+  add_test("${name}" "${PROGRAM}" "--gtest_filter=${filter}")
+  set_tests_properties("${name}" PROPERTIES
+    LABELS "${labels}" COST ${cost}
+    SKIP_REGULAR_EXPRESSION "PASSED  \\] 0 tests\\.\n(\\[  SKIPPED \\][^\n]*\n)+$")
+endfunction()
 
 if(PROGRAM)
   execute_process(COMMAND ${PROGRAM} --gtest_list_tests
@@ -34,22 +54,23 @@ if(PROGRAM)
   endif()
   # Suites begin a line and end in a full stop; their tests are indented.
   string(REGEX MATCHALL "\n[^ \n]+\\." suites "\n${listing}")
+  file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/repeats.txt repeated REGEX "^${LABEL}/")
   foreach(suite IN LISTS suites)
-    string(STRIP "${suite}" suite)
-    string(REGEX REPLACE "\\.$" "" name "${suite}")
-    add_test("${LABEL}/${name}" "${PROGRAM}" "--gtest_filter=${suite}*")
-    set(labels "${LABEL}")
-    set(cost 0)
-    foreach(kind statistics processes threads)
-      if("${LABEL}/${name}" MATCHES "${${kind}}")
-        list(APPEND labels ${kind})
-        set(cost 10)  # seconds: started early, so that none is left to end alone
-      endif()
-    endforeach()
-    # Skipped as a whole: no test passed, and the list of those skipped ends what is said. Where one
-    # failed a list of those would follow.
-    set_tests_properties("${LABEL}/${name}" PROPERTIES
-      LABELS "${labels}" COST ${cost}
-      SKIP_REGULAR_EXPRESSION "PASSED  \\] 0 tests\\.\n(\\[  SKIPPED \\][^\n]*\n)+$")
+    string(REGEX REPLACE "^\n([^ ]+)\\.$" "\\1" suite "${suite}")
+    set(tests ${repeated})
+    list(FILTER tests INCLUDE REGEX "^${LABEL}/${suite}\\.")
+    if(tests)
+      list(TRANSFORM tests REPLACE "^${LABEL}/" "")
+      foreach(test IN LISTS tests)
+        string(REPLACE "${suite}." "" test ${test})
+        if(NOT listing MATCHES "\n${suite}\\.\n(  [^\n]*\n)*  ${test}\n")
+          message(FATAL_ERROR "tests/repeats.txt names ${LABEL}/${suite}.${test}, which is not there")
+        endif()
+      endforeach()
+      list(JOIN tests ":" tests)
+      add_suite("${LABEL}/${suite}/repeats" "${tests}")
+      set(tests "-${tests}")
+    endif()
+    add_suite("${LABEL}/${suite}" "${suite}.*${tests}")
   endforeach()
 endif()
