@@ -29,7 +29,7 @@ node_packages=calibrate/report
 tests=OFF
 if [ "${1-}" = --tests ]; then
   needed="$needed libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-22 clang-22
-    libclang-rt-22-dev llvm-22 ccache
+    libclang-rt-22-dev lld-22 llvm-22 ccache
     libopenmpi-dev openmpi-bin chromium python3-jsonschema zsh groff-base"
   tests=ON
   node_packages="$node_packages tests/report"

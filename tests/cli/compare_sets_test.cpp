@@ -17,16 +17,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 /// A heap four grains high that is poured in seconds.
-const std::string kComparedStudy = R"([particle]
-size_mm = [18, 18, 18]
-spheres = 1
-density_kg_m3 = 850
-young_modulus_pa = 1e6
-poisson_ratio = 0.38
-[wall]
-young_modulus_pa = 1e9
-poisson_ratio = 0.3
-)" + kRoughContacts + R"([experiment.heap]
+const std::string kComparedStudy = kSoftBalls + kRoughContacts + R"([experiment.heap]
 grains = 160
 lift_speed_mm_s = 150
 )";

@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// A heap five grains high of soft, rough grains: some seconds of work.
-const std::string kPicturedStudy = kSoftNuts + kRoughContacts + R"([experiment.drop]
+const std::string kPicturedStudy = kSoftBalls + kRoughContacts + R"([experiment.drop]
 height_mm = 50
 grains = 2
 [experiment.heap]

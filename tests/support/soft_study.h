@@ -17,6 +17,18 @@ young_modulus_pa = 1e9
 poisson_ratio = 0.3
 )";
 
+/// The same as balls, which are made at once.
+inline const std::string kSoftBalls = R"([particle]
+size_mm = [18, 18, 18]
+spheres = 1
+density_kg_m3 = 850
+young_modulus_pa = 1e6
+poisson_ratio = 0.38
+[wall]
+young_modulus_pa = 1e9
+poisson_ratio = 0.3
+)";
+
 /// So rough that few grains make a heap that can be measured in pictures.
 inline const std::string kRoughContacts = R"([contact.particle_wall]
 restitution = 0.3
