@@ -10,8 +10,8 @@
 # once for all of them. repose_add_room adds all .cpp files of one folder but those after WITHOUT.
 # USES names rooms, or modules all of whose rooms may be used. COLD says that the room's own code never
 # takes long: a release compiles it with -O1, in two thirds of the time. TEXT says that it does little
-# but put words together: the sanitizers see it with -O0, compiled in half the time, and a release
-# compiles it with -O1 too. (g++ would take the level of a precompiled header instead.)
+# but put words together: it is compiled with -O0, the sanitizers' in half the time. (Sources compiled
+# one by one have -O1, or the level of their precompiled header, which g++ takes instead.)
 #
 # A room is a target of its own. Only where sources are compiled as few (CMAKE_UNITY_BUILD) those of
 # all rooms of a module are, in less than half the time, those of COLD and of TEXT apart: what its
@@ -86,11 +86,10 @@ function(repose_add_room_target target module kind)
   add_library(${target} OBJECT)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_options(${target} PRIVATE ${options})
-  if(kind)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  endif()
   if(kind STREQUAL _text AND CMAKE_UNITY_BUILD)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
+    target_compile_options(${target} PRIVATE -O0)
+  elseif(kind)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   target_link_libraries(${target} PRIVATE ${libraries})
   repose_use_headers(${target} repose_${module}_headers)
