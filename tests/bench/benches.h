@@ -7,6 +7,7 @@ namespace repose::bench {
 /// Each adds a command of its name, with its options.
 void add_against_liggghts(CLI::App& bench);
 void add_board_accuracy(CLI::App& bench);
+void add_draw_heap(CLI::App& bench);
 void add_film_accuracy(CLI::App& bench);
 void add_heap_agreement(CLI::App& bench);
 void add_photo_accuracy(CLI::App& bench);

@@ -1,4 +1,5 @@
-// How near repose comes, and how fast: `bench --help` lists what it measures.
+// How near repose comes, and how fast: `bench --help` lists what it measures, and draws heaps for
+// it.
 
 #include <cstdlib>
 #include <exception>
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
   repose::base::keep_freed_memory();  // as the program does
   CLI::App bench("How near repose comes, and how fast");
   bench.require_subcommand(1);
+  add_draw_heap(bench);
   add_photo_accuracy(bench);
   add_film_accuracy(bench);
   add_board_accuracy(bench);
