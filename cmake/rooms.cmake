@@ -40,7 +40,10 @@ endfunction()
 
 # Of the copies of an inline function the linker takes the first: that of the module whose code takes
 # longest, compiled with most care, not one of a test or of a command. All of the modules is linked.
+# What the standard library has comes first: else lld takes it from any of our libraries that has a copy,
+# and with that all that this library needs (OpenCV, for tests that draw nothing).
 function(repose_link_modules program)
+  target_link_options(${program} PRIVATE -lstdc++)
   foreach(module dem vision render calibrate base cli)
     if(repose_${module} IN_LIST ARGN)
       target_link_options(${program} PRIVATE

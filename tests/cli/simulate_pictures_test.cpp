@@ -98,7 +98,6 @@ drop_mm = 175
 };
 
 TEST_F(SimulateDrawDown, LeavesThePictureInWhichItsAnglesAreMeasured) {
-  // (its grains are few: in one of eight runs no upper slope is long enough)
   const json repeat = result({"--seed", "8"})["repeats"][0];
   EXPECT_GT(repeat["readings"]["upper_angle_deg"].get<double>(), 20);
   EXPECT_GT(repeat["readings"]["lower_angle_deg"].get<double>(), 10);

@@ -4,11 +4,8 @@
 
 namespace repose::testing {
 
-/// Grains of two spheres and a wall, all soft: runs take a fraction of a second, heaps some
-/// seconds.
-inline const std::string kSoftNuts = R"([particle]
-size_mm = [22.5, 18.2, 17.5]
-spheres = 2
+/// What grains are made of, all soft, and a wall.
+inline const std::string kSoftMatter = R"(
 density_kg_m3 = 850
 young_modulus_pa = 1e6
 poisson_ratio = 0.38
@@ -17,17 +14,15 @@ young_modulus_pa = 1e9
 poisson_ratio = 0.3
 )";
 
-/// The same as balls, which are made at once.
+/// Grains of two spheres: runs take a fraction of a second, heaps some seconds.
+inline const std::string kSoftNuts = R"([particle]
+size_mm = [22.5, 18.2, 17.5]
+spheres = 2)" + kSoftMatter;
+
+/// Balls, which are made at once.
 inline const std::string kSoftBalls = R"([particle]
 size_mm = [18, 18, 18]
-spheres = 1
-density_kg_m3 = 850
-young_modulus_pa = 1e6
-poisson_ratio = 0.38
-[wall]
-young_modulus_pa = 1e9
-poisson_ratio = 0.3
-)";
+spheres = 1)" + kSoftMatter;
 
 /// So rough that few grains make a heap that can be measured in pictures.
 inline const std::string kRoughContacts = R"([contact.particle_wall]
