@@ -381,8 +381,9 @@ REPOSE_INLINE Lanes add_contacts_of(std::span<const Touching> touching, const Si
 /// The loads of pairs, each the sum over its contacts in the order given; their memories are
 /// brought up to date.
 /// @param motions  room for as many as there are pairs
+/// @tparam is_round  that each body is one sphere about its centre is known, which saves time
 /// @return the deepest overlap, as a fraction of the smaller sphere's radius
-template <typename Other>
+template <bool is_round, typename Other>
 REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
                                   std::span<const TouchingPair> pairs, const Sides<Other>& sides,
                                   const ContactStep& step, PairMotion* motions, PairLoad* loads) {
@@ -391,11 +392,8 @@ REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
     begin_load(load);
     motions[k] = motion_of(pairs[k], sides, step.timestep_s, load);
   }
-  const RollingModel model = step.contacts.rolling();
   const Lanes deepest =
-      step.bodies.is_round
-          ? add_contacts_of<true>(touching, sides, motions, model, step.timestep_s)
-          : add_contacts_of<false>(touching, sides, motions, model, step.timestep_s);
+      add_contacts_of<is_round>(touching, sides, motions, step.contacts.rolling(), step.timestep_s);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     finish_load(pairs[k], motions[k], *motions[k].load);
   }

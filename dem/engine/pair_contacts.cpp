@@ -118,7 +118,9 @@ bool have_changed(const ContactStep& step, NeighbourList& list, std::size_t from
 REPOSE_FOR_EACH_MACHINE
 double add_pair_contacts(const TouchingChunk& chunk, const Sides<PlacedSphere>& sides,
                          const ContactStep& step, PairMotion* motions, PairLoad* loads) {
-  return add_contacts(chunk.contacts, chunk.pairs, sides, step, motions, loads);
+  return step.bodies.is_round
+             ? add_contacts<true>(chunk.contacts, chunk.pairs, sides, step, motions, loads)
+             : add_contacts<false>(chunk.contacts, chunk.pairs, sides, step, motions, loads);
 }
 
 }  // namespace
