@@ -1,7 +1,7 @@
 #include <algorithm>
+#include <array>
 
 #include "dem/engine/bodies.h"
-#include "dem/engine/lanes.h"
 #include "dem/engine/parallel.h"
 
 // Four bodies at a time.
@@ -131,28 +131,29 @@ REPOSE_INLINE void place_spheres(Bodies& bodies, std::size_t body, const ClumpSh
   }
 }
 
-REPOSE_INLINE void place_four(Bodies& bodies, std::size_t k, const std::vector<GrainKind>& kinds,
-                              const Vectors& position, const Axes& axes) {
+REPOSE_INLINE void place_centres(Bodies& bodies, std::size_t k, const Vectors& position) {
   const Rows positions = rows_of(position, Lanes{});
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     store_row(positions.row[lane], bodies.position[k + lane]);
   }
-  const std::size_t count = std::min(kLanes, bodies.size() - k);
-  if (bodies.is_round) {
-    const Rows placed = rows_of(position, load(&bodies.bounding_radius[k]));
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      store_row(placed.row[lane], bodies.spheres[k + lane]);
-    }
-    return;
+  if (!bodies.is_round) return;
+  const Rows placed = rows_of(position, load(&bodies.bounding_radius[k]));
+  for (std::size_t lane = 0; lane < std::min(kLanes, bodies.size() - k); ++lane) {
+    store_row(placed.row[lane], bodies.spheres[k + lane]);
   }
+}
+
+REPOSE_INLINE void place_clumps(Bodies& bodies, std::size_t k, const std::vector<GrainKind>& kinds,
+                                const Axes& axes) {
   const Rows x_axes = rows_of(axes.x, Lanes{});
   const Rows y_axes = rows_of(axes.y, Lanes{});
   const Rows z_axes = rows_of(axes.z, Lanes{});
-  for (std::size_t lane = 0; lane < count; ++lane) {
+  for (std::size_t lane = 0; lane < std::min(kLanes, bodies.size() - k); ++lane) {
     const std::size_t body = k + lane;
     if (!bodies.is_present(body)) continue;
     place_spheres(bodies, body, kinds[static_cast<std::size_t>(bodies.kind[body])].shape,
-                  positions.row[lane], x_axes.row[lane], y_axes.row[lane], z_axes.row[lane]);
+                  load_row(bodies.position[body]), x_axes.row[lane], y_axes.row[lane],
+                  z_axes.row[lane]);
   }
 }
 
@@ -167,17 +168,21 @@ REPOSE_INLINE void begin_loads(Bodies& bodies, std::size_t k, const Lanes& mass,
   }
 }
 
-REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
-                                        const std::vector<GrainKind>& kinds, const Vector& gravity,
-                                        double timestep) {
+/// What four bodies take from one pass of a step's start to the next.
+struct FourKicks {
+  Vectors own_momentum;     ///< angular, in the body's own axes
+  Vectors momentum_change;  ///< angular
+};
+
+/// Half a step of force and torque, and the drift.
+REPOSE_INLINE void kick_four(Bodies& bodies, std::size_t k, const Vector& gravity, double timestep,
+                             FourKicks& kicks) {
   const double half = timestep / 2;
   const auto is_present = load(&bodies.presence[k]) > Lanes(0);
   const Lanes mass = load(&bodies.mass[k]);
-  const Vectors inverse_inertia = load_vectors(bodies.inverse_inertia, k);
   const Vectors old_velocity = load_vectors(bodies.velocity, k);
   const Vectors old_position = load_rows(&bodies.position[k]).xyz;
   const Vectors old_momentum = load_vectors(bodies.angular_momentum, k);
-  const Quaternions old_q = load_orientation(bodies, k);
   const Columns force = load_rows(&bodies.load[k], &BodyLoad::force);
   const Columns torque = load_rows(&bodies.load[k], &BodyLoad::torque);
 
@@ -185,38 +190,67 @@ REPOSE_FOR_EACH_MACHINE void start_four(Bodies& bodies, std::size_t k,
   const Vectors velocity = select(is_present, old_velocity + velocity_kick, old_velocity);
   const Vectors position =
       select(is_present, old_position + velocity * Lanes(timestep), old_position);
-  const SpinKick kick = kick_spin(old_momentum, axes_of(old_q), inverse_inertia, torque, half);
-  // Seen from the body the momentum turns: dl/dt = l x omega (Euler), here by half a step.
-  const Vectors middle =
-      kick.own_momentum +
-      kick.own_momentum.cross(kick.own_momentum.times(inverse_inertia)) * Lanes(half);
-  const Quaternions moved = turned_by(old_q, middle.times(inverse_inertia) * Lanes(timestep));
-  const Quaternions q = {select(is_present, moved.x, old_q.x), select(is_present, moved.y, old_q.y),
-                         select(is_present, moved.z, old_q.z),
-                         select(is_present, moved.w, old_q.w)};
+  const SpinKick kick = kick_spin(old_momentum, axes_of(load_orientation(bodies, k)),
+                                  load_vectors(bodies.inverse_inertia, k), torque, half);
   const Vectors momentum = select(is_present, kick.momentum, old_momentum);
 
-  const Axes axes = axes_of(q);
   store_vectors(velocity, bodies.velocity, k);
   store_vectors(momentum, bodies.angular_momentum, k);
-  store(q.x, &bodies.orientation[0][k]);
-  store(q.y, &bodies.orientation[1][k]);
-  store(q.z, &bodies.orientation[2][k]);
-  store(q.w, &bodies.orientation[3][k]);
-  const Lanes inertia =
-      1 / greatest(inverse_inertia.x, greatest(inverse_inertia.y, inverse_inertia.z));
-  BodyMotion* motion = &bodies.motion[k];
-  store_rows(velocity, force.w, motion, &BodyMotion::velocity);
-  store_rows(spin_by(momentum, axes, inverse_inertia), mass, motion, &BodyMotion::spin);
-  store_rows(velocity_kick, Lanes{}, motion, &BodyMotion::velocity_kick);
-  store_rows(spin_by(momentum - old_momentum, axes, inverse_inertia), inertia, motion,
-             &BodyMotion::spin_kick);
-
+  store_rows(velocity, force.w, &bodies.motion[k], &BodyMotion::velocity);
+  store_rows(velocity_kick, Lanes{}, &bodies.motion[k], &BodyMotion::velocity_kick);
   begin_loads(bodies, k, mass, gravity);
-  place_four(bodies, k, kinds, position, axes);
+  place_centres(bodies, k, position);
+  kicks = {kick.own_momentum, momentum - old_momentum};
 }
 
-REPOSE_FOR_EACH_MACHINE void finish_four(Bodies& bodies, std::size_t k, double timestep) {
+REPOSE_INLINE void turn_four(Bodies& bodies, std::size_t k, double timestep,
+                             const Vectors& own_momentum) {
+  const auto is_present = load(&bodies.presence[k]) > Lanes(0);
+  const Vectors inverse_inertia = load_vectors(bodies.inverse_inertia, k);
+  const Quaternions old_q = load_orientation(bodies, k);
+  // Seen from the body the momentum turns: dl/dt = l x omega (Euler), here by half a step.
+  const Vectors middle =
+      own_momentum + own_momentum.cross(own_momentum.times(inverse_inertia)) * Lanes(timestep / 2);
+  const Quaternions q = turned_by(old_q, middle.times(inverse_inertia) * Lanes(timestep));
+  store(select(is_present, q.x, old_q.x), &bodies.orientation[0][k]);
+  store(select(is_present, q.y, old_q.y), &bodies.orientation[1][k]);
+  store(select(is_present, q.z, old_q.z), &bodies.orientation[2][k]);
+  store(select(is_present, q.w, old_q.w), &bodies.orientation[3][k]);
+}
+
+/// What contacts need to know of the spins, and where the spheres are.
+REPOSE_INLINE void show_four(Bodies& bodies, std::size_t k, const std::vector<GrainKind>& kinds,
+                             const Vectors& momentum_change) {
+  const Axes axes = axes_of(load_orientation(bodies, k));
+  const Vectors inverse_inertia = load_vectors(bodies.inverse_inertia, k);
+  const Lanes inertia =
+      1 / greatest(inverse_inertia.x, greatest(inverse_inertia.y, inverse_inertia.z));
+  const Vectors momentum = load_vectors(bodies.angular_momentum, k);
+  store_rows(spin_by(momentum, axes, inverse_inertia), load(&bodies.mass[k]), &bodies.motion[k],
+             &BodyMotion::spin);
+  store_rows(spin_by(momentum_change, axes, inverse_inertia), inertia, &bodies.motion[k],
+             &BodyMotion::spin_kick);
+  if (!bodies.is_round) place_clumps(bodies, k, kinds, axes);
+}
+
+/// Some bodies are worked on in short passes, in which a processor works on several fours at once:
+/// in one long one each would wait for its own square roots.
+REPOSE_FOR_EACH_MACHINE void start_some(Bodies& bodies, const Chunk& fours,
+                                        const std::vector<GrainKind>& kinds, const Vector& gravity,
+                                        double timestep) {
+  std::array<FourKicks, kFoursTogether> kicks;
+  for (std::size_t n = 0; n < fours.size(); ++n) {
+    kick_four(bodies, kLanes * (fours.first + n), gravity, timestep, kicks[n]);
+  }
+  for (std::size_t n = 0; n < fours.size(); ++n) {
+    turn_four(bodies, kLanes * (fours.first + n), timestep, kicks[n].own_momentum);
+  }
+  for (std::size_t n = 0; n < fours.size(); ++n) {
+    show_four(bodies, kLanes * (fours.first + n), kinds, kicks[n].momentum_change);
+  }
+}
+
+REPOSE_INLINE void finish_four(Bodies& bodies, std::size_t k, double timestep) {
   const double half = timestep / 2;
   const auto is_present = load(&bodies.presence[k]) > Lanes(0);
   const Vectors velocity = load_vectors(bodies.velocity, k);
@@ -230,18 +264,23 @@ REPOSE_FOR_EACH_MACHINE void finish_four(Bodies& bodies, std::size_t k, double t
   store_vectors(select(is_present, kick.momentum, momentum), bodies.angular_momentum, k);
 }
 
+REPOSE_FOR_EACH_MACHINE void finish_some(Bodies& bodies, const Chunk& fours, double timestep) {
+  for (std::size_t four = fours.first; four < fours.end; ++four) {
+    finish_four(bodies, kLanes * four, timestep);
+  }
+}
+
 }  // namespace
 
 void start_step(Bodies& bodies, const std::vector<GrainKind>& kinds, const Vector& gravity,
                 double timestep, int threads) {
-  for_each_index(bodies.presence.size() / kLanes, threads, [&](std::size_t four) {
-    start_four(bodies, kLanes * four, kinds, gravity, timestep);
-  });
+  for_each_chunk(bodies.presence.size() / kLanes, kFoursTogether, threads,
+                 [&](const Chunk& fours) { start_some(bodies, fours, kinds, gravity, timestep); });
 }
 
 void finish_step(Bodies& bodies, double timestep, int threads) {
-  for_each_index(bodies.presence.size() / kLanes, threads,
-                 [&](std::size_t four) { finish_four(bodies, kLanes * four, timestep); });
+  for_each_chunk(bodies.presence.size() / kLanes, kFoursTogether, threads,
+                 [&](const Chunk& fours) { finish_some(bodies, fours, timestep); });
 }
 
 }  // namespace repose::dem

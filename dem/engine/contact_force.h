@@ -61,6 +61,12 @@ struct ContactForce {
   Vec3<Number> total;  ///< N
 };
 
+/// Reduced mass, radius and the like: of two in series.
+template <typename Number>
+REPOSE_INLINE Number reduced(const Number& x, const Number& y) {
+  return x * y / (x + y);
+}
+
 /// The damper that would take all of the relative velocity in one step, shared by the `touching`
 /// contacts of two bodies.
 template <typename Number>
@@ -71,7 +77,8 @@ REPOSE_INLINE Number damper_limit(const Number& reduced_mass, double timestep,
 
 /// The same, shared by all that either body touches: so many contacts for its mass, 1/kg. Explicit
 /// dampers must stay below it, or they overshoot (dem/THEORY.md; RoughDeadGrains.*).
-REPOSE_INLINE double shared_limit(double contacts_a_per_kg, double contacts_b_per_kg,
+template <typename Number>
+REPOSE_INLINE Number shared_limit(const Number& contacts_a_per_kg, const Number& contacts_b_per_kg,
                                   double timestep) {
   return 1 / (timestep * (contacts_a_per_kg + contacts_b_per_kg));
 }

@@ -4,52 +4,18 @@
 #include <array>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "dem/engine/contact_step.h"
+#include "dem/engine/pair_motion.h"
 #include "dem/engine/rolling.h"
-#include "dem/engine/touching.h"
+#include "dem/wall/wall_set.h"
 
-/// The force of four contacts at a time: of one pair of grains or of several, or of grains and
-/// walls.
+/// The forces of contacts, four at a time: of one pair of grains or of several, or of grains and
+/// walls. Some fours go together through three passes: where they are and how they move, what
+/// pushes, and what that does to the bodies. In short passes a processor works on several fours at
+/// once; in one long one each would wait for its own square roots.
 namespace repose::dem {
-
-/// What the contacts of one pair of grains, or of a grain and a wall, do to both.
-struct PairLoad {
-  Lanes force;     ///< row: on a, N; b gets the opposite. w: how many spheres touch; 0: nothing
-                   ///< else stands here
-  Lanes torque_a;  ///< row: N m; w: what constant-torque rolling friction may take
-  Lanes torque_b;  ///< likewise
-
-  REPOSE_INLINE bool is_empty() const { return force[3] == 0; }
-};
-
-/// A TouchingPair in the step at hand.
-struct PairMotion {
-  Row position_a;
-  Row apart;          ///< from a's centre of mass to b's; w: reduced inertia
-  Row velocity;       ///< of b against a, both as rigid as they are, at a's centre; w: reduced mass
-  Row spin;           ///< of b against a; w: shared_limit(), N s/m
-  Row velocity_kick;  ///< see BodyMotion; w: damper limit
-  Row spin_kick;
-  Row mean_spin;
-  const ContactLaw* law = nullptr;
-  PairLoad* load = nullptr;
-  const BodyMotion* a = nullptr;
-  const BodyMotion* b = nullptr;
-};
-
-/// What touches what: spheres of bodies a, and Others, which are spheres of bodies b or the
-/// FacetContacts of walls.
-template <typename Other>
-struct Sides {
-  const PlacedSphere* spheres = nullptr;
-  const Other* others = nullptr;
-  ContactMemory* memories = nullptr;
-  const BodyMotion* motions_a = nullptr;
-  const BodyMotion* motions_b = nullptr;
-  const Row* positions_a = nullptr;
-  const Row* positions_b = nullptr;
-};
 
 /// Up to four contacts; those beyond the last one repeat it.
 template <typename Other>
@@ -57,7 +23,19 @@ struct FourTouching {
   std::array<const PlacedSphere*, kLanes> sphere;
   std::array<const Other*, kLanes> other;
   std::array<ContactMemory*, kLanes> memory;
-  std::array<const PairMotion*, kLanes> pair;
+  std::array<const TouchingPair*, kLanes> pair;
+  std::array<const PairMotion*, kLanes> motion;  ///< of round grains: none
+  std::array<PairLoad*, kLanes> load;
+};
+
+/// PairMotion, in lanes.
+struct Motions {
+  Columns apart;
+  Columns velocity;
+  Columns spin;
+  Columns velocity_kick;
+  Vec3<Lanes> spin_kick;
+  Vec3<Lanes> mean_spin;
 };
 
 /// Contacts, in lanes.
@@ -65,116 +43,45 @@ struct Contacts {
   Touch<Lanes> touch;
   Vec3<Lanes> arm_a;  ///< from a's centre of mass to the contact
   Vec3<Lanes> arm_b;
-  Vec3<Lanes> spin;  ///< of b against a
+  Vec3<Lanes> apart;  ///< from a's centre of mass to b's
+  Vec3<Lanes> spin;   ///< of b against a
   Lanes smaller_radius;
   Lanes reduced_inertia;  ///< see Roll
 };
 
-/// Gathers a row of each lane.
-template <typename RowOfLane>
-REPOSE_INLINE Columns gather(const RowOfLane& row) {
-  return columns_of({{row(0), row(1), row(2), row(3)}});
-}
-
-template <typename Number>
-REPOSE_INLINE Number reduced(const Number& x, const Number& y) {
-  return x * y / (x + y);
-}
-
-/// Gathers a number of each lane.
-template <typename NumberOfLane>
-REPOSE_INLINE Lanes each(const NumberOfLane& number) {
-  return Lanes::Vector4{number(0), number(1), number(2), number(3)};
-}
-
-/// Of two rows; w: 0.
-REPOSE_INLINE Lanes cross_of_rows(const Lanes& u, const Lanes& v) {
-  const auto next = [](const Lanes& row) __attribute__((always_inline)) {
-    return Lanes(__builtin_shufflevector(row.numbers, row.numbers, 1, 2, 0, 3));
-  };
-  return next(u * next(v) - next(u) * v);
-}
-
-/// Puts a number into a row's w.
-REPOSE_INLINE Lanes with_w(const Lanes& row, double number) {
-  return select(Lanes(Lanes::Vector4{0, 0, 0, 1}) > Lanes(0), Lanes(number), row);
-}
-
-/// Those of the last step, or of this pair when it has more.
-REPOSE_INLINE double contacts_per_kg(const TouchingPair& pair, const BodyMotion& body) {
-  return std::max(static_cast<double>(pair.touching), body.velocity.w) / body.spin.w;
-}
-
-/// Contacts' velocities are those at a's centre and, for their arms, the difference of both spins.
+/// Four contacts on their way from pass to pass.
 template <typename Other>
-REPOSE_INLINE PairMotion motion_of(const TouchingPair& pair, const Sides<Other>& sides,
-                                   double timestep, PairLoad& load) {
-  const BodyMotion& a = sides.motions_a[pair.a];
-  const BodyMotion& b = sides.motions_b[pair.b];
-  const Lanes position_a = load_row(sides.positions_a[pair.a]);
-  const Lanes apart = load_row(sides.positions_b[pair.b]) - position_a;
-  const Lanes spin_a = load_row(a.spin);
-  const Lanes spin_b = load_row(b.spin);
-  const Lanes kick_a = load_row(a.spin_kick);
-  const Lanes kick_b = load_row(b.spin_kick);
-  const Lanes velocity = load_row(b.velocity) - load_row(a.velocity);
-  const Lanes velocity_kick = load_row(b.velocity_kick) - load_row(a.velocity_kick);
-  PairMotion motion;
-  store_row(position_a, motion.position_a);
-  store_row(with_w(apart, pair.reduced_inertia), motion.apart);
-  store_row(with_w(velocity - cross_of_rows(spin_b, apart), pair.reduced_mass), motion.velocity);
-  store_row(spin_b - spin_a, motion.spin);
-  constexpr bool is_wall = std::is_same_v<Other, FacetContact>;
-  motion.spin.w =
-      shared_limit(contacts_per_kg(pair, a), is_wall ? 0 : contacts_per_kg(pair, b), timestep);
-  store_row(with_w(velocity_kick - cross_of_rows(kick_b, apart), pair.damper_limit),
-            motion.velocity_kick);
-  store_row(kick_b - kick_a, motion.spin_kick);
-  store_row((spin_a + spin_b) * .5, motion.mean_spin);
-  motion.law = pair.law;
-  motion.load = &load;
-  motion.a = &a;
-  motion.b = &b;
-  return motion;
-}
+struct Four {
+  FourTouching<Other> touching = {};
+  Contacts contacts;
+  Springs<Lanes> springs;
+  Lanes last_push;
+  ContactForce<Lanes> force;
+};
 
-/// Begins the load of a pair whose contacts are to be added.
-REPOSE_INLINE void begin_load(PairLoad& load) {
-  load.force = {};
-  load.torque_a = {};
-}
-
-/// Once all contacts are added: b's torque is that of the opposite force, seen from b's centre.
-/// Until then the force's w is what constant-torque rolling friction may take from b.
-REPOSE_INLINE void finish_load(const TouchingPair& pair, const PairMotion& motion, PairLoad& load) {
-  const Lanes force = load.force;
-  load.force = with_w(force, static_cast<double>(pair.touching));
-  load.torque_b = with_w(cross_of_rows(load_row(motion.apart), force) - load.torque_a, force[3]);
-}
-
+/// Room for what is worked on, kept so that nothing is allocated.
 template <typename Other>
-REPOSE_INLINE Columns gather(const FourTouching<Other>& four, Row PairMotion::*row) {
-  return gather([&](std::size_t k) { return load_row(four.pair[k]->*row); });
-}
+struct ContactWork {
+  std::vector<PairMotion> motions;
+  std::array<Four<Other>, kFoursTogether> fours;
+};
 
-/// From a's centre to that of its sphere; w: the radius.
-template <bool is_round, typename Other>
-REPOSE_INLINE Columns to_sphere(const FourTouching<Other>& four) {
-  const Columns to_a = gather([&](std::size_t k) {
-    const Lanes sphere = load_row(*four.sphere[k]);
-    return is_round ? sphere : sphere - load_row(four.pair[k]->position_a);
+/// From sphere to sphere; w: the sum of the radii.
+REPOSE_INLINE Columns others_of(const FourTouching<PlacedSphere>& four) {
+  const Lanes minus_w = Lanes::Vector4{1, 1, 1, -1};
+  return gather([&](std::size_t k) {
+    return load_row(*four.other[k]) - load_row(*four.sphere[k]) * minus_w;
   });
-  if constexpr (is_round) return {{}, to_a.w};
-  return to_a;
+}
+
+/// The facets' normals; w: how far they are.
+REPOSE_INLINE Columns others_of(const FourTouching<FacetContact>& four) {
+  return gather([&](std::size_t k) { return load_row(*four.other[k]); });
 }
 
 /// What depends on whether two spheres meet or a sphere and a wall: how deep, and reduced sizes.
-REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const Lanes& radius,
-                                Contacts& c) {
-  const Lanes minus_w = Lanes::Vector4{1, 1, 1, -1};
-  const Columns apart = gather([&](std::size_t k) {
-    return load_row(*four.other[k]) - load_row(*four.sphere[k]) * minus_w;
-  });  // w: the sum of the radii
+REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& /*four*/, const Columns& apart,
+                                const Lanes& radius, Contacts& c) {
   const Lanes distance = sqrt(apart.xyz.squared_norm());
   const Lanes other_radius = apart.w - radius;
   c.touch.normal = apart.xyz * (1 / distance);
@@ -183,9 +90,8 @@ REPOSE_INLINE void set_geometry(const FourTouching<PlacedSphere>& four, const La
   c.smaller_radius = least(radius, other_radius);
 }
 
-REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Lanes& radius,
-                                Contacts& c) {
-  const Columns facet = gather([&](std::size_t k) { return load_row(*four.other[k]); });
+REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const Columns& facet,
+                                const Lanes& radius, Contacts& c) {
   const Lanes curvature = each([&](std::size_t k) { return four.other[k]->curvature; });
   c.touch.normal = -facet.xyz;
   c.touch.overlap = radius - facet.w;
@@ -193,27 +99,105 @@ REPOSE_INLINE void set_geometry(const FourTouching<FacetContact>& four, const La
   c.smaller_radius = radius / greatest(Lanes(1), radius * curvature);
 }
 
-template <bool is_round, typename Other>
-REPOSE_INLINE Contacts contacts_of(const FourTouching<Other>& four) {
-  Contacts c;
-  const Columns to_a = to_sphere<is_round>(four);
-  set_geometry(four, to_a.w, c);
-  const Columns apart = gather(four, &PairMotion::apart);
-  const Columns velocity = gather(four, &PairMotion::velocity);
-  const Columns kick = gather(four, &PairMotion::velocity_kick);
-  const Columns spin = gather(four, &PairMotion::spin);
-  c.spin = spin.xyz;
-  c.touch.shared_limit = spin.w;
+template <typename Other>
+REPOSE_INLINE Columns gather(const FourTouching<Other>& four, Row PairMotion::*row) {
+  return gather([&](std::size_t k) { return load_row(four.motion[k]->*row); });
+}
+
+template <typename Other>
+REPOSE_INLINE Motions motions_of(const FourTouching<Other>& four) {
+  return {.apart = gather(four, &PairMotion::apart),
+          .velocity = gather(four, &PairMotion::velocity),
+          .spin = gather(four, &PairMotion::spin),
+          .velocity_kick = gather(four, &PairMotion::velocity_kick),
+          .spin_kick = gather(four, &PairMotion::spin_kick).xyz,
+          .mean_spin = gather(four, &PairMotion::mean_spin).xyz};
+}
+
+/// BodyMotion, in lanes.
+struct BodyMotions {
+  Columns velocity;
+  Columns spin;
+  Vec3<Lanes> velocity_kick;
+  Vec3<Lanes> spin_kick;
+
+  template <typename MotionOfLane>
+  REPOSE_INLINE explicit BodyMotions(const MotionOfLane& motion)
+      : velocity(gather([&](std::size_t k) { return load_row(motion(k).velocity); })),
+        spin(gather([&](std::size_t k) { return load_row(motion(k).spin); })),
+        velocity_kick(gather([&](std::size_t k) { return load_row(motion(k).velocity_kick); }).xyz),
+        spin_kick(gather([&](std::size_t k) { return load_row(motion(k).spin_kick); }).xyz) {}
+
+  /// See contacts_per_kg(): a round grain's pair has one.
+  REPOSE_INLINE Lanes contacts_per_kg() const { return greatest(Lanes(1), velocity.w) / spin.w; }
+};
+
+/// Of round grains, straight from the bodies: each pair has one contact, so that nothing is saved
+/// by working it out once a pair. The same as set_motion().
+REPOSE_INLINE Motions motions_of_round(const FourTouching<PlacedSphere>& four,
+                                       const Sides<PlacedSphere>& sides, const Vec3<Lanes>& apart,
+                                       double timestep) {
+  const BodyMotions a(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_a[four.pair[k]->a]; });
+  const BodyMotions b(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_b[four.pair[k]->b]; });
+  const auto of_pairs = [&](double TouchingPair::*number) __attribute__((always_inline)) {
+    return each([&](std::size_t k) { return four.pair[k]->*number; });
+  };
+  return {.apart = {apart, of_pairs(&TouchingPair::reduced_inertia)},
+          .velocity = {b.velocity.xyz - a.velocity.xyz - b.spin.xyz.cross(apart),
+                       of_pairs(&TouchingPair::reduced_mass)},
+          .spin = {b.spin.xyz - a.spin.xyz,
+                   shared_limit(a.contacts_per_kg(), b.contacts_per_kg(), timestep)},
+          .velocity_kick = {b.velocity_kick - a.velocity_kick - b.spin_kick.cross(apart),
+                            of_pairs(&TouchingPair::damper_limit)},
+          .spin_kick = b.spin_kick - a.spin_kick,
+          .mean_spin = (a.spin.xyz + b.spin.xyz) * Lanes(.5)};
+}
+
+/// From a's centre to that of its sphere; w: the radius.
+template <typename Other>
+REPOSE_INLINE Columns to_sphere(const FourTouching<Other>& four) {
+  return gather([&](std::size_t k) {
+    return load_row(*four.sphere[k]) - load_row(four.motion[k]->position_a);
+  });
+}
+
+template <typename Other>
+REPOSE_INLINE void set_contacts(const Motions& motions, const Columns& to_a, Contacts& c) {
+  c.spin = motions.spin.xyz;
+  c.touch.shared_limit = motions.spin.w;
   c.arm_a = to_a.xyz + c.touch.normal * (to_a.w - c.touch.overlap * .5);
-  c.arm_b = c.arm_a - apart.xyz;
-  c.reduced_inertia = apart.w;
-  c.touch.reduced_mass = velocity.w;
-  c.touch.damper_limit = kick.w;
-  c.touch.half_velocity = velocity.xyz + c.spin.cross(c.arm_a);
+  c.arm_b = c.arm_a - motions.apart.xyz;
+  c.apart = motions.apart.xyz;
+  c.reduced_inertia = motions.apart.w;
+  c.touch.reduced_mass = motions.velocity.w;
+  c.touch.damper_limit = motions.velocity_kick.w;
+  c.touch.half_velocity = motions.velocity.xyz + c.spin.cross(c.arm_a);
   c.touch.velocity =
-      c.touch.half_velocity + kick.xyz + gather(four, &PairMotion::spin_kick).xyz.cross(c.arm_a);
-  c.touch.twist = c.touch.normal.dot(gather(four, &PairMotion::mean_spin).xyz);
-  return c;
+      c.touch.half_velocity + motions.velocity_kick.xyz + motions.spin_kick.cross(c.arm_a);
+  c.touch.twist = c.touch.normal.dot(motions.mean_spin);
+}
+
+/// The first pass: where four contacts are, and how they move.
+template <bool is_round, typename Other>
+REPOSE_INLINE void find_contacts(Four<Other>& of, const Sides<Other>& sides, double timestep) {
+  const FourTouching<Other>& four = of.touching;
+  Contacts c;
+  const Columns others = others_of(four);
+  if constexpr (is_round) {
+    const Lanes radius = each([&](std::size_t k) { return four.sphere[k]->radius; });
+    set_geometry(four, others, radius, c);
+    set_contacts<Other>(motions_of_round(four, sides, others.xyz, timestep), {{}, radius}, c);
+  } else {
+    const Columns to_a = to_sphere(four);
+    set_geometry(four, others, to_a.w, c);
+    set_contacts<Other>(motions_of(four), to_a, c);
+  }
+  of.contacts = c;
+  const Columns memory = gather([&](std::size_t k) { return load_row(*four.memory[k]); });
+  of.last_push = each([&](std::size_t k) { return four.memory[k]->push; });
+  of.springs = {memory.xyz, memory.w, of.last_push};
 }
 
 template <typename Other>
@@ -233,30 +217,42 @@ REPOSE_INLINE Law<Lanes> laws_of(const FourTouching<Other>& four) {
   return law;
 }
 
+/// The second pass: what pushes.
+template <typename Other>
+REPOSE_INLINE void find_forces(Four<Other>& four, double timestep) {
+  Springs<Lanes> springs = four.springs;
+  four.force = contact_force(four.contacts.touch, laws_of(four.touching), timestep, springs);
+  four.springs = springs;
+}
+
 /// Of both bodies about the contact; a wall has no inertia.
 template <typename Other>
-REPOSE_INLINE Lanes contact_inertia(const Contacts& c, const FourTouching<Other>& four) {
-  const auto about_contact = [&](BodyMotion const* PairMotion::*body, const Vec3<Lanes>& arm)
-      __attribute__((always_inline)) {
-    const auto motion = [&](std::size_t k) -> const BodyMotion& { return *(four.pair[k]->*body); };
+REPOSE_INLINE Lanes contact_inertia(const Four<Other>& of, const Sides<Other>& sides) {
+  const auto about_contact =
+      [](const auto& motion, const Vec3<Lanes>& arm) __attribute__((always_inline)) {
     return each([&](std::size_t k) { return motion(k).spin_kick.w; }) +
            each([&](std::size_t k) { return motion(k).spin.w; }) * arm.squared_norm();
   };
-  const Lanes a = about_contact(&PairMotion::a, c.arm_a);
+  const auto& pair = of.touching.pair;
+  const Lanes a =
+      about_contact([&](std::size_t k) -> const BodyMotion& { return sides.motions_a[pair[k]->a]; },
+                    of.contacts.arm_a);
   if constexpr (std::is_same_v<Other, FacetContact>) return a;
-  const Lanes b = about_contact(&PairMotion::b, c.arm_b);
+  const Lanes b =
+      about_contact([&](std::size_t k) -> const BodyMotion& { return sides.motions_b[pair[k]->b]; },
+                    of.contacts.arm_b);
   return reduced(a, b);
 }
 
 /// The torque on a of the models that work on the relative spin.
 template <RollingModel model, typename Other>
-REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_force,
-                                         const Lanes& last_force, const Law<Lanes>& law,
-                                         double timestep, const FourTouching<Other>& four) {
+REPOSE_INLINE Vec3<Lanes> rolling_torque(const Four<Other>& of, const Sides<Other>& sides,
+                                         const Law<Lanes>& law, double timestep) {
+  const Contacts& c = of.contacts;
   Roll<Lanes> roll = {.normal = c.touch.normal,
                       .spin = -c.spin,
-                      .normal_force = normal_force,
-                      .last_force = last_force,
+                      .normal_force = of.force.normal,
+                      .last_force = of.last_push,
                       .overlap = c.touch.overlap,
                       .reduced_radius = c.touch.reduced_radius,
                       .reduced_inertia = c.reduced_inertia,
@@ -264,138 +260,178 @@ REPOSE_INLINE Vec3<Lanes> rolling_torque(const Contacts& c, const Lanes& normal_
   if constexpr (model == RollingModel::relative_constant_torque) {
     return relative_constant_torque(roll, law, timestep);
   }
-  roll.contact_inertia = contact_inertia(c, four);
+  roll.contact_inertia = contact_inertia(of, sides);
+  const auto& memory = of.touching.memory;
   // The row's w is the push: read, and left alone.
-  Vec3<Lanes> spring =
-      gather([&](std::size_t k) { return load(four.memory[k]->rolling.data()); }).xyz;
+  Vec3<Lanes> spring = gather([&](std::size_t k) { return load(memory[k]->rolling.data()); }).xyz;
   const Vec3<Lanes> torque = elastic_plastic_torque(roll, law, timestep, spring);
   for (std::size_t k = 0; k < kLanes; ++k) {
-    four.memory[k]->rolling = {spring.x[k], spring.y[k], spring.z[k]};
+    memory[k]->rolling = {spring.x[k], spring.y[k], spring.z[k]};
   }
   return torque;
 }
 
-/// Adds four contacts to the loads of their pairs, and brings their memories up to date.
-/// @return how deep they are, as fractions of the smaller sphere's radius
-template <bool is_round, RollingModel model, typename Other>
-REPOSE_INLINE Lanes add_four(const FourTouching<Other>& four, double timestep) {
-  const Contacts c = contacts_of<is_round>(four);
-  const Law<Lanes> law = laws_of(four);
-  const Columns memory = gather([&](std::size_t k) { return load_row(*four.memory[k]); });
-  const Lanes last_push = each([&](std::size_t k) { return four.memory[k]->push; });
-  Springs<Lanes> springs = {memory.xyz, memory.w, last_push};
-  const ContactForce<Lanes> force = contact_force(c.touch, law, timestep, springs);
-
-  Vec3<Lanes> torque_a = c.arm_a.cross(force.total);
-  Lanes rolling_a;
+/// What four contacts do to the bodies: in lanes.
+struct Loads {
+  Vec3<Lanes> torque_a;
+  Lanes rolling_a;  ///< what constant-torque rolling friction may take
   Lanes rolling_b;
+};
+
+template <RollingModel model, typename Other>
+REPOSE_INLINE Loads loads_of(const Four<Other>& of, const Sides<Other>& sides, double timestep) {
+  const Contacts& c = of.contacts;
+  Loads loads = {.torque_a = c.arm_a.cross(of.force.total), .rolling_a = {}, .rolling_b = {}};
   if constexpr (model == RollingModel::constant_torque) {
-    const Lanes resistance = law.rolling_friction * force.normal;
-    rolling_a = resistance * sqrt(c.arm_a.squared_norm());
-    rolling_b = resistance * sqrt(c.arm_b.squared_norm());
+    const Lanes resistance = laws_of(of.touching).rolling_friction * of.force.normal;
+    loads.rolling_a = resistance * sqrt(c.arm_a.squared_norm());
+    loads.rolling_b = resistance * sqrt(c.arm_b.squared_norm());
   } else if constexpr (model != RollingModel::none) {
-    torque_a += rolling_torque<model>(c, force.normal, last_push, law, timestep, four);
+    loads.torque_a += rolling_torque<model>(of, sides, laws_of(of.touching), timestep);
   }
-  const Rows memories = rows_of(springs.tangential, springs.radius);
-  const Rows forces = rows_of(force.total, rolling_b);
-  const Rows torques_a = rows_of(torque_a, rolling_a);
+  return loads;
+}
+
+/// Adds to the loads of their pairs. Those of round grains, which have one contact, are whole then.
+template <bool is_round, typename Other>
+REPOSE_INLINE void add_loads(const Four<Other>& of, const Loads& loads) {
+  const Rows torques_a = rows_of(loads.torque_a, loads.rolling_a);
+  if constexpr (is_round) {
+    const Vec3<Lanes> torque_b = of.contacts.apart.cross(of.force.total) - loads.torque_a;
+    const Rows torques_b = rows_of(torque_b, loads.rolling_b);
+    const Rows forces = rows_of(of.force.total, Lanes(1));
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      *of.touching.load[k] = {forces.row[k], torques_a.row[k], torques_b.row[k]};
+    }
+    return;
+  }
+  const Rows forces = rows_of(of.force.total, loads.rolling_b);
   for (std::size_t k = 0; k < kLanes; ++k) {
-    ContactMemory& own = *four.memory[k];
-    store_row(memories.row[k], own);
-    own.push = springs.push[k];
-    PairLoad& load = *four.pair[k]->load;
+    PairLoad& load = *of.touching.load[k];
     load.force += forces.row[k];
     load.torque_a += torques_a.row[k];
   }
-  return c.touch.overlap / c.smaller_radius;
 }
 
-/// What the lanes beyond the last contact work on, for nothing: a copy of what that has.
-struct SpareLane {
-  ContactMemory memory;
-  PairLoad load;
-  PairMotion pair;
-};
-
-/// Puts a contact into a lane.
-template <typename Other>
-REPOSE_INLINE void set_lane(FourTouching<Other>& four, std::size_t lane, const Touching& touching,
-                            const Sides<Other>& sides, const PairMotion* motions) {
-  four.sphere[lane] = &sides.spheres[touching.sphere];
-  four.other[lane] = &sides.others[touching.other];
-  four.memory[lane] = &sides.memories[touching.memory];
-  four.pair[lane] = &motions[touching.pair];
-}
-
-/// Puts the last contacts into lanes, fewer than four: the lanes beyond repeat the last one.
-template <typename Other>
-void set_last(FourTouching<Other>& four, std::span<const Touching> last, const Sides<Other>& sides,
-              const PairMotion* motions, SpareLane& spare) {
-  spare.memory = sides.memories[last.back().memory];
-  spare.pair = motions[last.back().pair];
-  spare.pair.load = &spare.load;
+/// The third pass: what four contacts do to the bodies, and what they remember.
+/// @return how deep they are, as fractions of the smaller sphere's radius
+template <bool is_round, RollingModel model, typename Other>
+REPOSE_INLINE Lanes finish_contacts(const Four<Other>& of, const Sides<Other>& sides,
+                                    double timestep) {
+  add_loads<is_round>(of, loads_of<model>(of, sides, timestep));
+  const Rows memories = rows_of(of.springs.tangential, of.springs.radius);
   for (std::size_t k = 0; k < kLanes; ++k) {
-    set_lane(four, k, last[std::min(k, last.size() - 1)], sides, motions);
-    if (k < last.size()) continue;
-    four.memory[k] = &spare.memory;
-    four.pair[k] = &spare.pair;
+    ContactMemory& own = *of.touching.memory[k];
+    store_row(memories.row[k], own);
+    own.push = of.springs.push[k];
   }
+  return of.contacts.touch.overlap / of.contacts.smaller_radius;
 }
 
 template <bool is_round, RollingModel model, typename Other>
-REPOSE_INLINE Lanes add_with(std::span<const Touching> touching, const Sides<Other>& sides,
-                             const PairMotion* motions, double timestep) {
+REPOSE_INLINE Lanes finish_all(std::span<const Four<Other>> fours, const Sides<Other>& sides,
+                               double timestep) {
   Lanes deepest;
-  SpareLane spare;
-  for (std::size_t at = 0; at < touching.size(); at += kLanes) {
-    const std::span<const Touching> left = touching.subspan(at);
-    FourTouching<Other> four = {};
-    if (left.size() < kLanes) {
-      set_last(four, left, sides, motions, spare);
-    } else {
-      for (std::size_t k = 0; k < kLanes; ++k) set_lane(four, k, left[k], sides, motions);
-    }
-    deepest = greatest(add_four<is_round, model>(four, timestep), deepest);
+  for (const Four<Other>& four : fours) {
+    deepest = greatest(finish_contacts<is_round, model>(four, sides, timestep), deepest);
   }
   return deepest;
 }
 
 template <bool is_round, typename Other>
-REPOSE_INLINE Lanes add_contacts_of(std::span<const Touching> touching, const Sides<Other>& sides,
-                                    const PairMotion* motions, RollingModel model,
-                                    double timestep) {
+REPOSE_INLINE Lanes finish_all(std::span<const Four<Other>> fours, const Sides<Other>& sides,
+                               RollingModel model, double timestep) {
   switch (model) {
     case RollingModel::none:
-      return add_with<is_round, RollingModel::none>(touching, sides, motions, timestep);
+      return finish_all<is_round, RollingModel::none>(fours, sides, timestep);
     case RollingModel::constant_torque:
-      return add_with<is_round, RollingModel::constant_torque>(touching, sides, motions, timestep);
+      return finish_all<is_round, RollingModel::constant_torque>(fours, sides, timestep);
     case RollingModel::relative_constant_torque:
-      return add_with<is_round, RollingModel::relative_constant_torque>(touching, sides, motions,
-                                                                        timestep);
+      return finish_all<is_round, RollingModel::relative_constant_torque>(fours, sides, timestep);
     case RollingModel::elastic_plastic:
-      return add_with<is_round, RollingModel::elastic_plastic>(touching, sides, motions, timestep);
+      return finish_all<is_round, RollingModel::elastic_plastic>(fours, sides, timestep);
   }
   return {};
 }
 
+/// What lanes beyond the last contact write, for nothing.
+struct SpareLane {
+  ContactMemory memory;
+  PairLoad load;
+};
+
+/// What the contacts of some pairs are worked out from, and with.
+template <typename Other>
+struct Meeting {
+  std::span<const TouchingPair> pairs;
+  const Sides<Other>& sides;
+  PairMotion* motions = nullptr;
+  PairLoad* loads = nullptr;
+};
+
+/// Puts a contact into a lane.
+template <typename Other>
+REPOSE_INLINE void set_lane(FourTouching<Other>& four, std::size_t lane, const Touching& touching,
+                            const Meeting<Other>& meeting) {
+  const TouchingPair& pair = meeting.pairs[static_cast<std::size_t>(touching.pair)];
+  four.sphere[lane] = &meeting.sides.spheres[touching.sphere];
+  four.other[lane] = &meeting.sides.others[touching.other];
+  four.memory[lane] = &meeting.sides.memories[touching.memory];
+  four.pair[lane] = &pair;
+  four.motion[lane] = &meeting.motions[touching.pair];
+  four.load[lane] = &meeting.loads[pair.number];
+}
+
+/// Puts the last contacts into lanes, fewer than four: the lanes beyond repeat the last one.
+template <typename Other>
+void set_last(FourTouching<Other>& four, std::span<const Touching> last,
+              const Meeting<Other>& meeting, SpareLane& spare) {
+  spare.memory = meeting.sides.memories[last.back().memory];
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    set_lane(four, k, last[std::min(k, last.size() - 1)], meeting);
+    if (k < last.size()) continue;
+    four.memory[k] = &spare.memory;
+    four.load[k] = &spare.load;
+  }
+}
+
 /// The loads of pairs, each the sum over its contacts in the order given; their memories are
 /// brought up to date.
-/// @param motions  room for as many as there are pairs
 /// @tparam is_round  that each body is one sphere about its centre is known, which saves time
 /// @return the deepest overlap, as a fraction of the smaller sphere's radius
 template <bool is_round, typename Other>
 REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
                                   std::span<const TouchingPair> pairs, const Sides<Other>& sides,
-                                  const ContactStep& step, PairMotion* motions, PairLoad* loads) {
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    PairLoad& load = loads[pairs[k].number];
-    begin_load(load);
-    motions[k] = motion_of(pairs[k], sides, step.timestep_s, load);
+                                  const ContactStep& step, ContactWork<Other>& work,
+                                  PairLoad* loads) {
+  const Meeting<Other> meeting = {pairs, sides, work.motions.data(), loads};
+  for (std::size_t k = 0; k < pairs.size() && !is_round; ++k) {
+    begin_load(loads[pairs[k].number]);
+    set_motion(pairs[k], sides, step.timestep_s, work.motions[k]);
   }
-  const Lanes deepest =
-      add_contacts_of<is_round>(touching, sides, motions, step.contacts.rolling(), step.timestep_s);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    finish_load(pairs[k], motions[k], *motions[k].load);
+  Lanes deepest;
+  SpareLane spare;
+  for (std::size_t at = 0; at < touching.size(); at += kLanes * kFoursTogether) {
+    const std::span<const Touching> now =
+        touching.subspan(at, std::min(touching.size() - at, kLanes * kFoursTogether));
+    const std::size_t count = (now.size() + kLanes - 1) / kLanes;
+    for (std::size_t n = 0; n < count; ++n) {
+      Four<Other>& four = work.fours[n];
+      const std::span<const Touching> left = now.subspan(n * kLanes);
+      if (left.size() < kLanes) {
+        set_last(four.touching, left, meeting, spare);
+      } else {
+        for (std::size_t k = 0; k < kLanes; ++k) set_lane(four.touching, k, left[k], meeting);
+      }
+      find_contacts<is_round>(four, sides, step.timestep_s);
+    }
+    for (std::size_t n = 0; n < count; ++n) find_forces(work.fours[n], step.timestep_s);
+    const std::span<const Four<Other>> fours(work.fours.data(), count);
+    deepest = greatest(finish_all<is_round>(fours, sides, step.contacts.rolling(), step.timestep_s),
+                       deepest);
+  }
+  for (std::size_t k = 0; k < pairs.size() && !is_round; ++k) {
+    finish_load(pairs[k], work.motions[k], loads[pairs[k].number]);
   }
   return std::max(std::max(deepest[0], deepest[1]), std::max(deepest[2], deepest[3]));
 }

@@ -14,6 +14,9 @@ namespace repose::dem {
 
 inline constexpr std::size_t kLanes = 4;
 
+/// Fours that go through a step's passes together: few enough to stay in the nearest cache.
+inline constexpr std::size_t kFoursTogether = 8;
+
 /// Functions of lanes are only fast as part of a loop.
 #define REPOSE_INLINE inline __attribute__((always_inline))
 
@@ -180,50 +183,6 @@ template <typename Mask, typename Number>
 REPOSE_INLINE Vec3<Number> select(const Mask& mask, const Vec3<Number>& yes,
                                   const Vec3<Number>& no) {
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
-}
-
-/// A vector and a number beside it, as long as Lanes.
-struct alignas(32) Row {
-  Vector xyz = Vector::Zero();
-  double w = 0;
-};
-
-/// The first four numbers of a structure of doubles: a Row, say.
-template <typename Structure>
-REPOSE_INLINE Lanes load_row(const Structure& from) {
-  static_assert(sizeof(Structure) >= sizeof(Lanes));
-  return load(reinterpret_cast<const double*>(&from));
-}
-template <typename Structure>
-REPOSE_INLINE void store_row(const Lanes& lanes, Structure& to) {
-  static_assert(sizeof(Structure) >= sizeof(Lanes));
-  store(lanes, reinterpret_cast<double*>(&to));
-}
-
-/// Four rows: by lane, or by coordinate.
-struct Rows {
-  Lanes row[kLanes];
-};
-struct Columns {
-  Vec3<Lanes> xyz;
-  Lanes w;
-};
-
-REPOSE_INLINE Rows turned(const Rows& r) {
-  using Vector4 = Lanes::Vector4;
-  const Vector4 a = __builtin_shufflevector(r.row[0].numbers, r.row[1].numbers, 0, 4, 2, 6);
-  const Vector4 b = __builtin_shufflevector(r.row[0].numbers, r.row[1].numbers, 1, 5, 3, 7);
-  const Vector4 c = __builtin_shufflevector(r.row[2].numbers, r.row[3].numbers, 0, 4, 2, 6);
-  const Vector4 d = __builtin_shufflevector(r.row[2].numbers, r.row[3].numbers, 1, 5, 3, 7);
-  return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
-           __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
-}
-REPOSE_INLINE Columns columns_of(const Rows& rows) {
-  const Rows columns = turned(rows);
-  return {{columns.row[0], columns.row[1], columns.row[2]}, columns.row[3]};
-}
-REPOSE_INLINE Rows rows_of(const Vec3<Lanes>& xyz, const Lanes& w) {
-  return turned({{xyz.x, xyz.y, xyz.z, w}});
 }
 
 }  // namespace repose::dem

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "dem/engine/four_contacts.h"
 #include "dem/engine/parallel.h"
 
 namespace repose::dem {

@@ -117,18 +117,19 @@ bool have_changed(const ContactStep& step, NeighbourList& list, std::size_t from
 
 REPOSE_FOR_EACH_MACHINE
 double add_pair_contacts(const TouchingChunk& chunk, const Sides<PlacedSphere>& sides,
-                         const ContactStep& step, PairMotion* motions, PairLoad* loads) {
+                         const ContactStep& step, ContactWork<PlacedSphere>& work,
+                         PairLoad* loads) {
   return step.bodies.is_round
-             ? add_contacts<true>(chunk.contacts, chunk.pairs, sides, step, motions, loads)
-             : add_contacts<false>(chunk.contacts, chunk.pairs, sides, step, motions, loads);
+             ? add_contacts<true>(chunk.contacts, chunk.pairs, sides, step, work, loads)
+             : add_contacts<false>(chunk.contacts, chunk.pairs, sides, step, work, loads);
 }
 
 }  // namespace
 
 double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t number,
                        std::span<PairLoad> loads) {
-  // Kept from call to call, so that nothing is allocated.
-  thread_local std::vector<PairMotion> motions(kPairsTogether);
+  thread_local ContactWork<PlacedSphere> work = {.motions = std::vector<PairMotion>(kPairsTogether),
+                                                 .fours = {}};
   const std::size_t first = number * kPairsTogether;
   const NearGrains& last = list.grains[first + loads.size() - 1];
   TouchingChunk& chunk = list.touching[number];
@@ -138,8 +139,7 @@ double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t
     look_up(step, list, first, loads.size(), chunk);
   }
   for (PairLoad& load : loads) load.force = {};
-  return add_pair_contacts(chunk, sides_of(step.bodies, list.memories), step, motions.data(),
-                           loads.data());
+  return add_pair_contacts(chunk, sides_of(step.bodies, list.memories), step, work, loads.data());
 }
 
 }  // namespace repose::dem

@@ -41,7 +41,7 @@ struct TouchingWalls {
   std::vector<FacetContact> facets;
   std::vector<TouchingPair> pairs;
   std::vector<Touching> contacts;
-  std::vector<PairMotion> motions;
+  ContactWork<FacetContact> work;
 };
 
 TouchingPair touching_pair(const ContactStep& step, const NearWall& near, std::size_t number,
@@ -99,8 +99,7 @@ REPOSE_FOR_EACH_MACHINE
 double add_wall_contacts(TouchingWalls& touching, const Sides<FacetContact>& sides,
                          const ContactStep& step, PairLoad* loads) {
   // Few contacts are with walls: what is_round saves is not worth compiling all once more.
-  return add_contacts<false>(touching.contacts, touching.pairs, sides, step,
-                             touching.motions.data(), loads);
+  return add_contacts<false>(touching.contacts, touching.pairs, sides, step, touching.work, loads);
 }
 
 }  // namespace
@@ -129,7 +128,7 @@ double find_wall_loads(const ContactStep& step, const WallMotions& wall_motions,
   const std::size_t near =
       static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.count) - from;
   touching.facets.resize(std::max(touching.facets.size(), near));
-  touching.motions.resize(std::max(touching.motions.size(), loads.size()));
+  touching.work.motions.resize(std::max(touching.work.motions.size(), loads.size()));
   touching.pairs.clear();
   touching.contacts.clear();
   for (std::size_t k = 0; k < loads.size(); ++k) {

@@ -1,10 +1,9 @@
-#include "dem/engine/lanes.h"
-
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "dem/engine/contact_force.h"
+#include "dem/engine/rows.h"
 
 namespace repose::dem {
 namespace {
