@@ -89,11 +89,11 @@ class SimulateRestart : public CommandTest {
 };
 
 const Words kHeap = {"heap",           "study.toml", "--repeats", "2", "--threads", "1",
-                     "--trajectory-s", "0.01",       "--views",   "1", "--out",     "runs"};
+                     "--trajectory-s", "0.05",       "--views",   "1", "--out",     "runs"};
 
 TEST_F(SimulateRestart, AnInterruptedHeapGoesOnToTheSameBytes) {
   // Some frames are of the filling, later ones of the lift.
-  for (const char* frame : {"frame_00010.vtp", "frame_00030.vtp", "frame_00050.vtp"}) {
+  for (const char* frame : {"frame_00002.vtp", "frame_00006.vtp", "frame_00010.vtp"}) {
     ASSERT_EQ(run_until(frame, kHeap), 130);
     EXPECT_THAT(stored(".restart.vtp"), SizeIs(1));
     EXPECT_FALSE(std::filesystem::exists(path("runs/result.json")));
@@ -164,13 +164,13 @@ TEST_F(SimulateRestart, RunsWhoseFilesWereDamagedAreSimulatedAgain) {
 
 TEST_F(SimulateRestart, ARestartPointOfAnotherSeedIsRefused) {
   const Words words = kHeap;
-  ASSERT_EQ(run_until("frame_00010.vtp", words), 130);
+  ASSERT_EQ(run_until("frame_00002.vtp", words), 130);
   const std::filesystem::path first = stored(".restart.vtp").front();
   // Seed 2 is interrupted too, and its restart point replaced by that of seed 1.
   Words second = words;
   second[3] = "1";
   second.insert(second.end(), {"--seed", "2"});
-  ASSERT_EQ(run_until("frame_00010.vtp", second, 2), 130);
+  ASSERT_EQ(run_until("frame_00002.vtp", second, 2), 130);
   std::filesystem::path other;
   for (const auto& file : stored(".restart.vtp")) {
     if (file != first) other = file;
@@ -185,7 +185,7 @@ TEST_F(SimulateRestart, ARestartPointOfAnotherSeedIsRefused) {
 }
 
 TEST_F(SimulateRestart, ARestartPointThatWasChangedIsRefused) {
-  ASSERT_EQ(run_until("frame_00010.vtp", kHeap), 130);
+  ASSERT_EQ(run_until("frame_00002.vtp", kHeap), 130);
   const std::filesystem::path file = stored(".restart.vtp").front();
   std::string state = text_of(file);
   char& letter = state[state.find("Name=\"velocity\"") + 100];

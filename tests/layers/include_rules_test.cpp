@@ -142,8 +142,9 @@ class Repository : public ::testing::Test {
 
  private:
   static std::string text_of(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::ostringstream text;  // not byte by byte: tests are not optimised
+    text << std::ifstream(file).rdbuf();
+    return std::move(text).str();
   }
 };
 
