@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "dem/engine/eigenvalues.h"
 
 namespace repose::dem {
 namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Matrices = std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>>;
 
 int material_of(const Bodies& bodies, int body) {
   return bodies.material[static_cast<std::size_t>(body)];
@@ -80,22 +77,6 @@ void add_stiffness(const Bodies& bodies, std::size_t body, const Vector& point,
   motion.rightCols<3>() =
       -cross_matrix(point - bodies.position[body].xyz) * axes * roots.asDiagonal();
   sum += motion.transpose() * stiffness * motion;
-}
-
-/// Of any of these matrices, none of which has a negative one.
-double greatest_eigenvalue(const Matrices& matrices) {
-  // No eigenvalue is above the norm: few others are needed after that of the greatest norm.
-  const auto norm = [](const Matrix6& matrix) { return matrix.squaredNorm(); };
-  const Matrix6& first = *std::ranges::max_element(matrices, {}, norm);
-  double greatest = 0;
-  const auto see = [&greatest](const Matrix6& matrix) {
-    if (matrix.squaredNorm() <= greatest * greatest) return;
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(matrix, Eigen::EigenvaluesOnly);
-    greatest = std::max(greatest, solver.eigenvalues()[5]);
-  };
-  see(first);
-  for (const Matrix6& matrix : matrices) see(matrix);
-  return greatest;
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+
+#include "dem/engine/eigenvalues.h"
 
 namespace repose::dem {
 namespace {
@@ -18,17 +19,17 @@ double impact_overlap(double reduced_mass, double reduced_young, double reduced_
       15 * reduced_mass * speed * speed / (16 * reduced_young * std::sqrt(reduced_radius)), .4);
 }
 
-/// Highest frequency of a grain pressed onto a flat wall in one direction, by `overlap`: all of its
-/// spheres that reach the wall act on it at once.
-double frequency_on_wall(const ClumpShape& shape, double mass, const ContactLaw& law,
-                         const Vector& down, double overlap) {
+/// Stiffness over mass, 1/s^2, of a grain pressed onto a flat wall in one direction, by `overlap`:
+/// all of its spheres that reach the wall act on it at once.
+Matrix6 stiffness_on_wall(const ClumpShape& shape, double mass, const ContactLaw& law,
+                          const Vector& down, double overlap) {
   double lowest = 0;
   for (const ClumpSphere& sphere : shape.spheres) {
     lowest = std::max(lowest, down.dot(sphere.centre) + sphere.radius);
   }
   // Free motion of a point `arm` away along n: 1/m_eff = 1/m + (arm x n) I^-1 (arm x n). The sum of
   // stiffness over mass of all contacts and directions is the trace, no less than any eigenvalue.
-  Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix6 sum = Matrix6::Zero();
   const Vector roots = (mass * shape.gyration_m2).cwiseSqrt().cwiseInverse();
   for (const ClumpSphere& sphere : shape.spheres) {
     const double depth = overlap - (lowest - down.dot(sphere.centre) - sphere.radius);
@@ -48,9 +49,7 @@ double frequency_on_wall(const ClumpShape& shape, double mass, const ContactLaw&
     motion << down / std::sqrt(mass), arm.cross(down).cwiseProduct(roots);
     sum += (normal - across) * motion * motion.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(sum,
-                                                                          Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues()[5]));
+  return sum;
 }
 
 /// Directions spread evenly over the sphere (Fibonacci lattice), and the axes.
@@ -70,8 +69,9 @@ std::vector<Vector> directions() {
 }  // namespace
 
 double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s, double fraction) {
-  double highest = 0;
-  const std::vector<Vector> downs = directions();
+  static const std::vector<Vector> downs = directions();
+  Matrices ways(downs.size());
+  double greatest = 0;  // of a squared frequency
   for (const GrainKind& kind : setup.kinds) {
     const double mass = kind.shape.volume_m3 * setup.contacts.material(kind.material).density_kg_m3;
     double largest = 0;
@@ -81,12 +81,13 @@ double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s, doubl
     for (int other = 0; other < setup.contacts.size(); ++other) {
       const ContactLaw& law = setup.contacts.law(kind.material, other);
       const double overlap = impact_overlap(mass, law.reduced_young_pa, largest, speed_m_s);
-      for (const Vector& down : downs) {
-        highest = std::max(highest, frequency_on_wall(kind.shape, mass, law, down, overlap));
-      }
+      std::ranges::transform(downs, ways.begin(), [&](const Vector& down) {
+        return stiffness_on_wall(kind.shape, mass, law, down, overlap);
+      });
+      greatest = std::max(greatest, greatest_eigenvalue(ways));
     }
   }
-  return fraction * 2 / highest;
+  return fraction * 2 / std::sqrt(greatest);
 }
 
 void check_timestep(double timestep_s, const SimulationSetup& setup, double speed_m_s,

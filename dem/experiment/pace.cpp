@@ -34,13 +34,14 @@ Pace::Pace(const Model& model, double usual_speed_m_s)
     : is_fixed_(model.timestep_s.has_value()),
       fraction_(kBulkFraction * model.timestep_fraction),
       usual_speed_m_s_(usual_speed_m_s),
-      setup_(bulk_setup(model, {}, usual_speed_m_s)) {}
+      setup_(bulk_setup(model, {}, usual_speed_m_s)),
+      usual_step_s_(accurate_timestep_s(setup_, usual_speed_m_s)) {}
 
 double Pace::step_of(int rung) {
   const auto known = step_s_.find(rung);
   if (known != step_s_.end()) return known->second;
-  const double ratio = accurate_timestep_s(setup_, std::pow(kRung, rung) * usual_speed_m_s_) /
-                       accurate_timestep_s(setup_, usual_speed_m_s_);
+  const double ratio =
+      accurate_timestep_s(setup_, std::pow(kRung, rung) * usual_speed_m_s_) / usual_step_s_;
   return step_s_[rung] = ratio * setup_.timestep_s;
 }
 

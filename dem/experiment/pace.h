@@ -30,6 +30,7 @@ class Pace {
   double fraction_;  ///< of what is stable
   double usual_speed_m_s_;
   SimulationSetup setup_;         ///< without walls
+  double usual_step_s_;           ///< the longest accurate one at that speed
   std::map<int, double> step_s_;  ///< of the rungs that were needed so far
 };
 
