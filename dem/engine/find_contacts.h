@@ -103,7 +103,6 @@ REPOSE_INLINE Columns to_sphere(const FourTouching<Other>& four) {
   });
 }
 
-template <typename Other>
 REPOSE_INLINE void set_contacts(const Motions& motions, const Columns& to_a, Contacts& c) {
   c.spin = motions.spin.xyz;
   c.touch.shared_limit = motions.spin.w;
@@ -127,11 +126,11 @@ REPOSE_INLINE void find_contacts(Four<Other>& of, const Sides<Other>& sides, dou
   if constexpr (is_round) {
     const Lanes radius = each([&](std::size_t k) { return four.sphere[k]->radius; });
     set_geometry(four, others, radius, c);
-    set_contacts<Other>(motions_of_round(four, sides, others.xyz, timestep), {{}, radius}, c);
+    set_contacts(motions_of_round(four, sides, others.xyz, timestep), {{}, radius}, c);
   } else {
     const Columns to_a = to_sphere(four);
     set_geometry(four, others, to_a.w, c);
-    set_contacts<Other>(motions_of(four), to_a, c);
+    set_contacts(motions_of(four), to_a, c);
   }
   of.contacts = c;
   const Columns memory = gather([&](std::size_t k) { return load_row(*four.memory[k]); });

@@ -33,7 +33,8 @@ double power_of(const PairLoad& load, const BodyMotion& wall) {
 }
 
 REPOSE_FOR_EACH_MACHINE
-void add_loads(std::span<const NearGrains> pairs, std::span<const PairLoad> loads, Bodies& bodies) {
+void add_to_bodies(std::span<const NearGrains> pairs, std::span<const PairLoad> loads,
+                   Bodies& bodies) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (loads[k].is_empty()) continue;
     add_to_a(bodies, pairs[k], loads[k]);
@@ -60,7 +61,7 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
       const std::span<PairLoad> loads = {loads_.data(), chunk.size()};
       const double deepest = find_pair_loads(step, list, chunk.number, loads);
       tally_.deepest_overlap = std::max(tally_.deepest_overlap, deepest);
-      add_loads({&list.grains[chunk.first], chunk.size()}, loads, bodies);
+      add_to_bodies({&list.grains[chunk.first], chunk.size()}, loads, bodies);
     });
     return;
   }
