@@ -5,29 +5,26 @@
 namespace repose::dem {
 namespace {
 
-const PlacedSphere& sphere_of(const ContactStep& step, const NeighbourList& list, std::size_t k) {
-  return step.bodies.spheres[static_cast<std::size_t>(list.facets[k].sphere)];
-}
-
-FacetContact facet_contact(const ContactStep& step, const NearWall& pair, const NeighbourList& list,
-                           std::size_t k) {
-  return step.walls.contact(pair.wall, list.facets[k].facet, sphere_of(step, list, k).centre);
+/// Whether number `k` of those listed near a wall touches, and where.
+bool touches(const ContactStep& step, const NearWall& pair, const NeighbourList& list,
+             std::size_t k, FacetContact& where) {
+  const NearFacet& near = list.facets[k];
+  const PlacedSphere& sphere = step.bodies.spheres[static_cast<std::size_t>(near.sphere)];
+  return step.walls.touches(pair.wall, near.facet, sphere.centre, sphere.radius, where);
 }
 
 /// A sphere that moves on to the next facet of a wall takes its contact's memory along.
 void hand_over_memories(const ContactStep& step, const NearWall& pair, NeighbourList& list) {
-  const auto touches = [&](std::size_t k) {
-    return facet_contact(step, pair, list, k).distance < sphere_of(step, list, k).radius;
-  };
+  FacetContact where;
   auto first = static_cast<std::size_t>(pair.first);
   const std::size_t end = first + static_cast<std::size_t>(pair.count);
   while (first < end) {
     std::size_t last = first + 1;
     while (last < end && list.facets[last].sphere == list.facets[first].sphere) ++last;
     for (std::size_t from = first; from < last; ++from) {
-      if (list.wall_memories[from].radius == 0 || touches(from)) continue;
+      if (list.wall_memories[from].radius == 0 || touches(step, pair, list, from, where)) continue;
       for (std::size_t to = first; to < last; ++to) {
-        if (list.wall_memories[to].radius > 0 || !touches(to)) continue;
+        if (list.wall_memories[to].radius > 0 || !touches(step, pair, list, to, where)) continue;
         std::swap(list.wall_memories[to], list.wall_memories[from]);
         break;
       }
@@ -77,12 +74,9 @@ void add_touching(const ContactStep& step, const NearWall& near, std::size_t num
   const std::size_t start = touching.contacts.size();
   for (int k = near.first; k < near.first + near.count; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    const PlacedSphere& sphere = sphere_of(step, list, at);
     ContactMemory& memory = list.wall_memories[at];
-    const bool is_clear = step.walls.is_clear(near.wall, sphere.centre, sphere.radius);
     FacetContact& facet = touching.facets[touching.contacts.size()];
-    if (!is_clear) facet = facet_contact(step, near, list, at);
-    if (!is_clear && facet.distance < sphere.radius) {
+    if (touches(step, near, list, at, facet)) {
       touching.contacts.push_back({.sphere = list.facets[at].sphere,
                                    .other = static_cast<int>(touching.contacts.size()),
                                    .memory = k,

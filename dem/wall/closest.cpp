@@ -29,14 +29,12 @@ Nearest<Point> nearest_on_box(const Point& half, const Point& point) {
 
 }  // namespace
 
-Closest closest(const Plane& /*plane*/, const Vector& point) {
-  return {.distance = point.z(), .normal = Vector::UnitZ()};
-}
+Closest closest(const Plane& /*plane*/, const Vector& point) { return closest_above(0, point); }
 
 Closest closest(const Box& box, const Vector& point) {
   const Vector& half = box.half_size;
   if (point.z() > half.z() && std::abs(point.x()) <= half.x() && std::abs(point.y()) <= half.y()) {
-    return {.distance = point.z() - half.z(), .normal = Vector::UnitZ()};
+    return closest_above(half.z(), point);
   }
   const auto [distance, normal] = nearest_on_box<Vector>(half, point);
   return {.distance = distance, .normal = normal};
@@ -45,15 +43,12 @@ Closest closest(const Box& box, const Vector& point) {
 Closest closest(const Tube& tube, const Vector& point) {
   using Point = Eigen::Vector2d;
   const double from_axis = std::sqrt(point.x() * point.x() + point.y() * point.y());
-  const double inverse = 1 / from_axis;
-  const Vector outwards =
-      from_axis > 0 ? Vector(point.x() * inverse, point.y() * inverse, 0) : Vector::UnitX();
-  if (from_axis <= tube.inner_radius && point.z() >= 0 && point.z() <= tube.height) {
-    return {.distance = tube.inner_radius - from_axis, .normal = -outwards};
-  }
+  const Closest within = closest_within(tube.inner_radius, from_axis, point);
+  if (from_axis <= tube.inner_radius && point.z() >= 0 && point.z() <= tube.height) return within;
   const Point half(tube.thickness / 2, tube.height / 2);
   const Point middle(tube.inner_radius + half.x(), half.y());
   const auto [distance, normal] = nearest_on_box<Point>(half, Point(from_axis, point.z()) - middle);
+  const Vector outwards = -within.normal;
   return {.distance = distance, .normal = normal.x() * outwards + normal.y() * Vector::UnitZ()};
 }
 

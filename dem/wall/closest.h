@@ -11,6 +11,19 @@ struct Closest {
   Vector normal = Vector::Zero();  ///< unit, from the surface to the point
 };
 
+/// Over a level face.
+inline Closest closest_above(double level, const Vector& point) {
+  return {.distance = point.z() - level, .normal = Vector::UnitZ()};
+}
+
+/// Within a tube, whose axis is z, between its ends.
+inline Closest closest_within(double inner_radius, double from_axis, const Vector& point) {
+  const double inverse = 1 / from_axis;
+  const Vector outwards =
+      from_axis > 0 ? Vector(point.x() * inverse, point.y() * inverse, 0) : Vector::UnitX();
+  return {.distance = inner_radius - from_axis, .normal = -outwards};
+}
+
 Closest closest(const Plane& plane, const Vector& point);
 Closest closest(const Box& box, const Vector& point);
 /// On the axis of the tube, where all directions are alike, the normal is -x.

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-
-#include "dem/wall/closest.h"
-
 namespace repose::dem {
 
 WallSet::WallSet(std::vector<Wall> walls)
@@ -43,8 +40,11 @@ WallSet::Clearance WallSet::clearance(std::size_t wall) const {
   if (is_turned_[wall] != 0) return clear;
   if (std::holds_alternative<Plane>(walls_[wall].shape)) {
     clear.from = clear.to = 0;
+    clear.face_x = clear.face_y = 1e300;
   } else if (const auto* box = std::get_if<Box>(&walls_[wall].shape)) {
     clear.from = clear.to = box->half_size.z();
+    clear.face_x = box->half_size.x();
+    clear.face_y = box->half_size.y();
   } else if (const auto* tube = std::get_if<Tube>(&walls_[wall].shape)) {
     clear.from = 0;
     clear.to = tube->height;

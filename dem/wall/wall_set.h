@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "dem/wall/bed_facets.h"
+#include "dem/wall/closest.h"
 #include "dem/wall/mesh_facets.h"
 #include "dem/wall/wall.h"
 
@@ -45,19 +47,32 @@ class WallSet {
 
   FacetContact contact(int wall, int facet, const Vector& point) const;
 
-  /// True for most spheres that touch no facet of a wall, at the cost of a few comparisons; never
-  /// for one that does.
-  bool is_clear(int wall, const Vector& centre, double radius) const {
+  /// Whether a sphere touches a facet of a wall, and if so where, as contact() has it. Most spheres
+  /// lie over a level face or within an upright tube, where that takes a few comparisons.
+  bool touches(int wall, int facet, const Vector& centre, double radius,
+               FacetContact& where) const {
     const Clearance& clear = clearances_[static_cast<std::size_t>(wall)];
-    const double height = centre.z() - clear.position.z();
+    const Vector own = centre - clear.position;
     // A little more, and less: distances are rounded on another way.
-    if (height < clear.from || height > clear.to) {
-      return height - clear.to > 1.000000000001 * radius;
+    if (own.z() < clear.from || own.z() > clear.to) {
+      if (own.z() - clear.to > 1.000000000001 * radius) return false;
+      if (own.z() > clear.to && std::abs(own.x()) <= clear.face_x &&
+          std::abs(own.y()) <= clear.face_y) {
+        where = flat(closest_above(clear.to, own));
+        return where.distance < radius;
+      }
+    } else if (clear.bore > 0) {
+      const double across2 = own.x() * own.x() + own.y() * own.y();
+      const double gap = clear.bore - radius;
+      if (gap > 0 && across2 < .999999999999 * (gap * gap)) return false;
+      const double from_axis = std::sqrt(across2);
+      if (from_axis <= clear.bore) {
+        where = flat(closest_within(clear.bore, from_axis, own));
+        return where.distance < radius;
+      }
     }
-    const double gap = clear.bore - radius;
-    const double x = centre.x() - clear.position.x();
-    const double y = centre.y() - clear.position.y();
-    return gap > 0 && x * x + y * y < .999999999999 * (gap * gap);
+    where = contact(wall, facet, centre);
+    return where.distance < radius;
   }
 
  private:
@@ -68,7 +83,13 @@ class WallSet {
     double from = -1e300;
     double to = 1e300;
     double bore = 0;
+    double face_x = -1;  ///< half the sides of the level face at `to`; none: below 0
+    double face_y = -1;
   };
+
+  static FacetContact flat(const Closest& spot) {
+    return {.normal = spot.normal, .distance = spot.distance};
+  }
 
   Clearance clearance(std::size_t wall) const;
   Vector in_frame_of(std::size_t wall, const Vector& point) const;
