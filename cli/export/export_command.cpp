@@ -13,8 +13,8 @@ deck for each experiment are written to FOLDER/export/PROGRAM, with a README.txt
 that gives both programs' definitions of each coefficient.
 
 Programs:
-  liggghts    decks for drop, tilt, roll and heap
-  yade        the same, as scripts
+  liggghts    decks for all experiments but fills that are tapped
+  yade        scripts for drop, tilt, roll and heap
   lammps      decks for drop, tilt and roll
   edem        tables to type in
 

@@ -13,7 +13,7 @@
 #include "dem/study/range.h"
 
 /// What there is to know about each experiment, an entry each. Study files, reports, the fit and
-/// the store of runs ask here; none of them knows an experiment by name.
+/// the store of runs ask here.
 namespace repose::dem {
 
 /// A number that a run gives beside its value.
