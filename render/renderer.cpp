@@ -1,5 +1,7 @@
 #include "render/renderer.h"
 
+#include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -93,7 +95,7 @@ class Renderer::Studio {
     const Scene outer{.shapes = scene.shapes, .grains = std::move(occlusion.visible), .walls = {}};
     const Stage stage = hand_.set(outer, view, style.shown, 0);
     std::vector<std::uint8_t> mask = mask_.paint(view, stage, false);
-    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] |= occlusion.mask[k];
+    std::transform(mask.begin(), mask.end(), occlusion.mask.begin(), mask.begin(), std::bit_or<>());
     return mask;
   }
 

@@ -45,67 +45,64 @@ double mesh_core_m(const dem::Mesh& mesh) {
   return std::sqrt(nearest2);
 }
 
-/// Rectangle of pixels, clipped to the picture; the ends are not part of it.
-struct Pixels {
-  int left, right, top, bottom;
-};
-
-Pixels around(const vision::Point& middle, double radius_px, const PictureSize& size) {
+/// Calls `use(y, first, end)` for each row of pixels whose middles lie in a disc.
+template <class Use>
+void for_rows(const PictureSize& size, const vision::Point& middle, double radius_px, Use use) {
   const auto clipped = [](double value, int most) {
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most)));
   };
-  return {.left = clipped(std::floor(middle.x - radius_px), size.width),
-          .right = clipped(std::ceil(middle.x + radius_px), size.width),
-          .top = clipped(std::floor(middle.y - radius_px), size.height),
-          .bottom = clipped(std::ceil(middle.y + radius_px), size.height)};
-}
-
-void cover_disc(std::vector<std::uint8_t>& mask, const PictureSize& size,
-                const vision::Point& middle, double radius_px) {
-  const Pixels box = around(middle, radius_px, size);
-  for (int y = box.top; y < box.bottom; ++y) {
+  const int bottom = clipped(std::ceil(middle.y + radius_px), size.height);
+  for (int y = clipped(std::floor(middle.y - radius_px), size.height); y < bottom; ++y) {
     const double dy = y + .5 - middle.y;
     const double half2 = radius_px * radius_px - dy * dy;
     if (half2 <= 0) continue;
     const double half = std::sqrt(half2);
-    const int first = std::max(box.left, static_cast<int>(std::ceil(middle.x - half - .5)));
-    const int end = std::min(box.right, static_cast<int>(std::floor(middle.x + half - .5)) + 1);
-    if (first >= end) continue;
-    const auto row = mask.begin() + std::ptrdiff_t{y} * size.width;
-    std::fill(row + first, row + end, std::uint8_t{255});
+    const int first = clipped(std::ceil(middle.x - half - .5), size.width);
+    const int end = clipped(std::floor(middle.x + half - .5) + 1, size.width);
+    if (first < end) use(y, first, end);
   }
 }
 
-/// How many covered pixels lie left of and above each corner between pixels.
-class Sums {
+void cover_disc(std::vector<std::uint8_t>& mask, const PictureSize& size,
+                const vision::Point& middle, double radius_px) {
+  for_rows(size, middle, radius_px, [&](int y, int first, int end) {
+    const auto row = mask.begin() + std::ptrdiff_t{y} * size.width;
+    std::fill(row + first, row + end, std::uint8_t{255});
+  });
+}
+
+/// How many covered pixels of its row lie left of each corner between pixels.
+class CoveredRows {
  public:
-  Sums(const std::vector<std::uint8_t>& mask, const PictureSize& size)
-      : width_(static_cast<std::size_t>(size.width) + 1),
-        sums_(width_ * (static_cast<std::size_t>(size.height) + 1)) {
+  CoveredRows(const std::vector<std::uint8_t>& mask, const PictureSize& size)
+      : size_(size), left_(at(size.height, 0)) {
     std::size_t from = 0;
     for (int y = 0; y < size.height; ++y) {
       std::uint32_t in_row = 0;
-      std::size_t at = (static_cast<std::size_t>(y) + 1) * width_ + 1;
-      for (int x = 0; x < size.width; ++x, ++at, ++from) {
+      for (int x = 0; x < size.width; ++x, ++from) {
         in_row += mask[from] != 0 ? 1U : 0U;
-        sums_[at] = sums_[at - width_] + in_row;
+        left_[at(y, x + 1)] = in_row;
       }
     }
   }
 
-  bool covers(const Pixels& box) const {
-    const auto at = [this](int x, int y) {
-      return std::int64_t{
-          sums_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)]};
-    };
-    const std::int64_t covered = at(box.right, box.bottom) - at(box.left, box.bottom) -
-                                 at(box.right, box.top) + at(box.left, box.top);
-    return covered == std::int64_t{box.right - box.left} * (box.bottom - box.top);
+  bool hide_disc(const vision::Point& middle, double radius_px) const {
+    bool are_covered = true;
+    for_rows(size_, middle, radius_px, [&](int y, int first, int end) {
+      const std::uint32_t covered = left_[at(y, end)] - left_[at(y, first)];
+      are_covered = are_covered && covered == static_cast<std::uint32_t>(end - first);
+    });
+    return are_covered;
   }
 
  private:
-  std::size_t width_;
-  std::vector<std::uint32_t> sums_;
+  std::size_t at(int y, int x) const {
+    return static_cast<std::size_t>(y) * (static_cast<std::size_t>(size_.width) + 1) +
+           static_cast<std::size_t>(x);
+  }
+
+  PictureSize size_;
+  std::vector<std::uint32_t> left_;
 };
 
 }  // namespace
@@ -139,11 +136,12 @@ Occlusion occluded_part(const Scene& scene, const View& view, Shown shown) {
     if (core_px <= 0) continue;
     cover_disc(occlusion.mask, view.size, *view.project(grain.pose.position), core_px);
   }
-  const Sums sums(occlusion.mask, view.size);
+  const CoveredRows rows(occlusion.mask, view.size);
   for (const PlacedGrain& grain : scene.grains) {
     const double reach_px = reaches_px[static_cast<std::size_t>(grain.shape)];
-    const Pixels box = around(*view.project(grain.pose.position), reach_px, view.size);
-    if (!sums.covers(box)) occlusion.visible.push_back(grain);
+    if (!rows.hide_disc(*view.project(grain.pose.position), reach_px)) {
+      occlusion.visible.push_back(grain);
+    }
   }
   return occlusion;
 }

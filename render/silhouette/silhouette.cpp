@@ -32,9 +32,9 @@ vision::Picture silhouette_of(const Scene& scene, const View& view, const Silhou
                               const std::vector<std::uint8_t>& grain_mask) {
   vision::Picture picture{.width = view.size.width, .height = view.size.height, .bgr = {}};
   picture.bgr.resize(3 * grain_mask.size());
-  for (std::size_t k = 0; k < grain_mask.size(); ++k) {
-    const auto value = static_cast<std::uint8_t>(255 - grain_mask[k]);
-    picture.bgr[3 * k] = picture.bgr[3 * k + 1] = picture.bgr[3 * k + 2] = value;
+  std::uint8_t* to = picture.bgr.data();
+  for (const std::uint8_t grain : grain_mask) {
+    to = std::fill_n(to, 3, static_cast<std::uint8_t>(255 - grain));
   }
   if (style.shows_ground) {
     if (const auto ground = ground_in_picture(scene, view)) paint_ground(picture, *ground);

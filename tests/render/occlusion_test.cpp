@@ -1,5 +1,8 @@
 #include "render/silhouette/occlusion.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "tests/support/nut_heap.h"
@@ -36,6 +39,23 @@ TEST(Hidden, MostGrainsInTheMiddleOfALargeHeapAreHidden) {
   const Occlusion occlusion = occluded_part(heap, view, Shown::mesh);
   EXPECT_LT(occlusion.visible.size(), heap.grains.size() / 2);
   EXPECT_GT(occlusion.visible.size(), 0U);
+}
+
+TEST(Hidden, AGrainIsHiddenWhereItsWholeDiscLiesBehindAnother) {
+  // At .75 the corner of the small disc's box stands out of the large disc, at .81 so does the
+  // disc.
+  for (const double away : {0.0, .75, .81}) {
+    Scene scene = testing::sphere_scene(.01, {{0, 0, 0}});
+    scene.shapes.push_back(dem::sphere_shape(.002));
+    const double each_m = away * .01 * std::sqrt(.5);
+    scene.grains.push_back({.shape = 1, .number = 1, .pose = {.position = {each_m, .02, each_m}}});
+    const OrthographicCamera camera{.mm_per_px = .01, .middle_m = dem::Vector(0, 0, 0)};
+    const Occlusion occlusion =
+        occluded_part(scene, view_of(scene, camera, {2400, 2400}), Shown::mesh);
+    const bool is_seen = std::any_of(occlusion.visible.begin(), occlusion.visible.end(),
+                                     [](const PlacedGrain& grain) { return grain.shape == 1; });
+    EXPECT_EQ(is_seen, away > .8) << away;
+  }
 }
 
 }  // namespace

@@ -56,6 +56,16 @@ TEST(BodyTexture, GapsBetweenGrainsLeaveASilhouetteEven) {
       texture_in([](int row, int col) { return row % 40 < 3 && (col + row) % 91 < 3 ? 255 : 0; });
   EXPECT_GT(silhouette.even, 0.99);
   EXPECT_GT(silhouette.noise, 0.1);
+  EXPECT_TRUE(silhouette.is_silhouette());
+}
+
+TEST(BodyTexture, HowEdgesOfASilhouetteRunIsNotLookedAt) {
+  // Gaps in rows and columns, which would be a pattern.
+  const BodyTexture silhouette =
+      texture_in([](int row, int col) { return row % 40 < 3 && col % 41 < 4 ? 255 : 0; });
+  EXPECT_TRUE(silhouette.is_silhouette());
+  EXPECT_EQ(silhouette.crossed, 0);
+  EXPECT_EQ(silhouette.regular, 0);
 }
 
 TEST(BodyTexture, BoardsRunOneWay) {
@@ -66,7 +76,7 @@ TEST(BodyTexture, BoardsRunOneWay) {
 
 TEST(BodyTexture, TilesRunTwoWaysAndRepeat) {
   const BodyTexture tiles = texture_in(
-      [](int row, int col) { return row % 12 < 2 || (col + row / 12 * 6) % 12 < 2 ? 90 : 130; });
+      [](int row, int col) { return row % 13 < 2 || (col + row / 13 * 6) % 13 < 2 ? 90 : 130; });
   EXPECT_LT(tiles.aligned, 0.4);
   EXPECT_GT(tiles.crossed, 0.5);
   EXPECT_GT(tiles.regular, 0.5);

@@ -19,7 +19,6 @@ constexpr double kCoarser = 4;           // pixels of the picture in one that is
 constexpr double kPatchChange = 9;       // distance in L*a*b* that is another part
 constexpr double kGradientBlur_px = 1;   // single pixels have no direction
 constexpr float kFaintestGradient = 1e-3F;
-constexpr float kEven = 0.05F;      // step of lightness that is none
 constexpr std::size_t kRings = 32;  // of wavelengths
 constexpr double kStrong = 8;       // times the mean of the ring: by chance one in 3000
 
@@ -40,23 +39,6 @@ Inside inside_of(const cv::Mat1b& body, const WorkingPicture& work) {
   inside.lab = work.lab(box);
   inside.bgr = work.bgr(box);
   return inside;
-}
-
-void add_steps(BodyTexture& texture, const Inside& inside) {
-  double sum = 0;
-  int even = 0;
-  int pairs = 0;
-  for (int row = 0; row < inside.core.rows; row += 2) {
-    for (int col = 0; col + 1 < inside.core.cols; col += 2) {
-      if (inside.core(row, col) == 0 || inside.core(row, col + 1) == 0) continue;
-      const float step = std::abs(inside.lightness(row, col + 1) - inside.lightness(row, col));
-      sum += step;
-      even += step < kEven ? 1 : 0;
-      ++pairs;
-    }
-  }
-  texture.noise = sum / std::max(1, pairs);
-  texture.even = static_cast<double>(even) / std::max(1, pairs);
 }
 
 double longest_edge_in(const Inside& inside) {
@@ -197,10 +179,11 @@ BodyTexture texture_of(const cv::Mat1b& body, double crest_height, const Working
   Inside inside = inside_of(body, work);
   if (is_flat(inside.bgr, inside.core)) return {.noise = 0, .even = 1};
   cv::extractChannel(inside.lab, inside.lightness, 0);
-  BodyTexture texture;
-  add_steps(texture, inside);
+  const LightSteps steps = light_steps(inside.lightness, inside.core);
+  BodyTexture texture{.noise = steps.mean, .even = steps.even};
   texture.straight = longest_edge_in(inside) / std::max(1.0, crest_height);
   texture.patchy = patchy_part(inside, crest_height);
+  if (steps.are_silhouettes()) return texture;
   texture.regular = regular_part(inside);
   add_directions(texture, inside);
   return texture;

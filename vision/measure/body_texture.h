@@ -2,6 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "vision/measure/flatness.h"
 #include "vision/measure/working_picture.h"
 
 namespace repose::vision {
@@ -17,6 +18,9 @@ struct BodyTexture {
   double aligned = 0;   ///< how far all its edges run one way, 0 to 1: stripes, boards, pleats
   double crossed = 0;   ///< how far they run two ways at right angles: bricks, tiles, weave
   double regular = 0;   ///< part of its pattern that repeats
+
+  /// How its edges run and repeat says nothing then and was not looked at.
+  bool is_silhouette() const { return LightSteps{.mean = noise, .even = even}.are_silhouettes(); }
 };
 
 /// @param body           255 where the body is

@@ -2,20 +2,23 @@
 
 #include <opencv2/core/mat.hpp>
 
+/// Whether there is a pattern to look for.
 namespace repose::vision {
 
-/// Whether there are pixels inside the mask and all have one colour, as in a silhouette: then there
-/// is no pattern to look for.
-inline bool is_flat(const cv::Mat3b& bgr, const cv::Mat1b& mask) {
-  const cv::Vec3b* first = nullptr;
-  for (int row = 0; row < bgr.rows; ++row) {
-    for (int col = 0; col < bgr.cols; ++col) {
-      if (mask(row, col) == 0) continue;
-      if (first == nullptr) first = &bgr(row, col);
-      if (bgr(row, col) != *first) return false;
-    }
-  }
-  return first != nullptr;
-}
+/// There are pixels inside the mask, and all have one colour.
+bool is_flat(const cv::Mat3b& bgr, const cv::Mat1b& inside);
+
+/// How lightness changes to the next pixel.
+struct LightSteps {
+  double mean = 0;
+  double even = 0;  ///< part of the steps that are none; 0 where there are no pixels
+
+  /// All of one lightness but for gaps between the grains; all else shows grains, whose light and
+  /// dark are not smooth.
+  bool are_silhouettes() const { return even > 0.985; }
+};
+
+/// @param lightness  L, 0 to 100
+LightSteps light_steps(const cv::Mat1f& lightness, const cv::Mat1b& inside);
 
 }  // namespace repose::vision

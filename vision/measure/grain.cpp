@@ -58,10 +58,11 @@ std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& bo
   cv::Mat1b core;
   cv::erode(body(box), core, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
   if (is_flat(work.bgr(box), core)) return std::nullopt;
-  cv::Mat1f inside;
-  core.convertTo(inside, CV_32F, 1 / 255.0);
   cv::Mat1f lightness;
   cv::extractChannel(work.lab(box), lightness, 0);
+  if (light_steps(lightness, core).are_silhouettes()) return std::nullopt;
+  cv::Mat1f inside;
+  core.convertTo(inside, CV_32F, 1 / 255.0);
   // The local mean over the body alone: what lies outside must not shine in.
   const double coarse_px = std::max(2.0, box.height / 8.0);
   cv::Mat1f sum;

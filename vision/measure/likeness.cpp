@@ -89,8 +89,6 @@ constexpr double kMostAligned = 0.4;
 constexpr double kMostCrossed = 0.15;
 constexpr double kMostRegular = 0.33;
 constexpr double kMostLevel = 0.5;
-// A silhouette is all of one lightness; all else shows grains, whose light and dark are not smooth.
-constexpr double kMostlyEven = 0.985;
 constexpr double kLeastNoise = 0.4;
 // Roughness of an edge that no grains make [working px]: of grains of some size, where the edge is
 // sharp or blurred, and at all.
@@ -136,8 +134,7 @@ std::string reason_of_texture(const BodyTexture& inside, bool has_grains) {
     return fmt::format("it has parts of different colours ({:.0f} % of it lies between them)",
                        100 * inside.patchy);
   }
-  const bool is_silhouette = inside.even > kMostlyEven;
-  if (is_silhouette) return {};
+  if (inside.is_silhouette()) return {};
   if (inside.aligned > kMostAligned || inside.crossed > kMostCrossed) {
     return "its pattern runs in straight lines, as on boards, bricks, tiles and cloth";
   }
