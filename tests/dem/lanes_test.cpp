@@ -57,7 +57,7 @@ Case random_case(std::mt19937& random) {
     return {size * uniform(), size * uniform(), size * uniform()};
   };
   Case one;
-  const Vector normal = Vector(uniform(), uniform(), uniform() + 2).normalized();
+  const Vector normal = Vector{uniform(), uniform(), uniform() + 2}.normalized();
   one.touch.normal = triple_of(normal);
   one.touch.overlap = 1e-6 * (1 + uniform());
   one.touch.reduced_radius = .002;

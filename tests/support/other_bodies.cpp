@@ -53,7 +53,8 @@ void draw_hand(Canvas& canvas, Random& random) {
                       .pattern = Pattern::noise,
                       .pattern_strength = .03,
                       .pattern_scale = .003};
-  const Place wrist(random.uniform(.4, .55), high * random.uniform(.4, .65));
+  const double wrist_y = high * random.uniform(.4, .65);
+  const Place wrist(random.uniform(.4, .55), wrist_y);
   const double size = random.uniform(.16, .28);
   const double turn_rad = random.uniform(-.8, .8);
   const auto put = [&](const Places& part) { canvas.fill(turned(part, wrist, turn_rad), skin); };

@@ -48,7 +48,8 @@ Pattern masonry(Random& random) {
 }  // namespace
 
 void draw_gabled_roof(Canvas& canvas, Random& random) {
-  house(canvas, smooth_paint(random), smooth_paint(random), random);
+  const Paint wall = smooth_paint(random);
+  house(canvas, smooth_paint(random), wall, random);
 }
 
 void draw_tiled_roof(Canvas& canvas, Random& random) {
@@ -64,8 +65,9 @@ void draw_roof_on_ground(Canvas& canvas, Random& random) {
   const double rise = width / 2 * std::tan(random.uniform(.35, .85));
   const double ridge = left + width * random.uniform(.42, .58);
   ground_shadow(canvas, left, left + width, ground, random);
+  const double strength = random.uniform(.1, .35);
   canvas.fill({{left, ground}, {ridge, ground - rise}, {left + width, ground}},
-              of_pattern(masonry(random), random.uniform(.1, .35), random));
+              of_pattern(masonry(random), strength, random));
   if (random.chance(.4)) {
     canvas.fill(rectangle({ridge - .03, ground - .3 * rise}, {ridge + .03, ground}),
                 {.color = {.15, .12, .1}});

@@ -42,9 +42,11 @@ void leafy_tree(Canvas& canvas, Place foot, double high, const Paint& paint, Ran
   for (int i = 0; i < puffs; ++i) {
     const double angle = random.uniform(0, 2 * CV_PI);
     const double out = high * random.uniform(0, .22);
+    const double half_height = high * random.uniform(.1, .2);
+    const double half_width = high * random.uniform(.1, .2);
     canvas.fill(
         ellipse({foot.x + out * std::cos(angle), foot.y - .7 * high + out * std::sin(angle)},
-                high * random.uniform(.1, .2), high * random.uniform(.1, .2)),
+                half_width, half_height),
         paint);
   }
 }
@@ -83,7 +85,8 @@ void draw_trees(Canvas& canvas, Random& random) {
   const double ground = outdoors(canvas, random);
   const int count = random.integer(1, 6);
   for (int i = 0; i < count; ++i) {
-    const Place foot((i + random.uniform(.2, .8)) / count, ground + random.uniform(0, .03));
+    const double foot_y = ground + random.uniform(0, .03);
+    const Place foot((i + random.uniform(.2, .8)) / count, foot_y);
     const Paint paint = {.color = {random.uniform(.1, .35), random.uniform(.25, .5), .15},
                          .contrast = random.uniform(.1, .5),
                          .pattern = Pattern::noise,
@@ -102,7 +105,8 @@ void draw_clouds(Canvas& canvas, Random& random) {
   const double ground = outdoors(canvas, random);
   const int clouds = random.integer(1, 5);
   for (int i = 0; i < clouds; ++i) {
-    const Place middle(random.uniform(.15, .85), ground * random.uniform(.2, .7));
+    const double middle_y = ground * random.uniform(.2, .7);
+    const Place middle(random.uniform(.15, .85), middle_y);
     const double size = random.uniform(.05, .16);
     const double grey = random.uniform(.75, .98);
     for (int k = 0; k < 12; ++k) {

@@ -7,8 +7,10 @@ namespace repose::testing {
 
 void draw_room(Canvas& canvas, Random& random) {
   const double high = canvas.height();
-  const Place from(random.uniform(.15, .35), high * random.uniform(.15, .3));
-  const Place to(random.uniform(.65, .85), high * random.uniform(.55, .7));
+  const double from_y = high * random.uniform(.15, .3);
+  const Place from(random.uniform(.15, .35), from_y);
+  const double to_y = high * random.uniform(.55, .7);
+  const Place to(random.uniform(.65, .85), to_y);
   const Paint wall = smooth_paint(random);
   Paint side = wall;
   side.color = times(wall.color, random.uniform(.7, .95));
@@ -27,7 +29,8 @@ void draw_room(Canvas& canvas, Random& random) {
     const double width = random.uniform(.08, .28);
     const double left = random.uniform(.05, .8);
     ground_shadow(canvas, left, left + width, ground, random);
-    stand_box(canvas, left, ground, width, random.uniform(.05, .25), any_paint(random), random);
+    const Paint paint = any_paint(random);
+    stand_box(canvas, left, ground, width, random.uniform(.05, .25), paint, random);
   }
 }
 

@@ -61,7 +61,8 @@ void draw_letters(Canvas& canvas, Random& random) {
   const int font = random.pick(std::array{static_cast<int>(cv::FONT_HERSHEY_SIMPLEX),
                                           static_cast<int>(cv::FONT_HERSHEY_DUPLEX),
                                           static_cast<int>(cv::FONT_HERSHEY_TRIPLEX)});
-  const Place at(random.uniform(.05, .2), canvas.height() * random.uniform(.6, .85));
+  const double y = canvas.height() * random.uniform(.6, .85);
+  const Place at(random.uniform(.05, .2), y);
   canvas.write(word, at, size, font, {.color = any_color(random), .contrast = .1});
 }
 

@@ -77,7 +77,8 @@ void draw_tools(Canvas& canvas, Random& random) {
   }
   const int count = random.integer(1, 4);
   for (int i = 0; i < count; ++i) {
-    const Place at((i + random.uniform(.3, .7)) / count, high * random.uniform(.25, .55));
+    const double y = high * random.uniform(.25, .55);
+    const Place at((i + random.uniform(.3, .7)) / count, y);
     const double size = random.uniform(.2, .4);
     const double turn_rad = random.uniform(-2, 2);
     canvas.darken(ellipse(at + Place(.01, .1), .15 * size, .3 * size, turn_rad), .25, .02);
