@@ -286,8 +286,10 @@ TEST_F(Calibrate, AFolderThatCannotBeMadeIsRefused) {
   EXPECT_EQ(text("runs"), "a file where the folder should be");
 }
 
-#ifndef __SANITIZE_THREAD__  // which begins by writing a file of its own
 TEST_F(Calibrate, AFullDiskLosesNothing) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "the thread sanitizer begins by writing a file of its own";
+#endif
   // No file may grow beyond 4 KiB: runs are smaller, the clump and the result are larger.
   folder_.write("full.sh", std::string("trap '' XFSZ; ulimit -f 8\n"
                                        "exec '") +
@@ -307,7 +309,6 @@ TEST_F(Calibrate, AFullDiskLosesNothing) {
   EXPECT_THAT(again.err, HasSubstr("simulations were taken from"));
   EXPECT_EQ(text("runs/result.json"), result);
 }
-#endif
 
 TEST_F(Calibrate, PicturesThatAreMissingAreNamed) {
   const Finished refused =

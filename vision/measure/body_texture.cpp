@@ -183,7 +183,7 @@ BodyTexture texture_of(const cv::Mat1b& body, double crest_height, const Working
   BodyTexture texture{.noise = steps.mean, .even = steps.even};
   texture.straight = longest_edge_in(inside) / std::max(1.0, crest_height);
   texture.patchy = patchy_part(inside, crest_height);
-  if (steps.are_silhouettes()) return texture;
+  if (steps.are_of_silhouette()) return texture;
   texture.regular = regular_part(inside);
   add_directions(texture, inside);
   return texture;

@@ -20,7 +20,7 @@ struct BodyTexture {
   double regular = 0;   ///< part of its pattern that repeats
 
   /// How its edges run and repeat says nothing then and was not looked at.
-  bool is_silhouette() const { return LightSteps{.mean = noise, .even = even}.are_silhouettes(); }
+  bool is_silhouette() const { return LightSteps{.mean = noise, .even = even}.are_of_silhouette(); }
 };
 
 /// @param body           255 where the body is

@@ -15,7 +15,7 @@ struct LightSteps {
 
   /// All of one lightness but for gaps between the grains; all else shows grains, whose light and
   /// dark are not smooth.
-  bool are_silhouettes() const { return even > 0.985; }
+  bool are_of_silhouette() const { return even > 0.985; }
 };
 
 /// @param lightness  L, 0 to 100

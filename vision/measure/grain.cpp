@@ -60,7 +60,7 @@ std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& bo
   if (is_flat(work.bgr(box), core)) return std::nullopt;
   cv::Mat1f lightness;
   cv::extractChannel(work.lab(box), lightness, 0);
-  if (light_steps(lightness, core).are_silhouettes()) return std::nullopt;
+  if (light_steps(lightness, core).are_of_silhouette()) return std::nullopt;
   cv::Mat1f inside;
   core.convertTo(inside, CV_32F, 1 / 255.0);
   // The local mean over the body alone: what lies outside must not shine in.
