@@ -50,7 +50,9 @@ endfunction()
 function(add_file name kind tests)
   # Seconds: what takes long is started early, so that none is left to end alone.
   set(cost 0)
-  if(kind)
+  if(LABEL STREQUAL "peers")  # minutes, where the other programs are installed
+    set(cost 20)
+  elseif(kind)
     set(cost 10)
   elseif(LABEL MATCHES "^(cli|calibrate)$")
     set(cost 5)
