@@ -6,8 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/measure/flatness.h"
-
 namespace repose::vision {
 namespace {
 
@@ -39,6 +37,19 @@ Inside inside_of(const cv::Mat1b& body, const WorkingPicture& work) {
   inside.lab = work.lab(box);
   inside.bgr = work.bgr(box);
   return inside;
+}
+
+/// There are pixels inside, and all have one colour.
+bool is_flat(const Inside& inside) {
+  const cv::Vec3b* first = nullptr;
+  for (int row = 0; row < inside.bgr.rows; ++row) {
+    for (int col = 0; col < inside.bgr.cols; ++col) {
+      if (inside.core(row, col) == 0) continue;
+      if (first == nullptr) first = &inside.bgr(row, col);
+      if (inside.bgr(row, col) != *first) return false;
+    }
+  }
+  return first != nullptr;
 }
 
 double longest_edge_in(const Inside& inside) {
@@ -177,7 +188,7 @@ double regular_part(const Inside& inside) {
 
 BodyTexture texture_of(const cv::Mat1b& body, double crest_height, const WorkingPicture& work) {
   Inside inside = inside_of(body, work);
-  if (is_flat(inside.bgr, inside.core)) return {.noise = 0, .even = 1};
+  if (is_flat(inside)) return {.noise = 0, .even = 1};
   cv::extractChannel(inside.lab, inside.lightness, 0);
   const LightSteps steps = light_steps(inside.lightness, inside.core);
   BodyTexture texture{.noise = steps.mean, .even = steps.even};

@@ -2,7 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "vision/measure/flatness.h"
+#include "vision/measure/light_steps.h"
 #include "vision/measure/working_picture.h"
 
 namespace repose::vision {

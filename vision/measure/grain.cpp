@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/measure/flatness.h"
+#include "vision/measure/light_steps.h"
 
 namespace repose::vision {
 namespace {
@@ -57,7 +57,6 @@ std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& bo
   if (box.width < 20 || box.height < 10) return std::nullopt;
   cv::Mat1b core;
   cv::erode(body(box), core, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
-  if (is_flat(work.bgr(box), core)) return std::nullopt;
   cv::Mat1f lightness;
   cv::extractChannel(work.lab(box), lightness, 0);
   if (light_steps(lightness, core).are_of_silhouette()) return std::nullopt;

@@ -2,13 +2,9 @@
 
 #include <opencv2/core/mat.hpp>
 
-/// Whether there is a pattern to look for.
 namespace repose::vision {
 
-/// There are pixels inside the mask, and all have one colour.
-bool is_flat(const cv::Mat3b& bgr, const cv::Mat1b& inside);
-
-/// How lightness changes to the next pixel.
+/// How lightness changes to the next pixel: whether there is a pattern to look for.
 struct LightSteps {
   double mean = 0;
   double even = 0;  ///< part of the steps that are none; 0 where there are no pixels

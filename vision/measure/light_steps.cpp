@@ -1,21 +1,9 @@
-#include "vision/measure/flatness.h"
+#include "vision/measure/light_steps.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace repose::vision {
-
-bool is_flat(const cv::Mat3b& bgr, const cv::Mat1b& inside) {
-  const cv::Vec3b* first = nullptr;
-  for (int row = 0; row < bgr.rows; ++row) {
-    for (int col = 0; col < bgr.cols; ++col) {
-      if (inside(row, col) == 0) continue;
-      if (first == nullptr) first = &bgr(row, col);
-      if (bgr(row, col) != *first) return false;
-    }
-  }
-  return first != nullptr;
-}
 
 LightSteps light_steps(const cv::Mat1f& lightness, const cv::Mat1b& inside) {
   constexpr float kNone = 0.05F;
