@@ -69,7 +69,7 @@ class Renderer::Studio {
     // Most users never take a photo: its shaders are compiled when one is asked for.
     if (!photo_) photo_ = std::make_unique<PhotoPainter>(gl_);
     return {.picture = tone_mapped(photo_->paint(scene, view, {stage}, photo), photo),
-            .grain_mask = mask_.paint(view, stage, true)};
+            .grain_mask = mask_.paint(view, stage)};
   }
 
   vision::Picture expose(const std::vector<Scene>& moments, const Camera& camera,
@@ -90,11 +90,15 @@ class Renderer::Studio {
  private:
   std::vector<std::uint8_t> silhouette_mask(const Scene& scene, const View& view,
                                             const SilhouetteStyle& style) {
+    Scene grains{.shapes = scene.shapes, .grains = scene.grains, .walls = {}};
+    if (view.is_perspective) {
+      return mask_.paint_grains(view, hand_.set(grains, view, style.shown, 0));
+    }
     Occlusion occlusion = occluded_part(scene, view, style.shown);
     if (occlusion.visible.empty()) return std::move(occlusion.mask);
-    const Scene outer{.shapes = scene.shapes, .grains = std::move(occlusion.visible), .walls = {}};
-    const Stage stage = hand_.set(outer, view, style.shown, 0);
-    std::vector<std::uint8_t> mask = mask_.paint(view, stage, false);
+    grains.grains = std::move(occlusion.visible);
+    const Stage stage = hand_.set(grains, view, style.shown, 0);
+    std::vector<std::uint8_t> mask = mask_.paint_uncovered(view, stage, occlusion.covered);
     std::transform(mask.begin(), mask.end(), occlusion.mask.begin(), mask.begin(), std::bit_or<>());
     return mask;
   }

@@ -73,11 +73,15 @@ void set_lens(const gl::Program& program, const View& view, const Stage& stage, 
   }
 }
 
-void draw_batches(const gl::Functions& gl, const std::vector<Batch>& batches) {
+void set_culling(const gl::Functions& gl, bool is_closed) {
   gl.FrontFace(GL_CW);
   gl.CullFace(GL_BACK);
+  (is_closed ? gl.Enable : gl.Disable)(GL_CULL_FACE);
+}
+
+void draw_batches(const gl::Functions& gl, const std::vector<Batch>& batches) {
   for (const Batch& batch : batches) {
-    (batch.is_closed ? gl.Enable : gl.Disable)(GL_CULL_FACE);
+    set_culling(gl, batch.is_closed);
     batch.shape->draw(batch.instances, kInstanceParts);
   }
 }

@@ -30,6 +30,9 @@ struct DepthRange {
 };
 DepthRange depth_range(const View& view, const Stage& stage);
 
+/// Leaves out what is seen from behind, which another side hides; draws both sides of what is open.
+void set_culling(const gl::Functions& gl, bool is_closed);
+
 /// Draws batches with the program in use.
 void draw_batches(const gl::Functions& gl, const std::vector<Batch>& batches);
 

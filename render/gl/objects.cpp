@@ -187,6 +187,12 @@ Shape::~Shape() {
   gl_.DeleteBuffers(3, buffers_.data());
 }
 
+void Shape::draw() const {
+  gl_.BindVertexArray(array_);
+  gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(corner_count_), GL_UNSIGNED_INT,
+                            nullptr, 1);
+}
+
 void Shape::draw(std::span<const float> instances, const std::vector<int>& parts) const {
   const auto floats = static_cast<std::size_t>(std::accumulate(parts.begin(), parts.end(), 0));
   if (floats == 0 || instances.empty() || corner_count_ == 0) return;

@@ -92,7 +92,7 @@ class Target {
   int width_, height_;
 };
 
-/// Triangles with any number of floats to a vertex, drawn once for each instance.
+/// Triangles with any number of floats to a vertex, drawn once, or once for each instance.
 class Shape {
  public:
   /// @param parts  how many floats each attribute has, in the order of the program's attributes.
@@ -106,6 +106,7 @@ class Shape {
 
   std::size_t triangles() const { return corner_count_ / 3; }
 
+  void draw() const;
   /// @param instances  floats of all instances; their attributes follow those of the vertices,
   /// `parts` as there.
   void draw(std::span<const float> instances, const std::vector<int>& parts) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "render/scene/counter_random.h"
 #include "render/scene/extent.h"
@@ -84,8 +85,8 @@ double finest_m_per_px(const Scene& scene, const View& view, double radius_m) {
 
 }  // namespace
 
-std::shared_ptr<const gl::Shape> SceneUploader::grain_shape(const dem::ClumpShape& shape,
-                                                            bool as_spheres, double tolerance_m) {
+SceneUploader::GrainShape SceneUploader::grain_shape(const dem::ClumpShape& shape, bool as_spheres,
+                                                     double tolerance_m) {
   // Steps of the tolerance, so that pictures of nearly the same scale share a surface.
   constexpr double kStepsToDouble = 4;
   const int step = static_cast<int>(std::floor(kStepsToDouble * std::log2(tolerance_m)));
@@ -94,10 +95,12 @@ std::shared_ptr<const gl::Shape> SceneUploader::grain_shape(const dem::ClumpShap
   const auto found = saved_.find(key);
   if (found != saved_.end()) return found->second;
   if (saved_.size() >= kMostKept) saved_.clear();
-  const Surface surface = as_spheres ? sphere_surface(shape.spheres, stepped_m)
-                                     : grain_surface(shape.surface, stepped_m);
-  auto made =
-      std::make_shared<const gl::Shape>(gl_, surface.vertices, surface.corners, kVertexParts);
+  auto surface =
+      std::make_shared<const Surface>(as_spheres ? sphere_surface(shape.spheres, stepped_m)
+                                                 : grain_surface(shape.surface, stepped_m));
+  GrainShape made{
+      std::make_shared<const gl::Shape>(gl_, surface->vertices, surface->corners, kVertexParts),
+      std::move(surface)};
   saved_.emplace(key, made);
   return made;
 }
@@ -117,9 +120,11 @@ Stage SceneUploader::set(const Scene& scene, const View& view, Shown shown, std:
     const dem::ClumpShape& shape = scene.shapes[k];
     const bool has_mesh = !shape.surface.triangles.empty();
     const auto add = [&](bool as_spheres) {
+      GrainShape drawn = grain_shape(shape, as_spheres, tolerance_m);
       stage.grains.push_back(
           {.kind = as_spheres && has_mesh ? Batch::Kind::spheres : Batch::Kind::grains,
-           .shape = grain_shape(shape, as_spheres, tolerance_m),
+           .shape = std::move(drawn.shape),
+           .surface = std::move(drawn.surface),
            .instances = instances,
            .blunt_end = blunt_end_of(shape)});
     };

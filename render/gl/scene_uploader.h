@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "render/gl/objects.h"
 #include "render/scene/scene.h"
 #include "render/scene/style.h"
+#include "render/scene/surface.h"
 #include "render/scene/view.h"
 
 namespace repose::render {
@@ -19,8 +21,9 @@ struct Batch {
   enum class Kind { grains, spheres, wall };
   Kind kind = Kind::grains;
   std::shared_ptr<const gl::Shape> shape;
-  std::vector<float> instances = {};  ///< kInstanceParts floats each
-  bool is_closed = true;              ///< its back faces cannot be seen
+  std::shared_ptr<const Surface> surface = {};  ///< what the shape of a grain was made from
+  std::vector<float> instances = {};            ///< kInstanceFloats each
+  bool is_closed = true;                        ///< its back faces cannot be seen
   /// Where the shell's pattern runs: unit vector to the blunt end, as long as the shape reaches.
   dem::Vector blunt_end = dem::Vector::UnitX();
 };
@@ -29,6 +32,7 @@ struct Batch {
 /// random number, 0 to 1, in four parts.
 inline const std::vector<int> kVertexParts = {3, 3};
 inline const std::vector<int> kInstanceParts = {4, 4, 4, 4};
+inline constexpr std::size_t kInstanceFloats = 16;
 inline const std::vector<const char*> kAttributes = {"position", "normal", "row_x",
                                                      "row_y",    "row_z",  "chance"};
 
@@ -51,12 +55,15 @@ class SceneUploader {
  private:
   /// What the surface is made of, as a hash; spheres or mesh; its tolerance's step.
   using Key = std::tuple<std::uint64_t, bool, int>;
+  struct GrainShape {
+    std::shared_ptr<const gl::Shape> shape;
+    std::shared_ptr<const Surface> surface;
+  };
 
-  std::shared_ptr<const gl::Shape> grain_shape(const dem::ClumpShape& shape, bool as_spheres,
-                                               double tolerance_m);
+  GrainShape grain_shape(const dem::ClumpShape& shape, bool as_spheres, double tolerance_m);
 
   const gl::Functions& gl_;
-  std::map<Key, std::shared_ptr<const gl::Shape>> saved_;
+  std::map<Key, GrainShape> saved_;
 };
 
 }  // namespace repose::render

@@ -15,8 +15,6 @@ namespace {
 
 using dem::Vector;
 
-constexpr std::size_t kFloats = 6;  ///< to a vertex
-
 void append(Surface& surface, const Vector& point, const Vector& normal) {
   for (const double value : point) surface.vertices.push_back(static_cast<float>(value));
   for (const double value : normal) surface.vertices.push_back(static_cast<float>(value));
@@ -39,14 +37,15 @@ std::vector<Vector> smooth_normals(const dem::Mesh& mesh) {
 /// Drops vertices that no triangle uses any more.
 Surface compact(const Surface& surface) {
   constexpr auto kUnused = static_cast<std::uint32_t>(-1);
-  std::vector<std::uint32_t> place(surface.vertices.size() / kFloats, kUnused);
+  std::vector<std::uint32_t> place(surface.vertices.size() / Surface::kFloats, kUnused);
   Surface compacted;
   for (const std::uint32_t corner : surface.corners) {
     if (place[corner] == kUnused) {
-      place[corner] = static_cast<std::uint32_t>(compacted.vertices.size() / kFloats);
-      const auto first = surface.vertices.begin() + static_cast<std::ptrdiff_t>(corner * kFloats);
+      place[corner] = static_cast<std::uint32_t>(compacted.vertices.size() / Surface::kFloats);
+      const auto first =
+          surface.vertices.begin() + static_cast<std::ptrdiff_t>(corner * Surface::kFloats);
       compacted.vertices.insert(compacted.vertices.end(), first,
-                                first + static_cast<std::ptrdiff_t>(kFloats));
+                                first + static_cast<std::ptrdiff_t>(Surface::kFloats));
     }
     compacted.corners.push_back(place[corner]);
   }
@@ -137,7 +136,7 @@ void append_sphere(Surface& surface, const std::vector<dem::ClumpSphere>& sphere
   const int level = level_for(sphere.radius, tolerance_m);
   const dem::Mesh mesh = icosphere(level);
   const double radius = sphere.radius * growth_of(mesh);
-  const auto first = static_cast<std::uint32_t>(surface.vertices.size() / kFloats);
+  const auto first = static_cast<std::uint32_t>(surface.vertices.size() / Surface::kFloats);
   for (const Vector& vertex : mesh.vertices) {
     append(surface, sphere.centre + radius * vertex, vertex);
   }
@@ -172,7 +171,7 @@ void append_sheet(Surface& surface, const Vector& corner, const Vector& across, 
   };
   const std::uint32_t columns = parts(across), rows = parts(up);
   const Vector normal = across.cross(up).normalized();
-  const auto first = static_cast<std::uint32_t>(surface.vertices.size() / kFloats);
+  const auto first = static_cast<std::uint32_t>(surface.vertices.size() / Surface::kFloats);
   for (std::uint32_t row = 0; row <= rows; ++row) {
     for (std::uint32_t column = 0; column <= columns; ++column) {
       append(surface, corner + across * column / columns + up * row / rows, normal);
@@ -211,7 +210,7 @@ void append_tube(Surface& surface, const dem::Tube& tube, double edge_m) {
     append_sheet(surface, occlusion * to, occlusion * (from - to), up, edge_m);
     for (const auto& [height, a, b] :
          {std::tuple{tube.height, from, to}, std::tuple{0.0, to, from}}) {
-      const auto first = static_cast<std::uint32_t>(surface.vertices.size() / kFloats);
+      const auto first = static_cast<std::uint32_t>(surface.vertices.size() / Surface::kFloats);
       const Vector level = height * Vector::UnitZ();
       const Vector normal = height > 0 ? Vector::UnitZ() : Vector(-Vector::UnitZ());
       for (const Vector& corner :
@@ -231,7 +230,8 @@ void append_flat(Surface& surface, const dem::Mesh& mesh) {
     };
     const Vector normal = (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
     for (std::size_t k = 0; k < 3; ++k) {
-      surface.corners.push_back(static_cast<std::uint32_t>(surface.vertices.size() / kFloats));
+      surface.corners.push_back(
+          static_cast<std::uint32_t>(surface.vertices.size() / Surface::kFloats));
       append(surface, at(k), normal);
     }
   }
@@ -262,7 +262,7 @@ void append_bed(Surface& surface, const dem::SphereBed& bed, const Vector& middl
 /// Twice the area of all triangles.
 double area_of(const Surface& surface) {
   const auto at = [&surface](std::uint32_t corner) {
-    const float* first = &surface.vertices[corner * kFloats];
+    const float* first = &surface.vertices[corner * Surface::kFloats];
     return Vector(first[0], first[1], first[2]);
   };
   double area = 0;
@@ -282,7 +282,7 @@ void restore_area(Surface& surface, double area) {
   constexpr double kMost = 1.2;  // more is no rounding but a surface fallen to pieces
   if (!(now > 0) || !(area > now) || area > kMost * now) return;
   const auto growth = static_cast<float>(std::sqrt(area / now));
-  for (std::size_t k = 0; k < surface.vertices.size(); k += kFloats) {
+  for (std::size_t k = 0; k < surface.vertices.size(); k += Surface::kFloats) {
     for (std::size_t i = k; i < k + 3; ++i) surface.vertices[i] *= growth;
   }
 }
@@ -299,7 +299,7 @@ Surface grain_surface(const dem::Mesh& mesh, double tolerance_m) {
   for (const auto& triangle : mesh.triangles) {
     for (const int corner : triangle) corners.push_back(static_cast<std::uint32_t>(corner));
   }
-  constexpr std::size_t kStride = kFloats * sizeof(float);
+  constexpr std::size_t kStride = Surface::kFloats * sizeof(float);
   const std::size_t vertices = mesh.vertices.size();
   const float whole = meshopt_simplifyScale(surface.vertices.data(), vertices, kStride);
   surface.corners = corners;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +13,9 @@ namespace repose::render {
 
 /// Triangles to draw, with a normal at each corner.
 struct Surface {
-  std::vector<float> vertices;  ///< x y z, m, and the unit normal, six to a vertex
+  static constexpr std::size_t kFloats = 6;  ///< to a vertex
+
+  std::vector<float> vertices;  ///< x y z, m, and the unit normal
   std::vector<std::uint32_t> corners;
 
   std::size_t triangles() const { return corners.size() / 3; }

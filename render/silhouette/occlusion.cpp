@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "dem/shape/scan/triangle_tree.h"
 
@@ -45,66 +46,6 @@ double mesh_core_m(const dem::Mesh& mesh) {
   return std::sqrt(nearest2);
 }
 
-/// Calls `use(y, first, end)` for each row of pixels whose middles lie in a disc.
-template <class Use>
-void for_rows(const PictureSize& size, const vision::Point& middle, double radius_px, Use use) {
-  const auto clipped = [](double value, int most) {
-    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most)));
-  };
-  const int bottom = clipped(std::ceil(middle.y + radius_px), size.height);
-  for (int y = clipped(std::floor(middle.y - radius_px), size.height); y < bottom; ++y) {
-    const double dy = y + .5 - middle.y;
-    const double half2 = radius_px * radius_px - dy * dy;
-    if (half2 <= 0) continue;
-    const double half = std::sqrt(half2);
-    const int first = clipped(std::ceil(middle.x - half - .5), size.width);
-    const int end = clipped(std::floor(middle.x + half - .5) + 1, size.width);
-    if (first < end) use(y, first, end);
-  }
-}
-
-void cover_disc(std::vector<std::uint8_t>& mask, const PictureSize& size,
-                const vision::Point& middle, double radius_px) {
-  for_rows(size, middle, radius_px, [&](int y, int first, int end) {
-    const auto row = mask.begin() + std::ptrdiff_t{y} * size.width;
-    std::fill(row + first, row + end, std::uint8_t{255});
-  });
-}
-
-/// How many covered pixels of its row lie left of each corner between pixels.
-class CoveredRows {
- public:
-  CoveredRows(const std::vector<std::uint8_t>& mask, const PictureSize& size)
-      : size_(size), left_(at(size.height, 0)) {
-    std::size_t from = 0;
-    for (int y = 0; y < size.height; ++y) {
-      std::uint32_t in_row = 0;
-      for (int x = 0; x < size.width; ++x, ++from) {
-        in_row += mask[from] != 0 ? 1U : 0U;
-        left_[at(y, x + 1)] = in_row;
-      }
-    }
-  }
-
-  bool hide_disc(const vision::Point& middle, double radius_px) const {
-    bool are_covered = true;
-    for_rows(size_, middle, radius_px, [&](int y, int first, int end) {
-      const std::uint32_t covered = left_[at(y, end)] - left_[at(y, first)];
-      are_covered = are_covered && covered == static_cast<std::uint32_t>(end - first);
-    });
-    return are_covered;
-  }
-
- private:
-  std::size_t at(int y, int x) const {
-    return static_cast<std::size_t>(y) * (static_cast<std::size_t>(size_.width) + 1) +
-           static_cast<std::size_t>(x);
-  }
-
-  PictureSize size_;
-  std::vector<std::uint32_t> left_;
-};
-
 }  // namespace
 
 double core_radius_m(const dem::ClumpShape& shape, Shown shown) {
@@ -119,31 +60,27 @@ double core_radius_m(const dem::ClumpShape& shape, Shown shown) {
 }
 
 Occlusion occluded_part(const Scene& scene, const View& view, Shown shown) {
-  Occlusion occlusion;
-  occlusion.mask.resize(static_cast<std::size_t>(view.size.width) *
-                        static_cast<std::size_t>(view.size.height));
-  if (view.is_perspective) {
-    occlusion.visible = scene.grains;
-    return occlusion;
-  }
   std::vector<double> cores_px, reaches_px;
   for (const dem::ClumpShape& shape : scene.shapes) {
     cores_px.push_back(view.scale * core_radius_m(shape, shown) - kSafety_px);
     reaches_px.push_back(view.scale * reach_m(shape) + kSafety_px);
   }
+  std::vector<std::uint8_t> mask(static_cast<std::size_t>(view.size.width) *
+                                 static_cast<std::size_t>(view.size.height));
   for (const PlacedGrain& grain : scene.grains) {
     const double core_px = cores_px[static_cast<std::size_t>(grain.shape)];
     if (core_px <= 0) continue;
-    cover_disc(occlusion.mask, view.size, *view.project(grain.pose.position), core_px);
+    cover_disc(mask, view.size, *view.project(grain.pose.position), core_px);
   }
-  const CoveredRows rows(occlusion.mask, view.size);
+  CoveredArea covered(mask, view.size);
+  std::vector<PlacedGrain> visible;
   for (const PlacedGrain& grain : scene.grains) {
     const double reach_px = reaches_px[static_cast<std::size_t>(grain.shape)];
-    if (!rows.hide_disc(*view.project(grain.pose.position), reach_px)) {
-      occlusion.visible.push_back(grain);
+    if (!covered.hides_disc(*view.project(grain.pose.position), reach_px)) {
+      visible.push_back(grain);
     }
   }
-  return occlusion;
+  return {std::move(mask), std::move(covered), std::move(visible)};
 }
 
 }  // namespace repose::render

@@ -6,6 +6,7 @@
 #include "render/scene/scene.h"
 #include "render/scene/style.h"
 #include "render/scene/view.h"
+#include "render/silhouette/covered_area.h"
 
 namespace repose::render {
 
@@ -16,10 +17,12 @@ double core_radius_m(const dem::ClumpShape& shape, Shown shown);
 /// The part of a silhouette that needs no drawing.
 struct Occlusion {
   std::vector<std::uint8_t> mask;    ///< 255 where a grain's core is in the way, else 0
+  CoveredArea covered;               ///< by the mask
   std::vector<PlacedGrain> visible;  ///< the others lie wholly in front of or behind cores
 };
 
-/// Exact for parallel rays: all that a left-out grain could blacken is black in the mask.
+/// Exact: all that a left-out grain could blacken is black in the mask.
+/// @param view  with parallel rays
 Occlusion occluded_part(const Scene& scene, const View& view, Shown shown);
 
 }  // namespace repose::render

@@ -102,8 +102,7 @@ void add_mesh(Columns& columns, const View& view, const PlacedGrain& grain, cons
 
 dem::Mesh mesh_of(const Surface& surface) {
   dem::Mesh mesh;
-  constexpr std::size_t kFloats = 6;
-  for (std::size_t k = 0; k + kFloats <= surface.vertices.size(); k += kFloats) {
+  for (std::size_t k = 0; k + Surface::kFloats <= surface.vertices.size(); k += Surface::kFloats) {
     mesh.vertices.emplace_back(surface.vertices[k], surface.vertices[k + 1],
                                surface.vertices[k + 2]);
   }
