@@ -327,6 +327,8 @@ Chapter heap_chapter(const HeapPictures& pictures) {
   }
   if (!pictures.renders.empty()) {
     chapter.blocks.push_back(Heading{"The simulated heap from three sides"});
+    chapter.blocks.push_back(
+        Paragraph{"Of the last check's heaps, the one whose angle is nearest to the mean of all."});
     chapter.blocks.push_back(PictureRow{pictures.renders});
   }
   if (pictures.outlines) add_comparison(pictures, chapter);

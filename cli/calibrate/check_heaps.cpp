@@ -1,7 +1,11 @@
 #include "cli/calibrate/check_heaps.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -43,22 +47,31 @@ void make_folder(const fs::path& folder) {
 
 }  // namespace
 
+std::size_t most_typical(const std::vector<double>& values) {
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / std::ssize(values);
+  const auto nearest = std::min_element(values.begin(), values.end(), [mean](double a, double b) {
+    return std::abs(a - mean) < std::abs(b - mean);
+  });
+  return static_cast<std::size_t>(nearest - values.begin());
+}
+
 void save_check_heaps(const CalibratePlan& plan, const calibrate::StudyContext& context,
                       const std::vector<calibrate::Run>& checks) {
   remove_earlier_heaps(plan.out_folder);
-  bool is_first = true;
+  const auto copy_to = [&](const calibrate::Job& job, const fs::path& name) {
+    return context.folder.copy_state(context.simulator.spec(job), job.seed, name.string());
+  };
+  std::vector<calibrate::Job> saved;
+  std::vector<double> angles;
   for (const calibrate::Run& run : checks) {
     if (run.job.experiment != "heap" || !run.failure.empty()) continue;
-    const auto copy_to = [&](const fs::path& name) {
-      return context.folder.copy_state(context.simulator.spec(run.job), run.job.seed,
-                                       name.string());
-    };
     make_folder(plan.out_folder / calibrate::kHeapsFolder);
     const std::string name = fmt::format("heap_seed_{}.vtp", run.job.seed);
-    if (!copy_to(fs::path(calibrate::kHeapsFolder) / name)) continue;
-    if (is_first) copy_to(calibrate::kHeapFile);
-    is_first = false;
+    if (!copy_to(run.job, fs::path(calibrate::kHeapsFolder) / name)) continue;
+    saved.push_back(run.job);
+    angles.push_back(run.readings.at("value"));
   }
+  if (!saved.empty()) copy_to(saved[most_typical(angles)], calibrate::kHeapFile);
 }
 
 }  // namespace repose::cli
