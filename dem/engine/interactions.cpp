@@ -10,13 +10,15 @@ namespace {
 
 REPOSE_INLINE void add_row(const Lanes& row, Row& sum) { store_row(load_row(sum) + row, sum); }
 
-REPOSE_INLINE void add_to_a(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
+template <typename Pair>
+REPOSE_INLINE void add_to_a(Bodies& bodies, const Pair& pair, const PairLoad& load) {
   BodyLoad& sum = bodies.load[static_cast<std::size_t>(pair.a)];
   add_row(load.force, sum.force);
   add_row(load.torque_a, sum.torque);
 }
 
-REPOSE_INLINE void add_to_b(Bodies& bodies, const NearGrains& pair, const PairLoad& load) {
+template <typename Pair>
+REPOSE_INLINE void add_to_b(Bodies& bodies, const Pair& pair, const PairLoad& load) {
   BodyLoad& sum = bodies.load[static_cast<std::size_t>(pair.b)];
   add_row(load.force * Lanes(Lanes::Vector4{-1, -1, -1, 1}), sum.force);
   add_row(load.torque_b, sum.torque);
@@ -33,12 +35,12 @@ double power_of(const PairLoad& load, const BodyMotion& wall) {
 }
 
 REPOSE_FOR_EACH_MACHINE
-void add_to_bodies(std::span<const NearGrains> pairs, std::span<const PairLoad> loads,
+void add_to_bodies(std::span<const TouchingPair> pairs, std::span<const PairLoad> loads,
                    Bodies& bodies) {
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (loads[k].is_empty()) continue;
-    add_to_a(bodies, pairs[k], loads[k]);
-    add_to_b(bodies, pairs[k], loads[k]);
+  for (const TouchingPair& pair : pairs) {
+    const PairLoad& load = loads[static_cast<std::size_t>(pair.number)];
+    add_to_a(bodies, pair, load);
+    add_to_b(bodies, pair, load);
   }
 }
 
@@ -61,22 +63,26 @@ void Interactions::apply_pairs(Bodies& bodies, const ContactStep& step, Neighbou
       const std::span<PairLoad> loads = {loads_.data(), chunk.size()};
       const double deepest = find_pair_loads(step, list, chunk.number, loads);
       tally_.deepest_overlap = std::max(tally_.deepest_overlap, deepest);
-      add_to_bodies({&list.grains[chunk.first], chunk.size()}, loads, bodies);
+      add_to_bodies(list.touching[chunk.number].pairs, loads, bodies);
     });
     return;
   }
   loads_.resize(std::max(loads_.size(), pairs));
+  touches_.assign(pairs, 0);
   deepest_.assign(chunks_of(pairs, kPairsTogether), 0);
   for_each_chunk(pairs, kPairsTogether, threads, [&](const Chunk& chunk) {
     deepest_[chunk.number] =
         find_pair_loads(step, list, chunk.number, {&loads_[chunk.first], chunk.size()});
+    for (const TouchingPair& pair : list.touching[chunk.number].pairs) {
+      touches_[chunk.first + static_cast<std::size_t>(pair.number)] = 1;
+    }
   });
   for_each_index(bodies.size(), threads, [&](std::size_t body) {
     const auto begin = static_cast<std::size_t>(list.body_start[body]);
     const auto end = static_cast<std::size_t>(list.body_start[body + 1]);
     for (std::size_t at = begin; at < end; ++at) {
       const auto k = static_cast<std::size_t>(list.body_pairs[at]);
-      if (loads_[k].is_empty()) continue;
+      if (touches_[k] == 0) continue;
       const NearGrains& pair = list.grains[k];
       if (pair.a == static_cast<int>(body)) {
         add_to_a(bodies, pair, loads_[k]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "dem/engine/pair_contacts.h"
@@ -28,7 +29,8 @@ class Interactions {
 
   ContactTally tally_;
   std::vector<PairLoad> loads_;
-  std::vector<double> deepest_;  ///< of each chunk
+  std::vector<std::uint8_t> touches_;  ///< whether each pair of grains does, 1 or 0
+  std::vector<double> deepest_;        ///< of each chunk
   WallMotions wall_motions_;
 };
 

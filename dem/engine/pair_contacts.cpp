@@ -138,7 +138,6 @@ double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t
       !chunk.is_known) {
     look_up(step, list, first, loads.size(), chunk);
   }
-  for (PairLoad& load : loads) load.force = {};
   return add_pair_contacts(chunk, sides_of(step.bodies, list.memories), step, work, loads.data());
 }
 
