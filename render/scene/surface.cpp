@@ -197,7 +197,7 @@ void append_box(Surface& surface, const Vector& middle, const Vector& half, doub
 
 void append_tube(Surface& surface, const dem::Tube& tube, double edge_m) {
   constexpr int kSides = 128;
-  const double occlusion = tube.inner_radius, outer = occlusion + tube.thickness;
+  const double inner = tube.inner_radius, outer = inner + tube.thickness;
   const Vector up = tube.height * Vector::UnitZ();
   const auto way = [](int k) {
     const double turn = 2 * std::numbers::pi * k / kSides;
@@ -207,14 +207,14 @@ void append_tube(Surface& surface, const dem::Tube& tube, double edge_m) {
   for (int k = 0; k < kSides; ++k) {
     const Vector from = way(k), to = way(k + 1);
     append_sheet(surface, outer * from, outer * (to - from), up, edge_m);
-    append_sheet(surface, occlusion * to, occlusion * (from - to), up, edge_m);
+    append_sheet(surface, inner * to, inner * (from - to), up, edge_m);
     for (const auto& [height, a, b] :
          {std::tuple{tube.height, from, to}, std::tuple{0.0, to, from}}) {
       const auto first = static_cast<std::uint32_t>(surface.vertices.size() / Surface::kFloats);
       const Vector level = height * Vector::UnitZ();
       const Vector normal = height > 0 ? Vector::UnitZ() : Vector(-Vector::UnitZ());
       for (const Vector& corner :
-           {Vector(occlusion * a), Vector(outer * a), Vector(outer * b), Vector(occlusion * b)}) {
+           {Vector(inner * a), Vector(outer * a), Vector(outer * b), Vector(inner * b)}) {
         append(surface, level + corner, normal);
       }
       surface.corners.insert(surface.corners.end(),
