@@ -65,6 +65,10 @@ std::string description_of(const RunSpec& spec, std::uint64_t seed) {
   if (dem::has_grain_contacts(spec.entry().experiment)) {
     json["particle_particle"] = json_of(model.grain_grain);
   }
+  for (const auto& [part, surface] : model.parts) {
+    json[name_of(part)] = json_of(surface.material);
+    json["particle_" + name_of(part)] = json_of(surface.with_grain);
+  }
   if (model.size_sd_fraction > 0) json["size_sd_fraction"] = model.size_sd_fraction;
   json["rolling_model"] = dem::name_of(model.rolling);
   json["stiffness_factor"] = model.stiffness_factor;

@@ -161,11 +161,9 @@ Conversion rolling(ExportTarget target, const std::string& pair, Partner partner
 }
 
 void add_pair(const ExportFacts& facts, ExportTarget target, Partner partner,
+              const std::string& other, const dem::PairCoefficients& values,
               std::vector<Conversion>& all) {
-  const bool is_wall = partner == Partner::wall;
-  const std::string pair = is_wall ? "contact.particle_wall." : "contact.particle_particle.";
-  const dem::Model& model = facts.study().model;
-  const dem::PairCoefficients& values = is_wall ? model.grain_wall : model.grain_grain;
+  const std::string pair = "contact.particle_" + other + '.';
   all.push_back(restitution(target, pair, values.restitution));
   all.push_back(sliding(target, pair, values.sliding_friction));
   all.push_back(rolling(target, pair, partner, facts, values.rolling_friction));
@@ -175,8 +173,14 @@ void add_pair(const ExportFacts& facts, ExportTarget target, Partner partner,
 
 std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget target) {
   std::vector<Conversion> all;
-  add_pair(facts, target, Partner::wall, all);
-  if (facts.has_grain_contacts()) add_pair(facts, target, Partner::grain, all);
+  const dem::Model& model = facts.study().model;
+  add_pair(facts, target, Partner::wall, "wall", model.grain_wall, all);
+  for (const dem::WallPart part : facts.parts()) {
+    add_pair(facts, target, Partner::wall, name_of(part), facts.surface(part).with_grain, all);
+  }
+  if (facts.has_grain_contacts()) {
+    add_pair(facts, target, Partner::grain, "particle", model.grain_grain, all);
+  }
   return all;
 }
 

@@ -39,6 +39,16 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   if (facts.has_grain_contacts()) {
     add_interaction("contact.particle_particle.", "itself", conversions, fields);
   }
+  for (const dem::WallPart part : facts.parts()) {
+    const dem::Material& material = facts.surface(part).material;
+    const std::string name = fmt::format("{} ({})", sanitized(material.name), name_of(part));
+    DeckFields& own = fields.add_section("PART");
+    own.set("PART_NAME", name);
+    own.set("PART_YOUNG", material.young_modulus_pa);
+    own.set("PART_SHEAR", shear_modulus_pa(material));
+    own.set("PART_POISSON", material.poisson_ratio);
+    add_interaction("contact.particle_" + name_of(part) + '.', name, conversions, fields);
+  }
   if (facts.has(dem::Experiment::heap)) {
     fields.add_section("HEAP").set("STIFFNESS", facts.stiffness(dem::Experiment::heap));
   }
@@ -48,6 +58,14 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
     step.set("TIMESTEP", fmt::format("{:.3g}", facts.timestep_s(experiment)));
   }
   return {.name = "values.txt", .text = filled("edem/values.txt", fields)};
+}
+
+/// "wall" for "contact.particle_wall.restitution"; what grains do to each other is with "grain".
+std::string other_of(const std::string& coefficient) {
+  constexpr std::string_view kBefore = "contact.particle_";
+  const std::string other =
+      coefficient.substr(kBefore.size(), coefficient.rfind('.') - kBefore.size());
+  return other == "particle" ? "grain" : other;
 }
 
 std::string material_rows(const std::string& part, const dem::Material& material) {
@@ -62,9 +80,11 @@ ExportedFile values_table(const ExportFacts& facts, const Conversions& conversio
   const double mass = facts.mass_kg();
   std::string text = "part,value,number,unit\n" + material_rows("grain", model.grain_material) +
                      material_rows("wall", model.wall_material);
+  for (const dem::WallPart part : facts.parts()) {
+    text += material_rows(name_of(part), facts.surface(part).material);
+  }
   for (const Conversion& conversion : conversions) {
-    const bool is_wall = conversion.coefficient.starts_with("contact.particle_wall");
-    text += fmt::format("{},{},{},\n", is_wall ? "grain with wall" : "grain with grain",
+    text += fmt::format("grain with {},{},{},\n", other_of(conversion.coefficient),
                         conversion.target_name, number(conversion.exported));
   }
   text +=

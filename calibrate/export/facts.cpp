@@ -47,8 +47,15 @@ ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<Fi
     coefficient_named(value.name, study_.model) = value.value;
   }
   base::ErrorList errors;
+  const auto is_needed_in = [this](const std::string& name) {
+    if (name.starts_with("contact.particle_wall.")) return true;
+    if (name.starts_with("contact.particle_particle.")) return has_grain_contacts();
+    return std::ranges::any_of(parts(), [&](dem::WallPart part) {
+      return name.starts_with("contact.particle_" + name_of(part) + '.');
+    });
+  };
   for (const NamedCoefficient& named : coefficients_of(study_)) {
-    const bool is_needed = named.name.starts_with("contact.particle_wall") || has_grain_contacts();
+    const bool is_needed = is_needed_in(named.name);
     errors.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.model)),
                    fmt::format("{}: has no value in the result. Fix: give the study a value for "
                                "it, or bounds and a measurement that determines it.",
@@ -87,7 +94,30 @@ std::vector<dem::Experiment> ExportFacts::left_out() const {
 
 bool ExportFacts::has_deck(dem::Experiment experiment) const {
   const auto found = study_.experiments.find(experiment);
-  return found != study_.experiments.end() && has_decks(target_, found->second.protocol);
+  if (found == study_.experiments.end()) return false;
+  // Its contacts all have one rolling friction.
+  const bool has_own_incline = study_.model.parts.contains(dem::WallPart::incline);
+  if (target_ == ExportTarget::yade && experiment == dem::Experiment::roll && has_own_incline) {
+    return false;
+  }
+  return has_decks(target_, found->second.protocol);
+}
+
+std::vector<dem::WallPart> ExportFacts::parts() const {
+  std::vector<dem::WallPart> there;
+  for (const auto& [part, surface] : study_.model.parts) {
+    const bool is_used = std::ranges::any_of(experiments(), [part](dem::Experiment experiment) {
+      const auto& own = dem::entry_of(experiment).parts;
+      return std::ranges::find(own, part) != own.end();
+    });
+    if (is_used) there.push_back(part);
+  }
+  return there;
+}
+
+dem::ContactLaw ExportFacts::law(dem::Experiment experiment, dem::WallPart part) const {
+  const int material = dem::material_of(dem::model_for(study_, experiment), part);
+  return contacts(experiment).law(dem::kGrainMaterial, material);
 }
 
 bool ExportFacts::has_grain_contacts() const {
@@ -140,9 +170,14 @@ dem::Grain ExportFacts::roll_start() const {
 double ExportFacts::roll_flat_m() const {
   const double friction = study_.model.grain_wall.rolling_friction;
   const double slope = study_.protocol<dem::RollProtocol>().incline_deg * kDegree;
-  // Without loss at the foot: L = S (sin - mu_r cos) / mu_r, see dem/THEORY.md.
-  const double longest = study_.protocol<dem::RollProtocol>().release_m *
-                         std::max(0.0, std::sin(slope) / friction - std::cos(slope));
+  const auto incline = study_.model.parts.find(dem::WallPart::incline);
+  const double on_incline =
+      incline == study_.model.parts.end() ? friction : incline->second.with_grain.rolling_friction;
+  // Without loss at the foot: L = S (sin - mu_r cos) / mu_r, see dem/THEORY.md; the work done up
+  // the incline is that of its own mu_r.
+  const double longest =
+      study_.protocol<dem::RollProtocol>().release_m *
+      std::max(0.0, std::sin(slope) / friction - on_incline / friction * std::cos(slope));
   const double room = .5 + 20 * grain().reach_m();
   return std::isfinite(longest) ? std::min(longest + room, kLongestFlat_m) : kLongestFlat_m;
 }

@@ -37,6 +37,11 @@ class ExportFacts {
   std::vector<dem::Experiment> experiments() const;
   std::vector<dem::Experiment> left_out() const;
   bool has_deck(dem::Experiment experiment) const;
+  /// Parts of another material than the plate's that one of these has.
+  std::vector<dem::WallPart> parts() const;
+  const dem::WallSurface& surface(dem::WallPart part) const { return study_.model.parts.at(part); }
+  /// What a pair does in an experiment that has the part.
+  dem::ContactLaw law(dem::Experiment experiment, dem::WallPart part) const;
   /// Grains touch each other in one of the study's experiments, with a deck or not.
   bool has_grain_contacts() const;
 

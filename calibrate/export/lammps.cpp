@@ -31,20 +31,30 @@ ExportedFile lammps_material_file(const ExportFacts& facts, const Conversions& c
   return {.name = "material.lmp", .text = filled("lammps/material.lmp", fields)};
 }
 
-DeckFields lammps_fields(const ExportFacts& facts, dem::Experiment experiment, bool is_sphere) {
-  const dem::ContactTable contacts = facts.contacts(experiment);
+/// Of the rolling spring, N/m, and its damper, N s/m.
+struct RollingSpring {
+  double spring = 0;
+  double damper = 0;
+};
+
+RollingSpring rolling_spring(const ExportFacts& facts, const dem::ContactLaw& law) {
   const double radius = facts.grain().spheres.front().radius;
   const double mass = facts.mass_kg();
-  const double spring =
-      rolling_stiffness(contacts.law(dem::kGrainMaterial, dem::kWallMaterial), mass, radius) /
-      (radius * radius);
+  const double spring = rolling_stiffness(law, mass, radius) / (radius * radius);
+  return {spring, 2 * kRollingDamping * std::sqrt(1.4 * mass * spring)};
+}
+
+DeckFields lammps_fields(const ExportFacts& facts, dem::Experiment experiment, bool is_sphere) {
+  const dem::ContactTable contacts = facts.contacts(experiment);
+  const RollingSpring roll =
+      rolling_spring(facts, contacts.law(dem::kGrainMaterial, dem::kWallMaterial));
   DeckFields fields = common_fields(facts);
   if (!is_sphere) fields.add_section("CLUMP");
   fields.set("STIFFNESS", facts.stiffness(experiment));
   fields.set("TIMESTEP", facts.timestep_s(experiment));
   fields.set("REACH", 2 * facts.grain().reach_m());
-  fields.set("K_ROLL", spring);
-  fields.set("GAMMA_ROLL", 2 * kRollingDamping * std::sqrt(1.4 * mass * spring));
+  fields.set("K_ROLL", roll.spring);
+  fields.set("GAMMA_ROLL", roll.damper);
   return fields;
 }
 
@@ -128,7 +138,30 @@ void add_tilt(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   files.push_back({.name = "tilt.lmp", .text = filled("lammps/tilt.lmp", fields)});
 }
 
-void add_roll(const ExportFacts& facts, std::vector<ExportedFile>& files) {
+/// An incline of another material than the flat has a contact law of its own.
+void add_incline(const ExportFacts& facts, const Conversions& conversions, DeckFields& fields) {
+  if (!facts.study().model.parts.contains(dem::WallPart::incline)) {
+    fields.add_section("ONE_MATERIAL");
+    return;
+  }
+  const dem::ContactLaw law = facts.law(dem::Experiment::roll, dem::WallPart::incline);
+  const double stiffness = facts.stiffness(dem::Experiment::roll);
+  const RollingSpring roll = rolling_spring(facts, law);
+  const std::string pair = "contact.particle_incline.";
+  DeckFields& own = fields.add_section("TWO_MATERIALS");
+  own.set("INCLINE_NAME", sanitized(facts.surface(dem::WallPart::incline).material.name));
+  own.set("INCLINE_NORMAL", 4.0 / 3 * law.reduced_young_pa / stiffness);
+  own.set("INCLINE_TANGENTIAL", 8 * law.reduced_shear_pa / stiffness);
+  own.set("INCLINE_DAMPING", std::sqrt(4 * law.reduced_shear_pa / law.reduced_young_pa));
+  own.set("INCLINE_RESTITUTION", exported(conversions, pair + "restitution"));
+  own.set("INCLINE_SLIDING", exported(conversions, pair + "sliding_friction"));
+  own.set("INCLINE_ROLLING", exported(conversions, pair + "rolling_friction"));
+  own.set("INCLINE_K_ROLL", roll.spring);
+  own.set("INCLINE_GAMMA_ROLL", roll.damper);
+}
+
+void add_roll(const ExportFacts& facts, const Conversions& conversions,
+              std::vector<ExportedFile>& files) {
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Vector normal = dem::incline_of(protocol).normal;
   const double reach = facts.grain().reach_m();
@@ -146,6 +179,7 @@ void add_roll(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   fields.set("EVERY", steps(.1, timestep));
   fields.set("STEPS", steps(60, timestep));
   fields.set("REST", 1e-3 * reach);
+  add_incline(facts, conversions, fields);
   add_body("roll_grain", facts.grain(), facts.mass_kg(), facts.roll_start(), files);
   files.push_back({.name = "roll.lmp", .text = filled("lammps/roll.lmp", fields)});
 }
@@ -156,7 +190,7 @@ std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversio
   std::vector<ExportedFile> files = {lammps_material_file(facts, conversions)};
   if (facts.has(dem::Experiment::drop)) add_drop(facts, files);
   if (facts.has(dem::Experiment::tilt)) add_tilt(facts, files);
-  if (facts.has(dem::Experiment::roll)) add_roll(facts, files);
+  if (facts.has(dem::Experiment::roll)) add_roll(facts, conversions, files);
   return files;
 }
 

@@ -20,9 +20,11 @@ void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
   const dem::Study& study = facts.study();
   double softest = HUGE_VAL;
   double hardest = 0;
+  std::vector<const dem::Material*> materials = {&study.model.grain_material,
+                                                 &study.model.wall_material};
+  for (const dem::WallPart part : facts.parts()) materials.push_back(&facts.surface(part).material);
   for (const dem::Experiment experiment : facts.experiments()) {
-    for (const dem::Material* material :
-         {&study.model.grain_material, &study.model.wall_material}) {
+    for (const dem::Material* material : materials) {
       const double young = material->young_modulus_pa * facts.stiffness(experiment);
       softest = std::min(softest, young);
       hardest = std::max(hardest, young);
@@ -45,6 +47,42 @@ std::string rolling_words(dem::RollingModel model) {
   return " rolling_friction cdt";
 }
 
+/// A row for each type: of the grain its values with all types, of the walls that with the grain.
+/// What walls do to each other is never asked for.
+std::string pairs_text(const std::vector<double>& with_grain) {
+  std::string text;
+  for (std::size_t a = 0; a < with_grain.size(); ++a) {
+    for (std::size_t b = 0; b < with_grain.size(); ++b) {
+      const std::size_t other = a == 0 || b == 0 ? a + b : 1;
+      text += (text.empty() ? "" : " ") + number(with_grain[other]);
+    }
+  }
+  return text;
+}
+
+std::string viscous_text(std::size_t pairs) {
+  std::string text = ".3";
+  for (std::size_t k = 1; k < pairs; ++k) text += " .3";
+  return text;
+}
+
+void add_parts(const ExportFacts& facts, DeckFields& fields) {
+  std::string young, poisson;
+  for (const dem::WallPart part : facts.parts()) {
+    const dem::Material& material = facts.surface(part).material;
+    const std::string name = name_of(part);
+    DeckFields& own = fields.add_section("PART");
+    own.set("PART_NAME", name);
+    own.set("PART_MATERIAL", sanitized(material.name));
+    own.set("PART_TYPE", liggghts_type(facts, part));
+    own.set("PART_YOUNG", material.young_modulus_pa);
+    young += fmt::format(" ${{{}_young}}", name);
+    poisson += ' ' + number(material.poisson_ratio);
+  }
+  fields.set("PARTS_YOUNG", young);
+  fields.set("PARTS_POISSON", poisson);
+}
+
 ExportedFile material_file(const ExportFacts& facts, const Conversions& conversions) {
   const dem::Study& study = facts.study();
   DeckFields fields = common_fields(facts);
@@ -54,6 +92,9 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
   fields.set("WALL_YOUNG", study.model.wall_material.young_modulus_pa);
   fields.set("GRAIN_POISSON", study.model.grain_material.poisson_ratio);
   fields.set("WALL_POISSON", study.model.wall_material.poisson_ratio);
+  add_parts(facts, fields);
+  const std::size_t types = 2 + facts.parts().size();
+  fields.set("TYPES", static_cast<int>(types));
   for (const auto& [field, name] : {std::pair("RESTITUTION", "restitution"),
                                     {"SLIDING", "sliding_friction"},
                                     {"ROLLING", "rolling_friction"}}) {
@@ -63,11 +104,17 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
         facts.has_grain_contacts()
             ? exported(conversions, fmt::format("contact.particle_particle.{}", name))
             : wall;
-    fields.set(fmt::format("WALL_{}", field), wall);
-    fields.set(fmt::format("GRAIN_{}", field), grain);
+    std::vector<double> with_grain = {grain, wall};
+    for (const dem::WallPart part : facts.parts()) {
+      with_grain.push_back(
+          exported(conversions, fmt::format("contact.particle_{}.{}", name_of(part), name)));
+    }
+    fields.set(fmt::format("{}_PAIRS", field), pairs_text(with_grain));
   }
   fields.set("ROLLING_MODEL", rolling_words(study.model.rolling));
-  if (study.model.rolling == dem::RollingModel::elastic_plastic) fields.add_section("VISCOUS");
+  if (study.model.rolling == dem::RollingModel::elastic_plastic) {
+    fields.add_section("VISCOUS").set("VISCOUS_PAIRS", viscous_text(types * types));
+  }
   return {.name = "material.lig", .text = filled("liggghts/material.lig", fields)};
 }
 

@@ -33,11 +33,22 @@ void mark_shape(bool is_sphere, DeckFields& fields) {
   fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
 }
 
+int liggghts_type(const ExportFacts& facts, dem::WallPart part) {
+  constexpr int kWallType = 2;
+  const std::vector<dem::WallPart> parts = facts.parts();
+  const auto found = std::ranges::find(parts, part);
+  if (found == parts.end()) return kWallType;
+  return kWallType + 1 + static_cast<int>(found - parts.begin());
+}
+
 DeckFields deck_fields(const ExportFacts& facts, dem::Experiment experiment) {
   DeckFields fields = common_fields(facts);
   fields.set("STIFFNESS", facts.stiffness(experiment));
   fields.set("TIMESTEP", facts.timestep_s(experiment));
   fields.set("REACH", 2 * facts.grain().reach_m());
+  fields.set("TUBE_TYPE", liggghts_type(facts, dem::WallPart::tube));
+  fields.set("INCLINE_TYPE", liggghts_type(facts, dem::WallPart::incline));
+  fields.set("PANE_TYPE", liggghts_type(facts, dem::WallPart::pane));
   return fields;
 }
 

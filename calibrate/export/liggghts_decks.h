@@ -9,7 +9,10 @@
 /// What the decks of LIGGGHTS share; each is a file of templates/liggghts filled in.
 namespace repose::calibrate {
 
-/// What all decks name: stiffness, time step, the reach of the grain.
+/// The number of a part's material: the plate's, 2, where it has none of its own.
+int liggghts_type(const ExportFacts& facts, dem::WallPart part);
+
+/// What all decks name: stiffness, time step, the reach of the grain, types of parts.
 DeckFields deck_fields(const ExportFacts& facts, dem::Experiment experiment);
 
 /// Marks what is there for spheres, and what for clumps.

@@ -23,19 +23,21 @@ dem::ContactTable real_contacts(const ExportFacts& facts) {
   return dem::model_setup(model, facts.grain(), {wall}, 1).contacts;
 }
 
-void set_pair(const std::string& prefix, const std::string& pair, const ExportFacts& facts,
-              const Conversions& conversions, const dem::ContactLaw& law, DeckFields& fields) {
-  const dem::Model& model = facts.study().model;
-  const bool is_wall = prefix == "WALL";
-  const double restitution = is_wall || !facts.has(dem::Experiment::heap)
-                                 ? model.grain_wall.restitution
-                                 : model.grain_grain.restitution;
+void set_pair(const std::string& prefix, const std::string& pair, double restitution,
+              const ExportFacts& facts, const Conversions& conversions, const dem::ContactLaw& law,
+              DeckFields& fields) {
   const double radius = facts.grain().spheres.front().radius;
   fields.set(prefix + "_BETAN", exported(conversions, pair + "restitution"));
   fields.set(prefix + "_BETAS", dem::textbook_damping_factor(restitution) / 2);
   fields.set(prefix + "_SLIDING", exported(conversions, pair + "sliding_friction"));
   fields.set(prefix + "_ETA", exported(conversions, pair + "rolling_friction"));
   fields.set(prefix + "_KROT", rolling_stiffness(law, facts.mass_kg(), radius));
+}
+
+/// A heap's; no other experiment of YADE's has a part of another material.
+bool has_own_tube(const ExportFacts& facts) {
+  return facts.has(dem::Experiment::heap) &&
+         facts.study().model.parts.contains(dem::WallPart::tube);
 }
 
 ExportedFile yade_grain_file(const ExportFacts& facts, const Conversions& conversions) {
@@ -56,10 +58,19 @@ ExportedFile yade_grain_file(const ExportFacts& facts, const Conversions& conver
   fields.set("GRAIN_POISSON", study.model.grain_material.poisson_ratio);
   const std::string walls = "contact.particle_wall.";
   // Without a heap grains never touch each other.
-  const std::string grains =
-      facts.has(dem::Experiment::heap) ? "contact.particle_particle." : walls;
-  set_pair("WALL", walls, facts, conversions, wall, fields);
-  set_pair("GRAIN", grains, facts, conversions, grain, fields);
+  const bool has_heap = facts.has(dem::Experiment::heap);
+  const std::string grains = has_heap ? "contact.particle_particle." : walls;
+  const dem::PairCoefficients& with_wall = study.model.grain_wall;
+  set_pair("WALL", walls, with_wall.restitution, facts, conversions, wall, fields);
+  set_pair("GRAIN", grains, (has_heap ? study.model.grain_grain : with_wall).restitution, facts,
+           conversions, grain, fields);
+  if (has_own_tube(facts)) {
+    const dem::WallSurface& surface = facts.surface(dem::WallPart::tube);
+    DeckFields& tube = fields.add_section("TUBE");
+    tube.set("TUBE_NAME", sanitized(surface.material.name));
+    set_pair("TUBE", "contact.particle_tube.", surface.with_grain.restitution, facts, conversions,
+             facts.law(dem::Experiment::heap, dem::WallPart::tube), tube);
+  }
   return {.name = "grain.py", .text = filled("yade/grain.py", fields)};
 }
 
@@ -137,6 +148,7 @@ ExportedFile yade_heap_file(const ExportFacts& facts) {
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
   fields.set("PLATE", protocol.plate_m);
+  fields.set("TUBE_MATERIAL", std::string(has_own_tube(facts) ? "tube" : "wall"));
   fields.set("TUBE_RADIUS", .5 * protocol.tube_diameter_m);
   fields.set("TUBE_HEIGHT", protocol.tube_height_m);
   // A layer holds at least one grain.
@@ -154,7 +166,7 @@ std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions
   std::vector<ExportedFile> files = {yade_grain_file(facts, conversions)};
   if (facts.has(dem::Experiment::drop)) files.push_back(yade_drop_file(facts));
   if (facts.has(dem::Experiment::tilt)) files.push_back(yade_tilt_file(facts));
-  if (facts.has(dem::Experiment::roll)) files.push_back(yade_roll_file(facts));
+  if (facts.has_deck(dem::Experiment::roll)) files.push_back(yade_roll_file(facts));
   if (facts.has(dem::Experiment::heap)) files.push_back(yade_heap_file(facts));
   return files;
 }

@@ -35,10 +35,18 @@ const Observable& observable_of(const Problem& problem, const std::string& exper
 }
 
 void require_all_sought(const Problem& problem) {
-  if (problem.parameters.size() == kFirstOfGrains + kStep.size()) return;
+  const auto is_of_six = [](const Parameter& parameter) {
+    return parameter.name.starts_with("contact.particle_wall.") ||
+           parameter.name.starts_with("contact.particle_particle.");
+  };
+  if (problem.parameters.size() == kFirstOfGrains + kStep.size() &&
+      std::ranges::all_of(problem.parameters, is_of_six)) {
+    return;
+  }
   throw std::invalid_argument(
-      "the published method: finds restitution, sliding and rolling friction of both pairs, and "
-      "some of the six have no bounds. Fix: give all bounds, or use the joint method.");
+      "the published method: finds restitution, sliding and rolling friction of both pairs and "
+      "nothing else, and some of the six have no bounds, or others have. Fix: give bounds to all "
+      "of these and to no others, or use the joint method.");
 }
 
 /// The values of a job: those of the set that the experiment does not depend on stay in the middle,

@@ -90,9 +90,13 @@ void add_materials(const StudyRecord& record, const dem::ConfigValue& stated, Ta
   grain.add("density", shown(study.model.grain_material.density_kg_m3) + " kg/m³", true);
   add_material(study.model.grain_material, grain);
   grain.add_to(table, "grain: " + shortened(study.model.grain_material.name), "–");
-  Settings wall;
-  add_material(study.model.wall_material, wall);
-  wall.add_to(table, "wall: " + shortened(study.model.wall_material.name), "–");
+  const auto add_wall = [&table](const std::string& what, const dem::Material& material) {
+    Settings wall;
+    add_material(material, wall);
+    wall.add_to(table, what + ": " + shortened(material.name), "–");
+  };
+  add_wall("wall", study.model.wall_material);
+  for (const auto& [part, surface] : study.model.parts) add_wall(name_of(part), surface.material);
 }
 
 std::string films_text(const StudyRecord& record, std::string_view experiment) {

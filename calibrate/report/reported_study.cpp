@@ -63,8 +63,8 @@ std::optional<SavedRun> run_in(const fs::path& file) {
                  .readings = stored.run.readings,
                  .failure = stored.run.failure};
     std::erase_if(run.readings, [](const auto& reading) { return !std::isfinite(reading.second); });
-    for (const char* pair : {"particle_wall", "particle_particle"}) {
-      const auto contact = simulated.value(pair, nlohmann::json::object());
+    for (const auto& [pair, contact] : simulated.items()) {
+      if (!pair.starts_with("particle_")) continue;
       for (const auto& [name, value] : contact.items()) {
         run.values[fmt::format("contact.{}.{}", pair, name)] = value;
       }

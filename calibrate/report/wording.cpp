@@ -69,8 +69,9 @@ std::string label_of(const std::string& parameter) {
   if (dot == std::string::npos) return shortened(spaced(parameter.substr(start)));
   const std::string pair = parameter.substr(start, dot - start);
   const std::string what = spaced(parameter.substr(dot + 1));
-  if (pair == "particle_wall") return shortened(what + ", particle–wall");
-  if (pair == "particle_particle") return shortened(what + ", particle–particle");
+  for (const char* other : {"wall", "particle", "tube", "incline", "pane"}) {
+    if (pair == std::string("particle_") + other) return shortened(what + ", particle–" + other);
+  }
   return shortened(what + ", " + spaced(pair));
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace repose::calibrate {
 struct NewStudy {
   GrainKind grain;
   PlateKind plate;
-  std::array<double, 3> sizes_mm = {};  ///< of the grain: length, width, thickness
-  bool has_own_sizes = false;           ///< else they are those of its kind
+  std::map<dem::WallPart, PlateKind> parts = {};  ///< those of another material than the plate's
+  std::array<double, 3> sizes_mm = {};            ///< of the grain: length, width, thickness
+  bool has_own_sizes = false;                     ///< else they are those of its kind
   double density_kg_m3 = 0;
   bool has_own_density = false;
   double tube_diameter_mm = 0;  ///< inner

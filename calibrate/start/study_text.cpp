@@ -62,10 +62,23 @@ std::string particle_section(const NewStudy& study) {
   return text + fmt::format("colour = [{}, {}, {}]\n", red, green, blue);
 }
 
-std::string wall_section(const PlateKind& plate) {
-  return "[wall]\n" + toml_comment("Material of plate, incline and tube; textbook values.") +
-         fmt::format("name = \"{}\"\nyoung_modulus_pa = {}\npoisson_ratio = {}\n", plate.name,
+std::string material_lines(const PlateKind& plate) {
+  return fmt::format("name = \"{}\"\nyoung_modulus_pa = {}\npoisson_ratio = {}\n", plate.name,
                      toml_number(plate.young_modulus_pa), toml_number(plate.poisson_ratio));
+}
+
+std::string wall_sections(const NewStudy& study) {
+  std::string text =
+      "[wall]\n" +
+      toml_comment(study.parts.empty()
+                       ? "Material of plate, incline and tube; textbook values."
+                       : "Material of the plate, and of what has no section of its own; textbook "
+                         "values.") +
+      material_lines(study.plate);
+  for (const auto& [part, plate] : study.parts) {
+    text += fmt::format("\n[wall.{}]\n", name_of(part)) + material_lines(plate);
+  }
+  return text;
 }
 
 bool is_told(const NewStudy& study, const std::string& coefficient) {
@@ -93,6 +106,23 @@ std::string contact_section(const NewStudy& study, const std::string& pair,
          coefficient_line(study, pair, "rolling_friction", bounds.rolling_friction);
 }
 
+/// What grains do to a part of another material: no experiment tells it well, so it is assumed.
+std::string part_section(const NewStudy& study, dem::WallPart part) {
+  const auto line = [](const char* name, const CoefficientBounds& bounds) {
+    return fmt::format("{} = {}\n", name,
+                       toml_number(std::round(500 * (bounds.min + bounds.max)) / 1000));
+  };
+  const ContactBounds& bounds = study.grain.with_wall;
+  return fmt::format("\n[contact.particle_{}]\n", name_of(part)) +
+         toml_comment(fmt::format(
+             "Assumed. Drop, tilt and roll the grains on a plate of {} to measure them: repose "
+             "bench restitution, sliding and rolling.",
+             study.parts.at(part).name)) +
+         line("restitution", bounds.restitution) +
+         line("sliding_friction", bounds.sliding_friction) +
+         line("rolling_friction", bounds.rolling_friction);
+}
+
 std::string contacts(const NewStudy& study) {
   std::string text = toml_comment(
       "Coefficients to fit, each between bounds; the value is for repose simulate. For one that "
@@ -105,7 +135,9 @@ std::string contacts(const NewStudy& study) {
                        : fmt::format("Bounds: {}.", study.grain.source));
   text += "[contact]\nrolling_model = \"constant_torque\"  # EDEM's standard\n\n";
   text += contact_section(study, "particle_wall", study.grain.with_wall) + '\n';
-  return text + contact_section(study, "particle_particle", study.grain.with_grain);
+  text += contact_section(study, "particle_particle", study.grain.with_grain);
+  for (const auto& [part, plate] : study.parts) text += part_section(study, part);
+  return text;
 }
 
 /// "drop_mm (height of fall H), rebound_mm (height of rebound h)".
@@ -189,7 +221,7 @@ std::string study_text(const NewStudy& study, const std::string& folder) {
   text +=
       "# author = \"your name\"\n# date = \"when\"\n# note = \"variety, moisture, who poured the "
       "heaps\"\n\n";
-  text += particle_section(study) + '\n' + wall_section(study.plate) + '\n' + contacts(study);
+  text += particle_section(study) + '\n' + wall_sections(study) + '\n' + contacts(study);
   for (const NewSheet& sheet : sheets_of(study)) {
     text += '\n' + experiment_section(dem::entry_of(sheet.experiment), study, folder, sheet.name);
   }

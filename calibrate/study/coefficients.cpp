@@ -22,6 +22,8 @@ constexpr std::array<Place, 3> kPlaces = {{
      &dem::PairCoefficients::rolling_friction},
 }};
 
+std::string prefix_of(dem::WallPart part) { return "contact.particle_" + name_of(part) + '.'; }
+
 constexpr const char* kWall = "contact.particle_wall.";
 constexpr const char* kParticle = "contact.particle_particle.";
 
@@ -35,14 +37,28 @@ std::vector<NamedCoefficient> coefficients_of(const dem::Study& study) {
   for (const Place& place : kPlaces) {
     all.push_back({std::string(kParticle) + place.name, study.particle_particle.*place.in_study});
   }
+  for (const auto& [part, set] : study.particle_parts) {
+    for (const Place& place : kPlaces) {
+      all.push_back({prefix_of(part) + place.name, set.*place.in_study});
+    }
+  }
   return all;
 }
 
-double& coefficient_named(const std::string& name, dem::Model& model) {
+double* find_coefficient(const std::string& name, dem::Model& model) {
   for (const Place& place : kPlaces) {
-    if (name == std::string(kWall) + place.name) return model.grain_wall.*place.in_bench;
-    if (name == std::string(kParticle) + place.name) return model.grain_grain.*place.in_bench;
+    if (name == std::string(kWall) + place.name) return &(model.grain_wall.*place.in_bench);
+    if (name == std::string(kParticle) + place.name) return &(model.grain_grain.*place.in_bench);
+    for (auto& [part, surface] : model.parts) {
+      if (name == prefix_of(part) + place.name) return &(surface.with_grain.*place.in_bench);
+    }
   }
+  return nullptr;
+}
+
+double& coefficient_named(const std::string& name, dem::Model& model) {
+  double* found = find_coefficient(name, model);
+  if (found != nullptr) return *found;
   throw std::invalid_argument(fmt::format("{}: there is no such coefficient", name));
 }
 

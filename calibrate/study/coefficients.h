@@ -14,10 +14,12 @@ struct NamedCoefficient {
   dem::Coefficient coefficient;
 };
 
-/// All six, walls first.
+/// The six of plate and grains, walls first, and those of each part of another material.
 std::vector<NamedCoefficient> coefficients_of(const dem::Study& study);
 
-/// Where a bench has it. Throws std::invalid_argument for a name that there is not.
+/// Where a bench has it; null where it does not.
+double* find_coefficient(const std::string& name, dem::Model& model);
+/// Likewise. Throws std::invalid_argument for a name that there is not.
 double& coefficient_named(const std::string& name, dem::Model& model);
 
 }  // namespace repose::calibrate

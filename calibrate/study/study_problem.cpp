@@ -36,7 +36,9 @@ double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
                   const dem::ExperimentEntry& entry) {
   dem::Model model = dem::model_for(study, entry.experiment);
   model.grain = grain;
-  for (dem::PairCoefficients* pair : {&model.grain_wall, &model.grain_grain}) {
+  std::vector<dem::PairCoefficients*> pairs = {&model.grain_wall, &model.grain_grain};
+  for (auto& [part, surface] : model.parts) pairs.push_back(&surface.with_grain);
+  for (dem::PairCoefficients* pair : pairs) {
     for (double* value : {&pair->restitution, &pair->sliding_friction, &pair->rolling_friction}) {
       if (std::isnan(*value)) *value = .3;
     }

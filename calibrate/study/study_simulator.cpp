@@ -31,7 +31,9 @@ RunSpec StudySimulator::spec(const Job& job) const {
   RunSpec spec = spec_of(study_, experiment, grain_, heap_views_);
   spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.relative_stiffness);
   for (std::size_t k = 0; k < names_.size(); ++k) {
-    coefficient_named(names_[k], spec.model) = job.values.at(k);
+    // An experiment without a part has none of its coefficients.
+    double* coefficient = find_coefficient(names_[k], spec.model);
+    if (coefficient != nullptr) *coefficient = job.values.at(k);
   }
   return spec;
 }

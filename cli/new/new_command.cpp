@@ -16,9 +16,10 @@ of the grain, and marked as assumed in the file. Existing files are never
 overwritten.
 
 KIND of grain: soybean, maize, wheat, rice, hazelnut, pea, rapeseed, glass
-(beads), other. KIND of plate: acrylic, steel, aluminium, glass, pvc, wood,
-rubber. Bounds of the coefficients are from the literature on that grain where
-there is any, otherwise wide.
+(beads), other. KIND of plate, tube, incline, pane (the upright walls of a
+draw-down): acrylic, steel, aluminium, glass, pvc, wood, rubber. Bounds of the
+coefficients are from the literature on that grain where there is any, otherwise
+wide.
 
 Examples:
   repose new my_grain.toml
@@ -43,8 +44,23 @@ Command new_command() {
                   {"--density-kg-m3", "D", "Density of a grain (typical)", &given->density_kg_m3},
                   {.name = "--plate",
                    .value_name = "KIND",
-                   .help = "Material of plate and tube (steel)",
+                   .help = "Material of the plate (steel)",
                    .target = &given->plate,
+                   .words = plate_names()},
+                  {.name = "--tube",
+                   .value_name = "KIND",
+                   .help = "Material of the tube (as the plate)",
+                   .target = &given->tube,
+                   .words = plate_names()},
+                  {.name = "--incline",
+                   .value_name = "KIND",
+                   .help = "Material of the incline (as the plate)",
+                   .target = &given->incline,
+                   .words = plate_names()},
+                  {.name = "--pane",
+                   .value_name = "KIND",
+                   .help = "Material of a box's walls (as the plate)",
+                   .target = &given->pane,
                    .words = plate_names()},
                   {"--tube-mm", "DxH", "Inner diameter and height (from grain size)",
                    &given->tube_mm},

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,33 @@ void read_kinds(const NewArguments& arguments, NewPlan& plan) {
   const auto usual = std::find(plates.begin(), plates.end(), kUsualPlate) - plates.begin();
   const auto plate = read_word({"--plate", arguments.plate, plan.errors}, plates);
   plan.study.plate = calibrate::plate_kinds()[plate.value_or(static_cast<std::size_t>(usual))];
+}
+
+/// A material named for a part that no experiment has would be of no use.
+void read_parts(const NewArguments& arguments, NewPlan& plan) {
+  for (const auto& [part, option, typed] :
+       {std::tuple(dem::WallPart::tube, "--tube", &arguments.tube),
+        {dem::WallPart::incline, "--incline", &arguments.incline},
+        {dem::WallPart::pane, "--pane", &arguments.pane}}) {
+    const auto kind = read_word({option, *typed, plan.errors}, plate_names());
+    if (!kind) continue;
+    const calibrate::PlateKind& plate = calibrate::plate_kinds()[*kind];
+    std::string those_with, is_there;
+    for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+      if (std::ranges::find(entry.parts, part) == entry.parts.end()) continue;
+      those_with += (those_with.empty() ? "" : " or ") + std::string(entry.name);
+      const auto& chosen = plan.study.experiments;
+      if (std::ranges::find(chosen, entry.experiment) != chosen.end()) is_there = entry.name;
+    }
+    if (is_there.empty()) {
+      plan.errors.push_back(
+          fmt::format("{} {}: none of the experiments has one. Fix: leave it out, or add {} to "
+                      "--experiments.",
+                      option, *typed, those_with));
+    } else if (plate.name != plan.study.plate.name) {
+      plan.study.parts.emplace(part, plate);
+    }
+  }
 }
 
 void read_grain(const NewArguments& arguments, NewPlan& plan) {
@@ -153,6 +181,7 @@ NewPlan plan_new(const NewArguments& arguments) {
   read_kinds(arguments, plan);
   read_grain(arguments, plan);
   read_experiments(arguments, plan);
+  read_parts(arguments, plan);
   read_tube(arguments, plan);
   return plan;
 }

@@ -18,7 +18,7 @@ struct NewPlan {
 
 NewPlan plan_new(const NewArguments& arguments);
 
-/// What may be typed after --grains and --plate.
+/// What may be typed after --grains, and after --plate and its like.
 std::vector<std::string> grain_names();
 std::vector<std::string> plate_names();
 

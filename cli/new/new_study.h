@@ -9,8 +9,11 @@ namespace repose::cli {
 /// What `repose new` is asked to do, as typed.
 struct NewArguments {
   std::string study;
-  std::string grains;    ///< a kind of grain
-  std::string plate;     ///< a kind of plate
+  std::string grains;  ///< a kind of grain
+  std::string plate;   ///< a kind of plate
+  std::string tube;
+  std::string incline;
+  std::string pane;
   std::string grain_mm;  ///< L,W,T
   std::string density_kg_m3;
   std::string tube_mm;      ///< DxH

@@ -16,13 +16,17 @@ namespace {
 
 constexpr double kSeen = 1;  // uncertainties: less is no effect
 
-/// "µs w" for contact.particle_wall.sliding_friction.
+/// "µs w" for contact.particle_wall.sliding_friction; "g" for grains, and "tube" and so on.
 std::string heading_of(const std::string& parameter) {
   const std::string_view which = parameter.ends_with("restitution")        ? "e"
                                  : parameter.ends_with("sliding_friction") ? "µs"
                                                                            : "µr";
-  return fmt::format("{} {}", which,
-                     parameter.find("particle_wall") != std::string::npos ? "w" : "g");
+  std::string other = "g";
+  if (parameter.find("particle_wall") != std::string::npos) other = "w";
+  for (const auto& [part, name] : dem::kWallParts) {
+    if (parameter.find(fmt::format("particle_{}.", name)) != std::string::npos) other = name;
+  }
+  return fmt::format("{} {}", which, other);
 }
 
 /// A column for each parameter, after those given.

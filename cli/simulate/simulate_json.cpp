@@ -70,6 +70,10 @@ void add_context(const SimulatePlan& plan, Json& json) {
   if (dem::has_grain_contacts(plan.experiment)) {
     json["contact"]["particle_particle"] = pair_json(model.grain_grain);
   }
+  for (const auto& [part, surface] : model.parts) {
+    json["materials"][name_of(part)] = material_json(surface.material);
+    json["contact"]["particle_" + name_of(part)] = pair_json(surface.with_grain);
+  }
   json["study"] = {
       {"file", plan.study.file.string()}, {"hash", plan.study.hash}, {"settings", plan.settings}};
   json["program"] = base::kProgram;

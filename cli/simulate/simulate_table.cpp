@@ -170,6 +170,9 @@ Table belongs_to_table(const SimulatePlan& plan) {
                                  1000 * camera->distance_m, 1000 * camera->height_m)});
   }
   table.add_row({"  with the wall", coefficients_text(model.grain_wall)});
+  for (const auto& [part, surface] : model.parts) {
+    table.add_row({"  with the " + name_of(part), coefficients_text(surface.with_grain)});
+  }
   if (dem::has_grain_contacts(plan.experiment)) {
     table.add_row({"  between grains", coefficients_text(model.grain_grain)});
   }

@@ -66,9 +66,10 @@ void check(const Model& model, const DrawDownProtocol& protocol) {
 }
 
 /// An upright wall without end through a point, that grains are in front of.
-Wall pane(const Vector& point, const Vector& inwards) {
-  return study_wall(Plane{}, {.position = point,
-                              .orientation = Quaternion::FromTwoVectors(Vector::UnitZ(), inwards)});
+Wall pane(const Model& model, const Vector& point, const Vector& inwards) {
+  return part_wall(
+      model, WallPart::pane, Plane{},
+      {.position = point, .orientation = Quaternion::FromTwoVectors(Vector::UnitZ(), inwards)});
 }
 
 /// A part of the upper box's floor.
@@ -78,14 +79,14 @@ Wall slab(const DrawDownProtocol& protocol, double from_x, double to_x) {
       {.position = {.5 * (from_x + to_x), 0, protocol.drop_m + .5 * kThickness_m}});
 }
 
-std::vector<Wall> walls_of(const DrawDownProtocol& protocol) {
+std::vector<Wall> walls_of(const Model& model, const DrawDownProtocol& protocol) {
   const double end = .5 * protocol.length_m, side = .5 * protocol.depth_m;
   const double lip = .5 * protocol.slot_m;
   return {study_wall(Plane{}),
-          pane({-end, 0, 0}, Vector::UnitX()),
-          pane({end, 0, 0}, -Vector::UnitX()),
-          pane({0, -side, 0}, Vector::UnitY()),
-          pane({0, side, 0}, -Vector::UnitY()),
+          pane(model, {-end, 0, 0}, Vector::UnitX()),
+          pane(model, {end, 0, 0}, -Vector::UnitX()),
+          pane(model, {0, -side, 0}, Vector::UnitY()),
+          pane(model, {0, side, 0}, -Vector::UnitY()),
           slab(protocol, -end, -lip),
           slab(protocol, lip, end),
           slab(protocol, -lip, lip)};
@@ -115,8 +116,8 @@ ExperimentRun filled_boxes(const Model& model, const DrawDownProtocol& protocol,
   const RainPlan plan = rain_of(protocol, largest_reach_m(model));
   // The fastest fall from the top of the fill to the floor of the lower box.
   const double fastest_m_s = std::sqrt(2 * kStandardGravity_m_s2 * plan.rim_m);
-  ExperimentRun run(Simulation(bulk_setup(model, walls_of(protocol), fastest_m_s)), observers,
-                    Pace(model, fastest_m_s));
+  ExperimentRun run(Simulation(bulk_setup(model, walls_of(model, protocol), fastest_m_s)),
+                    observers, Pace(model, fastest_m_s));
   rain(run, plan, seed);
   for (const int grain : above_rim(run.simulation(), plan.rim_m)) run.simulation().remove(grain);
   return run;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dem/contact/material.h"
+#include "dem/contact/wall_part.h"
 #include "dem/engine/simulation.h"
 #include "dem/experiment/heap_envelope.h"
 #include "dem/experiment/heap_progress.h"
@@ -26,8 +27,9 @@ struct Model {
   /// size.
   double size_sd_fraction = 0;
   Material grain_material;
-  Material wall_material;
+  Material wall_material;  ///< of the plate, and of all parts that `parts` does not name
   PairCoefficients grain_wall;
+  WallSurfaces parts = {};
   PairCoefficients grain_grain;
   RollingModel rolling = RollingModel::constant_torque;
   /// Both Young's moduli are multiplied by this: 1 is the real material. Softening shortens runs

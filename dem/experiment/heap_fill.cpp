@@ -26,10 +26,11 @@ Wall plate_of(const HeapProtocol& protocol) {
                     {.position = {0, 0, -half_thickness}});
 }
 
-Wall tube_of(const HeapProtocol& protocol, double height_m) {
-  return study_wall(Tube{.inner_radius = .5 * protocol.tube_diameter_m,
-                         .thickness = protocol.tube_thickness_m,
-                         .height = height_m});
+Wall tube_of(const Model& model, const HeapProtocol& protocol, double height_m) {
+  return part_wall(model, WallPart::tube,
+                   Tube{.inner_radius = .5 * protocol.tube_diameter_m,
+                        .thickness = protocol.tube_thickness_m,
+                        .height = height_m});
 }
 
 /// Places over the tube.
@@ -75,7 +76,7 @@ ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
                          const Observers& observers, std::optional<double> spout_m) {
   const double reach = largest_reach_m(model);
   const double tall = protocol.tube_height_m + kTaller * reach;
-  return {Simulation(bulk_setup(model, {plate_of(protocol), tube_of(protocol, tall)},
+  return {Simulation(bulk_setup(model, {plate_of(protocol), tube_of(model, protocol, tall)},
                                 fastest_rain_m_s(reach, spout_m))),
           observers, pace_of_rain(model, spout_m)};
 }
@@ -89,7 +90,7 @@ ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
                            const HeapProtocol& protocol, std::optional<double> spout_m) {
   const double reach = largest_reach_m(model);
   SimulationSetup setup =
-      bulk_setup(model, {plate_of(protocol), tube_of(protocol, protocol.tube_height_m)},
+      bulk_setup(model, {plate_of(protocol), tube_of(model, protocol, protocol.tube_height_m)},
                  fastest_rain_m_s(reach, spout_m));
   // Grains that fall off the plate are gone once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;

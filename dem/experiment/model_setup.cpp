@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,11 +18,20 @@ Material softened(Material material, double factor) {
 }
 
 ContactTable contact_table(const Model& model) {
-  // What walls do to each other is never asked for.
-  return {{softened(model.grain_material, model.stiffness_factor),
-           softened(model.wall_material, model.stiffness_factor)},
-          {model.grain_grain, model.grain_wall, model.grain_wall, model.grain_wall},
-          model.rolling};
+  std::vector<Material> materials = {softened(model.grain_material, model.stiffness_factor),
+                                     softened(model.wall_material, model.stiffness_factor)};
+  std::vector<PairCoefficients> with_grain = {model.grain_grain, model.grain_wall};
+  for (const auto& [part, surface] : model.parts) {
+    materials.push_back(softened(surface.material, model.stiffness_factor));
+    with_grain.push_back(surface.with_grain);
+  }
+  std::vector<PairCoefficients> pairs = with_grain;
+  for (std::size_t a = 1; a < with_grain.size(); ++a) {
+    pairs.push_back(with_grain[a]);
+    // What walls do to each other is never asked for.
+    pairs.insert(pairs.end(), with_grain.size() - 1, model.grain_wall);
+  }
+  return {std::move(materials), std::move(pairs), model.rolling};
 }
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0; }
@@ -82,6 +92,16 @@ void find_errors(const Model& model, base::ErrorList& errors) {
 
 Wall study_wall(WallShape shape, const Pose& pose) {
   return {std::move(shape), kWallMaterial, pose, {}};
+}
+
+int material_of(const Model& model, WallPart part) {
+  const auto found = model.parts.find(part);
+  if (found == model.parts.end()) return kWallMaterial;
+  return kWallMaterial + 1 + static_cast<int>(std::distance(model.parts.begin(), found));
+}
+
+Wall part_wall(const Model& model, WallPart part, WallShape shape, const Pose& pose) {
+  return {std::move(shape), material_of(model, part), pose, {}};
 }
 
 SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,

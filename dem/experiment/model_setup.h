@@ -8,15 +8,20 @@
 
 namespace repose::dem {
 
-/// The materials of every experiment's contact table.
+/// The materials of every experiment's contact table; those of `Model::parts` follow.
 inline constexpr int kGrainMaterial = 0;
 inline constexpr int kWallMaterial = 1;
 
 /// Notes what is wrong with the bench itself.
 void find_errors(const Model& model, base::ErrorList& errors);
 
-/// A wall of the bench's wall material, at rest.
+/// A wall of the plate's material, at rest.
 Wall study_wall(WallShape shape, const Pose& pose = {});
+
+/// A part's number among the materials: the plate's where it has none of its own.
+int material_of(const Model& model, WallPart part);
+/// A wall that is such a part, at rest.
+Wall part_wall(const Model& model, WallPart part, WallShape shape, const Pose& pose = {});
 
 /// Grains of one shape among walls, with the bench's materials and a time step for impacts at up to
 /// `speed_m_s`: the bench's own, or its share of the longest accurate one, `fraction` of the stable

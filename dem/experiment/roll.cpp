@@ -38,13 +38,15 @@ void check(const Model& model, const RollProtocol& protocol) {
 }
 
 /// A flat without end, and on it a box whose upper face meets it at the foot, without a step.
-std::vector<Wall> walls_of(const RollProtocol& protocol, const Incline& slope, double reach_m) {
+std::vector<Wall> walls_of(const Model& model, const RollProtocol& protocol, const Incline& slope) {
+  const double reach_m = model.grain.reach_m();
   const double length = protocol.release_m + 10 * reach_m;
   const double thickness = 4 * reach_m;
   const double width = 20 * (protocol.release_m + reach_m);
   const Vector centre = -.5 * length * slope.down - .5 * thickness * slope.normal;
-  return {study_wall(Plane{}), study_wall(Box{.half_size = .5 * Vector(length, width, thickness)},
-                                          {.position = centre, .orientation = slope.orientation})};
+  return {study_wall(Plane{}), part_wall(model, WallPart::incline,
+                                         Box{.half_size = .5 * Vector(length, width, thickness)},
+                                         {.position = centre, .orientation = slope.orientation})};
 }
 
 void roll_to_rest(ExperimentRun& run) {
@@ -75,7 +77,7 @@ ExperimentRun rolled(const Model& model, const RollProtocol& protocol, const Gra
   // No part of the grain meets a wall faster than by a free fall from where it is let go.
   const double speed =
       std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
-  ExperimentRun run(Simulation(model_setup(model, model.grain, walls_of(protocol, slope, reach),
+  ExperimentRun run(Simulation(model_setup(model, model.grain, walls_of(model, protocol, slope),
                                            speed, kBulkFraction)),
                     observers);
   run.simulation().add(grain);

@@ -42,6 +42,7 @@ ExperimentEntry draw_down_entry() {
                        {"at_rest", ""}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
+          .parts = {WallPart::pane},
           .sheet = {.test = "draw_down", .value = "discharged_percent", .protocol = {}},
           .is_bulk = true,
           .is_usual = false,

@@ -66,6 +66,10 @@ Range readable_in(std::string_view unit) {
 }
 
 bool depends_on(const ExperimentEntry& entry, std::string_view coefficient) {
+  const auto is_of = [coefficient](WallPart part) {
+    return coefficient.starts_with("contact.particle_" + name_of(part) + '.');
+  };
+  if (std::ranges::any_of(entry.parts, is_of)) return true;
   return std::find(entry.coefficients.begin(), entry.coefficients.end(), coefficient) !=
          entry.coefficients.end();
 }

@@ -49,6 +49,8 @@ struct ExperimentEntry {
   std::vector<Reading> readings;
   /// Names in the study of the coefficients that move its readings.
   std::vector<std::string_view> coefficients;
+  /// What its bench has beside the plate; their coefficients move its readings, too.
+  std::vector<WallPart> parts = {};
   /// The one of these that it tells from the others; empty: none.
   std::string_view tells = "";
   BenchSheet sheet;

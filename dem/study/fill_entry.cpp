@@ -43,6 +43,7 @@ ExperimentEntry fill_entry() {
                        {"solid_fraction", ""}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
+          .parts = {WallPart::tube},
           .sheet = {.test = "fill", .value = "bulk_density_kg_m3", .protocol = {}},
           .is_bulk = true,
           .is_usual = false,

@@ -64,6 +64,7 @@ ExperimentEntry heap_entry() {
                        {"time_s", "s"}},
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
+          .parts = {WallPart::tube},
           .sheet = {.test = "heap", .value = "angle_deg"},
           .is_bulk = true,
           .is_pictured = true,

@@ -116,6 +116,29 @@ void read_rolling_model(Section& contact, Study& study) {
   study.model.rolling = model.value_or(study.model.rolling);
 }
 
+/// What grains do to a part of another material than the plate's: both are given, or neither.
+void read_part(Section& contact, WallPart part, Study& study) {
+  const std::string key = "particle_" + name_of(part);
+  const bool has_material = study.model.parts.contains(part);
+  if (!has_material && !contact.has(key)) {
+    contact.value(key);  // it could be there
+    return;
+  }
+  const CoefficientSet set = read_pair(contact, key);
+  if (!has_material) {
+    contact.errors().add(
+        contact.value(key)->place,
+        fmt::format("{} has coefficients, and [wall.{}] is missing", contact.full(key),
+                    name_of(part)),
+        "a part with coefficients of its own has a material of its own",
+        fmt::format("add [wall.{}] with young_modulus_pa and poisson_ratio, or take [{}] out",
+                    name_of(part), contact.full(key)));
+    return;
+  }
+  study.particle_parts[part] = set;
+  study.model.parts[part].with_grain = values_of(set);
+}
+
 }  // namespace
 
 void read_contact(Section contact, Study& study) {
@@ -124,6 +147,7 @@ void read_contact(Section contact, Study& study) {
   study.particle_particle = read_pair(contact, "particle_particle");
   study.model.grain_wall = values_of(study.particle_wall);
   study.model.grain_grain = values_of(study.particle_particle);
+  for (const auto& [part, part_name] : kWallParts) read_part(contact, part, study);
   contact.refuse_others();
 }
 

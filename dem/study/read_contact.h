@@ -5,7 +5,7 @@
 
 namespace repose::dem {
 
-/// [contact]: the rolling model, and the coefficients of both pairs.
+/// [contact]: the rolling model, and the coefficients of all pairs, once `study` has its walls.
 void read_contact(Section contact, Study& study);
 
 }  // namespace repose::dem

@@ -96,6 +96,12 @@ void read_material(Section& section, const std::string& otherwise, Material& mat
       section.needed_number("poisson_ratio", from_to_below(0, .5), "poisson_ratio = 0.38");
 }
 
+void read_wall_material(Section& wall, const std::string& otherwise, Material& material) {
+  read_material(wall, otherwise, material);
+  material.density_kg_m3 = wall.number("density_kg_m3", kDensity.possible, "density_kg_m3 = 7850")
+                               .value_or(kUsualWallDensity_kg_m3);
+}
+
 void read_scan_source(Section& particle, const NamedFiles& files, GrainSource& grain) {
   const char* example = "scan = \"nut.stl\"";
   const auto scan = particle.text("scan", example);
@@ -225,10 +231,14 @@ void read_particle(Section particle, const NamedFiles& files, Study& study) {
 }
 
 void read_wall(Section wall, Study& study) {
-  read_material(wall, "wall", study.model.wall_material);
-  study.model.wall_material.density_kg_m3 =
-      wall.number("density_kg_m3", kDensity.possible, "density_kg_m3 = 7850")
-          .value_or(kUsualWallDensity_kg_m3);
+  read_wall_material(wall, "wall", study.model.wall_material);
+  for (const auto& [part, part_name] : kWallParts) {
+    const std::string key(part_name);
+    Section own = wall.section(key);
+    if (!wall.has(key)) continue;
+    read_wall_material(own, key, study.model.parts[part].material);
+    own.refuse_others();
+  }
   wall.refuse_others();
 }
 

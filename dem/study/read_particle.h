@@ -14,7 +14,7 @@ struct NamedFiles {
 /// [particle]: shape and material of the grain.
 void read_particle(Section particle, const NamedFiles& files, Study& study);
 
-/// [wall]: what all walls are made of.
+/// [wall]: what the walls are made of, and in [wall.tube] and so on the parts of another material.
 void read_wall(Section wall, Study& study);
 
 /// A file named in a study; an error when there must be one and is none. `value` is where it is

@@ -38,6 +38,7 @@ ExperimentEntry roll_entry() {
                    {"releases", ""},
                    {"time_s", "s"}},
       .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
+      .parts = {WallPart::incline},
       .tells = kWallRolling,
       .sheet = {.test = "rolling",
                 .value = "stopped_mm",

@@ -1,5 +1,6 @@
 #include "dem/study/study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -163,6 +164,12 @@ std::vector<std::string> open_coefficients(const Study& study, Experiment experi
   if (has_grain_contacts(experiment)) {
     add_open(study.particle_particle, "particle_particle", names);
   }
+  for (const WallPart part : entry_of(experiment).parts) {
+    const auto found = study.particle_parts.find(part);
+    if (found != study.particle_parts.end()) {
+      add_open(found->second, "particle_" + name_of(part), names);
+    }
+  }
   return names;
 }
 
@@ -172,7 +179,11 @@ Model model_for(const Study& study, Experiment experiment) {
   if (described != study.experiments.end()) {
     model.stiffness_factor = described->second.stiffness_factor;
   }
-  if (!entry_of(experiment).is_bulk) model.size_sd_fraction = 0;
+  const ExperimentEntry& entry = entry_of(experiment);
+  if (!entry.is_bulk) model.size_sd_fraction = 0;
+  std::erase_if(model.parts, [&entry](const auto& one) {
+    return std::ranges::find(entry.parts, one.first) == entry.parts.end();
+  });
   if (!has_grain_contacts(experiment)) {
     const auto close = [](double& open, double value) {
       if (std::isnan(open)) open = value;

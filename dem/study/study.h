@@ -93,6 +93,7 @@ struct Study {
   /// Red, green, blue as on a screen, 0 to 1, for pictures; none: they choose one.
   std::optional<std::array<double, 3>> grain_colour;
   CoefficientSet particle_wall;
+  std::map<WallPart, CoefficientSet> particle_parts;  ///< of the parts in `model.parts`
   CoefficientSet particle_particle;
   std::map<Experiment, StudyExperiment> experiments;  ///< those that it describes
   int replicates = 1;
@@ -138,8 +139,8 @@ Measured measured_in(const Study& study, Experiment experiment);
 /// coefficients between grains.
 std::vector<std::string> open_coefficients(const Study& study, Experiment experiment);
 
-/// The bench as one experiment needs it: its stiffness factor, sizes that vary in bulks only, and
-/// coefficients without effect in
+/// The bench as one experiment needs it: its stiffness factor, sizes that vary in bulks only, the
+/// parts that it has, and coefficients without effect in
 /// it (see open_coefficients) set to something where the study leaves them open.
 Model model_for(const Study& study, Experiment experiment);
 

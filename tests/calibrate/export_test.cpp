@@ -140,6 +140,74 @@ TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
   EXPECT_THAT(file_text(tapped, "README.txt"), HasSubstr("without a deck: fill."));
 }
 
+/// Nuts on steel, with a tube and an incline of acrylic.
+dem::Study on_two_materials() {
+  dem::Study study = hazelnuts();
+  study.model.parts[dem::WallPart::tube] = {.material = {"acrylic", 1180, 3e9, .35},
+                                            .with_grain = {.5, .3, .06}};
+  study.model.parts[dem::WallPart::incline] = {.material = {"wood", 700, 1e10, .4},
+                                               .with_grain = {.25, .45, .07}};
+  return study;
+}
+
+TEST(ExportStudy, PartsOfAnotherMaterialAreATypeOfTheirOwnInLiggghts) {
+  const StudyExport made = exported(on_two_materials(), ExportTarget::liggghts);
+  EXPECT_THAT(file_text(made, "material.lig"),
+              AllOf(HasSubstr("tube of acrylic (type 3), incline of wood (type 4): box"),
+                    HasSubstr("create_box 4 box"),
+                    HasSubstr("variable incline_young equal 10000000000*${stiffness}"),
+                    HasSubstr("${wall_young} ${tube_young} ${incline_young}\n"),
+                    HasSubstr("poissonsRatio peratomtype 0.38 0.3 0.35 0.4\n"),
+                    HasSubstr("coefficientFriction peratomtypepair 4 0.21 0.39 0.3 0.45 0.39 0.39 "
+                              "0.39 0.39 0.3 0.39 0.39 0.39 0.45 0.39 0.39 0.39\n")));
+  EXPECT_THAT(file_text(made, "heap.lig"),
+              AllOf(HasSubstr("tube.stl type 3"), HasSubstr("plate.stl type 2"),
+                    HasSubstr("primitive type 3 zcylinder")));
+  EXPECT_THAT(file_text(made, "roll.lig"),
+              AllOf(HasSubstr("incline.stl type 4"), HasSubstr("primitive type 2 zplane")));
+  EXPECT_THAT(file_text(exported(hazelnuts(), ExportTarget::liggghts), "material.lig"),
+              AllOf(HasSubstr("steel (type 2): box"), HasSubstr("create_box 2 box"),
+                    HasSubstr("${grain_young} ${wall_young}\n")));
+}
+
+TEST(ExportStudy, PartsOfAnotherMaterialAreInTheOtherProgramsOrSaidToHaveNoDeck) {
+  const dem::Study study = on_two_materials();
+  const StudyExport lammps = exported(study, ExportTarget::lammps);
+  EXPECT_THAT(file_text(lammps, "roll.lmp"),
+              AllOf(HasSubstr("The incline is of wood"), HasSubstr("region slope\n"),
+                    HasSubstr("fix flat    all wall/gran/region ${wall} region flat"),
+                    Not(HasSubstr("intersect"))));
+  EXPECT_THAT(lammps.conversions, SizeIs(9)) << "it has no heap, and no tube";
+  EXPECT_THAT(file_text(exported(hazelnuts(), ExportTarget::lammps), "roll.lmp"),
+              AllOf(HasSubstr("intersect 2 slope flat"), Not(HasSubstr("incline_normal"))));
+  const StudyExport yade = exported(study, ExportTarget::yade);
+  EXPECT_THAT(names_of(yade), AllOf(Contains("heap.py"), Not(Contains("roll.py"))));
+  EXPECT_THAT(file_text(yade, "README.txt"),
+              AllOf(HasSubstr("without a deck: roll."), HasSubstr("contact.particle_tube.")));
+  EXPECT_THAT(file_text(yade, "grain.py"),
+              AllOf(HasSubstr("TUBE = dict(betan="), HasSubstr("('grain', 'wall', 'tube')"),
+                    HasSubstr("(0, 2, value(TUBE))")));
+  EXPECT_THAT(file_text(yade, "heap.py"), HasSubstr("wallMask=4, material='tube'"));
+  EXPECT_THAT(file_text(exported(hazelnuts(), ExportTarget::yade), "grain.py"),
+              AllOf(Not(HasSubstr("TUBE")), HasSubstr("('grain', 'wall'):")));
+  const StudyExport edem = exported(study, ExportTarget::edem);
+  EXPECT_THAT(file_text(edem, "values.txt"), AllOf(HasSubstr("Equipment material acrylic (tube)"),
+                                                   HasSubstr("Equipment material wood (incline)")));
+  EXPECT_THAT(file_text(edem, "values.csv"),
+              AllOf(HasSubstr("tube,Poisson's Ratio,0.35"),
+                    HasSubstr("grain with incline,Coefficient of Static Friction,0.45,"),
+                    HasSubstr("grain with grain,Coefficient of Static Friction,0.21,")));
+}
+
+TEST(ExportStudy, APartWithoutAnExperimentNeedsNoCoefficients) {
+  dem::Study study = on_two_materials();
+  study.particle_parts[dem::WallPart::tube].restitution = {.min = .1, .max = .9};
+  EXPECT_THAT(error_of([&] { exported(study, ExportTarget::liggghts); }),
+              HasSubstr("contact.particle_tube.restitution: has no value"));
+  study.experiments.erase(dem::Experiment::heap);
+  EXPECT_THAT(exported(study, ExportTarget::liggghts).conversions, SizeIs(6));
+}
+
 TEST(ExportStudy, AStudyWithoutAnyDeckIsRefused) {
   dem::Study study = hazelnuts();
   study.experiments.clear();

@@ -97,6 +97,17 @@ TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new/drops.csv"));
 }
 
+TEST_F(NewStudyTest, CanHaveATubeOfAnotherMaterial) {
+  NewStudy asked = study_of(grain("pea"), kAll);
+  asked.parts.emplace(dem::WallPart::tube, plate_kinds()[3]);
+  const dem::Study study = written(asked);
+  const dem::WallSurface& tube = study.model.parts.at(dem::WallPart::tube);
+  EXPECT_EQ(tube.material.name, plate_kinds()[3].name);
+  EXPECT_EQ(tube.material.young_modulus_pa, plate_kinds()[3].young_modulus_pa);
+  EXPECT_GT(tube.with_grain.sliding_friction, 0) << "assumed";
+  EXPECT_NE(study.model.wall_material.name, tube.material.name);
+}
+
 TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
   const dem::Study study = written(
       study_of(grain("pea"), {dem::Experiment::tilt_on_grains, dem::Experiment::roll_on_grains}));

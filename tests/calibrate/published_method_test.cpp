@@ -142,6 +142,13 @@ TEST_F(PublishedMethod, NeedsAllSixSoughtAndAllFourMeasured) {
     return error_of([&] { calibrate({setting}); });
   };
   EXPECT_THAT(refusal("contact.particle_wall.restitution=0.5"), HasSubstr("have no bounds"));
+  const std::string tube = error_of([&] {
+    calibrate({"wall.tube = { young_modulus_pa = 1e7, poisson_ratio = 0.4 }",
+               "contact.particle_wall.restitution = 0.5",
+               "contact.particle_tube = { restitution = { min = 0.1, max = 0.5 }, "
+               "sliding_friction = 0.3, rolling_friction = 0.05 }"});
+  });
+  EXPECT_THAT(tube, HasSubstr("and nothing else")) << "six, but not these six";
   EXPECT_THAT(refusal("experiment.roll={}"), HasSubstr("[experiment.roll] has no measured value"));
 }
 

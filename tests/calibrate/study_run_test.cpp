@@ -110,6 +110,43 @@ TEST_F(StudyRun, TakesItsProblemFromTheStudy) {
   EXPECT_THAT(made.notes, IsEmpty());
 }
 
+const std::vector<std::string> kInclined = {
+    "wall.incline = { young_modulus_pa = 1e7, poisson_ratio = 0.4 }",
+    "contact.particle_incline = { restitution = 0.5, sliding_friction = { min = 0.1, max = 0.5 }, "
+    "rolling_friction = 0.05 }",
+    "experiment.roll = { measured = { mean = 100, sd = 5, n = 5 } }"};
+
+TEST_F(StudyRun, CoefficientsOfAPartAreSoughtWhereTheBenchHasIt) {
+  const dem::Study study = read(kInclined);
+  const Problem problem = small_problem(study);
+  ASSERT_THAT(problem.parameters, SizeIs(3));
+  EXPECT_EQ(problem.parameters[2].name, "contact.particle_incline.sliding_friction");
+  ASSERT_THAT(problem.experiments, SizeIs(3));
+  EXPECT_THAT(problem.experiments[0].parameters, Not(Contains(2))) << "a drop is on the plate";
+  EXPECT_THAT(problem.experiments[1].parameters, Not(Contains(2)));
+  EXPECT_THAT(problem.experiments[2].parameters, Contains(2));
+  const StudySimulator simulator = simulator_of(study);
+  const std::vector<double> values = {.5, .4, .3};
+  const RunSpec roll = simulator.spec({.experiment = "roll", .values = values, .seed = 1});
+  EXPECT_EQ(roll.model.parts.at(dem::WallPart::incline).with_grain.sliding_friction, .3);
+  EXPECT_THAT(simulator.spec({.experiment = "drop", .values = values, .seed = 1}).model.parts,
+              IsEmpty());
+}
+
+// Runs in the store keep their names.
+TEST_F(StudyRun, ARunIsNamedAfterThePartsOfItsBenchAlone) {
+  const dem::Study plain = read({"experiment.roll = {}"}), inclined = read(kInclined);
+  const auto text = [&](const dem::Study& study, dem::Experiment experiment) {
+    static const NamedGrain grain(grain_of(plain));
+    return description_of(spec_of(study, experiment, grain, 0), 1);
+  };
+  EXPECT_EQ(text(plain, dem::Experiment::drop), text(inclined, dem::Experiment::drop));
+  EXPECT_THAT(text(plain, dem::Experiment::roll), Not(HasSubstr("incline\"")));
+  EXPECT_THAT(text(inclined, dem::Experiment::roll),
+              AllOf(HasSubstr(R"("incline":{"density_kg_m3":7850.0,"young_modulus_pa":10000000.0)"),
+                    HasSubstr(R"("particle_incline":{"restitution":0.5)")));
+}
+
 TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));

@@ -63,6 +63,21 @@ TEST_F(Simulate, ADropGivesAValueAndWhatItBelongsTo) {
                     HasSubstr("2 spheres"), HasSubstr("stiffness factor")));
 }
 
+TEST_F(Simulate, APartOfAnotherMaterialIsToldWhereTheBenchHasIt) {
+  const Words inclined = {
+      "--set", "wall.incline={name=\"wood\",young_modulus_pa=1e7,poisson_ratio=0.4}", "--set",
+      "contact.particle_incline={restitution=0.5,sliding_friction=0.4,rolling_friction=0.2}"};
+  const json roll = timeless(with({"roll", "study.toml"}, inclined));
+  EXPECT_EQ(roll["materials"]["incline"]["name"], "wood");
+  EXPECT_EQ(roll["contact"]["particle_incline"]["rolling_friction"], .2);
+  EXPECT_LT(roll["value"], timeless({"roll", "study.toml"})["value"]);
+  EXPECT_THAT(run(with({"roll", "study.toml"}, inclined)).out,
+              AllOf(HasSubstr("with the incline"), HasSubstr("rolling friction 0.2")));
+  const json drop = timeless(with({"drop", "study.toml"}, inclined));
+  EXPECT_FALSE(drop["contact"].contains("particle_incline"));
+  EXPECT_EQ(drop["value"], timeless({"drop", "study.toml"})["value"]);
+}
+
 TEST_F(Simulate, OneRepeatHasNoInterval) {
   EXPECT_THAT(run({"roll", "study.toml"}).out,
               AllOf(HasSubstr("n = 1, which has no scatter"), Not(HasSubstr("95 %"))));

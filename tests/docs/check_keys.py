@@ -35,7 +35,7 @@ OUTPUTS = {
     "plan": ["plan drops.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
     "calibrate": ["calibrate study.toml --out hazelnut --json -"],
 }
-SECTIONS = ["study", "particle", "wall", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
+SECTIONS = ["study", "particle", "wall", "wall.tube", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
             "experiment", "experiment.drop", "experiment.tilt", "experiment.roll", "experiment.heap",
             "experiment.drop_on_grains", "experiment.tilt_on_grains", "experiment.roll_on_grains", "experiment.fill",
             "experiment.fill.also_measured", "experiment.pendulum",

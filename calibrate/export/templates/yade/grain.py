@@ -22,23 +22,27 @@ GRAVITY = {{GRAVITY}}
 # of F (R1 + R2) / 2; krot, N m/rad for the stiffness factor 1.
 WALL = dict(betan={{WALL_BETAN}}, betas={{WALL_BETAS}}, friction={{WALL_SLIDING}}, eta={{WALL_ETA}}, krot={{WALL_KROT}})
 GRAINS = dict(betan={{GRAIN_BETAN}}, betas={{GRAIN_BETAS}}, friction={{GRAIN_SLIDING}}, eta={{GRAIN_ETA}}, krot={{GRAIN_KROT}})
+{{#TUBE}}
+# With the tube, of {{TUBE_NAME}}.
+TUBE = dict(betan={{TUBE_BETAN}}, betas={{TUBE_BETAS}}, friction={{TUBE_SLIDING}}, eta={{TUBE_ETA}}, krot={{TUBE_KROT}})
+{{/TUBE}}
 # Moduli that give grain and wall the stiffness of their contact, although YADE takes the wall for a
 # sphere of the same size: see README.txt.
 PAIR = dict(young={{PAIR_YOUNG}}, poisson={{PAIR_POISSON}})
 GRAIN = dict(young={{GRAIN_YOUNG}}, poisson={{GRAIN_POISSON}})
 DENSITY = {{DENSITY}}
 def add_materials(stiffness, moduli):
-    for name in ('grain', 'wall'):
+    for name in ('grain', 'wall'{{#TUBE}}, 'tube'{{/TUBE}}):
         O.materials.append(FrictMat(young=moduli['young'] * stiffness, poisson=moduli['poisson'],
                                     density=DENSITY, frictionAngle=0, label=name))
-def matched(wall, grains):
-    return MatchMaker(matches=((0, 1, wall), (0, 0, grains)))
+def matched(value):
+    return MatchMaker(matches=((0, 1, value(WALL)), (0, 0, value(GRAINS)){{#TUBE}}, (0, 2, value(TUBE)){{/TUBE}}))
 def set_engines(stiffness, rolling, gravity=(0, 0, -GRAVITY), watch=()):
     """rolling: WALL or GRAINS; YADE has one value of it for all pairs."""
     contact = Ip2_FrictMat_FrictMat_MindlinPhys(
-        betan=matched(WALL['betan'], GRAINS['betan']),
-        betas=matched(WALL['betas'], GRAINS['betas']),
-        frictAngle=matched(atan(WALL['friction']), atan(GRAINS['friction'])),
+        betan=matched(lambda pair: pair['betan']),
+        betas=matched(lambda pair: pair['betas']),
+        frictAngle=matched(lambda pair: atan(pair['friction'])),
         eta=rolling['eta'], krot=rolling['krot'] * stiffness ** (2 / 3), label='contact')
     O.engines = [
         ForceResetter(),

@@ -13,8 +13,8 @@ corners = [(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0
 O.bodies.append(utils.facet([corners[0], corners[1], corners[2]], material='wall'))
 O.bodies.append(utils.facet([corners[0], corners[2], corners[3]], material='wall'))
 # Tall enough to hold all grains while they fall in; what is above the rim is gone before the lift.
-tube = O.bodies.append(geom.facetCylinder((0, 0, .5 * {{TUBE_HEIGHT}}), {{TUBE_RADIUS}}, {{TUBE_HEIGHT}}, segmentsNumber=48, wallMask=4, material='wall'))
-guide = O.bodies.append(geom.facetCylinder((0, 0, {{TUBE_HEIGHT}} + .5 * {{COLUMN}}), {{TUBE_RADIUS}}, {{COLUMN}}, segmentsNumber=48, wallMask=4, material='wall'))
+tube = O.bodies.append(geom.facetCylinder((0, 0, .5 * {{TUBE_HEIGHT}}), {{TUBE_RADIUS}}, {{TUBE_HEIGHT}}, segmentsNumber=48, wallMask=4, material='{{TUBE_MATERIAL}}'))
+guide = O.bodies.append(geom.facetCylinder((0, 0, {{TUBE_HEIGHT}} + .5 * {{COLUMN}}), {{TUBE_RADIUS}}, {{COLUMN}}, segmentsNumber=48, wallMask=4, material='{{TUBE_MATERIAL}}'))
 numbers = []
 room = {{TUBE_RADIUS}} - REACH
 height = REACH
