@@ -201,7 +201,9 @@ TEST(ExportStudy, PartsOfAnotherMaterialAreInTheOtherProgramsOrSaidToHaveNoDeck)
 
 TEST(ExportStudy, APartWithoutAnExperimentNeedsNoCoefficients) {
   dem::Study study = on_two_materials();
-  study.particle_parts[dem::WallPart::tube].restitution = {.min = .1, .max = .9};
+  dem::Coefficient& restitution = study.particle_parts[dem::WallPart::tube].restitution;
+  restitution.min = .1;
+  restitution.max = .9;
   EXPECT_THAT(error_of([&] { exported(study, ExportTarget::liggghts); }),
               HasSubstr("contact.particle_tube.restitution: has no value"));
   study.experiments.erase(dem::Experiment::heap);

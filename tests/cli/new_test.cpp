@@ -11,6 +11,7 @@ using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 const Words kSoybean = {"soybean.toml", "--grains",    "soybean",   "--plate", "acrylic",
@@ -73,6 +74,23 @@ TEST_F(NewCommand, AllWrongOptionsAreToldAtOnceAndNothingIsWritten) {
             HasSubstr("--density-kg-m3 1.2: must be"), HasSubstr("--tube-mm 50: must be"),
             HasSubstr("--experiments heep")));
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(NewCommand, PartsOfAnotherMaterialHaveSectionsOfTheirOwn) {
+  ASSERT_EQ(run({"a.toml", "--tube", "acrylic", "--incline", "steel"}).exit_code, 0);
+  EXPECT_THAT(text("a.toml"),
+              AllOf(HasSubstr("[wall.tube]\nname = \"acrylic\"\n"),
+                    HasSubstr("[contact.particle_tube]\n# Assumed. Drop, tilt and roll"),
+                    Not(HasSubstr("[wall.incline]"))))
+      << "it is as the plate";
+  folder_.write("a/tilts.csv", std::string("angle_deg\n18.5\n19.1\n"));
+  EXPECT_EQ(run_repose(folder_, {"simulate", "tilt", "a.toml"}).exit_code, 0);
+  const Finished wrong =
+      run({"b.toml", "--experiments", "drop", "--tube", "wood", "--pane", "wud"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err,
+              AllOf(HasSubstr("--tube wood: none of the experiments has one"),
+                    HasSubstr("add heap or fill to --experiments"), HasSubstr("--pane wud")));
 }
 
 TEST_F(NewCommand, ATubeThatGrainsJamInIsRefused) {
