@@ -1,5 +1,8 @@
 #include "cli/new/new_study.h"
 
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,6 +23,11 @@ std::string assumptions_of(const calibrate::NewStudy& study) {
   }
   if (!study.has_own_density) {
     text += fmt::format(" {:g} kg/m³ (--density-kg-m3),", study.density_kg_m3);
+  }
+  if (!study.parts.empty()) {
+    std::vector<std::string> parts;
+    for (const auto& [part, plate] : study.parts) parts.push_back(name_of(part));
+    text += fmt::format(" the coefficients of {},", fmt::join(parts, " and "));
   }
   return text + " the stiffness of grains and plate.";
 }
