@@ -51,10 +51,18 @@ void add_conversion(const Conversion& conversion, DeckFields& fields) {
   if (!conversion.limits.empty()) one.add_section("BUT").set("LIMITS", conversion.limits);
 }
 
-void add_left_out(const ExportFacts& facts, DeckFields& fields) {
+bool has_low_drop(const ExportFacts& facts) {
+  return facts.has(dem::Experiment::drop) &&
+         facts.study().protocol<dem::DropProtocol>().low_height_m.has_value();
+}
+
+void add_left_out(const ExportFacts& facts, ExportTarget target, DeckFields& fields) {
   std::string names;
   for (const dem::Experiment experiment : facts.left_out()) {
     names += (names.empty() ? "" : ", ") + name_of(experiment);
+  }
+  if (has_low_drop(facts) && target != ExportTarget::edem) {
+    names += fmt::format("{}drop from low_height_mm", names.empty() ? "" : ", ");
   }
   if (!names.empty()) fields.add_section("LEFT_OUT").set("NAMES", names);
 }
@@ -88,7 +96,7 @@ ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
   fields.set("HEAP_STIFFNESS", heap_stiffness_text(facts));
   fields.set_lines("RUNNING", text_of(target, "running.txt"));
   fields.set_lines("LIMITS", text_of(target, "limits.txt"));
-  add_left_out(facts, fields);
+  add_left_out(facts, target, fields);
   add_sizes(facts, target, fields);
   for (const Conversion& conversion : conversions) add_conversion(conversion, fields);
   return {.name = "README.txt", .text = filled("readme.txt", fields)};

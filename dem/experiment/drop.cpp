@@ -181,6 +181,22 @@ Repeat dropped(const Model& model, const Dropping& dropping, Random random, std:
   return run.finish(mean_mm(bounces, &Bounce::rise_m), seed, readings_of(bounces));
 }
 
+void find_low_error(const DropProtocol& protocol, base::ErrorList& errors) {
+  if (!protocol.low_height_m) return;
+  errors.require(*protocol.low_height_m > 0 && *protocol.low_height_m < protocol.height_m,
+                 fmt::format("drop.low_height_m is {:g}, drop.height_m {:g}. Rule: above 0, and "
+                             "below the other. Fix: the lower of the two heights, such as 0.05.",
+                             *protocol.low_height_m, protocol.height_m));
+}
+
+/// Adds to a drop what the second one gives.
+void add_low(const Repeat& low, Repeat& repeat) {
+  repeat.readings["low_rebound_mm"] = low.value;
+  repeat.steps += low.steps;
+  repeat.timestep_s = std::min(repeat.timestep_s, low.timestep_s);
+  repeat.clump_steps += low.clump_steps;
+}
+
 }  // namespace
 
 Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
@@ -188,10 +204,16 @@ Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t 
   base::ErrorList errors;
   find_errors(model, errors);
   find_errors_of("drop", protocol.height_m, protocol.grains, errors);
+  find_low_error(protocol, errors);
   errors.throw_if_any();
-  const Dropping dropping{
+  Dropping dropping{
       .height_m = protocol.height_m, .grains = protocol.grains, .ground = {study_wall(Plane{})}};
-  return dropped(model, dropping, Random(seed), seed, {report, record});
+  Repeat repeat = dropped(model, dropping, Random(seed), seed, {report, record});
+  if (!protocol.low_height_m) return repeat;
+  dropping.height_m = *protocol.low_height_m;
+  const RunRecord unseen;
+  add_low(dropped(model, dropping, Random(seed), seed, {report, unseen}), repeat);
+  return repeat;
 }
 
 Repeat run_drop_on_grains(const Model& model, const GrainDropProtocol& protocol, std::uint64_t seed,

@@ -13,10 +13,13 @@ namespace repose::dem {
 /// what a camera sees. Readings: "above_first_touch_mm" (the same from the height of the centroid
 /// at first touch: less, below 0 for a grain that topples), "lowest_point_rise_mm" (of the lowest
 /// surface point over the wall at the top), "sd_mm" (scatter of the value between grains),
-/// "never_rose" (how many).
+/// "never_rose" (how many), and with a lower height "low_rebound_mm" (the value from there, of the
+/// same grains in the same poses).
 struct DropProtocol {
   double height_m = .5;  ///< of the lowest point above the wall
   int grains = 10;       ///< in random poses, each on its own: one repeat is their mean
+  /// A second drop, from below `height_m`: whether one restitution stands for both speeds.
+  std::optional<double> low_height_m = {};
 };
 
 /// Grains bonded side by side, on a plate that tilts until they slide.

@@ -6,8 +6,10 @@ namespace {
 
 std::vector<ProtocolKey> keys_of_drop(Protocol& protocol) {
   auto& drop = std::get<DropProtocol>(protocol);
+  ProtocolKey low = length_key("low_height_mm", "50", drop.low_height_m, "none");
+  low.needs = low.name;
   return {length_key("height_mm", "500", drop.height_m),
-          count_key("grains", "10", kMaxGrains, drop.grains)};
+          count_key("grains", "10", kMaxGrains, drop.grains), low};
 }
 
 /// From lying flat below to standing above, beside the height of the fall.
@@ -17,7 +19,8 @@ Range possible_drop(const Model& model, const Protocol& protocol) {
 }
 
 double cost_of_drop_s(const Model& /*model*/, const Protocol& protocol) {
-  return kImpact_s * std::get<DropProtocol>(protocol).grains;
+  const auto& drop = std::get<DropProtocol>(protocol);
+  return kImpact_s * drop.grains * (drop.low_height_m ? 2 : 1);
 }
 
 }  // namespace
@@ -29,6 +32,7 @@ ExperimentEntry drop_entry() {
           .value_name = "rebound height",
           .description = "A grain falls on the flat plate.",
           .readings = {{"lowest_point_rise_mm", "mm", true},
+                       {"low_rebound_mm", "mm", true, "low_height_mm"},
                        {"above_first_touch_mm", "mm"},
                        {"sd_mm", "mm"},
                        {"never_rose", ""}},

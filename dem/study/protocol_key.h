@@ -19,8 +19,9 @@ struct ProtocolKey {
   double unit = 1;  ///< of the key, in that of the protocol: .001 for mm in m
   std::variant<double*, int*, std::optional<double>*, std::optional<int>*> value;
   std::string_view absence = "";  ///< what it means to leave it out: "as many as fit"
-  std::string_view needs = "";    ///< the key without which it says nothing
-  bool is_of_pictures = false;    ///< says how they are taken, and nothing of what is simulated
+  /// The key without which it says nothing; its own where it says nothing by being left out.
+  std::string needs = {};
+  bool is_of_pictures = false;  ///< says how they are taken, and nothing of what is simulated
 };
 
 ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m);

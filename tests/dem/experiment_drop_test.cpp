@@ -49,6 +49,25 @@ TEST(Drop, HalfTheHeightGivesHalfTheRebound) {
   EXPECT_NEAR(low / high, .5, .005);
 }
 
+TEST(Drop, FromTwoHeightsReboundsFromEachByTheSquareOfItsRestitution) {
+  Model model = test::sphere_bench();
+  model.grain_wall.restitution = .6;
+  const DropProtocol both{.height_m = .5, .grains = 2, .low_height_m = .05};
+  const Repeat repeat = run_drop(model, both, 1);
+  EXPECT_NEAR(repeat.value, 500 * .36, .01 * 500 * .36 + .2);
+  EXPECT_NEAR(repeat.readings.at("low_rebound_mm"), 50 * .36, .01 * 50 * .36 + .1);
+  const Repeat high = run_drop(model, {.height_m = .5, .grains = 2}, 1);
+  const Repeat low = run_drop(model, {.height_m = .05, .grains = 2}, 1);
+  EXPECT_EQ(repeat.value, high.value);
+  EXPECT_TRUE(test::same_state(*repeat.state, *high.state));
+  EXPECT_EQ(repeat.readings.at("low_rebound_mm"), low.value) << "the same grains again";
+  EXPECT_EQ(repeat.steps, high.steps + low.steps);
+  EXPECT_FALSE(high.readings.contains("low_rebound_mm"));
+  const std::string wrong =
+      error_of([&] { run_drop(model, {.height_m = .05, .low_height_m = .05}, 1); });
+  EXPECT_NE(wrong.find("drop.low_height_m is 0.05"), std::string::npos) << wrong;
+}
+
 TEST(Drop, SameSeedSameBytesOnAnyNumberOfThreads) {
   Model model = test::clump_bench();
   const DropProtocol protocol{.height_m = .1, .grains = 3};

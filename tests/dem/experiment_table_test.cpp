@@ -35,10 +35,12 @@ TEST(ExperimentTable, HasEachExperimentInItsPlace) {
 TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {
   Protocol protocol = DropProtocol{.height_m = .25, .grains = 3};
   const auto keys = entry_of(protocol).keys(protocol);
-  ASSERT_EQ(keys.size(), 2U);
+  ASSERT_EQ(keys.size(), 3U);
   EXPECT_EQ(keys[0].name, "height_mm");
   EXPECT_DOUBLE_EQ(value_of(keys[0]).value(), 250);
   EXPECT_EQ(value_of(keys[1]), 3);
+  EXPECT_EQ(keys[2].name, "low_height_mm");
+  EXPECT_EQ(with_effect(keys).size(), 2U) << "there is no second drop";
 
   Protocol heap = HeapProtocol{};
   const auto value = [&](const std::string& name) {

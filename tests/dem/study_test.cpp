@@ -368,6 +368,17 @@ TEST_F(StudyFile, FingerprintsTellStudiesApart) {
   EXPECT_NE(read(kStudy, {"simulation.seed = 1"}).hash, hash);
 }
 
+TEST_F(StudyFile, ADropMayHaveALowerHeightToo) {
+  const std::string also = "experiment.drop.also_measured={low_rebound_mm={mean=15,sd=1,n=5}}";
+  const Study study = read(kStudy, {"experiment.drop.low_height_mm=50", also});
+  EXPECT_EQ(study.protocol<DropProtocol>().low_height_m, .05);
+  EXPECT_EQ(measured_in(study, Experiment::drop).also.at(0).name, "low_rebound_mm");
+  EXPECT_FALSE(read(kStudy).protocol<DropProtocol>().low_height_m);
+  EXPECT_THAT(errors(kStudy, {also}), HasSubstr("needs experiment.drop.low_height_mm"));
+  EXPECT_THAT(errors(kStudy, {"experiment.drop.low_height_mm=0"}),
+              HasSubstr("experiment.drop.low_height_mm = 0. Rule: a number above 0"));
+}
+
 TEST_F(StudyFile, OpenCoefficientsAreNamedWhereTheyMatter) {
   const Study study = read(kStudy, {"contact.particle_wall.restitution = { min = 0.1, max = 0.5 }",
                                     "contact.particle_particle.sliding_friction = {min=0,max=1}"});
