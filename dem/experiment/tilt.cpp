@@ -28,6 +28,15 @@ constexpr double kReportedSlip_m = .5e-3;
 /// A body that has turned by this much against the plate tips or rolls.
 constexpr double kTipped_deg = 5;
 constexpr double kLongestGrainSettling_s = 2;
+/// Restitution between body and plate, at most. While a body slides, friction and contacts that
+/// lose little drive each other: it rattles, and slides below the angle of friction. It slides a
+/// little even where it is put down on a slope, until its weight has come on, and would rattle on
+/// from there. What is read, the angle at which it sets off from rest, has no restitution in it
+/// (Tilt.RestitutionDoesNotMatter).
+constexpr double kMostRestitution = .5;
+/// How far the cube root of the slip may rise from how it rises from rest, as a fraction of that.
+/// Bodies that slide from rest keep within a hundredth.
+constexpr double kMostCreep = .2;
 
 void check(const Model& model, const TiltProtocol& protocol) {
   base::ErrorList errors;
@@ -57,6 +66,12 @@ double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
   return std::atan2(foot, height) / kDegree;
 }
 
+/// The same bench with contacts that do not rattle.
+Model quiet(Model model) {
+  model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMostRestitution);
+  return model;
+}
+
 /// What is noted while the body slides.
 struct Slide {
   std::vector<double> angle_deg;  ///< of the plate, within the slip that the onset is read from
@@ -69,8 +84,10 @@ struct Slide {
 /// Just past the onset theta0 (t0) the body's acceleration along the plate is
 /// g (sin theta - mu cos theta) = g sin(theta - theta0) / cos theta0 = c (t - t0) for a plate that
 /// turns steadily, so slip = c (t - t0)^3 / 6: its cube root is a line that leaves 0 at t0.
+/// With c = g rate / cos theta0 the line rises by cbrt(g / (6 rate^2 cos theta0)) per radian that
+/// the plate turns. A body that creeps from the start, or is shaken loose, slips otherwise.
 /// Proved by TiltFriction.IsTheAngleOfSliding in tests/dem/experiment_tilt_test.cpp.
-double onset_deg(const Slide& slide) {
+double onset_deg(const Slide& slide, double begin_deg, double rate_deg_s) {
   const auto count = static_cast<double>(slide.slip_m.size());
   double mean_angle = 0;
   double mean_root = 0;
@@ -85,7 +102,15 @@ double onset_deg(const Slide& slide) {
     square += off * off;
     product += off * (std::cbrt(slide.slip_m[k]) - mean_root);
   }
-  return mean_angle - mean_root * square / product;
+  const double onset = mean_angle - mean_root * square / product;
+  const double rate = rate_deg_s * kDegree;
+  const double from_rest =
+      kDegree * std::cbrt(kStandardGravity_m_s2 / (6 * rate * rate * std::cos(onset * kDegree)));
+  if (onset >= begin_deg && std::abs(product / square / from_rest - 1) < kMostCreep) return onset;
+  throw NoReading(
+      fmt::format("tilt: the body does not set off from rest: it creeps from {:.2f} degrees on, "
+                  "where the plate begins to turn. Fix: start_deg = 0, and a lower rate_deg_s.",
+                  begin_deg));
 }
 
 /// Lays the body on the plate at its first angle and waits until it rests there.
@@ -94,11 +119,11 @@ void settle_grain(ExperimentRun& run, double begin_deg) {
   const std::int64_t steps = run.steps_of(rest.interval_s());
   while (!rest.is_at_rest(run.simulation())) {
     if (run.simulation().time_s() > kLongestGrainSettling_s) {
-      throw NoReading(
-          fmt::format("tilt: the body does not lie still on the plate at {:.2f} degrees "
-                      "in {:g} s: it rolls, or it slides from the start. Fix: bond 2 "
-                      "grains or more, and begin at 0 degrees.",
-                      begin_deg, kLongestGrainSettling_s));
+      throw NoReading(fmt::format(
+          "tilt: the body still moves on the plate at {:.2f} degrees, where that begins to turn, "
+          "after {:g} s: it rolls, or that is too near to where it slides. Fix: start_deg = 0, and "
+          "bond 2 grains or more.",
+          begin_deg, kLongestGrainSettling_s));
     }
     run.advance(steps);
   }
@@ -189,10 +214,16 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
       std::min(std::atan(model.grain_wall.sliding_friction) / kDegree, tipping_deg(body, lying));
   const double lead_deg = std::max(kLeastLead_deg, kLead_s * protocol.rate_deg_s);
   const double begin_deg = std::max(protocol.start_deg, hold_deg - lead_deg);
+  if (protocol.start_deg > 0 && protocol.start_deg >= hold_deg) {
+    throw NoReading(fmt::format(
+        "tilt: the plate begins to turn at start_deg = {:g}, where the body slides or tips at "
+        "once: it holds up to {:.2f} degrees. Fix: start_deg = 0.",
+        protocol.start_deg, hold_deg));
+  }
   // The body meets the plate no faster than by a fall through a hundredth of its reach.
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * .01 * body.reach_m());
   const Wall plate = study_wall(Plane{}, {.orientation = slope(begin_deg)});
-  const SimulationSetup setup = model_setup(model, body, {plate}, speed, kCourseFraction);
+  const SimulationSetup setup = model_setup(quiet(model), body, {plate}, speed, kCourseFraction);
   // One that is filmed is done a second time for that.
   if (record.frame) show_tilt(model, protocol, body, setup, {report, record});
   const RunRecord unseen;
@@ -204,7 +235,7 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
   settle_grain(run, begin_deg);
   const Slide slide = slide_off(run, model.grain, begin_deg, protocol.rate_deg_s);
   return run.finish(
-      onset_deg(slide), seed,
+      onset_deg(slide, begin_deg, protocol.rate_deg_s), seed,
       {{"half_mm_slip_deg", slide.reported_deg.value_or(0)}, {"begin_deg", begin_deg}});
 }
 

@@ -1,3 +1,4 @@
+#include "dem/experiment/tilting_plate.h"
 #include "dem/study/entries.h"
 
 namespace repose::dem {
@@ -8,7 +9,7 @@ std::vector<ProtocolKey> keys_of_tilt(Protocol& protocol) {
   auto& tilt = std::get<TiltProtocol>(protocol);
   return {count_key("bonded", "2", kMaxBonded, tilt.bonded),
           number_key("rate_deg_s", "2", above(0, 10), tilt.rate_deg_s),
-          number_key("start_deg", "0", from_to_below(0, 90), tilt.start_deg)};
+          number_key("start_deg", "0", from_to_below(0, kSteepest_deg), tilt.start_deg)};
 }
 
 double cost_of_tilt_s(const Model& model, const Protocol& protocol) {

@@ -1,3 +1,4 @@
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,22 @@ TEST_P(TiltFriction, IsTheAngleOfSliding) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tilt, TiltFriction, ::testing::Values(.1, .39, .8));
+
+/// Contacts that lose little rattle on a plate about to let go, and creep below that.
+TEST(Tilt, RestitutionDoesNotMatter) {
+  Model glass = test::sphere_bench();
+  glass.grain = sphere_shape(5e-3);
+  glass.grain_material = glass.wall_material = {"glass", 2500, 6e10, .22};
+  for (Model model : {glass, test::clump_bench()}) {
+    for (const auto& [restitution, friction] :
+         {std::pair{.5, .9}, {.6, .9}, {.8, .9}, {.9, .7}, {.95, .4}, {.99, .2}, {1., .9}}) {
+      model.grain_wall = {restitution, friction, .05};
+      const Repeat repeat = run_tilt(model, {.rate_deg_s = 5}, 1);
+      EXPECT_NEAR(repeat.value, friction_deg(friction), .02) << restitution;
+      EXPECT_GT(repeat.value, repeat.readings.at("begin_deg"));
+    }
+  }
+}
 
 TEST(Tilt, SpheresAndClumpsAlike) {
   EXPECT_NEAR(run_tilt(test::sphere_bench(), {}, 1).value, friction_deg(.39), .02);
@@ -72,7 +89,18 @@ TEST(Tilt, ASingleGrainRolls) {
 }
 
 TEST(Tilt, BeginningAboveTheAngleOfFrictionIsNoReading) {
-  EXPECT_THROW(run_tilt(test::clump_bench(), {.start_deg = 30}, 1), NoReading);
+  const std::string message =
+      error_of<NoReading>([] { run_tilt(test::clump_bench(), {.start_deg = 30}, 1); });
+  EXPECT_NE(message.find("holds up to 21.31 degrees. Fix: start_deg = 0"), std::string::npos)
+      << message;
+}
+
+TEST(Tilt, NoReadingIsBelowWhereThePlateBegins) {
+  Model model = test::clump_bench();
+  model.grain_wall.sliding_friction = .1;  // slides at 5.711
+  const std::string creeps = error_of<NoReading>([&] { run_tilt(model, {.start_deg = 5.7}, 1); });
+  EXPECT_NE(creeps.find("creeps from 5.70 degrees on"), std::string::npos) << creeps;
+  EXPECT_NE(creeps.find("Fix: start_deg = 0"), std::string::npos) << creeps;
 }
 
 TEST(Tilt, FramesShowThePlateFromLevelUntilTheGrainsHaveSlid) {
