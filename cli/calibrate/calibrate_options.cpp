@@ -178,6 +178,8 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   for (const std::string& repair : plan.record.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.record.grain.source, repair));
   }
+  const std::string shape = dem::warning_of_shape(plan.record.grain);
+  if (!shape.empty()) plan.notes.push_back(shape);
   return plan;
 }
 

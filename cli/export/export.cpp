@@ -59,8 +59,11 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
                     "the same repose calibrate command again; it resumes.",
                     folder.string()));
   }
-  return calibrate::export_study(record.study, record.grain.shape,
-                                 calibrate::fitted_values(*result), request);
+  StudyExport made = calibrate::export_study(record.study, record.grain.shape,
+                                             calibrate::fitted_values(*result), request);
+  const std::string shape = dem::warning_of_shape(record.grain);
+  if (!shape.empty()) made.warnings.push_back(shape);
+  return made;
 }
 
 ExportPlan plan_export(const ExportArguments& arguments) {

@@ -67,6 +67,8 @@ ExitCode run_shape(const ShapeArguments& arguments) {
                              .shape = std::move(filled.shape),
                              .errors = filled.errors};
   warn_of_unit(arguments, clump.shape);
+  const std::string shape = dem::warning_of_shape(clump);
+  if (!shape.empty()) print_line(shape);
   write_results(clump, arguments, plan);
   return ExitCode::done;
 }

@@ -83,6 +83,13 @@ Json spheres_json(const dem::ClumpShape& shape) {
   return spheres;
 }
 
+Json warnings_json(const dem::ClumpFile& clump) {
+  Json warnings = Json::array();
+  const std::string shape = dem::warning_of_shape(clump);
+  if (!shape.empty()) warnings.push_back({{"code", "shape"}, {"message", shape}});
+  return warnings;
+}
+
 }  // namespace
 
 std::string shape_table(const dem::ClumpFile& clump, std::optional<double> density_kg_m3,
@@ -126,7 +133,8 @@ std::string shape_json(const dem::ClumpFile& clump, std::optional<double> densit
                   {"surface_error_p95_mm", kMmPerM * errors.surface_error_p95_m},
                   {"sticks_out_mm", kMmPerM * errors.sticks_out_m},
                   {"falls_short_mm", kMmPerM * errors.falls_short_m},
-                  {"repairs", clump.repairs}};
+                  {"repairs", clump.repairs},
+                  {"warnings", warnings_json(clump)}};
   constexpr int kIndent = 2;
   // File names need not be UTF-8, JSON must be.
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';

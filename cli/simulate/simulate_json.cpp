@@ -168,6 +168,10 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
   add_sources(plan, runs, json);
   for (const Run& run : runs) json["repeats"].push_back(run_json(run));
   json["warnings"] = Json::array();
+  // Was said when the run began.
+  if (const std::string shape = dem::warning_of_shape(plan.grain); !shape.empty()) {
+    json["warnings"].push_back({{"code", "shape"}, {"seed", nullptr}, {"message", shape}});
+  }
   for (const RunWarning& warning : warnings_of(plan, runs)) {
     json["warnings"].push_back({{"code", warning.code},
                                 {"seed", warning.seed ? Json(*warning.seed) : Json(nullptr)},

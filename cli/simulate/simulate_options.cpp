@@ -131,6 +131,8 @@ void build_bench(SimulatePlan& plan) {
   for (const std::string& repair : plan.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.grain.source, repair));
   }
+  const std::string shape = dem::warning_of_shape(plan.grain);
+  if (!shape.empty()) plan.notes.push_back(shape);
   plan.spec = calibrate::spec_of(plan.study, plan.experiment, calibrate::NamedGrain(plan.grain),
                                  plan.views);
   const std::vector<std::string> saved = notes_on_saved(plan);

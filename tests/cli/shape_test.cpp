@@ -36,6 +36,20 @@ TEST_F(ShapeCommand, CalliperSizesGiveAClumpWithTheContractsKeys) {
   EXPECT_NEAR(shape["mass_g"].get<double>(), 3.0, .2);
 }
 
+TEST_F(ShapeCommand, SpheresThatMissTheShapeAreWarnedOf) {
+  const Words stick = {"--size-mm", "20,6,6", "--json", "-", "--spheres"};
+  const Finished one = run(with(stick, {"1"}));
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_THAT(one.err,
+              AllOf(HasSubstr("1 sphere is not its shape"), HasSubstr("Fix: more spheres")));
+  const json warnings = json::parse(one.out)["warnings"];
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0]["code"], "shape");
+  const Finished many = run(with(stick, {"11"}));
+  EXPECT_THAT(many.err, IsEmpty());
+  EXPECT_TRUE(json::parse(many.out)["warnings"].empty());
+}
+
 TEST_F(ShapeCommand, AMassNeedsADensity) {
   const Finished done = run(with(kNut, {"--spheres", "1", "--json", "-"}));
   EXPECT_TRUE(json::parse(done.out)["mass_g"].is_null());

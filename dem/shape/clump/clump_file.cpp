@@ -210,6 +210,17 @@ void read_surface(const Json& root, Reader& reader, Mesh& surface) {
 
 }  // namespace
 
+std::string warning_of_shape(const ClumpFile& clump) {
+  if (!(clump.errors.volume_error >= kMuchMissed)) return {};
+  const std::size_t spheres = clump.shape.spheres.size();
+  return fmt::format(
+      "{}: {} {} not its shape: {:.0f} % of its volume is missing or sticks out (volume error), "
+      "where up to {:.0f} % may pass. It rolls, tips, rebounds and packs as another grain. Fix: "
+      "more spheres, or a volume error of 5 %.",
+      clump.source, spheres, spheres == 1 ? "sphere is" : "spheres are",
+      100 * clump.errors.volume_error, 100 * kMuchMissed);
+}
+
 std::string clump_json(const ClumpFile& clump) {
   Json spheres = Json::array(), errors = Json::object();
   for (const ClumpSphere& sphere : clump.shape.spheres) {
