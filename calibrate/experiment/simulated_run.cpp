@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::calibrate {
@@ -105,6 +107,20 @@ std::map<std::string, double> readings_of(const SimulatedRun& run) {
   }
   std::erase_if(readings, [](const auto& reading) { return !std::isfinite(reading.second); });
   return readings;
+}
+
+std::string warning_of_hops(dem::RollingModel rolling, const dem::ClumpShape& grain,
+                            double hop_mm) {
+  constexpr double kHop = .01;  // in reaches of the grain; a ball loses 3 % then
+  if (rolling != dem::RollingModel::elastic_plastic) return {};
+  if (!(hop_mm > kHop * kMmPerM * grain.reach_m())) return {};
+  return fmt::format(
+      "rolls with elastic_plastic: the grain hops along the flat by up to {:.2g} mm, and this law "
+      "takes speed at each landing, of a ball up to (1 + restitution) times the rolling friction: "
+      "its damper is not limited by the rolling friction. So the distance depends much on the "
+      "restitution, and hardly does on a bench. Fix: a gentler incline, so that it does not hop; "
+      "or rolling_model = \"constant_torque\".",
+      hop_mm);
 }
 
 std::string run_text(const SimulatedRun& run) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/experiment/heap_views.h"
+#include "dem/experiment/experiment.h"
 
 namespace repose::calibrate {
 
@@ -53,6 +54,11 @@ inline constexpr const char* kOneViewScatter = "sd_of_one_view_deg";
 /// "views_flagged", "from_pictures" (0 or 1), "angle_from_pictures_deg" and
 /// "sd_between_views_deg", and kOneViewScatter.
 std::map<std::string, double> readings_of(const SimulatedRun& run);
+
+/// What must be known of rolls with elastic-plastic rolling friction whose grain hopped, at the
+/// highest by `hop_mm`: each landing takes speed, the more of them the higher the restitution
+/// (dem/THEORY.md, Rolling resistance). Empty where it hardly hopped, and for other laws.
+std::string warning_of_hops(dem::RollingModel rolling, const dem::ClumpShape& grain, double hop_mm);
 
 /// As JSON, to be stored or sent to another process: every number comes back to the last bit.
 std::string run_text(const SimulatedRun& run);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/experiment/simulated_run.h"
 #include "calibrate/fit/family.h"
 #include "calibrate/fit/unit_box.h"
 #include "calibrate/result/agreement_text.h"
@@ -166,6 +167,16 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
                     .surfaces = fit.surfaces,
                     .regressions = regressions_of(problem.problem, outcome.runs),
                     .runs = outcome.runs};
+  double hop_mm = 0;
+  for (const Run& run : outcome.runs) {
+    const auto hop = run.readings.find("hop_mm");
+    if (hop != run.readings.end()) hop_mm = std::max(hop_mm, hop->second);
+  }
+  for (std::string warning :
+       {dem::warning_of_shape(record.grain),
+        warning_of_hops(record.study.model.rolling, record.grain.shape, hop_mm)}) {
+    if (!warning.empty()) joint.warnings.push_back(std::move(warning));
+  }
   for (const auto* more : {&outcome.notes, &fit.warnings}) {
     joint.warnings.insert(joint.warnings.end(), more->begin(), more->end());
   }
@@ -197,6 +208,9 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
                             .warnings = outcome.surface.diagnostics};
   for (std::size_t k = 0; k < outcome.values.size(); ++k) {
     published.values.emplace_back(problem.problem.parameters[k].name, outcome.values[k]);
+  }
+  if (std::string shape = dem::warning_of_shape(record.grain); !shape.empty()) {
+    published.warnings.push_back({.code = "shape", .message = std::move(shape)});
   }
   published.error_surface.runs.clear();  // they are the composite design
   return {.provenance = provenance_of(record, problem.problem, {}), .found = std::move(published)};

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "cli/simulate/simulate_values.h"
 
 namespace repose::cli {
@@ -102,6 +103,25 @@ void add_grain_warning(const SimulatePlan& plan, const Run& run,
                    *heap->grains, grains)});
 }
 
+/// A roll that hopped, or whose value is no distance along the flat.
+void add_roll_warning(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
+  const auto* roll = std::get_if<dem::RollProtocol>(&plan.spec.protocol);
+  if (roll == nullptr) return;
+  const std::string hops = calibrate::warning_of_hops(
+      plan.spec.model.rolling, plan.spec.model.grain, reading_of(run, "hop_mm", 0));
+  if (!hops.empty()) warnings.push_back({"hops", run.result.seed, hops});
+  if (reading_of(run, "stopped_on_incline", 0) == 0) return;
+  const double releases = reading_of(run, "releases", 1);
+  warnings.push_back(
+      {"stayed_on_incline", run.result.seed,
+       fmt::format(
+           "the grain did not reach the flat in {:g} {}: its value is less its distance up "
+           "the incline from the foot, {:.3f} mm from where it was let go. Fix: a steeper "
+           "incline, as on the bench; or less rolling friction, if the bench's grains roll.",
+           releases, releases == 1 ? "release" : "releases",
+           kMmPerM * roll->release_m + run.result.value)});
+}
+
 /// What single repeats tell against their values.
 void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
   const std::uint64_t seed = run.result.seed;
@@ -122,6 +142,7 @@ void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunW
                      grains_per_run(plan.spec.protocol))});
   }
   add_grain_warning(plan, run, warnings);
+  add_roll_warning(plan, run, warnings);
 }
 
 }  // namespace

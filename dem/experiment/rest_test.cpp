@@ -13,10 +13,42 @@ constexpr double kEnergyFraction = 1e-6;
 constexpr double kMotionFraction = 1e-3;
 constexpr double kWindowFalls = 2;
 
-/// Kinetic energy by mass.
-double energy_m2_s2(const Grain& grain, const Vector& gyration_m2) {
+/// Kinetic energy by mass, of translation and of spin.
+struct Energy {
+  double way_m2_s2 = 0;
+  double spin_m2_s2 = 0;
+};
+
+Energy energy_of(const Grain& grain, const Vector& gyration_m2) {
   const Vector own_spin = grain.orientation.conjugate() * grain.spin;
-  return .5 * (grain.velocity.squaredNorm() + own_spin.cwiseAbs2().dot(gyration_m2));
+  return {.5 * grain.velocity.squaredNorm(), .5 * own_spin.cwiseAbs2().dot(gyration_m2)};
+}
+
+/// How many contacts each grain has.
+std::vector<int> contacts_of_each(const Simulation& simulation) {
+  std::vector<int> contacts(static_cast<std::size_t>(simulation.grain_count()));
+  for (const ContactState& contact : simulation.contacts()) {
+    ++contacts[static_cast<std::size_t>(contact.grain_a)];
+    if (contact.grain_b >= 0) ++contacts[static_cast<std::size_t>(contact.grain_b)];
+  }
+  return contacts;
+}
+
+/// Sum of all grains.
+double energy_m2_s2(const Simulation& simulation) {
+  const bool resists_all_spin =
+      simulation.setup().contacts.rolling() == RollingModel::constant_torque;
+  const std::vector<int> contacts =
+      resists_all_spin ? std::vector<int>{} : contacts_of_each(simulation);
+  double sum = 0;
+  for (int k = 0; k < simulation.grain_count(); ++k) {
+    if (!simulation.is_present(k)) continue;
+    const Grain grain = simulation.grain(k);
+    const Energy energy = energy_of(grain, shape_of(simulation, grain).gyration_m2);
+    const bool is_on_the_spot = !resists_all_spin && contacts[static_cast<std::size_t>(k)] <= 1;
+    sum += energy.way_m2_s2 + (is_on_the_spot ? 0 : energy.spin_m2_s2);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -28,15 +60,13 @@ RestTest::RestTest(const SimulationSetup& setup, RestMemory memory)
 
 bool RestTest::is_at_rest(const Simulation& simulation) {
   std::vector<Vector> centres;
-  double energy = 0;
   for (int k = 0; k < simulation.grain_count(); ++k) {
     if (!simulation.is_present(k)) continue;
-    const Grain grain = simulation.grain(k);
-    energy += energy_m2_s2(grain, shape_of(simulation, grain).gyration_m2);
-    centres.push_back(grain.position);
+    centres.push_back(simulation.grain(k).position);
   }
   const auto count = static_cast<double>(centres.size());
-  const bool is_quiet = energy <= count * kEnergyFraction * gravity_m_s2_ * reach_m_;
+  const bool is_quiet =
+      energy_m2_s2(simulation) <= count * kEnergyFraction * gravity_m_s2_ * reach_m_;
   if (!is_quiet || memory_.before.size() != centres.size()) {
     memory_.before = std::move(centres);
     memory_.since_s = simulation.time_s();

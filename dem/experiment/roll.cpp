@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/incline.h"
 #include "dem/experiment/model_setup.h"
+#include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
@@ -49,19 +52,54 @@ std::vector<Wall> walls_of(const Model& model, const RollProtocol& protocol, con
                                          {.position = centre, .orientation = slope.orientation})};
 }
 
-void roll_to_rest(ExperimentRun& run) {
+/// What a grain that does not stop does on the flat, and which coefficient would end it.
+std::string unrest(const Model& model, const Grain& grain) {
+  const PairCoefficients& wall = model.grain_wall;
+  const double height = grain.position.z();
+  const double gap = std::max(0., lowest_m(model.grain, grain));
+  const double bounce = .5 * std::pow(grain.velocity.z(), 2) + kStandardGravity_m_s2 * gap;
+  const Vector along = grain.velocity - grain.velocity.z() * Vector::UnitZ();
+  if (bounce > .5 * along.squaredNorm()) {
+    return fmt::format(
+        "it bounces by {:.2g} mm. Fix: less restitution between particle and wall, which is {:g}",
+        1e3 * bounce / kStandardGravity_m_s2, wall.restitution);
+  }
+  const Vector slip = along + grain.spin.cross(-height * Vector::UnitZ());
+  if (slip.norm() > .5 * along.norm()) {
+    return fmt::format(
+        "it slides at {:.2g} m/s. Fix: more sliding friction between particle and wall, which is "
+        "{:g}",
+        along.norm(), wall.sliding_friction);
+  }
+  const std::string rolls = fmt::format("it rolls at {:.2g} m/s. Fix: ", along.norm());
+  if (model.rolling == RollingModel::none) {
+    return rolls + "a rolling_model other than none, which lets grains roll on for ever";
+  }
+  return rolls + fmt::format("more rolling friction between particle and wall, which is {:g}",
+                             wall.rolling_friction);
+}
+
+/// @return how high the grain's lowest point rose above the flat once it was on it, m
+double roll_to_rest(ExperimentRun& run, const Model& model) {
   RestTest rest(run.simulation().setup());
   const std::int64_t steps = run.steps_of(rest.interval_s());
+  double hop_m = 0;
   while (!rest.is_at_rest(run.simulation())) {
+    const Grain grain = run.simulation().grain(0);
+    // Nearer to the foot it may still lie on the incline.
+    if (grain.position.x() > model.grain.reach_m()) {
+      hop_m = std::max(hop_m, lowest_m(model.grain, grain));
+    }
     if (run.simulation().time_s() > kLongestRun_s) {
-      throw NoReading(fmt::format(
-          "roll: the grain still moves after {:g} s, {:.2f} m from the foot. Fix: a rolling "
-          "friction above 0; grains of several spheres may do without.",
-          kLongestRun_s, run.simulation().grain(0).position.x()));
+      throw NoReading(
+          fmt::format("roll: the grain still moves after {:g} s, {:.2f} m from the "
+                      "foot: {}.",
+                      kLongestRun_s, grain.position.x(), unrest(model, grain)));
     }
     run.advance(steps);
     run.report_progress(run.simulation().time_s() / kLongestRun_s);
   }
+  return hop_m;
 }
 
 double along_m(const Simulation& simulation, const Incline& slope) {
@@ -70,8 +108,13 @@ double along_m(const Simulation& simulation, const Incline& slope) {
 }
 
 /// One release, from letting go to rest.
-ExperimentRun rolled(const Model& model, const RollProtocol& protocol, const Grain& grain,
-                     const Observers& observers) {
+struct Rolled {
+  ExperimentRun run;
+  double hop_m = 0;  ///< see roll_to_rest()
+};
+
+Rolled rolled(const Model& model, const RollProtocol& protocol, const Grain& grain,
+              const Observers& observers) {
   const Incline slope = incline_of(protocol);
   const double reach = model.grain.reach_m();
   // No part of the grain meets a wall faster than by a free fall from where it is let go.
@@ -81,8 +124,8 @@ ExperimentRun rolled(const Model& model, const RollProtocol& protocol, const Gra
                                            speed, kBulkFraction)),
                     observers);
   run.simulation().add(grain);
-  roll_to_rest(run);
-  return run;
+  const double hop_m = roll_to_rest(run, model);
+  return {std::move(run), hop_m};
 }
 
 }  // namespace
@@ -97,17 +140,20 @@ Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t 
   Random random(seed);
   for (int releases = 1;; ++releases) {
     const Grain grain = released(model.grain, protocol, random);
-    ExperimentRun run = rolled(model, protocol, grain, {report, unseen});
-    const double reached_m = along_m(run.simulation(), slope);
+    Rolled roll = rolled(model, protocol, grain, {report, unseen});
+    const Simulation& simulation = roll.run.simulation();
+    const double reached_m = along_m(simulation, slope);
     if (reached_m < 0 && releases < most_releases) continue;
     const std::map<std::string, double> readings = {
-        {"lateral_mm", 1e3 * run.simulation().grain(0).position.y()},
+        {"lateral_mm", 1e3 * simulation.grain(0).position.y()},
         {"stopped_on_incline", reached_m < 0 ? 1 : 0},
         {"releases", releases},
-        {"time_s", run.simulation().time_s()}};
-    if (!record.frame) return run.finish(1e3 * reached_m, seed, readings);
+        {"hop_mm", 1e3 * roll.hop_m},
+        {"time_s", simulation.time_s()}};
+    if (!record.frame) return roll.run.finish(1e3 * reached_m, seed, readings);
     // Frames show the release that counts.
-    return rolled(model, protocol, grain, {report, record}).finish(1e3 * reached_m, seed, readings);
+    return rolled(model, protocol, grain, {report, record})
+        .run.finish(1e3 * reached_m, seed, readings);
   }
 }
 

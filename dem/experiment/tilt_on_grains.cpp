@@ -71,6 +71,7 @@ class TiltRun {
   TiltRun(const Model& model, const Tilting& tilting, std::uint64_t seed,
           const Observers& observers)
       : tilting_(tilting),
+        between_(model.grain_grain),
         diameter_m_(diameter_m(model.grain)),
         run_(put_down(model, tilting, seed, observers)),
         bodies_(static_cast<std::size_t>(tilting.places)) {}
@@ -119,9 +120,10 @@ class TiltRun {
     while (!rest.is_at_rest(run_.simulation())) {
       if (run_.simulation().time_s() > kLongestBedSettling_s) {
         throw NoReading(fmt::format(
-            "{}: the grains do not come to rest on the level plate in {:g} s. Fix: a rolling "
-            "friction above 0.",
-            tilting_.name, kLongestBedSettling_s));
+            "{}: the grains do not come to rest on the level plate in {:g} s. Fix: more rolling "
+            "friction between particles, which is {:g}, or less restitution, which is {:g}.",
+            tilting_.name, kLongestBedSettling_s, between_.rolling_friction,
+            between_.restitution));
       }
       run_.advance(steps);
     }
@@ -172,6 +174,7 @@ class TiltRun {
   Leaving& at(int body) { return bodies_[static_cast<std::size_t>(body)]; }
 
   Tilting tilting_;
+  PairCoefficients between_;
   double diameter_m_;
   ExperimentRun run_;
   std::vector<Leaving> bodies_;

@@ -36,6 +36,7 @@ ExperimentEntry roll_entry() {
       .readings = {{"lateral_mm", "mm"},
                    {"stopped_on_incline", ""},
                    {"releases", ""},
+                   {"hop_mm", "mm"},
                    {"time_s", "s"}},
       .coefficients = {kWallRestitution, kWallSliding, kWallRolling},
       .parts = {WallPart::incline},

@@ -18,6 +18,7 @@ namespace {
 
 using test::joint_in;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -210,6 +211,27 @@ TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
   EXPECT_EQ(result.provenance.study.budget, "quick");
   EXPECT_EQ(result.provenance.shortest_timestep_s, (NamedValues{{"tilt", 1e-5}}));
   EXPECT_TRUE(result_from_json(to_json(result), kName) == result);
+}
+
+TEST(Result, WarnsOfAClumpOfAnotherShapeAndOfRollsThatHop) {
+  MadeUpStudy made = plate_study();
+  made.record.grain = {.source = "stick", .shape = dem::sphere_shape(5e-3)};
+  made.record.study.model.rolling = dem::RollingModel::elastic_plastic;
+  for (Run& run : made.outcome.runs) run.readings["hop_mm"] = .04;
+  const auto warnings = [&] {
+    StudyResult result = result_of(made.record, made.problem, made.outcome);
+    return joint_in(result).warnings;
+  };
+  const std::size_t usual = warnings().size();
+  made.record.grain.errors.volume_error = .86;
+  made.outcome.runs.back().readings["hop_mm"] = 3;
+  const std::vector<std::string> more = warnings();
+  EXPECT_THAT(more, SizeIs(usual + 2));
+  EXPECT_THAT(more, Contains(HasSubstr("stick: 1 sphere is not its shape: 86 %")));
+  EXPECT_THAT(more, Contains(AllOf(HasSubstr("hops along the flat by up to 3 mm"),
+                                   HasSubstr("Fix: a gentler incline"))));
+  made.record.study.model.rolling = dem::RollingModel::constant_torque;
+  EXPECT_THAT(warnings(), SizeIs(usual + 1));
 }
 
 Verification disagreeing(const std::vector<int>& runs, double chance) {

@@ -88,12 +88,44 @@ TEST(Roll, TheLongAxisLiesAcrossTheSlopeButForTheTurn) {
   EXPECT_NEAR(right, .5, .02);
 }
 
-TEST(Roll, AGrainThatDoesNotStopIsNoReading) {
+TEST(Roll, AGrainThatDoesNotStopIsNoReadingAndSaysWhatWouldStopIt) {
+  struct Case {
+    PairCoefficients grain_wall;
+    const char* says;
+  };
+  for (const Case& one :
+       {Case{{1, .39, .04}, "less restitution between particle and wall, which is 1"},
+        Case{{.31, 0, .04}, "more sliding friction between particle and wall, which is 0"},
+        Case{{.31, .39, 0}, "more rolling friction between particle and wall, which is 0"}}) {
+    Model model = test::sphere_bench();
+    model.stiffness_factor = .001;
+    model.grain_wall = one.grain_wall;
+    const std::string message = error_of<NoReading>([&] { run_roll(model, {}, 1); });
+    EXPECT_NE(message.find("still moves"), std::string::npos) << message;
+    EXPECT_NE(message.find(one.says), std::string::npos) << message;
+  }
   Model model = test::sphere_bench();
   model.stiffness_factor = .001;
-  model.grain_wall.rolling_friction = 0;
+  model.rolling = RollingModel::none;
   const std::string message = error_of<NoReading>([&] { run_roll(model, {}, 1); });
-  EXPECT_NE(message.find("still moves"), std::string::npos) << message;
+  EXPECT_NE(message.find("a rolling_model other than none"), std::string::npos) << message;
+}
+
+/// Its damper takes speed at each landing: said in dem/THEORY.md, and warned of by "hop_mm".
+TEST(Roll, ElasticPlasticHopsTakeSpeed) {
+  Model model = test::sphere_bench();
+  model.grain = sphere_shape(5e-3);
+  model.grain_material = {"ball", 2500, 1e9, .3};
+  model.rolling = RollingModel::elastic_plastic;
+  model.grain_wall = {.1, .3, .01};
+  const Repeat flat = run_roll(model, {}, 1);
+  EXPECT_NEAR(flat.value, 4420, 40);
+  EXPECT_LT(flat.readings.at("hop_mm"), .05);
+  model.grain_wall.restitution = .9;
+  const Repeat hops = run_roll(model, {}, 1);
+  EXPECT_NEAR(hops.value, 1840, 40);
+  // It comes down at .84 m/s, sin 20 of which is into the flat: (.9 * .29 m/s)^2 / 2 g.
+  EXPECT_NEAR(hops.readings.at("hop_mm"), 3.4, .3);
 }
 
 TEST(Roll, ClumpsComeToRestWhereTheirSeedSays) {

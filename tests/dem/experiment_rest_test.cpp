@@ -1,0 +1,63 @@
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "dem/experiment/model_setup.h"
+#include "dem/experiment/rest_test.h"
+#include "tests/dem/experiment_model.h"
+
+namespace repose::dem {
+namespace {
+
+constexpr double kRadius_m = 5e-3;
+
+/// A soft ball that lies on a plate and spins.
+Simulation spinning_ball(RollingModel rolling, const Vector& spin) {
+  Model model = test::soft_bench();
+  model.grain = sphere_shape(kRadius_m);
+  model.rolling = rolling;
+  Simulation simulation(model_setup(model, model.grain, {study_wall(Plane{})}, .1, kBulkFraction));
+  simulation.add({.position = {0, 0, kRadius_m}, .spin = spin});
+  return simulation;
+}
+
+/// When it is at rest, s.
+std::optional<double> rest_s(Simulation& simulation, double longest_s) {
+  RestTest rest(simulation.setup());
+  const auto steps = static_cast<int>(rest.interval_s() / simulation.setup().timestep_s) + 1;
+  while (simulation.time_s() < longest_s) {
+    simulation.advance(steps);
+    if (rest.is_at_rest(simulation)) return simulation.time_s();
+  }
+  return std::nullopt;
+}
+
+TEST(RestTest, SpinOnTheSpotDoesNotCountWhereNothingResistsIt) {
+  for (const RollingModel rolling : {RollingModel::none, RollingModel::relative_constant_torque,
+                                     RollingModel::elastic_plastic}) {
+    Simulation simulation = spinning_ball(rolling, {0, 0, 20});
+    EXPECT_TRUE(rest_s(simulation, 1)) << static_cast<int>(rolling);
+    EXPECT_NEAR(simulation.grain(0).spin.z(), 20, .1) << "it spins for ever";
+    EXPECT_LT(simulation.grain(0).position.head<2>().norm(), 1e-6);
+  }
+}
+
+TEST(RestTest, SpinThatATorqueResistsIsWaitedFor) {
+  Simulation simulation = spinning_ball(RollingModel::constant_torque, {0, 0, 20});
+  EXPECT_TRUE(rest_s(simulation, 2));
+  EXPECT_EQ(simulation.grain(0).spin.norm(), 0);
+}
+
+TEST(RestTest, SpinThatMovesAGrainShowsInItsVelocity) {
+  for (const RollingModel rolling :
+       {RollingModel::relative_constant_torque, RollingModel::elastic_plastic}) {
+    Simulation simulation = spinning_ball(rolling, {0, 20, 20});
+    EXPECT_TRUE(rest_s(simulation, 2)) << static_cast<int>(rolling);
+    // 2/7 of the spin goes into rolling, which mu_r g 5/7 ends.
+    EXPECT_GT(simulation.grain(0).position.x(), 1e-4);
+    EXPECT_LT(simulation.grain(0).velocity.norm(), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace repose::dem
