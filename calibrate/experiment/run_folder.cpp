@@ -24,9 +24,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kChanged = "it is cut short, was changed, or is of an earlier version";
 
+constexpr const char* kRestartEnding = ".restart.vtp";
+
 bool is_there(const fs::path& file) {
   std::error_code ignored;
   return fs::exists(file, ignored);
+}
+
+/// Whether a name in the folder's store is one that `is_meant`.
+template <typename IsMeant>
+bool has_stored(const fs::path& folder, const IsMeant& is_meant) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / "runs", error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (is_meant(entry->path().filename().string())) return true;
+  }
+  return false;
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
@@ -124,11 +137,11 @@ bool RunFolder::copy_state(const RunSpec& spec, std::uint64_t seed, const std::s
 }
 
 bool RunFolder::has_restart(const RunSpec& spec, std::uint64_t seed) const {
-  return is_there(file(spec, seed, ".restart.vtp"));
+  return is_there(file(spec, seed, kRestartEnding));
 }
 
 std::optional<SavedRestart> RunFolder::find_restart(const RunSpec& spec, std::uint64_t seed) const {
-  const fs::path place = file(spec, seed, ".restart.vtp");
+  const fs::path place = file(spec, seed, kRestartEnding);
   if (!is_there(place)) return std::nullopt;
   if (!dem::is_as_written(place)) refuse(place, kChanged);
   dem::SavedState state = [&] {
@@ -153,7 +166,7 @@ std::optional<SavedRestart> RunFolder::find_restart(const RunSpec& spec, std::ui
 
 void RunFolder::save_restart(const RunSpec& spec, std::uint64_t seed,
                              const dem::Simulation& simulation, const RestartRecord& record) const {
-  dem::write_state(file(spec, seed, ".restart.vtp"), simulation,
+  dem::write_state(file(spec, seed, kRestartEnding), simulation,
                    restart_text(description_of(spec, seed), record));
 }
 
@@ -162,17 +175,16 @@ fs::path lock_file_in(const fs::path& folder) { return folder / "runs" / ".lock"
 bool is_run_folder(const fs::path& folder) {
   if (is_there(lock_file_in(folder))) return true;
   static const std::regex key("[a-z]+-[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}[.].+");
-  std::error_code error;
-  for (fs::directory_iterator entry(folder / "runs", error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (std::regex_match(entry->path().filename().string(), key)) return true;
-  }
-  return false;
+  return has_stored(folder, [](const std::string& name) { return std::regex_match(name, key); });
+}
+
+bool has_unfinished_runs(const fs::path& folder) {
+  return has_stored(folder, [](const std::string& name) { return name.ends_with(kRestartEnding); });
 }
 
 void RunFolder::remove_restart(const RunSpec& spec, std::uint64_t seed) const {
   std::error_code ignored;
-  fs::remove(file(spec, seed, ".restart.vtp"), ignored);
+  fs::remove(file(spec, seed, kRestartEnding), ignored);
 }
 
 }  // namespace repose::calibrate

@@ -82,6 +82,9 @@ class RunFolder {
 /// Whether a folder is one that repose has simulated into, of this version or an earlier one.
 bool is_run_folder(const std::filesystem::path& folder);
 
+/// Whether it has a restart point of any run.
+bool has_unfinished_runs(const std::filesystem::path& folder);
+
 /// The file whose lock a process has that writes into the folder: FOLDER/runs/.lock.
 std::filesystem::path lock_file_in(const std::filesystem::path& folder);
 

@@ -77,6 +77,8 @@ class ExperimentRunner {
       if (const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol)) {
         measure_front(*boxes, run);
       }
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(dem::with_study_keys(error.what(), spec_.protocol));
     } catch (const dem::NoReading& error) {
       run.failure = error.what();
     } catch (const dem::UnstableRun& error) {

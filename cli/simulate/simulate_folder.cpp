@@ -47,6 +47,21 @@ std::string difference(const Json& saved, const Json& asked) {
   return "the study, its scan or the --set settings were different";
 }
 
+/// Whether the run that a folder is of left something that another one would mix with: a result,
+/// files named by a seed, or a restart point. Its failures do not: the store tells them apart.
+bool holds_results(const fs::path& folder, const Json& saved) {
+  const Json named = saved.value("experiment", Json());
+  const std::string experiment = named.is_string() ? named.get<std::string>() : std::string();
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name == "result.json" || name == experiment + ".json") return true;
+    if (name.starts_with(experiment + "_seed_")) return true;
+  }
+  return calibrate::has_unfinished_runs(folder);
+}
+
 /// Names that this run writes and that are there, in a folder that is none of repose: "a, b".
 std::string foreign_files(const SimulatePlan& plan) {
   if (calibrate::is_run_folder(plan.out_folder) || is_there(plan.out_folder / "study.json")) {
@@ -88,7 +103,7 @@ std::string error_of_saved(const SimulatePlan& plan) {
   }
   const Json saved = Json::parse(base::read_whole_file(file), nullptr, false);
   const Json asked = identity_of(plan);
-  if (saved == asked) return {};
+  if (saved == asked || (saved.is_object() && !holds_results(plan.out_folder, saved))) return {};
   return fmt::format(
       "--out {}: contains a different run: {}. Fix: choose another folder, or delete this one.",
       plan.out_folder.string(),

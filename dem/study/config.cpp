@@ -118,6 +118,38 @@ void lay_over(ConfigValue& below, const ConfigValue& above) {
   }
 }
 
+/// With the zeros that TOML wants around the point of a number: "x=.4" is "x=0.4", "x=5." "x=5.0".
+/// What stands in quotes stays, and so do the points of keys.
+std::string with_zeros(const std::string& setting) {
+  const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
+  std::string text;
+  char quote = 0;   // that is open
+  char before = 0;  // the letter before, but for signs
+  bool is_value = false;
+  for (std::size_t at = 0; at < setting.size(); ++at) {
+    const char letter = setting[at];
+    const char next = at + 1 < setting.size() ? setting[at + 1] : ' ';
+    if (quote == 0 && (letter == '"' || letter == '\'')) {
+      quote = letter;
+    } else if (letter == quote) {
+      quote = 0;
+    } else if (quote == '"' && letter == '\\') {
+      text += letter;  // and the letter that it stands before
+      text += next;
+      ++at;
+      continue;
+    }
+    is_value = is_value || letter == '=';
+    const bool is_point = letter == '.' && quote == 0 && is_value;
+    const bool begins = std::string_view("=[,{ \t").find(before) != std::string_view::npos;
+    if (is_point && begins && is_digit(next)) text += '0';
+    text += letter;
+    if (is_point && is_digit(before) && !is_digit(next)) text += '0';
+    if (letter != '+' && letter != '-') before = letter;
+  }
+  return text;
+}
+
 ConfigValue parsed(const SourceText& source, const std::string& fix, StudyErrors& errors) {
   if (const auto line = base::line_of_deep_key(source.text())) {
     Place place = source.place({});
@@ -149,14 +181,15 @@ const ConfigValue* ConfigValue::find(const std::string& key) const {
 
 ConfigValue parse_config(const std::string& file, const std::string& text,
                          const std::vector<std::string>& settings, StudyErrors& errors) {
-  ConfigValue config = parsed(SourceText(text, {.file = file}), "correct this line", errors);
+  ConfigValue config =
+      parsed(SourceText(text, {.file = file}),
+             "correct this line: numbers are written as 0.5, texts in quotes", errors);
   for (std::size_t k = 0; k < settings.size(); ++k) {
     const Place place{.file = "setting", .setting = static_cast<int>(k) + 1};
     const std::string fix =
         "write " + settings[k] +
-        " as key.path=value: numbers with a digit before the point, as 0.5, and text in quotes, as "
-        "particle.scan=\"nut.stl\"";
-    lay_over(config, parsed(SourceText(settings[k], place), fix, errors));
+        " as key.path=value: numbers as 0.5, and text in quotes, as particle.scan=\"nut.stl\"";
+    lay_over(config, parsed(SourceText(with_zeros(settings[k]), place), fix, errors));
   }
   return config;
 }

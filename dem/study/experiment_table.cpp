@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -60,6 +61,26 @@ std::string experiment_names() {
 }
 
 std::string name_of(Experiment experiment) { return std::string(entry_of(experiment).name); }
+
+std::string with_study_keys(const std::string& errors, const Protocol& protocol) {
+  const ExperimentEntry& entry = entry_of(protocol);
+  Protocol asked = protocol, usual = entry.usual;
+  const std::vector<ProtocolKey> keys = entry.keys(asked), usual_keys = entry.keys(usual);
+  std::istringstream lines(errors);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      std::string name = keys[k].name;  // in SI units: tube_diameter_m
+      if (const std::size_t mm = name.find("_mm"); mm != std::string::npos) name.erase(mm + 1, 1);
+      const auto value = value_of(keys[k]);
+      if (!value || !line.starts_with(fmt::format("{}.{} is ", entry.name, name))) continue;
+      line += fmt::format(" ([experiment.{}] {} = {:g}{})", entry.name, keys[k].name, *value,
+                          value == value_of(usual_keys[k]) ? ", the default" : "");
+    }
+    text += (text.empty() ? "" : "\n") + line;
+  }
+  return text;
+}
 
 Range readable_in(std::string_view unit) {
   return unit == "deg" ? from_to(0, 90) : from_to(0, std::numeric_limits<double>::infinity());

@@ -96,6 +96,11 @@ std::string experiment_names();
 
 std::string name_of(Experiment experiment);
 
+/// What is wrong with a protocol, a line each as run_drop() and the others say it, with the lines of
+/// the study file added: nobody has to guess that a size was never given, or what it is called
+/// there.
+std::string with_study_keys(const std::string& errors, const Protocol& protocol);
+
 /// What a bench can read in a unit: lengths, angles and counts are 0 or more, angles at most 90.
 Range readable_in(std::string_view unit);
 

@@ -145,6 +145,20 @@ TEST_F(SimulateRestart, AnotherRunInTheSameFolderIsRefused) {
   EXPECT_EQ(texts_in("runs"), before);
 }
 
+TEST_F(SimulateRestart, ARunThatLeftNothingDoesNotBlockItsFolder) {
+  const Words refused = {"drop", "study.toml", "--out",
+                         "runs", "--set",      "simulation.timestep_s=.5"};
+  ASSERT_EQ(run(refused).exit_code, 2);
+  // Slides at once, and is stored as such.
+  const Words unread = {"tilt", "study.toml", "--out",
+                        "runs", "--set",      "experiment.tilt.start_deg=80"};
+  const Finished failed = run(unread);
+  EXPECT_EQ(failed.exit_code, 3) << failed.err;
+  const Words one = {"drop", "study.toml", "--out", "runs"};
+  EXPECT_EQ(run(one).exit_code, 0);
+  EXPECT_THAT(run(unread).err, HasSubstr("contains a different run")) << "there is a result now";
+}
+
 TEST_F(SimulateRestart, RunsWhoseFilesWereDamagedAreSimulatedAgain) {
   const Words one = {"drop", "study.toml", "--out", "runs"};
   ASSERT_EQ(run(one).exit_code, 0);

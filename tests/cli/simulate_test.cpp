@@ -221,6 +221,46 @@ TEST_F(Simulate, GrainsThatDoNotRiseAgainAreWarnedOf) {
   EXPECT_EQ(timeless(words)["warnings"][0]["code"], "never_rose");
 }
 
+TEST_F(Simulate, RollsThatAreNoDistanceAreWarnedOf) {
+  const Words stays = {"roll", "study.toml", "--set", "contact.particle_wall.rolling_friction=.5"};
+  EXPECT_THAT(run(stays).err,
+              AllOf(HasSubstr("seed 1: the grain did not reach the flat in 1 release"),
+                    HasSubstr("0.00"), HasSubstr("from where it was let go")));
+  const json roll = timeless(stays);
+  EXPECT_NEAR(roll["value"].get<double>(), -20, .1);
+  ASSERT_EQ(roll["warnings"].size(), 1U);
+  EXPECT_EQ(roll["warnings"][0]["code"], "stayed_on_incline");
+  EXPECT_TRUE(timeless({"roll", "study.toml"})["warnings"].empty());
+}
+
+TEST_F(Simulate, ElasticPlasticRollsThatHopAreWarnedOf) {
+  const Words hops = {"roll",  "study.toml",
+                      "--set", "contact.rolling_model=\"elastic_plastic\"",
+                      "--set", "experiment.roll.release_mm=100",
+                      "--set", "contact.particle_wall.restitution=.9"};
+  const json roll = timeless(hops);
+  EXPECT_GT(roll["repeats"][0]["readings"]["hop_mm"], .5);
+  ASSERT_EQ(roll["warnings"].size(), 1U);
+  EXPECT_EQ(roll["warnings"][0]["code"], "hops");
+  const Words flat = with(hops, {"--set", "contact.particle_wall.restitution=.1"});
+  EXPECT_TRUE(timeless(flat)["warnings"].empty());
+  const Words constant = with(hops, {"--set", "contact.rolling_model=\"constant_torque\""});
+  EXPECT_TRUE(timeless(constant)["warnings"].empty());
+}
+
+TEST_F(Simulate, SpheresThatMissTheShapeAreWarnedOf) {
+  const Words stick = {"drop", "study.toml", "--set", "particle.size_mm=[20,6,6]"};
+  EXPECT_THAT(run(stick).err, HasSubstr("1 sphere is not its shape"));
+  EXPECT_EQ(timeless(stick)["warnings"][0]["code"], "shape");
+}
+
+TEST_F(Simulate, WhatWasNeverGivenIsCalledADefault) {
+  const Finished finished = run({"heap", "study.toml", "--set", "particle.size_mm=[120,120,120]",
+                                 "--set", "contact.particle_particle.restitution=.2"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("tube_diameter_mm = 100, the default"));
+}
+
 TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
   const std::string coefficients = "{restitution=0.2,sliding_friction=0.6,rolling_friction=0.3}";
   const Words rough = {"heap",    "study.toml",

@@ -53,6 +53,19 @@ TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {
   EXPECT_DOUBLE_EQ(value("camera_distance_mm").value(), 1500);
 }
 
+TEST(ExperimentTable, ErrorsNameTheKeyOfTheStudyAndWhetherItIsTheDefault) {
+  Model model = test::sphere_bench();
+  model.grain = sphere_shape(60e-3);
+  const HeapProtocol heap{.tube_height_m = .11};
+  const std::string errors = error_of([&] { run_heap(model, heap, 1); });
+  const std::string named = with_study_keys(errors, heap);
+  EXPECT_THAT(named, HasSubstr("heap.tube_diameter_m is 0.1. Rule: wider than a grain is long, "
+                               "0.12 m. Fix: a wider tube. ([experiment.heap] tube_diameter_mm = "
+                               "100, the default)\n"));
+  EXPECT_THAT(named, HasSubstr("([experiment.heap] tube_height_mm = 110)"));
+  EXPECT_EQ(with_study_keys("grain: it has no spheres", heap), "grain: it has no spheres");
+}
+
 TEST(ExperimentTable, ATiltDependsOnSlidingFrictionAlone) {
   const ExperimentEntry& tilt = entry_of(Experiment::tilt);
   EXPECT_TRUE(depends_on(tilt, "contact.particle_wall.sliding_friction"));

@@ -348,13 +348,30 @@ TEST_F(StudyFile, SettingsReplaceAndAddValues) {
   EXPECT_EQ(study.seed, 7U) << "the last one counts";
 }
 
+TEST_F(StudyFile, NumbersOfSettingsNeedNoDigitBeforeOrAfterTheirPoint) {
+  const Study study = read(kStudy, {"particle.density_kg_m3 =900.", "wall.poisson_ratio=+.25",
+                                    "contact.particle_wall.restitution={min=.2,max = .5}",
+                                    "particle.name=\"a .5 \\\" .6\""});
+  EXPECT_EQ(study.model.grain_material.density_kg_m3, 900);
+  EXPECT_EQ(study.model.wall_material.poisson_ratio, .25);
+  EXPECT_EQ(study.particle_wall.restitution.min, .2);
+  EXPECT_EQ(study.particle_wall.restitution.max, .5);
+  EXPECT_EQ(study.model.grain_material.name, "a .5 \" .6");
+  EXPECT_THAT(errors(kStudy, {"experiment.heap.grains=-.5"}), HasSubstr("heap.grains = -0.5"));
+}
+
+TEST_F(StudyFile, ATiltBeginsBelowWhereItEnds) {
+  EXPECT_THAT(errors(kStudy, {"experiment.tilt.start_deg = 89"}),
+              HasSubstr("experiment.tilt.start_deg = 89. Rule: a number of at least 0 and below 89"));
+}
+
 TEST_F(StudyFile, ErrorsOfSettingsAreCalledBySetting) {
   EXPECT_THAT(errors(kStudy, {"simulation.seed = 3", "simulation.replicates = 0"}),
               HasSubstr("setting:2:25: simulation.replicates = 0. Rule: "));
   EXPECT_THAT(errors(kStudy, {"contact.rolling_model = none"}),
               AllOf(HasSubstr("setting:1:"), HasSubstr("in quotes"), Not(HasSubstr("missing"))));
   EXPECT_THAT(errors(kStudy, {"particle"}), HasSubstr("setting:1:"));
-  EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3 = .5"}), HasSubstr("as 0.5"));
+  EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3 = 0,5"}), HasSubstr("as 0.5"));
   EXPECT_THAT(errors(kStudy, {"particle.densty_kg_m3 = 1"}),
               HasSubstr("did you mean density_kg_m3?"));
   EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3.x = 1"}), HasSubstr("Rule: "));
