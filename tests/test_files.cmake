@@ -20,7 +20,7 @@ endfunction()
 # are: they have the label `statistics` too, and are left out where each run takes ten times as long.
 set(statistics "^(vision/(ComparePictures|Conditions/.*|FilmAngleAccuracy|HeapPicture|LensFitAccuracy|Likeness|\
 OtherPictures|Scenes/.*)|calibrate/(DrawDownFront|JointFit(OfTheBench)?|Narrowing|PositionAngle(/Cone)?|Propose|\
-SimulatorVersion|StifferCoefficients)|dem/(DrawDowns|FillAccuracy|FilledTubes|HeapOfManySizes|LongTimestep|\
+SimulatorVersion|StifferCoefficients|MovedCoefficients)|dem/(DrawDowns|FillAccuracy|FilledTubes|HeapOfManySizes|LongTimestep|\
 NeighbourList|RollOnGrains|RollTimestep|RoughDeadGrains|TiltOnGrains)|physics/Verify/Physics)$")
 # Suites that start, kill and restart whole programs, each of which other suites run as well: they have
 # the label `processes`, and are left out there too.

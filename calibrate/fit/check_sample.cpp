@@ -23,13 +23,13 @@ double CheckSample::sd() const {
 
 CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
                          const Observable& observable, const std::vector<Run>& runs,
-                         double relative_stiffness) {
+                         const AssumedInputs& inputs) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
   const Job at = job_at(problem, experiment, to_unit(problem, values), 0);
   CheckSample sample;
   for (const Run& run : runs) {
     if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
-    if (run.job.relative_stiffness != relative_stiffness) continue;
+    if (run.job.inputs != inputs) continue;
     if (experiment.is_stochastic && run.job.seed < kFirstCheckSeed) continue;
     const auto found = run.readings.find(observable.reading);
     if (run.failure.empty() && found != run.readings.end() && std::isfinite(found->second)) {

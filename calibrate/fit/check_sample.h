@@ -30,10 +30,10 @@ struct CheckSample {
   double sd() const;  ///< of single readings; NaN from one
 };
 
-/// Of runs with this part of the study's stiffness.
+/// Of runs with these inputs.
 CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
                          const Observable& observable, const std::vector<Run>& runs,
-                         double relative_stiffness = 1);
+                         const AssumedInputs& inputs = {});
 
 /// How much a single run scatters, and by how many runs that is known.
 struct RunScatter {

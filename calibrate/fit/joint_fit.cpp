@@ -50,7 +50,7 @@ FittedParameter parameter_of(const Problem& problem, const Solution& solution, s
 double work_of(const Problem& problem, const std::vector<Run>& runs) {
   double seconds = 0;
   for (const Run& run : runs) {
-    seconds += run_s_of(experiment_named(problem, run.job.experiment), run.job.relative_stiffness);
+    seconds += run_s_of(experiment_named(problem, run.job.experiment), run.job.inputs);
   }
   return seconds;
 }

@@ -52,6 +52,10 @@ void check_experiment(const Problem& problem, const Experiment& experiment, Erro
         "{}: real_stiffness = {} must be 1 or more. Fix: 1 where grains are not softened", where,
         experiment.real_stiffness));
   }
+  if (!std::isfinite(experiment.spheres_share) || experiment.spheres_share < 0) {
+    errors.push_back(fmt::format("{}: spheres_share = {} must be 0 or more. Fix: estimate it",
+                                 where, experiment.spheres_share));
+  }
   if (experiment.readings_per_run < 1) {
     errors.push_back(fmt::format("{}: readings_per_run = {} must be 1 or more. Fix: count them",
                                  where, experiment.readings_per_run));

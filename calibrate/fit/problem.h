@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -44,6 +45,15 @@ struct Experiment {
   std::string scatter_within = {};
   /// That of real grains, as a multiple of the study's.
   double real_stiffness = 1;
+  /// What part of run_s goes with the number of spheres.
+  double spheres_share = 0;
+};
+
+/// The spheres that stand for a grain.
+struct GrainSpheres {
+  int count = 1;
+  int most = 1;           ///< that can follow its shape closer; `count`: none can
+  std::string no_closer;  ///< why none can: "one sphere is exactly its shape"
 };
 
 /// One number measured on the bench: the mean of n readings.
@@ -77,6 +87,15 @@ struct FitSettings {
   bool robust = false;     ///< Cauchy's loss: an observable that fits nothing else counts less
 };
 
+/// What a study assumes beside its coefficients, as multiples of what it says: all 1 in the runs
+/// that a fit is made from.
+struct AssumedInputs {
+  double stiffness = 1;  ///< of grains and walls
+  double spheres = 1;    ///< of the clump that stands for a grain
+
+  auto operator<=>(const AssumedInputs&) const = default;
+};
+
 /// One simulation to be run.
 struct Job {
   std::string experiment;
@@ -85,7 +104,7 @@ struct Job {
   /// millionth of the bounds' distance or so: written with 15 digits and read again, the same.
   std::vector<double> values;
   std::uint64_t seed = 1;
-  double relative_stiffness = 1;  ///< that of its grains, as a multiple of the study's
+  AssumedInputs inputs = {};
 
   bool operator==(const Job&) const = default;
 };
@@ -119,6 +138,7 @@ struct Problem {
   std::vector<Offer> offers = {};
   /// Measured, but of experiments that no observable is of: predicted from the fit (prediction.h).
   std::vector<Observable> held_out = {};
+  GrainSpheres spheres = {};
 };
 
 /// Every error of a problem, a line each: where, the value, the rule, "Fix: ...". Empty: none.

@@ -28,8 +28,8 @@ constexpr double kSettledScatter = .2;  // relative change
 
 struct JobLess {
   bool operator()(const Job& a, const Job& b) const {
-    return std::tie(a.experiment, a.values, a.seed, a.relative_stiffness) <
-           std::tie(b.experiment, b.values, b.seed, b.relative_stiffness);
+    return std::tie(a.experiment, a.values, a.seed, a.inputs) <
+           std::tie(b.experiment, b.values, b.seed, b.inputs);
   }
 };
 

@@ -13,7 +13,7 @@ namespace repose::calibrate {
 namespace {
 
 auto order_of(const Run& run) {
-  return std::tie(run.job.experiment, run.job.values, run.job.seed, run.job.relative_stiffness,
+  return std::tie(run.job.experiment, run.job.values, run.job.seed, run.job.inputs,
                   run.failure, run.readings);
 }
 

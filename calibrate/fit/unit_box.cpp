@@ -48,8 +48,9 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
           .seed = experiment.is_stochastic ? seed : problem.settings.seed};
 }
 
-double run_s_of(const Experiment& experiment, double relative_stiffness) {
-  return experiment.run_s * std::sqrt(relative_stiffness);
+double run_s_of(const Experiment& experiment, const AssumedInputs& inputs) {
+  return experiment.run_s * std::sqrt(inputs.stiffness) *
+         (1 + experiment.spheres_share * (inputs.spheres - 1));
 }
 
 const Experiment& experiment_named(const Problem& problem, const std::string& name) {

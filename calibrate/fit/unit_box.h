@@ -23,9 +23,9 @@ Point seen_by(const Experiment& experiment, const Point& point);
 Job job_at(const Problem& problem, const Experiment& experiment, const Point& point,
            std::uint64_t seed);
 
-/// About how long a run with that multiple of the study's stiffness takes, s: the stable time step
-/// goes with the root of one over the stiffness.
-double run_s_of(const Experiment& experiment, double relative_stiffness);
+/// About how long a run with these inputs takes, s: the stable time step goes with the root of one
+/// over the stiffness, the search for contacts with the number of spheres.
+double run_s_of(const Experiment& experiment, const AssumedInputs& inputs);
 
 /// By name; the problem is sound.
 const Experiment& experiment_named(const Problem& problem, const std::string& name);

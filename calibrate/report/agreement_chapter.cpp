@@ -6,6 +6,7 @@
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/result/agreement_text.h"
 #include "calibrate/result/candidates.h"
 
 namespace repose::calibrate::report {
@@ -169,11 +170,23 @@ void add_predictions(const JointResult& joint, Chapter& chapter) {
       kDrawnSets)});
 }
 
-Table stiffness_table(const JointResult& joint) {
-  Table table{.name = "stiffness_checks",
-              .title = "Stiffer grains at the same coefficients",
+/// How a check of an assumed input is told.
+struct SensitivityWords {
+  std::string table;  ///< its name in the file of tables
+  std::string title;
+  Column input;              ///< heads its values
+  std::string explanation;   ///< of the changes
+  std::string coefficients;  ///< their table's name,
+  std::string heading;       ///< its title,
+  std::string use;           ///< and with what grains to use them
+};
+
+Table sensitivity_table(const std::vector<SensitivityCheck>& readings,
+                        const SensitivityWords& words) {
+  Table table{.name = words.table,
+              .title = words.title,
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
-                                   {.name = "stiffness factor", .unit = {}},
+                                   words.input,
                                    {.name = "change", .unit = {}},
                                    {.name = "95 % from", .unit = {}},
                                    {.name = "95 % to", .unit = {}},
@@ -181,46 +194,94 @@ Table stiffness_table(const JointResult& joint) {
                                    {.name = "limit", .unit = {}},
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}}};
-  for (const StiffnessCheck& check : joint.stiffness_checks) {
-    table.data.add({axis_of_observable(check.name, check.unit), cell(check.stiffness_factor),
+  for (const SensitivityCheck& check : readings) {
+    table.data.add({axis_of_observable(check.name, check.unit), cell(check.value),
                     cell(check.change), cell(check.interval.low), cell(check.interval.high),
                     cell(100 * check.chance), cell(check.limit), name_of(check.verdict)});
   }
   return table;
 }
 
-Table stiffer_coefficients_table(const JointResult& joint) {
-  Table table{.name = "stiffer_coefficients",
-              .title = "Coefficients for the stiffer grains",
+Table moved_coefficients_table(const std::vector<MovedCoefficient>& coefficients,
+                               const SensitivityWords& words) {
+  Table table{.name = words.coefficients,
+              .title = words.heading,
               .data = {.columns = {{.name = "coefficient", .unit = {}},
                                    {.name = "value", .unit = {}, .decimals = 3},
                                    {.name = "95 % from", .unit = {}, .decimals = 3},
                                    {.name = "95 % to", .unit = {}, .decimals = 3},
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}}};
-  for (const StifferCoefficient& one : joint.stiffer_coefficients) {
+  for (const MovedCoefficient& one : coefficients) {
     table.data.add({label_of(one.name), cell(one.value), cell(one.interval.low),
                     cell(one.interval.high), name_of(one.verdict)});
   }
   return table;
 }
 
+void add_sensitivity(const std::vector<SensitivityCheck>& readings,
+                     const std::vector<MovedCoefficient>& coefficients,
+                     const SensitivityWords& words, Chapter& chapter) {
+  if (readings.empty()) return;
+  chapter.blocks.push_back(sensitivity_table(readings, words));
+  chapter.blocks.push_back(Paragraph{fmt::format(
+      "{} The limit is the half-width of the 95 % interval of the bench's mean. Agrees: the change "
+      "is shown to be within it. Disagrees: it is more than chance makes, and the coefficients "
+      "make "
+      "up for it. Cannot tell: the change is known no better than this.",
+      words.explanation)});
+  if (coefficients.empty()) return;
+  chapter.blocks.push_back(moved_coefficients_table(coefficients, words));
+  chapter.blocks.push_back(
+      Paragraph{fmt::format("The same readings ask for these coefficients where the changes above "
+                            "are taken into account, "
+                            "with their uncertainty. {}",
+                            words.use)});
+}
+
 void add_stiffness(const JointResult& joint, Chapter& chapter) {
-  if (joint.stiffness_checks.empty()) return;
-  chapter.blocks.push_back(stiffness_table(joint));
-  chapter.blocks.push_back(Paragraph{
-      "The grains of these experiments are softer than real ones, since softer grains are "
-      "simulated faster. Simulated again with stiffer ones, the readings change by so much. The "
-      "limit is the half-width of the 95 % interval of the bench's mean. Agrees: the change is "
-      "shown to be within it. Disagrees: it is more than chance makes, and the coefficients make "
-      "up for grains that are too soft. Cannot tell: the change is known no better than this."});
-  if (joint.stiffer_coefficients.empty()) return;
-  chapter.blocks.push_back(stiffer_coefficients_table(joint));
-  chapter.blocks.push_back(Paragraph{
-      "The same readings ask for these coefficients where the changes above are taken into "
-      "account, "
-      "with their uncertainty. Use them with grains as stiff as those; with the study's softer "
-      "grains use the coefficients of the answer."});
+  add_sensitivity(
+      joint.stiffness_checks, joint.stiffer_coefficients,
+      {.table = "stiffness_checks",
+       .title = "Stiffer grains at the same coefficients",
+       .input = {.name = "stiffness factor", .unit = {}},
+       .explanation =
+           "The grains of these experiments are softer than real ones, since softer "
+           "grains are simulated faster. Simulated again with stiffer ones, the readings "
+           "change by so much.",
+       .coefficients = "stiffer_coefficients",
+       .heading = "Coefficients for the stiffer grains",
+       .use = "Use them with grains as stiff as those; with the study's softer grains use the "
+              "coefficients of the answer."},
+      chapter);
+}
+
+void add_shape(const JointResult& joint, Chapter& chapter) {
+  if (!joint.shape_check) return;  // an earlier version's
+  const ShapeCheck& shape = *joint.shape_check;
+  add_sensitivity(
+      shape.readings, shape.coefficients,
+      {.table = "shape_check",
+       .title = "More spheres at the same coefficients",
+       .input = {.name = "spheres", .unit = {}, .decimals = 0},
+       .explanation = fmt::format(
+           "The coefficients belong to a clump of this many spheres: {}. Simulated again with "
+           "more, "
+           "which follow the surface closer{} and touch in more places at once, the readings "
+           "change "
+           "by so much.",
+           shape.spheres,
+           shape.finer_volume_error
+               ? fmt::format(" (volume error {:.1f} %)", 100 * *shape.finer_volume_error)
+               : ""),
+       .coefficients = "finer_coefficients",
+       .heading = "Coefficients for more spheres",
+       .use =
+           "Use them with a grain of that many spheres; with the study's use the coefficients of "
+           "the answer."},
+      chapter);
+  const std::string open = shape_check_text(shape);
+  if (!open.empty()) chapter.blocks.push_back(Paragraph{open});
 }
 
 Table candidates_table(const JointResult& joint) {
@@ -272,6 +333,7 @@ Chapter agreement_chapter(const JointResult& joint) {
       "that the bench readings are too uncertain for any number of runs to decide."});
   add_predictions(joint, chapter);
   add_stiffness(joint, chapter);
+  add_shape(joint, chapter);
   add_candidates(joint, chapter);
   return chapter;
 }

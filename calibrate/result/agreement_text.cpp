@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace repose::calibrate {
 namespace {
@@ -96,6 +97,18 @@ std::string agreement_text(const Verification& verification) {
       "it cannot be told whether bench and simulation agree: no difference is shown (as large ones "
       "arise by chance in {} of cases), but neither is agreement within the tolerance for {}",
       percent(verification.chance), names_of(with(verification, AgreementVerdict::cannot_tell)));
+}
+
+std::string shape_check_text(const ShapeCheck& shape) {
+  if (!shape.not_made.empty()) {
+    return fmt::format("What more spheres change was not checked: {}.",
+                       shape.not_made.substr(0, shape.not_made.find_last_not_of(". ") + 1));
+  }
+  if (shape.too_dear.empty()) return {};
+  return fmt::format(
+      "What more spheres than {} change was not checked for {}: it would take more than a fifth of "
+      "this budget.",
+      shape.spheres, fmt::join(shape.too_dear, ", "));
 }
 
 }  // namespace repose::calibrate

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "calibrate/fit/verification.h"
+#include "calibrate/study/study_run.h"
 
 namespace repose::calibrate {
 
@@ -12,5 +13,8 @@ std::string agreement_text(const Verification& verification);
 
 /// What one observable's verdict comes from: "+1.20 deg, tolerance 2 deg: ...".
 std::string agreement_text(const Agreement& agreement, const std::string& unit);
+
+/// What the check of the number of spheres leaves open, and why: sentences. Empty: nothing.
+std::string shape_check_text(const ShapeCheck& shape);
 
 }  // namespace repose::calibrate

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/problem.h"
-#include "calibrate/fit/stiffer_coefficients.h"
-#include "calibrate/fit/stiffness_check.h"
+#include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/published/published_method.h"
 #include "calibrate/result/surface_summary.h"
 #include "calibrate/study/study_record.h"
@@ -114,8 +114,9 @@ struct JointResult {
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
   OverallAgreement agreement;
   std::vector<Prediction> held_out;  ///< readings that were predicted, not fitted; or none
-  std::vector<StiffnessCheck> stiffness_checks;  ///< of softened experiments; or none
-  std::vector<StifferCoefficient> stiffer_coefficients;
+  std::vector<SensitivityCheck> stiffness_checks;  ///< of softened experiments; or none
+  std::vector<MovedCoefficient> stiffer_coefficients;
+  std::optional<ShapeCheck> shape_check;  ///< earlier versions made none
   double chi2 = 0;
   std::vector<std::vector<double>> correlation;
   std::vector<std::vector<double>> reading_correlation;

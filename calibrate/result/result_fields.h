@@ -155,11 +155,17 @@ void fields(Io& io, Held<Io, Prediction>& prediction) {
 }
 
 template <typename Io>
-void fields(Io& io, Held<Io, StiffnessCheck>& check) {
+void fields(Io& io, Held<Io, SensitivityCheck>& check) {
   io("name", check.name);
   io("unit", check.unit);
-  io("stiffness", check.stiffness);
-  io("stiffness_factor", check.stiffness_factor);
+  if (io.has("spheres", check.input == AssumedInput::spheres)) {
+    if constexpr (Io::kReads) check.input = AssumedInput::spheres;
+    io("multiple", check.multiple);
+    io("spheres", check.value);
+  } else {
+    io("stiffness", check.multiple);
+    io("stiffness_factor", check.value);
+  }
   io("change", check.change);
   io("uncertainty", check.uncertainty);
   io("interval", check.interval);
@@ -171,11 +177,22 @@ void fields(Io& io, Held<Io, StiffnessCheck>& check) {
 }
 
 template <typename Io>
-void fields(Io& io, Held<Io, StifferCoefficient>& coefficient) {
+void fields(Io& io, Held<Io, MovedCoefficient>& coefficient) {
   io("name", coefficient.name);
   io("value", coefficient.value);
   io("interval", coefficient.interval);
   io("verdict", coefficient.verdict);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ShapeCheck>& shape) {
+  io("spheres", shape.spheres);
+  io("finer_spheres", shape.finer_spheres);
+  io("finer_volume_error", shape.finer_volume_error);
+  io.text_or_null("not_made", shape.not_made);
+  io("too_dear", shape.too_dear);
+  io("readings", shape.readings);
+  io("coefficients", shape.coefficients);
 }
 
 template <typename Io>
@@ -277,6 +294,9 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   }
   if (io.has("stiffer_coefficients", !joint.stiffer_coefficients.empty())) {
     io("stiffer_coefficients", joint.stiffer_coefficients);
+  }
+  if (io.has("shape_check", joint.shape_check.has_value())) {
+    io("shape_check", joint.shape_check);
   }
   io("chi2", joint.chi2);
   io("correlation", joint.correlation);

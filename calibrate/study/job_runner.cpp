@@ -32,7 +32,7 @@ std::string fault_of(const RunSpec& spec, const Run& run) {
 
 double run_s_of(const Problem& problem, const Job& job) {
   for (const Experiment& experiment : problem.experiments) {
-    if (experiment.name == job.experiment) return run_s_of(experiment, job.relative_stiffness);
+    if (experiment.name == job.experiment) return run_s_of(experiment, job.inputs);
   }
   return 0;
 }

@@ -13,14 +13,15 @@ PlainJson json_of(const Job& job) {
   return {{"experiment", job.experiment},
           {"values", job.values},
           {"seed", job.seed},
-          {"relative_stiffness", job.relative_stiffness}};
+          {"stiffness", job.inputs.stiffness},
+          {"spheres", job.inputs.spheres}};
 }
 
 Job job_in(const PlainJson& json) {
   return {.experiment = json.at("experiment"),
           .values = json.at("values"),
           .seed = json.at("seed"),
-          .relative_stiffness = json.at("relative_stiffness")};
+          .inputs = {.stiffness = json.at("stiffness"), .spheres = json.at("spheres")}};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/prediction.h"
-#include "calibrate/fit/stiffness_check.h"
+#include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/unit_box.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_run.h"
@@ -60,25 +60,26 @@ int check_runs(const Problem& problem, const std::string& experiment, int repeat
 double run_s_of_all(const Problem& problem, const std::vector<Job>& jobs) {
   double seconds = 0;
   for (const Job& job : jobs) {
-    seconds += run_s_of(experiment_named(problem, job.experiment), job.relative_stiffness);
+    seconds += run_s_of(experiment_named(problem, job.experiment), job.inputs);
   }
   return seconds;
 }
 
-/// Of the last runs: those that predict what is held out, and those of stiffer grains.
+/// Of the last runs: those of stiffer grains, and of grains of more spheres.
 void count_last_runs(const Problem& problem, int repeats,
                      std::vector<ExperimentEstimate>& estimates) {
-  const StiffnessPlan plan = plan_stiffness(problem, middle_of(problem), repeats);
-  for (ExperimentEstimate& estimate : estimates) {
-    for (const Job& job : plan.jobs) {
-      if (job.experiment != estimate.experiment) continue;
-      if (job.relative_stiffness == 1) {
-        ++estimate.check_runs;
-        continue;
+  for (const AssumedInput input : {AssumedInput::stiffness, AssumedInput::spheres}) {
+    const SensitivityPlan plan = plan_sensitivity(problem, input, middle_of(problem), repeats);
+    for (ExperimentEstimate& estimate : estimates) {
+      for (const Job& job : plan.jobs) {
+        if (job.experiment != estimate.experiment) continue;
+        if (job.inputs == AssumedInputs{}) {
+          ++estimate.check_runs;
+          continue;
+        }
+        ++estimate.varied_runs;
+        estimate.varied_s += run_s_of(experiment_named(problem, job.experiment), job.inputs);
       }
-      ++estimate.stiff_runs;
-      estimate.stiff_run_s =
-          run_s_of(experiment_named(problem, job.experiment), job.relative_stiffness);
     }
   }
 }
@@ -98,23 +99,26 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
                          .run_s = experiments[e].run_s,
                          .fit_runs = runs[e],
                          .check_runs = checks,
-                         .stiff_run_s = 0,
-                         .stiff_runs = 0});
+                         .varied_runs = 0,
+                         .varied_s = 0});
   }
   for (const Experiment& experiment : held_out_experiments(problem)) {
     estimates.push_back({.experiment = experiment.name,
                          .run_s = experiment.run_s,
                          .fit_runs = 0,
                          .check_runs = prediction_runs(experiment),
-                         .stiff_run_s = 0,
-                         .stiff_runs = 0});
+                         .varied_runs = 0,
+                         .varied_s = 0});
   }
   count_last_runs(problem, budget.verification_repeats, estimates);
   return estimates;
 }
 
 double last_runs_s(const Problem& problem, int repeats) {
-  double seconds = plan_stiffness(problem, middle_of(problem), repeats).run_s;
+  double seconds = 0;
+  for (const AssumedInput input : {AssumedInput::stiffness, AssumedInput::spheres}) {
+    seconds += plan_sensitivity(problem, input, middle_of(problem), repeats).run_s;
+  }
   for (const Experiment& experiment : held_out_experiments(problem)) {
     seconds += experiment.run_s * prediction_runs(experiment);
   }

@@ -15,11 +15,11 @@ namespace repose::calibrate {
 /// the fit's number is about right in the sum, the other the most there can be.
 struct ExperimentEstimate {
   std::string experiment;
-  double run_s = 0;        ///< by the program's own measure, see Experiment::run_s
-  int fit_runs = 0;        ///< in all rounds of the fit
-  int check_runs = 0;      ///< with fresh seeds afterwards, or to predict what is held out
-  double stiff_run_s = 0;  ///< likewise, of a run with stiffer grains than the study's
-  int stiff_runs = 0;
+  double run_s = 0;     ///< by the program's own measure, see Experiment::run_s
+  int fit_runs = 0;     ///< in all rounds of the fit
+  int check_runs = 0;   ///< with fresh seeds afterwards, or to predict what is held out
+  int varied_runs = 0;  ///< likewise, with stiffer grains than the study's, or of more spheres
+  double varied_s = 0;  ///< all of these
 };
 
 std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& budget);
@@ -28,7 +28,8 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
 /// last of them, or of those before, a large one.
 double checks_s(const Problem& problem, const Budget& budget, int rounds);
 
-/// Work of what follows the last check, likewise: predictions of what is held out, stiffer grains.
+/// Work of what follows the last check, likewise: predictions of what is held out, stiffer grains,
+/// grains of more spheres.
 double last_runs_s(const Problem& problem, int repeats);
 
 /// Runs of each experiment that so many seconds buy, in the order of estimate_of; none of those

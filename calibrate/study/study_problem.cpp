@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,35 @@ double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
     }
   }
   return entry.cost_s(model, study.experiments.at(entry.experiment).protocol);
+}
+
+/// What part of that goes with the number of spheres.
+double spheres_share(const dem::Study& study, const dem::ClumpShape& grain,
+                     const dem::ExperimentEntry& entry) {
+  dem::ClumpShape twice = grain;
+  twice.spheres.insert(twice.spheres.end(), grain.spheres.begin(), grain.spheres.end());
+  return std::max(0., run_cost_s(study, twice, entry) / run_cost_s(study, grain, entry) - 1);
+}
+
+bool is_ball(const dem::CalliperSizes& sizes) {
+  return sizes.length_m == sizes.width_m && sizes.width_m == sizes.thickness_m &&
+         sizes.tip_fraction == 0;
+}
+
+/// More spheres follow the surface that the study's were made of closer.
+GrainSpheres spheres_of(const dem::GrainSource& source, const dem::ClumpShape& grain) {
+  const int count = static_cast<int>(grain.spheres.size());
+  const auto none_closer = [&](std::string why) {
+    return GrainSpheres{.count = count, .most = count, .no_closer = std::move(why)};
+  };
+  if (source.clump) return none_closer("a clump file has its spheres, and no surface to be filled");
+  if (count == 1 && source.sizes && is_ball(*source.sizes)) {
+    return none_closer("one sphere is exactly the shape of this particle");
+  }
+  if (count >= dem::kMaxSpheres) {
+    return none_closer(fmt::format("more than {} spheres are not made", dem::kMaxSpheres));
+  }
+  return {.count = count, .most = dem::kMaxSpheres, .no_closer = {}};
 }
 
 std::vector<Parameter> open_parameters(const dem::Study& study) {
@@ -98,6 +128,7 @@ class Maker {
     made_.problem.settings = budget.settings;
     made_.problem.settings.seed = study_.seed;
     made_.problem.parameters = open_parameters(study_);
+    made_.problem.spheres = spheres_of(study_.grain, grain_.shape);
     if (made_.problem.parameters.empty()) {
       throw std::invalid_argument(
           fmt::format("{}: every coefficient has a value, so there is nothing to fit. Fix: give "
@@ -148,7 +179,8 @@ class Maker {
          .measurable = measurable(entry),
          .readings_per_run = readings_per_run(entry),
          .scatter_within = entry.is_pictured ? kOneViewScatter : "",
-         .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor});
+         .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor,
+         .spheres_share = spheres_share(study_, grain_.shape, entry)});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured) add(observable_of(measured), entry, "value");
     for (const dem::MeasuredReading& reading : measured.also) {

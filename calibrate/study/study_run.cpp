@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,7 +52,7 @@ bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
     left_s += estimate.fit_runs * estimate.run_s;
     checks_s += estimate.check_runs * estimate.run_s;
-    checks_s += estimate.stiff_runs * estimate.stiff_run_s;
+    checks_s += estimate.varied_s;
   }
   for (int round = 1;; ++round) {
     const std::vector<Job> jobs = propose(problem, runs);
@@ -196,49 +197,110 @@ bool predict(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
   return true;
 }
 
-/// Simulates softened experiments with stiffer grains at the coefficients that were checked last.
-/// False when interrupted.
-bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
-             StudyOutcome& outcome) {
-  const StiffnessPlan plan =
-      plan_stiffness(problem, outcome.best.values, budget.verification_repeats);
+/// What a check of an assumed input is called, and what to do where it says that the input matters.
+struct InputWords {
+  std::string stage;
+  std::string matters;   ///< "the study's grains are too soft for this reading"
+  std::string other;     ///< "with a stiffness_factor of 0.1"
+  std::string fix;       ///< where a reading changes
+  std::string too_dear;  ///< what is not known, and why
+  std::string by_hand;   ///< what to do about that where no budget is larger
+};
+
+/// `value`: of the input that was simulated.
+InputWords words_of(AssumedInput input, const Problem& problem, double value) {
+  if (input == AssumedInput::stiffness) {
+    return {.stage = "simulating stiffer grains",
+            .matters = "the study's grains are too soft for this reading",
+            .other = fmt::format("with a stiffness_factor of {:.3g}", value),
+            .fix = fmt::format("stiffness_factor = {:.3g}, and calibrate again", value),
+            .too_dear = "what its stiffness_factor does to its readings: stiffer grains",
+            .by_hand = "simulate it at these coefficients with a larger stiffness_factor"};
+  }
+  const int study = problem.spheres.count;
+  return {
+      .stage = "simulating grains of more spheres",
+      .matters = fmt::format("this reading depends on the number of spheres, and the "
+                             "coefficients are good only with this clump of {}",
+                             study),
+      .other = fmt::format("with {:.0f} spheres", value),
+      .fix = fmt::format("unless the study has it, damping = \"shared\" in [contact], with which "
+                         "impacts depend less on the spheres that touch; or spheres = {:.0f}; and "
+                         "calibrate again",
+                         value),
+      .too_dear = "what its number of spheres does to its readings: grains of more",
+      .by_hand = "simulate it at these coefficients with more spheres"};
+}
+
+/// Simulates experiments with another value of an assumed input at the coefficients that were
+/// checked last. False when interrupted.
+bool vary(const Problem& problem, const Budget& budget, const SensitivityPlan& plan,
+          AssumedInput input, JobRunner& runner, StudyOutcome& outcome, Sensitivity& found) {
+  const InputWords words = words_of(input, problem, 0);
   const bool is_largest = budget.settings.budget_s >= budget_named("standard").settings.budget_s;
+  found.too_dear = plan.too_dear;
   for (const std::string& experiment : plan.too_dear) {
     outcome.notes.push_back(fmt::format(
-        "{}: it is not known what its stiffness_factor does to its readings: stiffer grains would "
-        "take more than a fifth of this budget. Fix: {}.",
-        experiment,
-        is_largest ? "simulate it at these coefficients with a larger stiffness_factor"
-                   : "the budget standard"));
+        "{}: it is not known {} would take more than a fifth of this budget. Fix: {}.", experiment,
+        words.too_dear, is_largest ? words.by_hand : "the budget standard"));
   }
   if (plan.jobs.empty()) return true;
-  const auto runs = runner.get("simulating stiffer grains", plan.jobs, 0);
+  const auto runs = runner.get(words.stage, plan.jobs, 0);
   if (!runs) return false;
-  outcome.stiffness =
-      check_stiffness(problem, outcome.best.values, joined(outcome.runs, *runs), outcome.fit);
-  outcome.stiffer = stiffer_coefficients(problem, outcome.stiffness, outcome.runs);
+  found.readings = check_sensitivity(problem, input, outcome.best.values,
+                                     joined(outcome.runs, *runs), outcome.fit);
+  found.coefficients = moved_coefficients(problem, found.readings, outcome.runs);
   return true;
 }
 
-/// Readings that are not those of real grains.
-void note_stiffness(StudyOutcome& outcome) {
-  for (const StiffnessCheck& check : outcome.stiffness) {
+/// Stiffer grains, in softened experiments. False when interrupted.
+bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
+             StudyOutcome& outcome) {
+  const SensitivityPlan plan = plan_sensitivity(problem, AssumedInput::stiffness,
+                                                outcome.best.values, budget.verification_repeats);
+  return vary(problem, budget, plan, AssumedInput::stiffness, runner, outcome, outcome.stiffness);
+}
+
+/// Grains of more spheres, where their surface is known. False when interrupted.
+bool refine(const Problem& problem, const Budget& budget, const StudySimulator& simulator,
+            JobRunner& runner, StudyOutcome& outcome) {
+  ShapeCheck& shape = outcome.shape;
+  shape.spheres = problem.spheres.count;
+  shape.not_made = problem.spheres.no_closer;
+  const SensitivityPlan plan = plan_sensitivity(problem, AssumedInput::spheres, outcome.best.values,
+                                                budget.verification_repeats);
+  const auto varied =
+      std::ranges::find_if(plan.jobs, [](const Job& job) { return job.inputs != AssumedInputs{}; });
+  if (varied != plan.jobs.end()) {
+    try {
+      const dem::ClumpFile& finer = simulator.finer_grain(varied->inputs.spheres);
+      shape.finer_spheres = static_cast<int>(finer.shape.spheres.size());
+      shape.finer_volume_error = finer.errors.volume_error;
+    } catch (const std::invalid_argument& error) {
+      shape.not_made = fmt::format("more spheres cannot be made: {}", error.what());
+      return true;
+    }
+  }
+  return vary(problem, budget, plan, AssumedInput::spheres, runner, outcome, shape);
+}
+
+/// Readings that another value of an assumed input changes.
+void note_sensitivity(const Problem& problem, const Sensitivity& found,
+                      std::vector<std::string>& notes) {
+  for (const SensitivityCheck& check : found.readings) {
     if (check.verdict != AgreementVerdict::disagrees) continue;
+    const InputWords words = words_of(check.input, problem, check.value);
     if (check.runs == 0) {
-      outcome.notes.push_back(fmt::format(
-          "{}: with a stiffness_factor of {:.3g} no run has this reading, and the study's softer "
-          "grains do. Fix: stiffness_factor = {:.3g}, and calibrate again.",
-          check.name, check.stiffness_factor, check.stiffness_factor));
+      notes.push_back(
+          fmt::format("{}: {} no run has this reading, and the study's grains do. Fix: {}.",
+                      check.name, words.other, words.fix));
       continue;
     }
-    outcome.notes.push_back(fmt::format(
-        "{}: the study's grains are too soft for this reading, and the coefficients make up for "
-        "it: "
-        "with a stiffness_factor of {:.3g} it changes by {:+.3g} {} (95 %: {:.3g} to {:.3g}), and "
-        "the bench's mean is known within {:.2g}. Fix: stiffness_factor = {:.3g}, and calibrate "
-        "again.",
-        check.name, check.stiffness_factor, check.change, check.unit, check.interval.low,
-        check.interval.high, check.limit, check.stiffness_factor));
+    notes.push_back(
+        fmt::format("{}: {}: {} it changes by {:+.3g} {} (95 %: {:.3g} to {:.3g}), and the bench's "
+                    "mean is known within {:.2g}. Fix: {}.",
+                    check.name, words.matters, words.other, check.change, check.unit,
+                    check.interval.low, check.interval.high, check.limit, words.fix));
   }
 }
 
@@ -291,11 +353,13 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
     judge_family(problem, outcome);
     if (!predict(problem, runner, outcome)) return std::nullopt;
     if (!stiffen(problem, budget, runner, outcome)) return std::nullopt;
+    if (!refine(problem, budget, context.simulator, runner, outcome)) return std::nullopt;
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }
   note_checks(outcome);
-  note_stiffness(outcome);
+  note_sensitivity(problem, outcome.stiffness, outcome.notes);
+  note_sensitivity(problem, outcome.shape, outcome.notes);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.simulated = runner.simulated();
   outcome.reused = runner.reused();

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
-#include "calibrate/fit/stiffer_coefficients.h"
-#include "calibrate/fit/stiffness_check.h"
+#include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_context.h"
@@ -24,21 +24,36 @@ struct CheckedSet {
   double chi2 = 0;  ///< above that of the best fit
 };
 
+/// What another value of an assumed input changes.
+struct Sensitivity {
+  std::vector<SensitivityCheck> readings;      ///< of experiments that the budget allows for
+  std::vector<MovedCoefficient> coefficients;  ///< that these changes ask for; none without any
+  std::vector<std::string> too_dear;           ///< experiments that it does not allow for
+};
+
+/// What more spheres change.
+struct ShapeCheck : Sensitivity {
+  int spheres = 1;                           ///< the study's
+  std::optional<int> finer_spheres;          ///< of the grain it was compared with; none: of none
+  std::optional<double> finer_volume_error;  ///< of that grain, as dem::ClumpErrors::volume_error
+  std::string not_made;                      ///< why there is no such grain; else empty
+};
+
 /// A study that came to its end.
 struct StudyOutcome {
   JointFit fit;       ///< the last one: of all runs, those of the checks included
   Verification best;  ///< the last check: `fit`'s parameters, or those nearest to it
   int check_rounds = 0;
-  std::vector<SurrogateCheck> surrogates;   ///< what was expected of that check before
-  std::vector<CheckedSet> family;           ///< those simulated that still fit
-  std::vector<Prediction> predictions;      ///< of what was held out
-  std::vector<StiffnessCheck> stiffness;    ///< of softened experiments that the budget allows for
-  std::vector<StifferCoefficient> stiffer;  ///< that these changes ask for; none without any
-  std::vector<Run> runs;                    ///< those that the fit was made from
-  std::vector<Run> checks;                  ///< those of the last check
-  std::vector<std::string> notes;           ///< what a reader of the fit must know of its runs
-  int simulated = 0;                        ///< runs made by this call
-  int reused = 0;                           ///< runs found in the folder
+  std::vector<SurrogateCheck> surrogates;  ///< what was expected of that check before
+  std::vector<CheckedSet> family;          ///< those simulated that still fit
+  std::vector<Prediction> predictions;     ///< of what was held out
+  Sensitivity stiffness;                   ///< stiffer grains, in softened experiments
+  ShapeCheck shape;                        ///< grains of more spheres
+  std::vector<Run> runs;                   ///< those that the fit was made from
+  std::vector<Run> checks;                 ///< those of the last check
+  std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs
+  int simulated = 0;                       ///< runs made by this call
+  int reused = 0;                          ///< runs found in the folder
 };
 
 /// Runs a study to its end, going on from what the folder holds. The outcome does not depend on how

@@ -1,6 +1,9 @@
 #include "calibrate/study/study_simulator.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -19,17 +22,54 @@ Run run_of(const SimulatedJob& done) {
   return run;
 }
 
+/// By the number of spheres.
+struct StudySimulator::FinerGrains {
+  struct Grain {
+    explicit Grain(const dem::ClumpFile& made) : file(made), named(made) {}
+    dem::ClumpFile file;
+    NamedGrain named;
+  };
+
+  std::mutex making;
+  std::map<int, Grain> made;
+
+  const Grain& of(dem::GrainSource source, int spheres) {
+    const std::scoped_lock lock(making);
+    const auto found = made.find(spheres);
+    if (found != made.end()) return found->second;
+    source.fill.spheres = spheres;
+    source.fill.volume_error.reset();
+    return made.try_emplace(spheres, dem::build_grain(source)).first->second;
+  }
+};
+
 StudySimulator::StudySimulator(dem::Study study, dem::ClumpFile grain,
                                const std::vector<Parameter>& sought, int heap_views)
-    : study_(std::move(study)), grain_(std::move(grain)), heap_views_(heap_views) {
+    : study_(std::move(study)),
+      grain_(std::move(grain)),
+      finer_(std::make_shared<FinerGrains>()),
+      heap_views_(heap_views) {
   for (const Parameter& parameter : sought) names_.push_back(parameter.name);
   study_.model.threads = 1;
 }
 
+int StudySimulator::spheres(double multiple) const {
+  return static_cast<int>(std::lround(multiple * static_cast<double>(grain_.shape.spheres.size())));
+}
+
+const dem::ClumpFile& StudySimulator::finer_grain(double multiple) const {
+  return finer_->of(study_.grain, spheres(multiple)).file;
+}
+
+const NamedGrain& StudySimulator::grain(const AssumedInputs& inputs) const {
+  if (inputs.spheres == 1) return grain_;
+  return finer_->of(study_.grain, spheres(inputs.spheres)).named;
+}
+
 RunSpec StudySimulator::spec(const Job& job) const {
   const dem::Experiment experiment = dem::experiment_named(job.experiment).experiment;
-  RunSpec spec = spec_of(study_, experiment, grain_, heap_views_);
-  spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.relative_stiffness);
+  RunSpec spec = spec_of(study_, experiment, grain(job.inputs), heap_views_);
+  spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.inputs.stiffness);
   for (std::size_t k = 0; k < names_.size(); ++k) {
     // An experiment without a part has none of its coefficients.
     double* coefficient = find_coefficient(names_[k], spec.model);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,13 @@ class StudySimulator {
                  int heap_views = kHeapViews);
 
   /// What a job asks for but its seed.
+  /// @throws std::invalid_argument  its grain cannot be made (see finer_grain).
   RunSpec spec(const Job& job) const;
+
+  /// The study's grain of so many times its spheres, made when it is first asked for, which may
+  /// take some seconds; may be called from several threads.
+  /// @throws std::invalid_argument  so many spheres do not follow the surface, or there is none.
+  const dem::ClumpFile& finer_grain(double multiple) const;
 
   /// Where runs are found and saved, with the final states of heaps; to be there as long as this.
   void store_in(const RunFolder& folder) { folder_ = &folder; }
@@ -43,8 +50,13 @@ class StudySimulator {
   SimulatedJob simulate(const Job& job, const std::atomic<bool>& is_interrupted) const;
 
  private:
+  struct FinerGrains;
+  int spheres(double multiple) const;
+  const NamedGrain& grain(const AssumedInputs& inputs) const;
+
   dem::Study study_;
   NamedGrain grain_;
+  std::shared_ptr<FinerGrains> finer_;
   std::vector<std::string> names_;
   int heap_views_;
   const RunFolder* folder_ = nullptr;

@@ -108,43 +108,80 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
       calibrate::kDrawnSets));
 }
 
-/// What softening leaves open.
-void add_stiffness(const calibrate::JointResult& joint, Page& page) {
-  if (joint.stiffness_checks.empty()) return;
-  Table table({{.heading = "stiffer grains"},
-               number_column("factor"),
+/// How a check of an assumed input is told.
+struct SensitivityWords {
+  std::string readings;      ///< heads the readings: "stiffer grains"
+  std::string input;         ///< heads the value simulated: "factor"
+  std::string explanation;   ///< what a change is
+  std::string coefficients;  ///< heads the coefficients
+};
+
+/// What another value of an assumed input changes.
+void add_sensitivity(const std::vector<calibrate::SensitivityCheck>& readings,
+                     const std::vector<calibrate::MovedCoefficient>& coefficients,
+                     const SensitivityWords& words, Page& page) {
+  if (readings.empty()) return;
+  Table table({{.heading = words.readings},
+               number_column(words.input),
                number_column("change"),
                {.heading = "95 % interval"},
                number_column("limit"),
                {.heading = "verdict"}});
-  for (const calibrate::StiffnessCheck& check : joint.stiffness_checks) {
+  for (const calibrate::SensitivityCheck& check : readings) {
     table.add_row(
         {check.unit.empty() ? check.name : fmt::format("{} [{}]", check.name, check.unit),
-         fmt::format("{:.3g}", check.stiffness_factor), four_digits(check.change),
+         fmt::format("{:.3g}", check.value), four_digits(check.change),
          fmt::format("{} … {}", four_digits(check.interval.low), four_digits(check.interval.high)),
          four_digits(check.limit), name_of(check.verdict)});
   }
   page.add_gap();
   page.add(table);
-  page.add(
-      "(what a larger stiffness_factor changes in a reading, at these coefficients; limit: the "
-      "half-width of the 95 % interval of the bench's mean)");
-  if (joint.stiffer_coefficients.empty()) return;
-  Table coefficients({{.heading = "coefficient with stiffer grains"},
-                      number_column("value"),
-                      {.heading = "95 % interval"},
-                      {.heading = "verdict"}});
-  for (const calibrate::StifferCoefficient& one : joint.stiffer_coefficients) {
-    coefficients.add_row(
+  page.add(fmt::format(
+      "({}, at these coefficients; limit: the half-width of the 95 % interval of the bench's mean)",
+      words.explanation));
+  if (coefficients.empty()) return;
+  Table moved({{.heading = words.coefficients},
+               number_column("value"),
+               {.heading = "95 % interval"},
+               {.heading = "verdict"}});
+  for (const calibrate::MovedCoefficient& one : coefficients) {
+    moved.add_row(
         {short_name(one.name), four_digits(one.value),
          fmt::format("{} … {}", four_digits(one.interval.low), four_digits(one.interval.high)),
          name_of(one.verdict)});
   }
   page.add_gap();
-  page.add(coefficients);
+  page.add(moved);
   page.add(
       "(what the same readings ask for where those changes are taken into account, with their "
       "uncertainty)");
+}
+
+/// What softening leaves open.
+void add_stiffness(const calibrate::JointResult& joint, Page& page) {
+  add_sensitivity(joint.stiffness_checks, joint.stiffer_coefficients,
+                  {.readings = "stiffer grains",
+                   .input = "factor",
+                   .explanation = "what a larger stiffness_factor changes in a reading",
+                   .coefficients = "coefficient with stiffer grains"},
+                  page);
+}
+
+/// What the number of spheres leaves open, or why that is not known.
+void add_shape(const calibrate::JointResult& joint, Page& page) {
+  if (!joint.shape_check) return;  // an earlier version's
+  const calibrate::ShapeCheck& shape = *joint.shape_check;
+  add_sensitivity(
+      shape.readings, shape.coefficients,
+      {.readings = "more spheres",
+       .input = "spheres",
+       .explanation = fmt::format("what more spheres than {} change in a reading", shape.spheres),
+       .coefficients = "coefficient with more spheres"},
+      page);
+  const std::string open = shape_check_text(shape);
+  if (open.empty()) return;
+  page.add_gap();
+  page.add(open);
 }
 
 void add_family(const calibrate::JointResult& joint, Page& page) {
@@ -216,6 +253,7 @@ std::string joint_table(const calibrate::JointResult& joint,
   add_agreement(joint, page);
   add_predictions(joint, page);
   add_stiffness(joint, page);
+  add_shape(joint, page);
   add_family(joint, page);
   add_advice(joint, page);
   add_additions(joint, page);

@@ -78,11 +78,10 @@ BudgetColumn budget_column(const BudgetPlan& budget, const Pace& pace, int jobs)
   BudgetColumn column;
   double all_s = 0;
   for (const calibrate::ExperimentEstimate& estimate : budget.estimates) {
-    all_s +=
-        pace.at(estimate.experiment) * ((estimate.fit_runs + estimate.check_runs) * estimate.run_s +
-                                        estimate.stiff_runs * estimate.stiff_run_s);
+    all_s += pace.at(estimate.experiment) *
+             ((estimate.fit_runs + estimate.check_runs) * estimate.run_s + estimate.varied_s);
     column.runs.push_back(
-        fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs + estimate.stiff_runs));
+        fmt::format("{} + {}", estimate.fit_runs, estimate.check_runs + estimate.varied_runs));
   }
   column.time = duration(all_s / jobs);
   return column;

@@ -88,7 +88,10 @@ Run run(const Job& job, bool jams) {
     for (const std::string& reading : experiment.measurable) {
       double mean = expected(job.experiment, reading, job.values);
       if (experiment.name == "heap" && reading == "value") {
-        mean -= kSofteningShift * std::log10(job.relative_stiffness);
+        mean -= kSofteningShift * std::log10(job.inputs.stiffness);
+      }
+      if (experiment.name == "drop") {
+        mean *= std::pow(kFinerRebound, std::log(job.inputs.spheres) / std::log(4));
       }
       run.readings[reading] = scattered(job.experiment, reading, mean, false, random);
     }

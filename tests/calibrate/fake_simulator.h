@@ -29,7 +29,11 @@ using Runs = std::vector<Run>;
 /// What a tenth of the stiffness adds to the angle of a heap, degrees.
 inline constexpr double kSofteningShift = 2.5;
 
-/// One run with its scatter, softer ones with what that adds. Heaps of much friction stay in the
+/// What four times the spheres leave of a rebound.
+inline constexpr double kFinerRebound = .5;
+
+/// One run with its scatter, softer ones with what that adds, those of more spheres with what that
+/// takes. Heaps of much friction stay in the
 /// tube when `jams`.
 Run run(const Job& job, bool jams = false);
 

@@ -58,7 +58,7 @@ TEST(Prediction, JobsAreOfWhatIsHeldOutAloneWithSeedsOfTheirOwn) {
   }
   for (const Job& job : jobs) {
     EXPECT_EQ(job.experiment, "heap");
-    EXPECT_EQ(job.relative_stiffness, 1);
+    EXPECT_EQ(job.inputs.stiffness, 1);
     EXPECT_TRUE(taken.insert(job.seed).second);
   }
   EXPECT_TRUE(prediction_jobs(fake::problem(kTruth, 1), fit_of(kTruth, .02, random)).empty());

@@ -101,7 +101,7 @@ TEST(Verification, StifferRunsThanTheStudysDoNotCount) {
   const Verification check = verify(problem, kTruth, runs);
   const fake::Runs own = runs;
   for (auto run : own) {
-    run.job.relative_stiffness = 10;
+    run.job.inputs.stiffness = 10;
     run.readings["value"] = 1e6;
     runs.push_back(run);
   }

@@ -9,7 +9,7 @@ TEST(JobText, KeepsEveryBit) {
   const Job job{.experiment = "heap",
                 .values = {.1, 1. / 3, 5e-324, -0.},
                 .seed = ~0ULL,
-                .relative_stiffness = .1};
+                .inputs = {.stiffness = .1, .spheres = 1. / 3}};
   EXPECT_EQ(job_in(text_of(job)), job);
   SimulatedJob done{.job = job, .run = {}};
   done.run.value = 23.4000000000000021;

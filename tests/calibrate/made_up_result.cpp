@@ -154,11 +154,12 @@ Prediction held_out_roll() {
           .verdict = AgreementVerdict::cannot_tell};
 }
 
-StiffnessCheck stiffer_drop() {
+SensitivityCheck stiffer_drop() {
   return {.name = "drop",
           .unit = "mm",
-          .stiffness = 10,
-          .stiffness_factor = .1,
+          .input = AssumedInput::stiffness,
+          .multiple = 10,
+          .value = .1,
           .change = -1.5,
           .uncertainty = .5,
           .interval = {-2.75, -.25},
@@ -167,6 +168,22 @@ StiffnessCheck stiffer_drop() {
           .runs = 5,
           .failed_runs = 1,
           .verdict = AgreementVerdict::cannot_tell};
+}
+
+ShapeCheck finer_drop() {
+  SensitivityCheck drop = stiffer_drop();
+  drop.input = AssumedInput::spheres;
+  drop.multiple = 4;
+  drop.value = 44;
+  drop.verdict = AgreementVerdict::disagrees;
+  ShapeCheck shape;
+  shape.readings = {drop};
+  shape.coefficients = {{"particle_wall.restitution", .44, {.4, .49}, Verdict::determined}};
+  shape.too_dear = {"heap"};
+  shape.spheres = 11;
+  shape.finer_spheres = 44;
+  shape.finer_volume_error = .0425;
+  return shape;
 }
 
 Candidate constant_torque() {
@@ -195,6 +212,7 @@ StudyResult joint_result() {
       .stiffer_coefficients =
           {{"particle_wall.restitution", .42, {.39, .46}, Verdict::determined},
            {"particle_wall.rolling_friction", .3, {0, 1}, Verdict::undetermined}},
+      .shape_check = finer_drop(),
       .chi2 = .5,
       .correlation = {{1, .25}, {.25, 1}},
       .reading_correlation = {{1}},

@@ -97,6 +97,18 @@ TEST_F(StudyReport, BeginsWithTheAnswer) {
             "\"sliding friction, particle–wall\",0.3,0.1,0.8,0.1,0.8,undetermined\n");
 }
 
+TEST_F(StudyReport, ShowsWhatMoreSpheresChange) {
+  const Report report = study_report(result_);
+  EXPECT_THAT(page_of(report),
+              AllOf(HasSubstr("a clump of this many spheres: 11"), HasSubstr("volume error 4.2 %"),
+                    HasSubstr("was not checked for heap")));
+  EXPECT_THAT(table_in(report, "shape_check.csv"), HasSubstr("44,-1.5,-2.75,-0.25"));
+  EXPECT_THAT(table_in(report, "finer_coefficients.csv"), HasSubstr("0.44,0.4,0.49,determined"));
+  joint_in(result_).shape_check.reset();
+  EXPECT_THAT(page_of(study_report(result_)), Not(HasSubstr("more spheres")))
+      << "a result of an earlier version";
+}
+
 TEST_F(StudyReport, WhatIsForCheckingComesAfterTheAnswerInAnAppendix) {
   const std::string page = page_of(study_report(result_));
   const std::size_t appendix = page.find("id=\"appendix\"");

@@ -69,6 +69,36 @@ TEST(Result, OfASurfaceThatIsNowhereLevelComesBack) {
   EXPECT_TRUE(result_from_json(text, kName) == result);
 }
 
+TEST(Result, OfAnEarlierVersionHasNoShapeCheckAndIsRead) {
+  StudyResult result = test::joint_result();
+  joint_in(result).shape_check.reset();
+  const std::string text = to_json(result);
+  EXPECT_THAT(text, Not(HasSubstr("shape_check")));
+  StudyResult read = result_from_json(text, kName);
+  EXPECT_FALSE(joint_in(read).shape_check);
+}
+
+TEST(Result, KnowsWhichInputWasVaried) {
+  StudyResult read = result_from_json(to_json(test::joint_result()), kName);
+  const SensitivityCheck& stiffer = joint_in(read).stiffness_checks.at(0);
+  EXPECT_EQ(stiffer.input, AssumedInput::stiffness);
+  EXPECT_EQ(stiffer.value, .1);
+  const ShapeCheck& shape = joint_in(read).shape_check.value();
+  EXPECT_EQ(shape.readings.at(0).input, AssumedInput::spheres);
+  EXPECT_EQ(shape.readings.at(0).value, 44);
+  EXPECT_EQ(shape.readings.at(0).multiple, 4);
+}
+
+TEST(Result, SaysWhyTheNumberOfSpheresWasNotChecked) {
+  ShapeCheck shape;
+  EXPECT_THAT(shape_check_text(shape), IsEmpty());
+  shape.too_dear = {"roll", "heap"};
+  EXPECT_THAT(shape_check_text(shape),
+              HasSubstr("for roll, heap: it would take more than a fifth"));
+  shape.not_made = "one sphere is exactly the shape of this particle";
+  EXPECT_THAT(shape_check_text(shape), HasSubstr("was not checked: one sphere is exactly"));
+}
+
 TEST(Result, NamesNeedNotBeUtf8) {
   StudyResult result = test::joint_result();
   result.provenance.study.file = "n\xFCsse.toml";

@@ -186,16 +186,16 @@ TEST_F(StudyRun, SoftenedExperimentsAreSimulatedWithStifferGrainsAtTheEnd) {
   EXPECT_EQ(problem.experiments[1].real_stiffness, 1);
   const auto outcome = run("softened", 2, -1, softened);
   ASSERT_TRUE(outcome);
-  ASSERT_THAT(outcome->stiffness, SizeIs(1));
-  const StiffnessCheck& drop = outcome->stiffness[0];
+  ASSERT_THAT(outcome->stiffness.readings, SizeIs(1));
+  const SensitivityCheck& drop = outcome->stiffness.readings[0];
   EXPECT_EQ(drop.name, "drop");
-  EXPECT_EQ(drop.stiffness, 4) << "as stiff as real grains, no stiffer";
+  EXPECT_EQ(drop.multiple, 4) << "as stiff as real grains, no stiffer";
   EXPECT_EQ(drop.runs, 24);
   EXPECT_LT(std::abs(drop.change), .5) << "restitution does not depend on stiffness";
   EXPECT_EQ(drop.verdict, AgreementVerdict::agrees);
   for (const auto& known : outcome->runs)
-    EXPECT_EQ(known.job.relative_stiffness, 1) << "none is fitted";
-  EXPECT_THAT(run("real", 2)->stiffness, IsEmpty());
+    EXPECT_EQ(known.job.inputs.stiffness, 1) << "none is fitted";
+  EXPECT_THAT(run("real", 2)->stiffness.readings, IsEmpty());
 }
 
 TEST_F(StudyRun, WhereTheBudgetAllowsForNoStifferGrainsThatIsSaid) {
@@ -209,7 +209,7 @@ TEST_F(StudyRun, WhereTheBudgetAllowsForNoStifferGrainsThatIsSaid) {
   const std::atomic<bool> is_interrupted = false;
   const auto outcome = run_study(problem, many, {simulator, runs, executor, is_interrupted});
   ASSERT_TRUE(outcome);
-  EXPECT_THAT(outcome->stiffness, IsEmpty());
+  EXPECT_THAT(outcome->stiffness.readings, IsEmpty());
   EXPECT_THAT(outcome->notes,
               Contains(AllOf(HasSubstr("drop: it is not known what its stiffness_factor"),
                              HasSubstr("Fix: the budget standard"))));
@@ -217,6 +217,70 @@ TEST_F(StudyRun, WhereTheBudgetAllowsForNoStifferGrainsThatIsSaid) {
   const auto standard = run_study(problem, many, {simulator, runs, executor, is_interrupted});
   ASSERT_TRUE(standard);
   EXPECT_THAT(standard->notes, Contains(HasSubstr("Fix: simulate it at these coefficients")));
+}
+
+const std::vector<std::string> kClump = {"particle.size_mm = [22, 18, 16]", "particle.spheres = 2"};
+
+TEST_F(StudyRun, AClumpIsSimulatedWithFourTimesTheSpheresAtTheEnd) {
+  const auto outcome = run("clump", 2, -1, kClump);
+  ASSERT_TRUE(outcome);
+  const ShapeCheck& shape = outcome->shape;
+  EXPECT_THAT(shape.not_made, IsEmpty());
+  EXPECT_EQ(shape.spheres, 2);
+  EXPECT_EQ(shape.finer_spheres, 8);
+  EXPECT_LT(shape.finer_volume_error, grain_of(read(kClump)).errors.volume_error);
+  ASSERT_THAT(shape.readings, SizeIs(2));
+  EXPECT_EQ(shape.readings[0].name, "drop");
+  EXPECT_EQ(shape.readings[0].runs, 24);
+  EXPECT_GT(shape.readings[0].uncertainty, 0);
+  EXPECT_EQ(shape.readings[1].runs, 1) << "a plate tilts without chance";
+  EXPECT_THAT(shape.coefficients, SizeIs(2));
+  for (const auto& known : outcome->runs) {
+    EXPECT_EQ(known.job.inputs, AssumedInputs{}) << "none is fitted";
+  }
+  const auto again = run("clump", 2, -1, kClump);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->simulated, 0) << "the folder has them all";
+  EXPECT_EQ(again->shape.readings[0].change, shape.readings[0].change);
+}
+
+TEST_F(StudyRun, WhereMoreSpheresAreNotSimulatedItIsSaidWhy) {
+  const auto why = [&](const dem::Study& study, const dem::ClumpFile& grain) {
+    return problem_of(study, grain, budget_named("quick")).problem.spheres.no_closer;
+  };
+  const dem::Study ball = read();
+  EXPECT_THAT(why(ball, grain_of(ball)), HasSubstr("one sphere is exactly the shape"));
+  const dem::Study study = read(kClump);
+  dem::ClumpFile grain = grain_of(study);
+  EXPECT_THAT(why(study, grain), IsEmpty());
+  grain.shape.spheres.resize(dem::kMaxSpheres, grain.shape.spheres[0]);
+  EXPECT_THAT(why(study, grain), HasSubstr("more than 200 spheres are not made"));
+  dem::Study of_file = study;
+  of_file.grain.clump = "grain.json";
+  EXPECT_THAT(why(of_file, grain_of(study)), HasSubstr("a clump file has its spheres"));
+}
+
+TEST_F(StudyRun, AClumpThatCannotHaveMoreSpheresIsNamedAndDoesNotStopTheStudy) {
+  dem::Study study = read(kClump);
+  const dem::ClumpFile& grain = grain_of(study);
+  const Problem problem = small_problem(study);
+  study.grain.sizes.reset();  // as a scan that was moved away meanwhile
+  StudySimulator simulator(study, grain, problem.parameters, 0);
+  const RunFolder runs(folder_.path() / "moved");
+  simulator.store_in(runs);
+  ThreadExecutor executor(simulator, 2);
+  const std::atomic<bool> is_interrupted = false;
+  const auto outcome = run_study(problem, budget(), {simulator, runs, executor, is_interrupted});
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->shape.not_made,
+              AllOf(HasSubstr("more spheres cannot be made"), HasSubstr("has no shape")));
+  EXPECT_THAT(outcome->shape.readings, IsEmpty());
+  Problem slow = problem;
+  for (Experiment& experiment : slow.experiments) experiment.spheres_share = 1e6;
+  const auto dear = run_study(slow, budget(), {simulator, runs, executor, is_interrupted});
+  ASSERT_TRUE(dear);
+  EXPECT_THAT(dear->shape.too_dear, ElementsAre("drop", "tilt"));
+  EXPECT_THAT(dear->notes, Contains(HasSubstr("drop: it is not known what its number of spheres")));
 }
 
 TEST_F(StudyRun, SomethingMustBeLeftToFit) {
@@ -281,9 +345,9 @@ TEST_F(StudyRun, GrainsOfAStifferRunAreNeverStifferThanRealOnes) {
   const StudySimulator simulator(study, grain_of(study), problem.parameters, 0);
   Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
   EXPECT_EQ(simulator.spec(job).model.stiffness_factor, .25);
-  job.relative_stiffness = 2;
+  job.inputs.stiffness = 2;
   EXPECT_EQ(simulator.spec(job).model.stiffness_factor, .5);
-  job.relative_stiffness = 10;
+  job.inputs.stiffness = 10;
   EXPECT_EQ(simulator.spec(job).model.stiffness_factor, 1);
 }
 

@@ -124,6 +124,25 @@ TEST_F(Calibrate, ShowsWhatStifferGrainsChange) {
       << "stiffer grains are among the simulations that it counts";
 }
 
+TEST_F(Calibrate, ShowsWhatMoreSpheresChange) {
+  const Finished done = run({"study.toml", "--set", "particle.size_mm = [22, 18, 16]", "--set",
+                             "particle.spheres = 2", "--json", "result.json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("more spheres"), HasSubstr("coefficient with more spheres"),
+                              HasSubstr("what more spheres than 2 change in a reading")));
+  const json shape = json::parse(text("result.json"))["shape_check"];
+  EXPECT_EQ(shape["spheres"], 2);
+  EXPECT_EQ(shape["finer_spheres"], 8);
+  EXPECT_TRUE(shape["not_made"].is_null());
+  ASSERT_EQ(shape["readings"].size(), 2U);
+  EXPECT_EQ(shape["readings"][0]["name"], "drop");
+  EXPECT_EQ(shape["coefficients"].size(), 2U);
+  const Finished ball = run({"study.toml", "--json", "ball.json"});
+  ASSERT_EQ(ball.exit_code, 0) << ball.err;
+  EXPECT_THAT(ball.out, HasSubstr("was not checked: one sphere is exactly the shape"));
+  EXPECT_EQ(json::parse(text("ball.json"))["shape_check"]["readings"].size(), 0U);
+}
+
 TEST_F(Calibrate, RefusesRollingModelsThatCannotBeWeighed) {
   const Finished done =
       run({"study.toml", "--rolling-models", "constant_torque,sliding", "--method", "paper",

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/prediction.h"
-#include "calibrate/fit/stiffness_check.h"
+#include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/verification.h"
 #include "tests/calibrate/fake_simulator.h"
 #include "tests/support/error_of.h"
@@ -53,22 +53,27 @@ JointFit fit_for_check(const Problem& problem) {
   return fit;
 }
 
-std::vector<StiffnessCheck> checks_of(const Problem& problem, int repeats) {
-  fake::Runs runs = fake::run_all(plan_stiffness(problem, kTruth, repeats).jobs);
+SensitivityPlan plan_stiffer(const Problem& problem, const std::vector<double>& values,
+                             int repeats) {
+  return plan_sensitivity(problem, AssumedInput::stiffness, values, repeats);
+}
+
+std::vector<SensitivityCheck> checks_of(const Problem& problem, int repeats) {
+  fake::Runs runs = fake::run_all(plan_stiffer(problem, kTruth, repeats).jobs);
   for (Run& run : fake::run_all(verification_jobs(problem, kTruth, repeats, 0))) {
     runs.push_back(std::move(run));
   }
-  return check_stiffness(problem, kTruth, runs, fit_for_check(problem));
+  return check_sensitivity(problem, AssumedInput::stiffness, kTruth, runs, fit_for_check(problem));
 }
 
 TEST(StiffnessCheck, OnlySoftenedExperimentsAreSimulatedTenTimesStiffer) {
-  EXPECT_THAT(plan_stiffness(fake::problem(kTruth, 1), kTruth, 6).jobs, IsEmpty());
-  const StiffnessPlan plan = plan_stiffness(softening("heap"), kTruth, 6);
+  EXPECT_THAT(plan_stiffer(fake::problem(kTruth, 1), kTruth, 6).jobs, IsEmpty());
+  const SensitivityPlan plan = plan_stiffer(softening("heap"), kTruth, 6);
   ASSERT_THAT(plan.jobs, SizeIs(6));
   std::set<std::uint64_t> seeds;
   for (const Job& job : plan.jobs) {
     EXPECT_EQ(job.experiment, "heap");
-    EXPECT_EQ(job.relative_stiffness, 10);
+    EXPECT_EQ(job.inputs.stiffness, 10);
     EXPECT_EQ(job.values, kTruth);
     seeds.insert(job.seed);
   }
@@ -77,9 +82,9 @@ TEST(StiffnessCheck, OnlySoftenedExperimentsAreSimulatedTenTimesStiffer) {
 }
 
 TEST(StiffnessCheck, NoGrainIsStifferThanTheRealOnes) {
-  const StiffnessPlan plan = plan_stiffness(softening("tilt", 4), kTruth, 6);
+  const SensitivityPlan plan = plan_stiffer(softening("tilt", 4), kTruth, 6);
   ASSERT_THAT(plan.jobs, SizeIs(1)) << "without chance one run is enough";
-  EXPECT_EQ(plan.jobs[0].relative_stiffness, 4);
+  EXPECT_EQ(plan.jobs[0].inputs.stiffness, 4);
 }
 
 TEST(StiffnessCheck, SeedsAreThoseOfNoOtherRun) {
@@ -92,7 +97,7 @@ TEST(StiffnessCheck, SeedsAreThoseOfNoOtherRun) {
   JointFit fit;
   fit.drawn.assign(kDrawnSets, kTruth);
   for (const Job& job : prediction_jobs(problem, fit)) taken.insert(job.seed);
-  for (const Job& job : plan_stiffness(problem, kTruth, 6).jobs) {
+  for (const Job& job : plan_stiffer(problem, kTruth, 6).jobs) {
     EXPECT_FALSE(taken.contains(job.seed));
   }
 }
@@ -101,11 +106,12 @@ TEST(StiffnessCheck, WhatIsTooDearForTheBudgetIsNamedAndTheCheaperOnesAreSimulat
   Problem problem = softening("heap");
   experiment_of(problem, "roll").real_stiffness = 10;
   problem.settings.budget_s = 1000;
-  const StiffnessPlan plan = plan_stiffness(problem, kTruth, 6);
+  const SensitivityPlan plan = plan_stiffer(problem, kTruth, 6);
   EXPECT_THAT(plan.too_dear, ElementsAre("heap"));
   ASSERT_THAT(plan.jobs, SizeIs(6));
   EXPECT_EQ(plan.jobs[0].experiment, "roll");
-  EXPECT_THAT(check_stiffness(problem, kTruth, fake::run_all(plan.jobs), fit_for_check(problem)),
+  EXPECT_THAT(check_sensitivity(problem, AssumedInput::stiffness, kTruth, fake::run_all(plan.jobs),
+                                fit_for_check(problem)),
               SizeIs(1));
 }
 
@@ -114,7 +120,7 @@ TEST(StiffnessCheck, WhereTimeIsShortThereAreFewerRepeatsButFiveAtLeast) {
   const double run_s = 25 * std::sqrt(10);
   const auto jobs_within = [&](double seconds) {
     problem.settings.budget_s = seconds / .2;
-    return plan_stiffness(problem, kTruth, 10).jobs.size();
+    return plan_stiffer(problem, kTruth, 10).jobs.size();
   };
   EXPECT_EQ(jobs_within(10.5 * run_s), 10);
   EXPECT_EQ(jobs_within(7.5 * run_s), 7);
@@ -141,14 +147,14 @@ TEST(StiffnessCheck, WhatDoesNotChangeIsShownToBeWithinTheLimitOrCannotBeTold) {
   Problem problem = softening("roll");
   std::ranges::find(problem.observables, "roll", &Observable::name)->n = 40;
   EXPECT_EQ(checks_of(problem, 5).at(0).verdict, AgreementVerdict::cannot_tell);
-  const StiffnessCheck check = checks_of(problem, 400).at(0);
+  const SensitivityCheck check = checks_of(problem, 400).at(0);
   EXPECT_EQ(check.verdict, AgreementVerdict::agrees);
   EXPECT_EQ(check.runs, 400);
   EXPECT_GT(check.limit, check.interval.high);
 }
 
 TEST(StiffnessCheck, WithoutChanceTheChangeIsExact) {
-  const StiffnessCheck check = checks_of(softening("tilt"), 5).at(0);
+  const SensitivityCheck check = checks_of(softening("tilt"), 5).at(0);
   EXPECT_EQ(check.change, 0);
   EXPECT_EQ(check.uncertainty, 0);
   EXPECT_EQ(check.verdict, AgreementVerdict::agrees);
@@ -157,20 +163,22 @@ TEST(StiffnessCheck, WithoutChanceTheChangeIsExact) {
 TEST(StiffnessCheck, WhatIsHeldOutIsSimulatedAsStiffAsTheStudyToo) {
   Problem problem = softening("heap");
   hold_out("heap", problem);
-  EXPECT_THAT(plan_stiffness(problem, kTruth, 6).jobs, SizeIs(12));
-  const StiffnessCheck check = checks_of(problem, 6).at(0);
+  EXPECT_THAT(plan_stiffer(problem, kTruth, 6).jobs, SizeIs(12));
+  const SensitivityCheck check = checks_of(problem, 6).at(0);
   EXPECT_EQ(check.name, "heap");
-  EXPECT_NEAR(check.stiffness_factor, .01, 1e-12) << "ten times that of the study, 0.001";
+  EXPECT_NEAR(check.value, .01, 1e-12) << "ten times that of the study, 0.001";
   EXPECT_NEAR(check.change, -fake::kSofteningShift, 1.5);
 }
 
 TEST(StiffnessCheck, StifferGrainsThatGiveNoReadingDisagree) {
   const Problem problem = softening("heap");
   fake::Runs runs = fake::run_all(verification_jobs(problem, kTruth, 5, 0));
-  for (const Job& job : plan_stiffness(problem, kTruth, 5).jobs) {
+  for (const Job& job : plan_stiffer(problem, kTruth, 5).jobs) {
     runs.push_back({job, {}, "the grains stay in the tube"});
   }
-  const StiffnessCheck never = check_stiffness(problem, kTruth, runs, fit_for_check(problem)).at(0);
+  const SensitivityCheck never =
+      check_sensitivity(problem, AssumedInput::stiffness, kTruth, runs, fit_for_check(problem))
+          .at(0);
   EXPECT_EQ(never.verdict, AgreementVerdict::disagrees);
   EXPECT_EQ(never.failed_runs, 5);
   EXPECT_TRUE(std::isnan(never.change));
@@ -179,6 +187,67 @@ TEST(StiffnessCheck, StifferGrainsThatGiveNoReadingDisagree) {
 TEST(StiffnessCheck, RealGrainsAreNoSofterThanTheStudys) {
   const Problem problem = softening("heap", .5);
   EXPECT_THAT(error_of([&] { require_sound(problem); }), HasSubstr("real_stiffness = 0.5"));
+}
+
+/// Everything measured; the grain has eleven spheres of 200 that could follow its surface.
+Problem of_a_clump(int spheres = 11) {
+  Problem problem = fake::problem(kTruth, 1);
+  problem.settings.budget_s = 1e6;
+  problem.spheres = {.count = spheres, .most = 200, .no_closer = {}};
+  return problem;
+}
+
+std::vector<SensitivityCheck> shape_checks_of(const Problem& problem, fake::Runs runs,
+                                              int repeats) {
+  for (Run& run :
+       fake::run_all(plan_sensitivity(problem, AssumedInput::spheres, kTruth, repeats).jobs)) {
+    runs.push_back(std::move(run));
+  }
+  for (Run& run : fake::run_all(verification_jobs(problem, kTruth, repeats, 0))) {
+    runs.push_back(std::move(run));
+  }
+  return check_sensitivity(problem, AssumedInput::spheres, kTruth, runs, fit_for_check(problem));
+}
+
+TEST(ShapeCheck, EveryMeasuredExperimentIsSimulatedWithFourTimesTheSpheres) {
+  Problem problem = of_a_clump();
+  experiment_of(problem, "heap").spheres_share = .4;
+  const SensitivityPlan plan = plan_sensitivity(problem, AssumedInput::spheres, kTruth, 6);
+  ASSERT_THAT(plan.jobs, SizeIs(3 * 6 + 1)) << "one tilt, which has no chance";
+  for (const Job& job : plan.jobs) EXPECT_EQ(job.inputs, (AssumedInputs{1, 4}));
+  EXPECT_NEAR(plan.run_s, 6 * (.6 + 1 + 25 * (1 + 3 * .4)) + .5, 1e-9);
+}
+
+TEST(ShapeCheck, NoClumpHasMoreSpheresThanThereCanBe) {
+  const auto jobs_of = [](const Problem& problem) {
+    return plan_sensitivity(problem, AssumedInput::spheres, kTruth, 6).jobs;
+  };
+  EXPECT_EQ(jobs_of(of_a_clump(80)).at(0).inputs.spheres, 2.5);
+  EXPECT_THAT(jobs_of(of_a_clump(200)), IsEmpty());
+  EXPECT_THAT(jobs_of(fake::problem(kTruth, 1)), IsEmpty()) << "a ball";
+}
+
+TEST(ShapeCheck, TellsWhichReadingsBelongToTheirClump) {
+  const auto checks = shape_checks_of(of_a_clump(), {}, 24);
+  ASSERT_THAT(checks, SizeIs(4));
+  const SensitivityCheck& drop = checks[0];
+  const double lost = (1 - fake::kFinerRebound) * fake::expected("drop", "value", kTruth);
+  EXPECT_EQ(drop.value, 44);
+  EXPECT_LE(drop.interval.low, -lost);
+  EXPECT_GE(drop.interval.high, -lost);
+  EXPECT_EQ(drop.verdict, AgreementVerdict::disagrees);
+  EXPECT_EQ(checks[1].change, 0) << "a plate tilts";
+  EXPECT_EQ(checks[1].verdict, AgreementVerdict::agrees);
+  EXPECT_LT(std::abs(checks[3].change), 4 * checks[3].uncertainty) << "heaps are as they were";
+}
+
+TEST(ShapeCheck, IsNotMadeOfStifferGrains) {
+  Problem problem = of_a_clump();
+  experiment_of(problem, "heap").real_stiffness = 10;
+  const auto checks =
+      shape_checks_of(problem, fake::run_all(plan_stiffer(problem, kTruth, 24).jobs), 24);
+  EXPECT_EQ(checks.at(3).runs, 24);
+  EXPECT_LT(std::abs(checks.at(3).change), .8 * fake::kSofteningShift);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/stiffer_coefficients.h"
+#include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/verification.h"
 #include "tests/calibrate/fake_simulator.h"
 
@@ -32,8 +32,8 @@ Problem of_stiff_bench() {
   return problem;
 }
 
-StiffnessCheck check_of_heap(double change, const Interval& interval) {
-  StiffnessCheck check;
+SensitivityCheck check_of_heap(double change, const Interval& interval) {
+  SensitivityCheck check;
   check.name = "heap";
   check.change = change;
   check.interval = interval;
@@ -60,11 +60,12 @@ TEST_F(StifferCoefficients, AreThoseOfTheBenchWhereSoftGrainsAskForOthers) {
   for (auto& run : fake::run_all(verification_jobs(problem_, values, kRepeats, 0))) {
     all.push_back(std::move(run));
   }
-  for (auto& run : fake::run_all(plan_stiffness(problem_, values, kRepeats).jobs)) {
+  for (auto& run :
+       fake::run_all(plan_sensitivity(problem_, AssumedInput::stiffness, values, kRepeats).jobs)) {
     all.push_back(std::move(run));
   }
-  const auto stiffer =
-      stiffer_coefficients(problem_, check_stiffness(problem_, values, all, soft), runs_);
+  const auto stiffer = moved_coefficients(
+      problem_, check_sensitivity(problem_, AssumedInput::stiffness, values, all, soft), runs_);
   ASSERT_THAT(stiffer, SizeIs(fake::kTruth.size()));
   EXPECT_EQ(stiffer[kSliding].name, soft.parameters[kSliding].name);
   EXPECT_FALSE(holds_truth(soft.parameters[kSliding].interval));
@@ -73,20 +74,50 @@ TEST_F(StifferCoefficients, AreThoseOfTheBenchWhereSoftGrainsAskForOthers) {
 }
 
 TEST_F(StifferCoefficients, AreAsUncertainAsTheChangesThatTheyTakeIntoAccount) {
-  const auto sure = stiffer_coefficients(problem_, {check_of_heap(-2.5, {-2.6, -2.4})}, runs_);
-  const auto unsure = stiffer_coefficients(problem_, {check_of_heap(-2.5, {-6.5, 1.5})}, runs_);
+  const auto sure = moved_coefficients(problem_, {check_of_heap(-2.5, {-2.6, -2.4})}, runs_);
+  const auto unsure = moved_coefficients(problem_, {check_of_heap(-2.5, {-6.5, 1.5})}, runs_);
   EXPECT_GT(width(unsure[kSliding].interval), 2 * width(sure[kSliding].interval));
   EXPECT_TRUE(holds_truth(unsure[kSliding].interval));
 }
 
+/// More spheres take half of every rebound. The bench's grains have these, the study's do not: its
+/// restitution comes out too low, and is put right although half is far from little.
+TEST(MovedCoefficients, AreThoseOfTheBenchWhereAChangeGoesWithTheReading) {
+  constexpr int kRepeats = 40;
+  const double truth = fake::kTruth[0];
+  Problem problem = fake::problem();
+  problem.settings.budget_s = 1e6;
+  problem.spheres = {.count = 11, .most = 200, .no_closer = {}};
+  std::erase_if(problem.observables, [](const Observable& one) { return one.name == "heap"; });
+  Observable& drop = *std::ranges::find(problem.observables, "drop", &Observable::name);
+  drop.mean = fake::kFinerRebound * fake::expected("drop", "value", fake::kTruth);
+  drop.sd = .1 * drop.mean;
+  fake::Runs runs = fake::first_runs(problem);
+  const JointFit coarse = fit_jointly(problem, runs);
+  EXPECT_LT(coarse.parameters[0].interval.high, truth);
+  std::vector<double> values;
+  for (const FittedParameter& parameter : coarse.parameters) values.push_back(parameter.value);
+  fake::Runs all = runs;
+  for (const auto& jobs :
+       {verification_jobs(problem, values, kRepeats, 0),
+        plan_sensitivity(problem, AssumedInput::spheres, values, kRepeats).jobs}) {
+    for (auto& run : fake::run_all(jobs)) all.push_back(std::move(run));
+  }
+  const auto checks = check_sensitivity(problem, AssumedInput::spheres, values, all, coarse);
+  const auto finer = moved_coefficients(problem, checks, runs);
+  ASSERT_THAT(finer, SizeIs(fake::kTruth.size()));
+  EXPECT_LT(finer[0].interval.low, truth);
+  EXPECT_GT(finer[0].interval.high, truth);
+  EXPECT_NEAR(finer[0].value, truth, .05);
+}
+
 TEST_F(StifferCoefficients, AreNotThereWhereItIsNotKnownWhatStiffeningChanges) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(stiffer_coefficients(problem_, {}, runs_), IsEmpty());
-  EXPECT_THAT(stiffer_coefficients(problem_, {check_of_heap(none, {none, none})}, runs_),
-              IsEmpty());
-  StiffnessCheck of_held_out = check_of_heap(0, {-1, 1});
+  EXPECT_THAT(moved_coefficients(problem_, {}, runs_), IsEmpty());
+  EXPECT_THAT(moved_coefficients(problem_, {check_of_heap(none, {none, none})}, runs_), IsEmpty());
+  SensitivityCheck of_held_out = check_of_heap(0, {-1, 1});
   of_held_out.name = "fill";
-  EXPECT_THAT(stiffer_coefficients(problem_, {of_held_out}, runs_), IsEmpty());
+  EXPECT_THAT(moved_coefficients(problem_, {of_held_out}, runs_), IsEmpty());
 }
 
 }  // namespace

@@ -1,0 +1,202 @@
+#include "calibrate/fit/sensitivity_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "base/distributions.h"
+#include "calibrate/fit/check_sample.h"
+#include "calibrate/fit/unit_box.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr std::uint64_t kFirstSensitivitySeed = kFirstCheckSeed + 700'000'000;
+constexpr double kStiffer = 10;
+constexpr int kMoreSpheres = 4;
+constexpr double kMostOfBudget = .2;
+constexpr int kFewestRepeats = 5;
+constexpr double kInterval = .975;
+
+/// The value to be simulated, and the same as a multiple of the study's; 1 where none is nearer to
+/// reality than the study's is.
+struct Nearer {
+  double value = 1;
+  double multiple = 1;
+  AssumedInputs inputs = {};
+};
+
+Nearer nearer(const Problem& problem, const Experiment& experiment, AssumedInput input) {
+  Nearer found;
+  if (input == AssumedInput::stiffness) {
+    found.multiple = std::min(kStiffer, experiment.real_stiffness);
+    found.value = found.multiple / experiment.real_stiffness;
+    found.inputs.stiffness = found.multiple;
+  } else {
+    const GrainSpheres& spheres = problem.spheres;
+    found.value = std::max(spheres.count, std::min(kMoreSpheres * spheres.count, spheres.most));
+    found.multiple = found.value / spheres.count;
+    found.inputs.spheres = found.multiple;
+  }
+  return found;
+}
+
+bool is_of(const std::vector<Observable>& observables, const Experiment& experiment) {
+  return std::ranges::any_of(observables, [&](const Observable& observable) {
+    return observable.experiment == experiment.name;
+  });
+}
+
+void add_jobs(const Problem& problem, const Experiment& experiment,
+              const std::vector<double>& values, int repeats, const AssumedInputs& inputs,
+              SensitivityPlan& plan) {
+  for (int k = 0; k < (experiment.is_stochastic ? repeats : 1); ++k) {
+    Job job = job_at(problem, experiment, to_unit(problem, values),
+                     problem.settings.seed + kFirstSensitivitySeed + static_cast<std::uint64_t>(k));
+    job.inputs = inputs;
+    plan.run_s += run_s_of(experiment, inputs);
+    plan.jobs.push_back(std::move(job));
+  }
+}
+
+/// One experiment alone.
+SensitivityPlan plan_of(const Problem& problem, const Experiment& experiment,
+                        const AssumedInputs& inputs, const std::vector<double>& values,
+                        int repeats) {
+  SensitivityPlan plan;
+  if (!is_of(problem.observables, experiment)) {
+    add_jobs(problem, experiment, values, repeats, {}, plan);
+  }
+  add_jobs(problem, experiment, values, repeats, inputs, plan);
+  return plan;
+}
+
+/// The same with fewer repeats where so many take longer; none where the fewest do, too.
+std::optional<SensitivityPlan> plan_within(double seconds, const Problem& problem,
+                                           const Experiment& experiment,
+                                           const AssumedInputs& inputs,
+                                           const std::vector<double>& values, int repeats) {
+  for (int fewer = repeats; fewer >= std::min(kFewestRepeats, repeats); --fewer) {
+    SensitivityPlan plan = plan_of(problem, experiment, inputs, values, fewer);
+    if (plan.run_s <= seconds) return plan;
+  }
+  return std::nullopt;
+}
+
+/// A measured mean and its place in the fit; `fit` is null where it is held out.
+struct Asked {
+  const Observable& observable;
+  const JointFit* fit;
+  std::size_t number;
+
+  UncertainMean mean(const CheckSample& sample, const Experiment& experiment) const {
+    return mean_of(sample, experiment.is_stochastic, fit, number);
+  }
+};
+
+/// Of the measured mean; a scatter that is only assumed counts as known.
+double half_width_95(const Asked& asked) {
+  constexpr double kKnown = 1e6;  // degrees of freedom: as good as normal
+  const Observable& observable = asked.observable;
+  return base::student_t_quantile(kInterval, observable.sd ? observable.n - 1 : kKnown) *
+         (asked.fit != nullptr ? asked.fit->observables[asked.number].measured_uncertainty
+                               : standard_uncertainty(observable));
+}
+
+void judge(const UncertainMean& change, double level, SensitivityCheck& check) {
+  check.change = change.value;
+  check.uncertainty = change.uncertainty;
+  const double half = base::student_t_quantile(kInterval, change.df) * change.uncertainty;
+  check.interval = {change.value - half, change.value + half};
+  check.chance = chance_of(change);
+  const Interval within = not_ruled_out(change);
+  if (within.low >= -check.limit && within.high <= check.limit) {
+    if (check.failed_runs == 0) check.verdict = AgreementVerdict::agrees;
+  } else if (check.chance < level) {
+    check.verdict = AgreementVerdict::disagrees;
+  }
+}
+
+/// None where no other value was simulated.
+std::optional<SensitivityCheck> check_of(const Problem& problem, AssumedInput input,
+                                         const std::vector<double>& values,
+                                         const std::vector<Run>& runs, const Asked& asked,
+                                         double level) {
+  const Observable& observable = asked.observable;
+  const Experiment& experiment = experiment_named(problem, observable.experiment);
+  const Nearer other = nearer(problem, experiment, input);
+  if (other.multiple <= 1) return std::nullopt;
+  const CheckSample changed = check_sample(problem, values, observable, runs, other.inputs);
+  const CheckSample own = check_sample(problem, values, observable, runs);
+  if (changed.count() + changed.failed == 0) return std::nullopt;
+  SensitivityCheck check{.name = observable.name,
+                         .unit = observable.unit,
+                         .input = input,
+                         .multiple = other.multiple,
+                         .value = other.value,
+                         .change = kNone,
+                         .uncertainty = kNone,
+                         .interval = {kNone, kNone},
+                         .chance = kNone,
+                         .limit = half_width_95(asked),
+                         .runs = changed.count(),
+                         .failed_runs = changed.failed};
+  if (changed.count() == 0 && own.count() > 0) check.verdict = AgreementVerdict::disagrees;
+  const UncertainMean change =
+      difference_of(asked.mean(changed, experiment), asked.mean(own, experiment));
+  if (std::isfinite(change.value) && std::isfinite(change.uncertainty)) {
+    judge(change, level, check);
+  }
+  return check;
+}
+
+}  // namespace
+
+SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
+                                 const std::vector<double>& values, int repeats) {
+  const auto inputs_of = [&](const Experiment& experiment) {
+    return nearer(problem, experiment, input).inputs;
+  };
+  std::vector<Experiment> open;
+  for (const Experiment& experiment : problem.experiments) {
+    const bool is_measured =
+        is_of(problem.observables, experiment) || is_of(problem.held_out, experiment);
+    if (is_measured && nearer(problem, experiment, input).multiple > 1) open.push_back(experiment);
+  }
+  std::ranges::stable_sort(open, {}, [&](const Experiment& experiment) {
+    return run_s_of(experiment, inputs_of(experiment));
+  });
+  SensitivityPlan plan;
+  for (const Experiment& experiment : open) {
+    const double left_s = kMostOfBudget * problem.settings.budget_s - plan.run_s;
+    const auto one =
+        plan_within(left_s, problem, experiment, inputs_of(experiment), values, repeats);
+    if (!one) {
+      plan.too_dear.push_back(experiment.name);
+      continue;
+    }
+    plan.run_s += one->run_s;
+    plan.jobs.insert(plan.jobs.end(), one->jobs.begin(), one->jobs.end());
+  }
+  return plan;
+}
+
+std::vector<SensitivityCheck> check_sensitivity(const Problem& problem, AssumedInput input,
+                                                const std::vector<double>& values,
+                                                const std::vector<Run>& runs, const JointFit& fit) {
+  const double level =
+      kLevel / static_cast<double>(problem.observables.size() + problem.held_out.size());
+  std::vector<SensitivityCheck> checks;
+  const auto add = [&](const Asked& asked) {
+    const auto check = check_of(problem, input, values, runs, asked, level);
+    if (check) checks.push_back(*check);
+  };
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    add({problem.observables[i], &fit, i});
+  }
+  for (const Observable& observable : problem.held_out) add({observable, nullptr, 0});
+  return checks;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/agreement.h"
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/problem.h"
+
+namespace repose::calibrate {
+
+/// What a study assumes, no fit seeks, and simulations may be brought nearer to reality in: the
+/// stiffness of grains, and the number of spheres that stand for one.
+enum class AssumedInput { stiffness, spheres };
+
+/// What another value of an assumed input changes in a measured reading, at the same coefficients.
+/// In its unit; NaN where too few runs gave a reading.
+struct SensitivityCheck {
+  std::string name;
+  std::string unit;
+  AssumedInput input = AssumedInput::stiffness;
+  double multiple = 1;     ///< of the study's stiffness, or spheres
+  double value = 1;        ///< of the input with that: a stiffness factor, a number of spheres
+  double change = 0;       ///< of the mean: with that value less with the study's
+  double uncertainty = 0;  ///< standard uncertainty of the change
+  Interval interval;       ///< 95 %
+  double chance = 0;       ///< of so large a change by chance
+  double limit = 0;        ///< half-width of the measured mean's 95 % interval
+  int runs = 0;            ///< with that value, and a reading
+  int failed_runs = 0;
+  /// agrees: the change is shown to be within the limit. disagrees: it is more than chance makes.
+  AgreementVerdict verdict = AgreementVerdict::cannot_tell;
+};
+
+/// Simulations of every measured experiment in which the input can be nearer to reality, at one set
+/// of coefficients: grains ten times stiffer than the study's, or as stiff as real ones if that is
+/// less; four times the spheres, or as many as can be if that is less. Those held out also as the
+/// study has it, which no other check simulates there.
+struct SensitivityPlan {
+  std::vector<Job> jobs;
+  std::vector<std::string> too_dear;  ///< experiments that would take too much of the budget
+  double run_s = 0;                   ///< work of all jobs, by Experiment::run_s
+};
+
+/// `repeats` of each, or no fewer than five where time is short; the cheapest first, as long as a
+/// fifth of FitSettings::budget_s lasts.
+SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
+                                 const std::vector<double>& values, int repeats);
+
+/// What the runs of the plan say, against those among them, or in the fit's checks, that are as the
+/// study has it. Formulae and reasons: THEORY.md, "Assumed inputs". Proved by StiffnessCheck.* and
+/// ShapeCheck.* in tests/calibrate.
+std::vector<SensitivityCheck> check_sensitivity(const Problem& problem, AssumedInput input,
+                                                const std::vector<double>& values,
+                                                const std::vector<Run>& runs, const JointFit& fit);
+
+}  // namespace repose::calibrate
