@@ -119,8 +119,7 @@ SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs
   const Experiment& experiment = experiment_named(problem, observable.experiment);
   SurrogateQuality quality;
   quality.observable = observable.name;
-  quality.runs = static_cast<int>(
-      training_set_of(problem, experiment, observable.reading, runs).readings.size());
+  quality.runs = readings_among(experiment, observable.reading, runs);
   quality.failed_runs = attempts_of(problem, experiment, runs).failures();
   quality.warp = surrogate.warp().warp;
   quality.length_scales = surrogate.length_scales();

@@ -36,7 +36,7 @@ double AsinhWarp::of_expected(double y) const {
 }
 
 double AsinhWarp::scatter(double w) const {
-  if (warp <= 0) return noise_sd;
+  if (warp <= 0 || noise_sd <= 0) return noise_sd;
   // E[sinh^2] = (exp(2 s^2) cosh(2w) - 1) / 2 for a normal argument of mean w and sd s.
   const double s2 = noise_sd * noise_sd;
   const double mean = std::sinh(w) * std::exp(s2 / 2);
@@ -54,7 +54,8 @@ Surrogate::Surrogate(const TrainingSet& training_set, const std::optional<Surrog
   if (start && start->process_) from = start->process_->hyperparameters();
   warp_.warp = best_warp(from);
   process_ = learned(warp_.warp, from, thorough ? 2 : 1, 1);
-  warp_.noise_sd = process_->noise_sd();
+  // Without chance the process' noise stands for what its curve does not follow.
+  if (training_set_.is_stochastic) warp_.noise_sd = process_->noise_sd();
   few_runs_factor_ = factor_of_few_runs();
 }
 

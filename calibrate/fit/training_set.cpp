@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -13,8 +16,8 @@ namespace repose::calibrate {
 namespace {
 
 auto order_of(const Run& run) {
-  return std::tie(run.job.experiment, run.job.values, run.job.seed, run.job.inputs,
-                  run.failure, run.readings);
+  return std::tie(run.job.experiment, run.job.values, run.job.seed, run.job.inputs, run.failure,
+                  run.readings);
 }
 
 void require_of(const Problem& problem, const Run& run) {
@@ -42,6 +45,30 @@ void require_of(const Problem& problem, const Run& run) {
   }
 }
 
+/// What two runs differ by beyond this is not the simulation's rounding.
+constexpr double kAlike = 1e-9;  // of the reading, or of its unit where that is more
+
+bool is_alike(double one, double other) {
+  return std::abs(one - other) <= kAlike * std::max({1., std::abs(one), std::abs(other)});
+}
+
+/// None where there is no such number.
+std::optional<double> reading_of(const Run& run, const std::string& name) {
+  const auto found = run.readings.find(name);
+  if (!run.failure.empty() || found == run.readings.end() || !std::isfinite(found->second)) {
+    return std::nullopt;
+  }
+  return found->second;
+}
+
+/// In everything that a bench could measure.
+bool is_alike(const Experiment& experiment, const Run& one, const Run& other) {
+  return std::ranges::all_of(experiment.measurable, [&](const std::string& name) {
+    const std::optional<double> a = reading_of(one, name), b = reading_of(other, name);
+    return a && b ? is_alike(*a, *b) : a.has_value() == b.has_value();
+  });
+}
+
 }  // namespace
 
 std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) {
@@ -54,16 +81,34 @@ std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) 
   return sorted;
 }
 
+bool has_chance(const Experiment& experiment, const std::vector<Run>& runs) {
+  // A reading that all runs share, as of grains that never leave, would say nothing of chance.
+  constexpr std::size_t kFewest = 2;
+  if (!experiment.is_stochastic) return false;
+  std::set<double> repeated;
+  const Run* first = nullptr;
+  for (const Run& run : runs) {
+    if (run.job.experiment != experiment.name) continue;
+    if (first == nullptr || first->job.values != run.job.values) {
+      first = &run;
+      continue;
+    }
+    if (!is_alike(experiment, *first, run)) return true;
+    if (const auto value = reading_of(*first, "value")) repeated.insert(*value);
+  }
+  return repeated.size() < kFewest;
+}
+
 double sd_within(const Experiment& experiment, const std::string& reading,
                  const std::vector<Run>& runs) {
   if (experiment.scatter_within.empty() || reading != "value") return 0;
   double squares = 0;
   int count = 0;
   for (const Run& run : runs) {
-    if (run.job.experiment != experiment.name || !run.failure.empty()) continue;
-    const auto found = run.readings.find(experiment.scatter_within);
-    if (found == run.readings.end() || !std::isfinite(found->second)) continue;
-    squares += found->second * found->second;
+    if (run.job.experiment != experiment.name) continue;
+    const std::optional<double> sd = reading_of(run, experiment.scatter_within);
+    if (!sd) continue;
+    squares += *sd * *sd;
     ++count;
   }
   return count > 0 ? std::sqrt(squares / count) : 0;
@@ -72,21 +117,31 @@ double sd_within(const Experiment& experiment, const std::string& reading,
 TrainingSet training_set_of(const Problem& problem, const Experiment& experiment,
                             const std::string& reading, const std::vector<Run>& runs) {
   TrainingSet training_set{.parameters = experiment.parameters,
-                           .is_stochastic = experiment.is_stochastic,
+                           .is_stochastic = has_chance(experiment, runs),
                            .places = {},
                            .readings = {},
                            .readings_per_run = experiment.readings_per_run,
                            .sd_within = sd_within(experiment, reading, runs)};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Run& run = runs[k];
-    if (run.job.experiment != experiment.name || !run.failure.empty()) continue;
-    const auto found = run.readings.find(reading);
-    if (found == run.readings.end() || !std::isfinite(found->second)) continue;
-    training_set.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
-    training_set.readings.push_back(found->second);
+    if (run.job.experiment != experiment.name) continue;
+    const std::optional<double> value = reading_of(run, reading);
+    if (!value) continue;
+    Point place = seen_by(experiment, to_unit(problem, run.job.values));
+    const bool is_repeat = !training_set.places.empty() && training_set.places.back() == place;
+    if (is_repeat && !training_set.is_stochastic) continue;
+    training_set.places.push_back(std::move(place));
+    training_set.readings.push_back(*value);
     training_set.runs.push_back(k);
   }
   return training_set;
+}
+
+int readings_among(const Experiment& experiment, const std::string& reading,
+                   const std::vector<Run>& runs) {
+  return static_cast<int>(std::ranges::count_if(runs, [&](const Run& run) {
+    return run.job.experiment == experiment.name && reading_of(run, reading);
+  }));
 }
 
 int Attempts::failures() const {

@@ -283,6 +283,17 @@ TEST_F(StudyRun, AClumpThatCannotHaveMoreSpheresIsNamedAndDoesNotStopTheStudy) {
   EXPECT_THAT(dear->notes, Contains(HasSubstr("drop: it is not known what its number of spheres")));
 }
 
+TEST_F(StudyRun, ABallThatIsDroppedHasNoChanceAndIsGivenNone) {
+  const auto outcome = run("runs", 2);
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->fit.observables[0].simulated_sd, 0);
+  // Student's interval of five rebounds, 25 mm with an sd of 1 mm, by e = sqrt(h / H).
+  const double half_mm = 2.776445 / std::sqrt(5);
+  const Interval& interval = outcome->fit.parameters[0].interval;
+  EXPECT_NEAR(interval.high - interval.low,
+              std::sqrt((25 + half_mm) / 100) - std::sqrt((25 - half_mm) / 100), .001);
+}
+
 TEST_F(StudyRun, SomethingMustBeLeftToFit) {
   const dem::Study study =
       read({"experiment.tilt.held_out = true", "experiment.drop.held_out = true"});
