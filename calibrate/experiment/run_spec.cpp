@@ -7,6 +7,7 @@
 
 #include "base/fingerprint.h"
 #include "calibrate/experiment/simulator_version.h"
+#include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 
 namespace repose::calibrate {
@@ -71,6 +72,9 @@ std::string description_of(const RunSpec& spec, std::uint64_t seed) {
   }
   if (model.size_sd_fraction > 0) json["size_sd_fraction"] = model.size_sd_fraction;
   json["rolling_model"] = dem::name_of(model.rolling);
+  if (model.damping != dem::DampingModel::per_contact) {
+    json["damping"] = dem::name_of(model.damping);
+  }
   json["stiffness_factor"] = model.stiffness_factor;
   json["timestep_fraction"] = model.timestep_fraction;
   json["timestep_s"] = model.timestep_s ? Json(*model.timestep_s) : Json(nullptr);

@@ -104,9 +104,10 @@ void add_simulation(const Provenance& provenance, Methods& methods) {
       "\\frac{1}{R^*} = \\frac{1}{R_1} + \\frac{1}{R_2}, \\quad "
       "|F_t| \\le \\mu_s F_n");
   methods.add(fmt::format(
-      "with damping that gives the stated coefficient of restitution, and sliding "
-      "friction μₛ. Rolling friction μᵣ: {}. Young's moduli were multiplied by these "
-      "factors: {}.",
+      "with damping that gives the stated coefficient of restitution in a central impact of two "
+      "spheres ({}), and sliding friction μₛ. Rolling friction μᵣ: {}. Young's moduli were "
+      "multiplied by these factors: {}.",
+      shortened(provenance.damping_definition, 400),
       shortened(rolling_text(provenance.rolling_definition), 400), stiffness_text(provenance)));
 }
 

@@ -54,6 +54,7 @@ void add_model(const StudyResult& result, DataTable& data) {
     add(data, "seeds", seeds_text(joint->runs));
   }
   add(data, "contact model", from.contact_model);
+  add(data, "damping", from.damping + ": " + from.damping_definition);
   add(data, "rolling friction", from.rolling_model + ": " + from.rolling_definition);
   add(data, "clump", fmt::format("{}, {} spheres", from.clump.source, from.clump.spheres));
   add(data, "clump volume error", percent(from.clump.volume_error));

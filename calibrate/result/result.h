@@ -20,6 +20,7 @@
 #include "calibrate/result/surface_summary.h"
 #include "calibrate/study/study_record.h"
 #include "calibrate/study/study_run.h"
+#include "dem/contact/damping_name.h"
 
 /// What a finished study found: everything that result.json holds, and what reports and exports are
 /// made from. Numbers that do not exist are NaN here and null there.
@@ -58,6 +59,9 @@ struct Provenance {
   std::string contact_model;
   std::string rolling_model;
   std::string rolling_definition;
+  /// What results that do not say were found with.
+  std::string damping = dem::name_of(dem::DampingModel::per_contact);
+  std::string damping_definition = dem::damping_definition(dem::DampingModel::per_contact);
   ClumpFacts clump;
   NamedValues stiffness_factor;     ///< of each experiment
   NamedValues shortest_timestep_s;  ///< of each experiment's runs

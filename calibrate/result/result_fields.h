@@ -47,6 +47,10 @@ void fields(Io& io, Held<Io, Provenance>& provenance) {
   io("contact_model", provenance.contact_model);
   io("rolling_model", provenance.rolling_model);
   io("rolling_definition", provenance.rolling_definition);
+  if (io.has("damping", true)) {
+    io("damping", provenance.damping);
+    io("damping_definition", provenance.damping_definition);
+  }
   io("clump", provenance.clump);
   io("stiffness_factor", provenance.stiffness_factor);
   io("shortest_timestep_s", provenance.shortest_timestep_s);

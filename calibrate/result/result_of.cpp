@@ -12,6 +12,7 @@
 #include "calibrate/result/runs_surface.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/study_simulator.h"
+#include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 #include "dem/study/experiment_table.h"
 
@@ -117,6 +118,8 @@ Provenance provenance_of(const StudyRecord& record, const Problem& problem,
           .contact_model = std::string(dem::kContactModel),
           .rolling_model = dem::name_of(study.model.rolling),
           .rolling_definition = dem::rolling_definition(study.model.rolling),
+          .damping = dem::name_of(study.model.damping),
+          .damping_definition = dem::damping_definition(study.model.damping),
           .clump = {.source = record.grain.source,
                     .spheres = record.grain.shape.spheres.size(),
                     .volume_error = record.grain.errors.volume_error,

@@ -229,9 +229,9 @@ std::string belongs_to_text(const calibrate::Provenance& of) {
   }
   const calibrate::ClumpFacts& clump = of.clump;
   return fmt::format(
-      "These coefficients are valid for: {}, rolling friction {} ({}); a clump of {} ({}, "
-      "volume error {:+.2f} %){}; stiffness factor {}; budget {}: {}.",
-      of.contact_model, of.rolling_model, of.rolling_definition,
+      "These coefficients are valid for: {}, damping {} ({}), rolling friction {} ({}); a clump of "
+      "{} ({}, volume error {:+.2f} %){}; stiffness factor {}; budget {}: {}.",
+      of.contact_model, of.damping, of.damping_definition, of.rolling_model, of.rolling_definition,
       clump.spheres == 1 ? "1 sphere" : fmt::format("{} spheres", clump.spheres), clump.source,
       100 * clump.volume_error,
       clump.size_sd_percent

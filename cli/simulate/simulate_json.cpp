@@ -9,6 +9,7 @@
 #include "cli/common/degrees.h"
 #include "cli/simulate/simulate_values.h"
 #include "cli/simulate/simulate_warnings.h"
+#include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 #include "vision/measure/status_name.h"
 
@@ -61,6 +62,8 @@ void add_context(const SimulatePlan& plan, Json& json) {
   json["contact_model"] = dem::kContactModel;
   json["rolling_model"] = dem::name_of(model.rolling);
   json["rolling_definition"] = dem::rolling_definition(model.rolling);
+  json["damping"] = dem::name_of(model.damping);
+  json["damping_definition"] = dem::damping_definition(model.damping);
   json["stiffness_factor"] = model.stiffness_factor;
   json["timestep_fraction"] = model.timestep_s ? Json(nullptr) : Json(model.timestep_fraction);
   json["clump"] = clump_json(plan);

@@ -8,6 +8,7 @@
 #include "cli/common/page.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/simulate/simulate_values.h"
+#include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 
 namespace repose::cli {
@@ -155,6 +156,8 @@ Table belongs_to_table(const SimulatePlan& plan) {
   table.add_row({"  contact model", std::string(dem::kContactModel)});
   table.add_row({"  rolling model", fmt::format("{}: {}", dem::name_of(model.rolling),
                                                 dem::rolling_definition(model.rolling))});
+  table.add_row({"  damping", fmt::format("{}: {}", dem::name_of(model.damping),
+                                          dem::damping_definition(model.damping))});
   table.add_row(
       {"  clump", fmt::format("{} spheres, volume error {:.1f} % ({})", model.grain.spheres.size(),
                               100 * plan.grain.errors.volume_error, plan.grain.source)});

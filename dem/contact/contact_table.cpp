@@ -58,8 +58,11 @@ ContactLaw law_of(const Material& a, const Material& b, const PairCoefficients& 
 }  // namespace
 
 ContactTable::ContactTable(std::vector<Material> materials, std::vector<PairCoefficients> pairs,
-                           RollingModel rolling)
-    : materials_(std::move(materials)), pairs_(std::move(pairs)), rolling_(rolling) {
+                           RollingModel rolling, DampingModel damping)
+    : materials_(std::move(materials)),
+      pairs_(std::move(pairs)),
+      rolling_(rolling),
+      damping_(damping) {
   const std::size_t count = materials_.size();
   if (pairs_.size() != count * count) {
     throw std::invalid_argument(

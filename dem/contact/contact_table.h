@@ -24,13 +24,14 @@ class ContactTable {
   /// Throws std::invalid_argument naming every value that is out of range.
   /// `pairs` is a full symmetric matrix, row by row.
   ContactTable(std::vector<Material> materials, std::vector<PairCoefficients> pairs,
-               RollingModel rolling);
+               RollingModel rolling, DampingModel damping = DampingModel::per_contact);
 
   const ContactLaw& law(int a, int b) const { return laws_[index(a, b)]; }
   const PairCoefficients& pair(int a, int b) const { return pairs_[index(a, b)]; }
   const Material& material(int index) const { return materials_[static_cast<std::size_t>(index)]; }
   int size() const { return static_cast<int>(materials_.size()); }
   RollingModel rolling() const { return rolling_; }
+  DampingModel damping() const { return damping_; }
 
  private:
   std::size_t index(int a, int b) const {
@@ -41,6 +42,7 @@ class ContactTable {
   std::vector<PairCoefficients> pairs_;
   std::vector<ContactLaw> laws_;
   RollingModel rolling_;
+  DampingModel damping_;
 };
 
 }  // namespace repose::dem

@@ -24,6 +24,15 @@ enum class RollingModel {
   elastic_plastic,
 };
 
+/// How the contacts damp that two bodies have with each other at the same time.
+enum class DampingModel {
+  /// Each as if it were alone, with the whole reduced mass: the more spheres of a clump touch, the
+  /// less it rebounds.
+  per_contact,
+  /// Each with its share of the reduced mass, so that all together rebound as one would.
+  shared,
+};
+
 /// What two materials do to each other.
 struct PairCoefficients {
   double restitution = 1;       ///< .01 ... 1: what comes out of a central impact of two spheres

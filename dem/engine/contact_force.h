@@ -38,7 +38,7 @@ struct Touch {
   Vec3<Number> normal;  ///< unit, from a to b
   Number overlap = {};  ///< m, > 0
   Number reduced_radius = {};
-  Number reduced_mass = {};    ///< of the whole bodies
+  Number reduced_mass = {};    ///< of the whole bodies, or this contact's share: share_damping.h
   Number damper_limit = {};    ///< see damper_limit(), N s/m
   Number shared_limit = {};    ///< see shared_limit(), N s/m
   Vec3<Number> half_velocity;  ///< half a step back: what the springs were stretched by

@@ -50,10 +50,16 @@ struct Four {
   ContactForce<Lanes> force;
 };
 
+/// Of the contacts of a pair, by direction: the sum of energies times n n^T, n the normals.
+struct DirectedEnergy {
+  double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
+};
+
 /// Room for what is worked on, kept so that nothing is allocated.
 template <typename Other>
 struct ContactWork {
   std::vector<PairMotion> motions;
+  std::vector<DirectedEnergy> energies;  ///< of each pair, where damping is shared
   std::array<Four<Other>, kFoursTogether> fours;
 };
 

@@ -6,6 +6,7 @@
 #include "dem/engine/contact_step.h"
 #include "dem/engine/find_contacts.h"
 #include "dem/engine/finish_contacts.h"
+#include "dem/engine/share_damping.h"
 
 /// The forces of contacts, four at a time: of one pair of grains or of several, or of grains and
 /// walls. Some fours go together through three passes: where they are and how they move, what
@@ -62,6 +63,17 @@ void set_last(FourTouching<Other>& four, std::span<const Touching> last,
   }
 }
 
+/// Puts the next contacts into lanes, up to four.
+template <typename Other>
+REPOSE_INLINE void set_lanes(FourTouching<Other>& four, std::span<const Touching> left,
+                             const Meeting<Other>& meeting, SpareLane& spare) {
+  if (left.size() < kLanes) {
+    set_last(four, left, meeting, spare);
+  } else {
+    for (std::size_t k = 0; k < kLanes; ++k) set_lane(four, k, left[k], meeting);
+  }
+}
+
 /// The first pass, of up to kFoursTogether fours.
 /// @return what goes on to the others
 template <bool is_round, typename Other>
@@ -70,16 +82,31 @@ REPOSE_INLINE std::span<Four<Other>> find_all(std::span<const Touching> touching
                                               std::span<Four<Other>> fours, SpareLane& spare) {
   std::size_t count = 0;
   for (std::size_t at = 0; at < touching.size(); at += kLanes, ++count) {
-    const std::span<const Touching> left = touching.subspan(at);
-    FourTouching<Other>& four = fours[count].touching;
-    if (left.size() < kLanes) {
-      set_last(four, left, meeting, spare);
-    } else {
-      for (std::size_t k = 0; k < kLanes; ++k) set_lane(four, k, left[k], meeting);
-    }
+    set_lanes(fours[count].touching, touching.subspan(at), meeting, spare);
     find_contacts<is_round>(fours[count], meeting.sides, timestep);
   }
   return fours.first(count);
+}
+
+/// Before the passes, with shared damping: where the elastic energy of each pair's contacts acts.
+template <typename Other>
+REPOSE_INLINE void find_energies(std::span<const Touching> touching, const Meeting<Other>& meeting,
+                                 const Bodies& bodies, std::vector<DirectedEnergy>& energies,
+                                 SpareLane& spare) {
+  energies.assign(meeting.pairs.size(), {});
+  for (std::size_t at = 0; at < touching.size(); at += kLanes) {
+    const std::span<const Touching> left = touching.subspan(at);
+    FourTouching<Other> four;
+    set_lanes(four, left, meeting, spare);
+    Contacts c;
+    const Lanes radius = each([&](std::size_t k) { return four.sphere[k]->radius; });
+    set_geometry(four, others_of(four), radius, c);
+    const Lanes energy = elastic_energy(c.touch);
+    for (std::size_t k = 0; k < std::min(left.size(), kLanes); ++k) {
+      if (!shares_damping<Other>(*four.pair[k], bodies)) continue;
+      add_energy(energy[k], c.touch.normal, k, energies[static_cast<std::size_t>(left[k].pair)]);
+    }
+  }
 }
 
 /// The loads of pairs, each the sum over its contacts in the order given; their memories are
@@ -99,10 +126,14 @@ REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
   }
   Lanes deepest;
   SpareLane spare;
+  // Round grains have one contact, which shares with nobody.
+  const bool is_shared = !is_round && step.contacts.damping() == DampingModel::shared;
+  if (is_shared) find_energies(touching, meeting, step.bodies, work.energies, spare);
   for (std::size_t at = 0; at < touching.size(); at += kTogether) {
     const auto now = touching.subspan(at, std::min(touching.size() - at, kTogether));
     const std::span<Four<Other>> fours =
         find_all<is_round, Other>(now, meeting, step.timestep_s, work.fours, spare);
+    if (is_shared) share_damping(fours, meeting.pairs.data(), work.energies);
     for (Four<Other>& four : fours) find_forces(four, step.timestep_s);
     deepest = greatest(
         finish_all<is_round, Other>(fours, sides, step.contacts.rolling(), step.timestep_s),

@@ -32,6 +32,7 @@ struct Model {
   WallSurfaces parts = {};
   PairCoefficients grain_grain;
   RollingModel rolling = RollingModel::constant_torque;
+  DampingModel damping = DampingModel::per_contact;
   /// Both Young's moduli are multiplied by this: 1 is the real material. Softening shortens runs
   /// and changes results: stated with each.
   double stiffness_factor = 1;

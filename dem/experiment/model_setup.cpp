@@ -31,7 +31,7 @@ ContactTable contact_table(const Model& model) {
     // What walls do to each other is never asked for.
     pairs.insert(pairs.end(), with_grain.size() - 1, model.grain_wall);
   }
-  return {std::move(materials), std::move(pairs), model.rolling};
+  return {std::move(materials), std::move(pairs), model.rolling, model.damping};
 }
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0; }

@@ -6,10 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 
 namespace repose::dem {
 namespace {
+
+constexpr const char* kDamping = "damping";
 
 void add_contact_table(ArrayWriter& arrays, const ContactTable& table) {
   std::vector<std::string> names;
@@ -28,6 +31,20 @@ void add_contact_table(ArrayWriter& arrays, const ContactTable& table) {
   arrays.numbers("material_density_young_poisson", 3, std::move(properties));
   arrays.numbers("pair_restitution_sliding_rolling", 3, std::move(pairs));
   arrays.texts("rolling_model", {name_of(table.rolling())});
+  if (table.damping() != DampingModel::per_contact) {
+    arrays.texts(kDamping, {name_of(table.damping())});
+  }
+}
+
+/// Per contact where it is not said: so did all programs that did not say it.
+DampingModel damping_in(const ArrayReader& arrays) {
+  if (!arrays.has(kDamping)) return DampingModel::per_contact;
+  const auto& models = arrays.texts(kDamping);
+  const auto damping = damping_model_named(models.empty() ? "" : models.front());
+  if (!damping) {
+    throw std::invalid_argument(fmt::format("array {} names none that is known", kDamping));
+  }
+  return *damping;
 }
 
 ContactTable contact_table_in(const ArrayReader& arrays) {
@@ -53,7 +70,7 @@ ContactTable contact_table_in(const ArrayReader& arrays) {
   const auto& models = arrays.texts("rolling_model");
   const auto rolling = rolling_model_named(models.empty() ? "" : models.front());
   if (!rolling) throw std::invalid_argument("array rolling_model names none that is known");
-  return {std::move(materials), std::move(pairs), *rolling};
+  return {std::move(materials), std::move(pairs), *rolling, damping_in(arrays)};
 }
 
 }  // namespace

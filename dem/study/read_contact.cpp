@@ -1,9 +1,13 @@
 #include "dem/study/read_contact.h"
 
+#include <array>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 
 namespace repose::dem {
@@ -101,19 +105,23 @@ PairCoefficients values_of(const CoefficientSet& set) {
           .rolling_friction = set.rolling_friction.value.value_or(kOpen)};
 }
 
-void read_rolling_model(Section& contact, Study& study) {
-  std::string names;
-  for (const auto& [model, name] : kRollingNames) {
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
+/// Reads the model that `key` names, one of `names`. Stays as it is when the study does not say.
+template <typename Model, std::size_t kCount>
+void read_model(Section& contact, const std::string& key,
+                const std::array<std::pair<Model, std::string_view>, kCount>& names,
+                Model& chosen) {
+  const std::string example = fmt::format("{} = \"{}\"", key, name_of(chosen));
+  const auto given = contact.text(key, example);
+  if (!given) return;
+  std::string known;
+  for (const auto& [model, name] : names) {
+    if (name == *given) {
+      chosen = model;
+      return;
+    }
+    known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", name);
   }
-  const auto name = contact.text("rolling_model", "rolling_model = \"constant_torque\"");
-  if (!name) return;
-  const auto model = rolling_model_named(*name);
-  if (!model) {
-    contact.wrong(*contact.value("rolling_model"), "one of " + names,
-                  "for example rolling_model = \"constant_torque\"");
-  }
-  study.model.rolling = model.value_or(study.model.rolling);
+  contact.wrong(*contact.value(key), "one of " + known, "for example " + example);
 }
 
 /// What grains do to a part of another material than the plate's: both are given, or neither.
@@ -142,7 +150,8 @@ void read_part(Section& contact, WallPart part, Study& study) {
 }  // namespace
 
 void read_contact(Section contact, Study& study) {
-  read_rolling_model(contact, study);
+  read_model(contact, "rolling_model", kRollingNames, study.model.rolling);
+  read_model(contact, "damping", kDampingNames, study.model.damping);
   study.particle_wall = read_pair(contact, "particle_wall");
   study.particle_particle = read_pair(contact, "particle_particle");
   study.model.grain_wall = values_of(study.particle_wall);

@@ -8,6 +8,8 @@ namespace repose::dem {
 
 /// Central impacts: Chung & Ooi T1-T3, restitution, bounce heights.
 std::vector<VerifyCase> impact_cases();
+/// Impacts of clumps on several spheres at once.
+std::vector<VerifyCase> clump_cases();
 /// Impacts with sliding: Chung & Ooi T4-T8.
 std::vector<VerifyCase> oblique_cases();
 /// Impacts measured by Kharaz et al.

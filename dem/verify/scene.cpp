@@ -21,10 +21,10 @@ double peak_of(const std::vector<double>& samples) {
 }  // namespace
 
 SimulationSetup scene_of(const ClumpShape& shape, const Material& grain, const Material& wall,
-                         const PairCoefficients& pair, RollingModel rolling) {
+                         const PairCoefficients& pair, RollingModel rolling, DampingModel damping) {
   return {.kinds = {{.shape = shape, .material = 0}},
           .walls = {},
-          .contacts = ContactTable({grain, wall}, {pair, pair, pair, pair}, rolling),
+          .contacts = ContactTable({grain, wall}, {pair, pair, pair, pair}, rolling, damping),
           .gravity = Vector::Zero()};
 }
 

@@ -10,7 +10,8 @@ class Trial;
 /// Grains of one kind (material 0) and a wall's material (1), the same coefficients for all pairs.
 /// No walls and no gravity yet.
 SimulationSetup scene_of(const ClumpShape& shape, const Material& grain, const Material& wall,
-                         const PairCoefficients& pair, RollingModel rolling = RollingModel::none);
+                         const PairCoefficients& pair, RollingModel rolling = RollingModel::none,
+                         DampingModel damping = DampingModel::per_contact);
 
 inline constexpr double kBallRadius_m = .01;
 /// The ball of the cases about sliding and rolling, soft so that steps are long, on its own kind.

@@ -10,8 +10,9 @@ namespace {
 
 std::vector<VerifyCase> all_cases() {
   std::vector<VerifyCase> all;
-  for (const auto& topic : {impact_cases(), oblique_cases(), kharaz_cases(), motion_cases(),
-                            rolling_cases(), rotation_cases(), bed_cases(), conservation_cases()}) {
+  for (const auto& topic :
+       {impact_cases(), clump_cases(), oblique_cases(), kharaz_cases(), motion_cases(),
+        rolling_cases(), rotation_cases(), bed_cases(), conservation_cases()}) {
     all.insert(all.end(), topic.begin(), topic.end());
   }
   return all;

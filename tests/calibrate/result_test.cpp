@@ -99,6 +99,17 @@ TEST(Result, SaysWhyTheNumberOfSpheresWasNotChecked) {
   EXPECT_THAT(shape_check_text(shape), HasSubstr("was not checked: one sphere is exactly"));
 }
 
+TEST(Result, WithoutADampingItWasPerContact) {
+  StudyResult result = test::joint_result();
+  result.provenance.damping = "shared";
+  result.provenance.damping_definition = "together";
+  EXPECT_TRUE(result_from_json(to_json(result), kName) == result);
+  const std::string older = with(to_json(result), "\"damping\": \"shared\"", "\"x\": 1");
+  const Provenance read = result_from_json(older, kName).provenance;
+  EXPECT_EQ(read.damping, "per_contact");
+  EXPECT_THAT(read.damping_definition, HasSubstr("number of spheres"));
+}
+
 TEST(Result, NamesNeedNotBeUtf8) {
   StudyResult result = test::joint_result();
   result.provenance.study.file = "n\xFCsse.toml";

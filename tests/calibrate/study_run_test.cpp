@@ -374,6 +374,19 @@ TEST_F(StudyRun, AStudyAsksForTheRunsThatASingleExperimentMakes) {
   EXPECT_TRUE(folder.find_whole(simulator_of(read()).spec(job), job.seed));
 }
 
+// What the default runs are called is as it was before there was a choice.
+TEST_F(StudyRun, SharedDampingMakesOtherRuns) {
+  const auto described = [&](const std::string& damping) {
+    const dem::Study study = read({"contact.particle_wall.restitution = 0.5",
+                                   "contact.particle_wall.sliding_friction = 0.4",
+                                   "contact.damping = \"" + damping + "\""});
+    const NamedGrain grain(grain_of(study));
+    return description_of(spec_of(study, dem::Experiment::drop, grain, kHeapViews), 3);
+  };
+  EXPECT_THAT(described("per_contact"), Not(HasSubstr("damping")));
+  EXPECT_THAT(described("shared"), HasSubstr("\"damping\":\"shared\""));
+}
+
 TEST_F(StudyRun, FindsTheCoefficientsOfTheBench) {
   const auto outcome = run("runs", 2);
   ASSERT_TRUE(outcome);

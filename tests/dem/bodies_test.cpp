@@ -108,6 +108,48 @@ TEST_P(RollingModels, RestartFromACheckpointContinuesBitForBit) {
   expect_same(simulation, restarted);
 }
 
+SimulationSetup shared_packing() {
+  return packing_setup(RollingModel::elastic_plastic, DampingModel::shared);
+}
+
+TEST(SharedDamping, TwoThreadsGiveTheSameBytes) {
+  SimulationSetup setup = shared_packing();
+  Simulation one = loose_packing(setup, kGrains);
+  setup.threads = 2;
+  Simulation two = loose_packing(setup, kGrains);
+  one.advance(8000);
+  two.advance(8000);
+  EXPECT_GT(one.contacts().size(), 5U);
+  expect_same(one, two);
+}
+
+TEST(SharedDamping, RestartFromACheckpointContinuesBitForBit) {
+  Simulation simulation = loose_packing(shared_packing(), kGrains);
+  simulation.advance(6001);
+  Simulation restarted(shared_packing(), simulation.checkpoint());
+  simulation.advance(3000);
+  restarted.advance(3000);
+  expect_same(simulation, restarted);
+}
+
+TEST(SharedDamping, ElasticClumpsAreTheSameToTheByteAsPerContact) {
+  SimulationSetup shared = shared_packing();
+  const auto elastic = [&](DampingModel damping) {
+    const PairCoefficients pair{.sliding_friction = .5};
+    return ContactTable({shared.contacts.material(0), shared.contacts.material(1)},
+                        {pair, pair, pair, pair}, RollingModel::none, damping);
+  };
+  shared.contacts = elastic(DampingModel::shared);
+  SimulationSetup per_contact = shared;
+  per_contact.contacts = elastic(DampingModel::per_contact);
+  Simulation one = loose_packing(shared, kGrains);
+  Simulation other = loose_packing(per_contact, kGrains);
+  one.advance(8000);
+  other.advance(8000);
+  EXPECT_GT(one.contacts().size(), 2U);
+  expect_same(one, other);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, RollingModels,
                          ::testing::Values(RollingModel::none, RollingModel::constant_torque,
                                            RollingModel::relative_constant_torque,

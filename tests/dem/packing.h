@@ -8,12 +8,13 @@
 namespace repose::dem {
 
 /// Blocks of two sizes in a tube that stands on a plate, each in a pose of its own.
-inline SimulationSetup packing_setup(RollingModel rolling = RollingModel::elastic_plastic) {
+inline SimulationSetup packing_setup(RollingModel rolling = RollingModel::elastic_plastic,
+                                     DampingModel damping = DampingModel::per_contact) {
   const Material soft{
       .name = "soft", .density_kg_m3 = 1000, .young_modulus_pa = 5e6, .poisson_ratio = .3};
-  SimulationSetup setup =
-      scene_of(block_shape({.010, .007, .005}, .004), soft, soft,
-               {.restitution = .3, .sliding_friction = .5, .rolling_friction = .05}, rolling);
+  SimulationSetup setup = scene_of(
+      block_shape({.010, .007, .005}, .004), soft, soft,
+      {.restitution = .3, .sliding_friction = .5, .rolling_friction = .05}, rolling, damping);
   setup.kinds.push_back({.shape = block_shape({.006, .005, .004}, .003), .material = 0});
   const Wall plate{
       .shape = Box{.half_size = {.1, .1, .01}}, .material = 1, .pose = {.position = {0, 0, -.01}}};

@@ -40,7 +40,8 @@ ClumpShape peanut() {
 ContactTable contacts() {
   const Material soft{"soft, \"nut\" <&>", 900, 1e7, .3}, steel{"steel", 7850, 2.1e11, .3};
   const PairCoefficients nut{.3, .4, .05}, plate{.5, .3, .02};
-  return {{soft, steel}, {nut, plate, plate, nut}, RollingModel::elastic_plastic};
+  return {
+      {soft, steel}, {nut, plate, plate, nut}, RollingModel::elastic_plastic, DampingModel::shared};
 }
 
 Wall steel(WallShape shape) {
@@ -183,6 +184,7 @@ TEST_F(StateFile, EverythingComesBack) {
   EXPECT_EQ(state.setup.kinds[0].shape.surface.triangles, peanut().surface.triangles);
   EXPECT_EQ(state.setup.contacts.material(0).name, "soft, \"nut\" <&>");
   EXPECT_EQ(state.setup.contacts.rolling(), RollingModel::elastic_plastic);
+  EXPECT_EQ(state.setup.contacts.damping(), DampingModel::shared);
   EXPECT_EQ(state.checkpoint.step, 2500);
   ASSERT_EQ(state.checkpoint.grains.size(), 30U);
   EXPECT_FALSE(state.checkpoint.is_present[7]);
@@ -297,6 +299,7 @@ TEST_F(StateFile, EditedContentsAreRefused) {
   EXPECT_THAT(error(with_numbers(whole, "wall_motion", "AAAAAAAAAAA=")), HasSubstr("array wall_"));
   EXPECT_THAT(error(with_numbers(whole, "rolling_model", "AAAAAAAAAAA=")),
               HasSubstr("rolling_model"));
+  EXPECT_THAT(error(with_numbers(whole, "damping", "AAAAAAAAAAA=")), HasSubstr("damping"));
 }
 
 /// Numbers as an array of the file has them.

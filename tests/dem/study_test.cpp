@@ -32,6 +32,7 @@ TEST_F(StudyFile, TheSmallestStudyHasTheUsualValues) {
   EXPECT_DOUBLE_EQ(study.grain.sizes->tip_fraction, 0);
   EXPECT_EQ(study.grain.fill.spheres, 11);
   EXPECT_EQ(study.model.rolling, RollingModel::constant_torque);
+  EXPECT_EQ(study.model.damping, DampingModel::per_contact);
   EXPECT_EQ(study.model.grain_wall.restitution, .31);
   EXPECT_EQ(study.model.grain_grain.sliding_friction, .21);
   EXPECT_DOUBLE_EQ(study.protocol<DropProtocol>().height_m, .5);
@@ -335,16 +336,18 @@ TEST_F(StudyFile, TextThatIsNoTomlIsSaidWithItsPlace) {
 }
 
 TEST_F(StudyFile, SettingsReplaceAndAddValues) {
-  const Study study = read(
-      kStudy, {"contact.particle_wall.restitution = { min = 0.1, max = 0.5 }",
-               "contact.particle_wall.restitution.min = 0.2", "experiment.heap.grains=30",
-               "contact.rolling_model=\"none\"", "simulation.seed = 1", "simulation.seed = 7"});
+  const Study study =
+      read(kStudy, {"contact.particle_wall.restitution = { min = 0.1, max = 0.5 }",
+                    "contact.particle_wall.restitution.min = 0.2", "experiment.heap.grains=30",
+                    "contact.rolling_model=\"none\"", "contact.damping = \"shared\"",
+                    "simulation.seed = 1", "simulation.seed = 7"});
   EXPECT_FALSE(study.particle_wall.restitution.value);
   EXPECT_EQ(study.particle_wall.restitution.min, .2);
   EXPECT_EQ(study.particle_wall.restitution.max, .5);
   EXPECT_EQ(study.protocol<HeapProtocol>().grains, 30);
   EXPECT_TRUE(has_protocol(study, Experiment::drop)) << "the file's own sections stay";
   EXPECT_EQ(study.model.rolling, RollingModel::none);
+  EXPECT_EQ(study.model.damping, DampingModel::shared);
   EXPECT_EQ(study.seed, 7U) << "the last one counts";
 }
 
@@ -370,6 +373,9 @@ TEST_F(StudyFile, ErrorsOfSettingsAreCalledBySetting) {
               HasSubstr("setting:2:25: simulation.replicates = 0. Rule: "));
   EXPECT_THAT(errors(kStudy, {"contact.rolling_model = none"}),
               AllOf(HasSubstr("setting:1:"), HasSubstr("in quotes"), Not(HasSubstr("missing"))));
+  EXPECT_THAT(
+      errors(kStudy, {"contact.damping = \"each\""}),
+      AllOf(HasSubstr("contact.damping = \"each\""), HasSubstr("\"per_contact\", \"shared\"")));
   EXPECT_THAT(errors(kStudy, {"particle"}), HasSubstr("setting:1:"));
   EXPECT_THAT(errors(kStudy, {"particle.density_kg_m3 = 0,5"}), HasSubstr("as 0.5"));
   EXPECT_THAT(errors(kStudy, {"particle.densty_kg_m3 = 1"}),
