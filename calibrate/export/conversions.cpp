@@ -194,6 +194,16 @@ double exported(const std::vector<Conversion>& conversions, const std::string& c
 std::vector<std::string> refusals(const ExportFacts& facts, const ExportRequest& request,
                                   const std::vector<Conversion>& conversions) {
   std::vector<std::string> errors;
+  const std::size_t spheres = facts.grain().spheres.size();
+  if (facts.study().model.damping == dem::DampingModel::shared && spheres > 1) {
+    errors.push_back(fmt::format(
+        "contact.damping = \"shared\" has no counterpart in {}, where each contact of the clump's "
+        "{} "
+        "spheres damps with the whole mass: the more of them touch at once, the less it would "
+        "rebound than here. No single factor makes up for that, so --approximate does not help. "
+        "Fix: calibrate with damping = \"per_contact\", whose restitution belongs to this clump.",
+        name_of(request.target), spheres));
+  }
   if (request.takes_approximate) return errors;
   for (const Conversion& conversion : conversions) {
     if (conversion.fidelity != Fidelity::approximate) continue;

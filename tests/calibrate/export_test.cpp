@@ -241,6 +241,21 @@ TEST(ExportStudy, AnotherLawIsRefusedUnlessApproximateIsAskedFor) {
   EXPECT_THAT(exported(hazelnuts(), ExportTarget::liggghts, false).files, Not(IsEmpty()));
 }
 
+// The other programs damp each contact with the whole mass.
+TEST(ExportStudy, SharedDampingIsRefusedForClumpsAndPassesForSpheres) {
+  dem::Study study = hazelnuts();
+  study.model.damping = dem::DampingModel::shared;
+  for (const auto& [target, name] : kExportTargets) {
+    for (const bool approximate : {false, true}) {
+      EXPECT_THAT(error_of([&, of = target] { exported(study, of, approximate); }),
+                  AllOf(HasSubstr("damping = \"shared\""), HasSubstr(std::string(name)),
+                        HasSubstr("damping = \"per_contact\"")));
+    }
+  }
+  study.model.grain = dem::sphere_shape(.01);
+  EXPECT_THAT(exported(study, ExportTarget::liggghts, false).files, Not(IsEmpty()));
+}
+
 TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
   const dem::Study study = hazelnuts();
   const double mass = 851 * study.model.grain.volume_m3;
