@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -121,11 +122,11 @@ double time_of(const Flow& flow, double fraction) {
   return flow.passed_s[static_cast<std::size_t>(std::max(0.0, grain))];
 }
 
-/// Grains a second while the flow is steady; 0 where it is too short for that.
+/// Grains a second while the flow is steady; NaN where it is too short for that.
 double rate_s(const Flow& flow) {
   const double steady_s = time_of(flow, kSteadyTo) - time_of(flow, kSteadyFrom);
   const double grains = (kSteadyTo - kSteadyFrom) * static_cast<double>(flow.passed_s.size());
-  return steady_s > 0 ? grains / steady_s : 0;
+  return steady_s > 0 ? grains / steady_s : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace

@@ -128,10 +128,9 @@ std::map<std::string, double> readings_of(const std::vector<Bounce>& bounces) {
     squares += std::pow(1e3 * bounce.rise_m - mean, 2);
     never_rose += bounce.is_over ? 0 : 1;
   }
-  const auto others = static_cast<double>(std::max<std::size_t>(2, bounces.size()) - 1);
   return {{"above_first_touch_mm", mean_mm(bounces, &Bounce::above_first_touch_m)},
           {"lowest_point_rise_mm", mean_mm(bounces, &Bounce::lowest_point_m)},
-          {"sd_mm", std::sqrt(squares / others)},
+          {"sd_mm", scatter_of(squares, bounces.size())},
           {"never_rose", never_rose}};
 }
 

@@ -28,6 +28,11 @@ int count_present(const Simulation& simulation) {
   return present;
 }
 
+double scatter_of(double squares, std::size_t count) {
+  if (count < 2) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(squares / (static_cast<double>(count) - 1));
+}
+
 ExperimentRun::ExperimentRun(Simulation simulation, const Observers& observers,
                              std::optional<Pace> pace, HeapProgress progress)
     : simulation_(std::move(simulation)),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,6 +13,10 @@ namespace repose::dem {
 
 /// Grains that are still in the simulation.
 int count_present(const Simulation& simulation);
+
+/// Standard deviation of `count` readings whose squared differences from their mean add up to
+/// `squares`; NaN of a single one, which shows none.
+double scatter_of(double squares, std::size_t count);
 
 /// Who is told what on the way.
 struct Observers {

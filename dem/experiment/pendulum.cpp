@@ -94,7 +94,7 @@ Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::u
   return run.finish(mean, seed,
                     {{"rise_mm", 1e3 * rise_m},
                      {"height_ratio", rise_m / height_m},
-                     {"sd_deg", std::sqrt(squares / std::max(1, protocol.pairs - 1))}});
+                     {"sd_deg", scatter_of(squares, swings_deg.size())}});
 }
 
 }  // namespace repose::dem

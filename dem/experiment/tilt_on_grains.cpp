@@ -83,12 +83,11 @@ class TiltRun {
     const auto count = static_cast<double>(bodies_.size());
     for (const Leaving& body : bodies_) {
       mean += body.still_deg / count;
-      first += body.first_shift_deg.value_or(0) / count;
+      first += body.first_shift_deg.value() / count;
     }
     for (const Leaving& body : bodies_) squares += std::pow(body.still_deg - mean, 2);
     return run_.finish(
-        mean, seed,
-        {{"first_shift_deg", first}, {"sd_deg", std::sqrt(squares / std::max(1.0, count - 1))}});
+        mean, seed, {{"first_shift_deg", first}, {"sd_deg", scatter_of(squares, bodies_.size())}});
   }
 
  private:
