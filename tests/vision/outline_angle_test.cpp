@@ -2,10 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include <gmock/gmock.h>
 
+#include "base/angle_definition.h"
 #include "tests/support/heap_random.h"
 #include "tests/vision/pictures.h"
 #include "tests/vision/profiles.h"
@@ -39,6 +42,31 @@ TEST(OutlineAngle, StraightFlanksAreExact) {
   // From the middle of the highest part, which lies up to 3 % of the height down a side.
   EXPECT_NEAR(angle.left->foot + angle.right->foot,
               110 / kTriangle.left_slope + 110 / kTriangle.right_slope, 1e-3);
+}
+
+TEST(OutlineAngle, OtherDefinitionsAreThoseOfTheEdge) {
+  // 20 degrees at the foot, 30 above half of the height: a line through all lies between.
+  const double foot = 55 / std::tan(20 * kDegree), top = 55 / std::tan(30 * kDegree);
+  const Outline hollow = outline_of([&](double along) {
+    const double off = std::abs(along - 350);
+    return off < top ? 55 + (top - off) * std::tan(30 * kDegree)
+                     : 55 - (off - top) * std::tan(20 * kDegree);
+  });
+  EXPECT_TRUE(measure_outline(hollow).definitions.empty()) << "not asked for";
+  const OutlineAngle angle = measure_outline(hollow, {.grain = 2, .has_definitions = true});
+  std::map<std::string, double> by_name;
+  for (const NamedAngle& one : angle.definitions) by_name[one.name] = one.angle_rad / kDegree;
+  ASSERT_EQ(by_name.size(), base::kAngleDefinitions.size() - 1);
+  for (const auto& [name, deg] : by_name) {
+    EXPECT_NE(base::find_definition(name), nullptr) << name;
+    EXPECT_GT(deg, 20) << name;
+    EXPECT_LT(deg, 30) << name;
+  }
+  EXPECT_NEAR(by_name["height_over_base"], std::atan2(110, foot + top) / kDegree, .2);
+  EXPECT_LT(by_name["whole_flank"], by_name["inner_window"]) << "it has more of the long foot";
+  EXPECT_TRUE(
+      measure_outline({.along = {0}, .height = {1}}, {.has_definitions = true}).definitions.empty())
+      << "no flank";
 }
 
 /// A heap whose grains are twelve columns long.

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
+
+#include "base/angle_definition.h"
 
 namespace repose::vision {
 namespace {
@@ -12,17 +15,21 @@ double run_of(const Profile& profile, Side side) {
   return side == Side::left ? crest - profile.along.front() : profile.along.back() - crest;
 }
 
-FlankFit refit(const Reading& reading, Side side, double from, double to) {
-  return fit_flank(reading.profile, side, {from, to, false, reading.grain, 1});
+bool has_side(const FittedEdge& edge, Side side) {
+  return (side == Side::left ? edge.left : edge.right).status == FlankStatus::ok;
+}
+
+FlankFit refit(const FittedEdge& edge, Side side, double from, double to) {
+  return fit_flank(edge.profile, side, {from, to, false, edge.grain, 1});
 }
 
 /// Mean over the sides of the least-squares angle of another window; empty where a side has none.
-std::optional<double> window_angle(const Reading& reading, double from, double to) {
+std::optional<double> window_angle(const FittedEdge& edge, double from, double to) {
   double sum = 0;
   int sides = 0;
   for (const Side side : {Side::left, Side::right}) {
-    if (reading.flank(side).status != FlankStatus::ok) continue;
-    const FlankFit other = refit(reading, side, from, to);
+    if (!has_side(edge, side)) continue;
+    const FlankFit other = refit(edge, side, from, to);
     if (other.status != FlankStatus::ok) return std::nullopt;
     sum += std::atan(-other.least_squares.slope);
     ++sides;
@@ -31,12 +38,12 @@ std::optional<double> window_angle(const Reading& reading, double from, double t
 }
 
 /// Mean over the sides of crest height over half base.
-std::optional<double> cone_angle(const Reading& reading) {
+std::optional<double> cone_angle(const FittedEdge& edge) {
   double sum = 0;
   int sides = 0;
   for (const Side side : {Side::left, Side::right}) {
-    if (reading.flank(side).status != FlankStatus::ok) continue;
-    sum += std::atan2(reading.profile.crest_height, run_of(reading.profile, side));
+    if (!has_side(edge, side)) continue;
+    sum += std::atan2(edge.profile.crest_height, run_of(edge.profile, side));
     ++sides;
   }
   return sides > 0 ? std::optional(sum / sides) : std::nullopt;
@@ -44,21 +51,25 @@ std::optional<double> cone_angle(const Reading& reading) {
 
 }  // namespace
 
-std::vector<NamedAngle> other_definitions(const Reading& reading) {
+std::vector<NamedAngle> other_definitions(const FittedEdge& edge) {
   std::vector<NamedAngle> all;
-  const auto add = [&](const char* name, const char* description, std::optional<double> angle_rad) {
-    if (angle_rad) all.push_back({name, description, *angle_rad});
+  const auto add = [&](const char* name, std::optional<double> angle_rad) {
+    const base::AngleDefinition* known = base::find_definition(name);
+    if (angle_rad) all.push_back({name, std::string(known->description), *angle_rad});
   };
-  add("height_over_base", "crest height over the base's half width (cone; ISO 4324)",
-      cone_angle(reading));
-  add("half_height_tangent", "least-squares tangent at 40-60 % of the height",
-      window_angle(reading, 0.4, 0.6));
-  add("inner_window", "least-squares line at 30-70 % of the height",
-      window_angle(reading, 0.3, 0.7));
-  add("outer_window", "least-squares line at 10-90 % of the height",
-      window_angle(reading, 0.1, 0.9));
-  add("whole_flank", "least-squares line from toe to crest", window_angle(reading, 0.0, 1.0));
+  add("height_over_base", cone_angle(edge));
+  add("half_height_tangent", window_angle(edge, 0.4, 0.6));
+  add("inner_window", window_angle(edge, 0.3, 0.7));
+  add("outer_window", window_angle(edge, 0.1, 0.9));
+  add("whole_flank", window_angle(edge, 0.0, 1.0));
   return all;
+}
+
+std::vector<NamedAngle> other_definitions(const Reading& reading) {
+  return other_definitions(FittedEdge{.profile = reading.profile,
+                                      .left = reading.left,
+                                      .right = reading.right,
+                                      .grain = reading.grain});
 }
 
 }  // namespace repose::vision

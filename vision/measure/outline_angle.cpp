@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "vision/measure/definitions.h"
 #include "vision/measure/flank.h"
 #include "vision/measure/profile.h"
 #include "vision/measure/repose_angle.h"
@@ -69,14 +70,20 @@ Profile profile_of(const Outline& outline, double spacing) {
   return profile;
 }
 
+/// As of a picture, but level lines and the edges of plateaus are none.
+FlankFit fit_of(const Profile& profile, Side side, const FlankOptions& options) {
+  FlankFit fit = fit_flank(profile, side, options);
+  if (fit.status != FlankStatus::ok) return fit;
+  const bool is_level = fit.shown.slope >= -kFlattestSlope;
+  const bool is_plateau = fit.shown.intercept > kHighestAtCrest * profile.crest_height;
+  if (is_level || is_plateau) fit.status = FlankStatus::absent;
+  return fit;
+}
+
 std::optional<OutlineFlank> flank_of(const Profile& profile, Side side, double spacing,
-                                     const FlankOptions& options) {
-  const FlankFit fit = fit_flank(profile, side, options);
+                                     const FlankFit& fit) {
   if (fit.status != FlankStatus::ok) return std::nullopt;
   const LineFit& line = fit.shown;
-  const bool is_level = line.slope >= -kFlattestSlope;
-  const bool is_plateau = line.intercept > kHighestAtCrest * profile.crest_height;
-  if (is_level || is_plateau) return std::nullopt;
   const double end = side == Side::left ? profile.along.front() : profile.along.back();
   const double reach = std::abs(end - profile.along[profile.crest]);
   const double foot = std::min(-line.intercept / line.slope, kFarthestFoot * reach);
@@ -106,8 +113,15 @@ OutlineAngle measure_outline(const Outline& outline, const OutlineOptions& optio
   flank.window_from = options.window_from;
   flank.window_to = options.window_to;
   if (options.grain) flank.grain = *options.grain / spacing;
-  return {.left = flank_of(profile, Side::left, spacing, flank),
-          .right = flank_of(profile, Side::right, spacing, flank)};
+  const FlankFit left = fit_of(profile, Side::left, flank);
+  const FlankFit right = fit_of(profile, Side::right, flank);
+  OutlineAngle angle{.left = flank_of(profile, Side::left, spacing, left),
+                     .right = flank_of(profile, Side::right, spacing, right)};
+  if (options.has_definitions) {
+    angle.definitions = other_definitions(
+        FittedEdge{.profile = profile, .left = left, .right = right, .grain = flank.grain});
+  }
+  return angle;
 }
 
 }  // namespace repose::vision

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
@@ -20,6 +21,7 @@ struct OutlineOptions {
   double window_to = 0.8;
   /// A grain's size in the outline's unit. Empty: read off the edge's bumps, as in a silhouette.
   std::optional<double> grain = {};
+  bool has_definitions = false;  ///< the angle by other definitions is asked for, too
 };
 
 /// One side's line.
@@ -33,6 +35,7 @@ struct OutlineFlank {
 struct OutlineAngle {
   std::optional<OutlineFlank> left;
   std::optional<OutlineFlank> right;
+  std::vector<NamedAngle> definitions = {};  ///< as ReposeAngle's; empty: not asked for, or none
 
   std::optional<double> angle_rad() const;  ///< mean of the sides that exist
 };

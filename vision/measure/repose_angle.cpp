@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/angle_definition.h"
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/choice.h"
 #include "vision/measure/definitions.h"
@@ -193,6 +194,9 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   if (best.grain) result.grain_px = *best.grain * work.shrink;
   result.strays = count_strays(best.body, best.segmentation, work);
   result.definitions = other_definitions(best);
+  for (NamedAngle& other : result.definitions) {
+    other.angle_rad = correction.angle_rad(other.angle_rad);
+  }
   return result;
 }
 
@@ -249,6 +253,15 @@ std::vector<std::string> MeasureOptions::problems_in(int width, int height) cons
     errors.push_back(std::move(problem));
   }
   return errors;
+}
+
+std::optional<double> angle_by(const ReposeAngle& measured, std::string_view definition) {
+  if (measured.status == MeasureStatus::refused) return std::nullopt;
+  if (base::is_usual_definition(definition)) return measured.angle_rad;
+  for (const NamedAngle& other : measured.definitions) {
+    if (other.name == definition) return other.angle_rad;
+  }
+  return std::nullopt;
 }
 
 ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vision/measure/hints.h"
@@ -99,7 +100,7 @@ struct Flank {
 
 /// The angle by another definition people use. Always named beside the number.
 struct NamedAngle {
-  std::string name;         ///< e.g. "height_over_base"
+  std::string name;         ///< of base/angle_definition.h: "height_over_base"
   std::string description;  ///< one line: what is divided by what
   double angle_rad = 0;
 };
@@ -132,6 +133,10 @@ struct ReposeAngle {
   int strays = 0;                   ///< grains lying apart from the body
   std::vector<NamedAngle> definitions;  ///< height over base, half-height tangent, ...
 };
+
+/// The angle by a definition of base/angle_definition.h; empty: by the usual one. None where it
+/// could not be measured, as in pictures that are refused.
+std::optional<double> angle_by(const ReposeAngle& measured, std::string_view definition);
 
 /// Measures one picture. Deterministic; safe to call from several threads at once. The first call
 /// sets OpenCV to one thread for the whole process.
