@@ -72,8 +72,7 @@ HeapView HeapViewSession::measure(render::Renderer& renderer, int view,
     const vision::OverlayNotes notes{.title = overlay_file.filename().string(), .excluded = {}};
     vision::write_picture(overlay_file, vision::draw_overlay(picture, angle, notes));
   }
-  return {.azimuth_rad = azimuth_rad(view),
-          .picture = {.status = angle.status, .angle_rad = angle.angle_rad}};
+  return {.azimuth_rad = azimuth_rad(view), .picture = picture_angle_of(angle)};
 }
 
 // Why kHeapViews is 9: over six small heaps the mean of 9 views was .1 degrees (sd .3, worst .4)
@@ -97,15 +96,16 @@ std::vector<HeapView> measure_views(const HeapViewSession& session, int threads,
   return views;
 }
 
-PictureMean mean_of_views(std::span<const HeapView> views) {
+PictureMean mean_of_views(std::span<const HeapView> views, const std::string& definition) {
   std::vector<PictureAngle> pictures;
   pictures.reserve(views.size());
   for (const HeapView& view : views) pictures.push_back(view.picture);
-  return mean_of_pictures(pictures);
+  return mean_of_pictures(pictures, definition);
 }
 
-bool is_well_pictured(std::span<const HeapView> views) {
-  return !views.empty() && 2 * mean_of_views(views).refused <= static_cast<int>(views.size());
+bool is_well_pictured(std::span<const HeapView> views, const std::string& definition) {
+  return !views.empty() &&
+         2 * mean_of_views(views, definition).refused <= static_cast<int>(views.size());
 }
 
 }  // namespace repose::calibrate

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "calibrate/experiment/picture_angles.h"
@@ -90,10 +91,11 @@ class HeapViewSession {
 std::vector<HeapView> measure_views(const HeapViewSession& session, int threads,
                                     const std::function<bool(double fraction)>& report);
 
-/// Mean of the views as of any pictures.
-PictureMean mean_of_views(std::span<const HeapView> views);
+/// Mean of the views as of any pictures, by a definition of base/angle_definition.h; empty: by the
+/// usual one.
+PictureMean mean_of_views(std::span<const HeapView> views, const std::string& definition = {});
 
-/// At least half of the views gave a number: it is what a photograph is compared with.
-bool is_well_pictured(std::span<const HeapView> views);
+/// At least half of the views gave a number by it: it is what a photograph is compared with.
+bool is_well_pictured(std::span<const HeapView> views, const std::string& definition = {});
 
 }  // namespace repose::calibrate

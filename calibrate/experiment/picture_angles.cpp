@@ -3,6 +3,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/angle_definition.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::calibrate {
@@ -17,14 +18,35 @@ bool counts_in_mean(std::string_view status) {
   return status != name_of(vision::MeasureStatus::refused);
 }
 
-PictureMean mean_of_pictures(std::span<const PictureAngle> pictures) {
+PictureAngle picture_angle_of(const vision::ReposeAngle& measured) {
+  PictureAngle picture{.status = measured.status, .angle_rad = measured.angle_rad};
+  for (const base::AngleDefinition& other : base::kAngleDefinitions) {
+    if (base::is_usual_definition(other.name)) continue;
+    const auto angle_rad = vision::angle_by(measured, other.name);
+    if (angle_rad) picture.other_rad.emplace(other.name, *angle_rad);
+  }
+  return picture;
+}
+
+std::optional<double> angle_by(const PictureAngle& picture, const std::string& definition) {
+  if (!counts_in_mean(picture.status)) return std::nullopt;
+  if (base::is_usual_definition(definition)) return picture.angle_rad;
+  const auto found = picture.other_rad.find(definition);
+  return found == picture.other_rad.end() ? std::nullopt : std::optional(found->second);
+}
+
+PictureMean mean_of_pictures(std::span<const PictureAngle> pictures,
+                             const std::string& definition) {
   PictureMean mean;
   std::vector<double> angles_deg;
   for (const PictureAngle& picture : pictures) {
+    const auto angle_rad = angle_by(picture, definition);
+    if (!angle_rad) {
+      ++mean.refused;
+      continue;
+    }
     if (picture.status == vision::MeasureStatus::flagged) ++mean.flagged;
-    if (picture.status == vision::MeasureStatus::refused) ++mean.refused;
-    if (!picture.angle_rad || !counts_in_mean(picture.status)) continue;
-    angles_deg.push_back(*picture.angle_rad * 180 / std::numbers::pi);
+    angles_deg.push_back(*angle_rad * 180 / std::numbers::pi);
   }
   if (!angles_deg.empty()) mean.angle_deg = summarise(angles_deg);
   return mean;

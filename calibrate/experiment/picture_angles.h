@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "calibrate/statistics/summary.h"
@@ -15,7 +17,14 @@ namespace repose::calibrate {
 struct PictureAngle {
   vision::MeasureStatus status = vision::MeasureStatus::refused;
   std::optional<double> angle_rad;
+  /// By the other definitions of base/angle_definition.h, by name; those that it allows.
+  std::map<std::string, double> other_rad = {};
 };
+
+PictureAngle picture_angle_of(const vision::ReposeAngle& measured);
+
+/// By a definition; empty: by the usual one. None of a picture that is refused.
+std::optional<double> angle_by(const PictureAngle& picture, const std::string& definition);
 
 /// Whether a picture's angle counts towards a mean: every one that could be measured does, flagged
 /// ones too. A flag says that a heap looks low or hollow from there, or that its interval is wide;
@@ -29,9 +38,10 @@ bool counts_in_mean(std::string_view status);
 struct PictureMean {
   std::optional<Summary> angle_deg;  ///< none when no picture counts
   int flagged = 0;                   ///< of those that count
-  int refused = 0;
+  int refused = 0;                   ///< or without an angle by the definition
 };
 
-PictureMean mean_of_pictures(std::span<const PictureAngle> pictures);
+PictureMean mean_of_pictures(std::span<const PictureAngle> pictures,
+                             const std::string& definition = {});
 
 }  // namespace repose::calibrate

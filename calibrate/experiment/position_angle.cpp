@@ -1,7 +1,9 @@
 #include "calibrate/experiment/position_angle.h"
 
 #include <cstddef>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,6 +11,8 @@
 
 namespace repose::calibrate {
 namespace {
+
+double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
 
 vision::Outline outline_of(const dem::HeapEnvelope& envelope) {
   vision::Outline outline{.along = {}, .height = envelope.height_m};
@@ -25,12 +29,17 @@ PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
   PositionAngle result;
   std::vector<double> angles;
   std::vector<double> feet;
+  std::optional<double> first_view_deg;
+  std::map<std::string, std::vector<double>> others;
   for (const dem::HeapEnvelope& envelope : envelopes) {
     const vision::OutlineAngle view = vision::measure_outline(outline_of(envelope), options);
     const auto angle_rad = view.angle_rad();
     if (!angle_rad) continue;
-    angles.push_back(*angle_rad * 180 / std::numbers::pi);
-    if (&envelope == &envelopes.front()) result.first_view_deg = angles.back();
+    angles.push_back(degrees(*angle_rad));
+    for (const vision::NamedAngle& other : view.definitions) {
+      others[other.name].push_back(degrees(other.angle_rad));
+    }
+    if (&envelope == &envelopes.front()) first_view_deg = angles.back();
     double foot = 0;
     int sides = 0;
     for (const auto& flank : {view.left, view.right}) {
@@ -41,23 +50,33 @@ PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
     feet.push_back(foot / sides);
     result.flanks += sides;
   }
-  if (angles.empty()) return result;
+  if (angles.empty() || result.flanks < static_cast<int>(envelopes.size())) return result;
   const Summary views = summarise(angles);
   result.angle_deg = views.mean;
-  result.between_views_deg = views.sd.value_or(0);
+  result.between_views_deg = views.sd;
+  result.first_view_deg = first_view_deg;
   result.base_radius_m = summarise(feet).mean;
+  for (const auto& [name, of_views] : others) {
+    if (2 * of_views.size() >= envelopes.size()) result.other_deg[name] = summarise(of_views).mean;
+  }
   return result;
 }
 
-void add_position_angle(dem::Repeat& heap) {
+std::map<std::string, double> add_position_angle(dem::Repeat& heap) {
   const std::vector<dem::HeapEnvelope> envelopes = std::exchange(heap.envelopes, {});
-  const PositionAngle usual = position_angle(envelopes);
-  const PositionAngle inner = position_angle(envelopes, {.window_from = .3, .window_to = .7});
-  heap.value = usual.angle_deg;
-  heap.readings["base_radius_mm"] = 1e3 * usual.base_radius_m;
-  heap.readings["between_views_deg"] = usual.between_views_deg;
-  heap.readings["angle_xz_deg"] = usual.first_view_deg;
-  heap.readings["inner_window_deg"] = inner.angle_deg;
+  const auto layer = heap.readings.find("no_heap");
+  const bool is_layer = layer != heap.readings.end() && layer->second != 0;
+  const PositionAngle usual =
+      is_layer ? PositionAngle{} : position_angle(envelopes, {.has_definitions = true});
+  PositionAngle inner;
+  if (usual.angle_deg) inner = position_angle(envelopes, {.window_from = .3, .window_to = .7});
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  heap.value = usual.angle_deg.value_or(kNone);
+  heap.readings["base_radius_mm"] = 1e3 * usual.base_radius_m.value_or(kNone);
+  heap.readings["between_views_deg"] = usual.between_views_deg.value_or(kNone);
+  heap.readings["angle_xz_deg"] = usual.first_view_deg.value_or(kNone);
+  heap.readings["inner_window_deg"] = inner.angle_deg.value_or(kNone);
+  return usual.other_deg;
 }
 
 }  // namespace repose::calibrate

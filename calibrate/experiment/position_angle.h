@@ -1,6 +1,9 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/heap_envelope.h"
@@ -10,12 +13,17 @@
 /// measured with.
 namespace repose::calibrate {
 
+/// All empty where less than half of the flanks could be fitted, two a view: the grains still stand
+/// as they stood in the tube, or lie in a layer. The few that lean then say nothing of a heap.
 struct PositionAngle {
-  double angle_deg = 0;          ///< mean of the views that have a flank; 0 where none has
-  double between_views_deg = 0;  ///< standard deviation
-  double first_view_deg = 0;     ///< of the first view alone; 0 without a flank
-  double base_radius_m = 0;      ///< from the crest to where the lines meet the ground; mean
-  int flanks = 0;                ///< how many there were to fit, two a view
+  std::optional<double> angle_deg;          ///< mean of the views that have a flank
+  std::optional<double> between_views_deg;  ///< standard deviation; none of a single view
+  std::optional<double> first_view_deg;     ///< of the first view alone; none without a flank
+  std::optional<double> base_radius_m;  ///< from the crest to where the lines meet the ground; mean
+  int flanks = 0;                       ///< how many there were to fit
+  /// By the other definitions of base/angle_definition.h, by name: the mean of the views, where at
+  /// least half of them allow it. Only if options.has_definitions.
+  std::map<std::string, double> other_deg;
 };
 
 /// A view's angle is the mean of its flanks'. Without `options.grain` it is as a silhouette of the
@@ -30,8 +38,8 @@ PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
 /// their angle in degrees, and adds the readings "base_radius_mm", "between_views_deg" (scatter
 /// between directions), "angle_xz_deg" (seen along y) and "inner_window_deg" (as the value, but
 /// fitted from 30 to 70 % of the height instead of 20 to 80: low heaps are hollow at the foot, and
-/// the stretch moves their angle). The value of a layer ("no_heap" 1) is its own small angle, or 0
-/// if it has none.
-void add_position_angle(dem::Repeat& heap);
+/// the stretch moves their angle). NaN where there is none: of a layer ("no_heap" 1) all of them
+/// are. Returns the same angle by the other definitions, as PositionAngle::other_deg.
+std::map<std::string, double> add_position_angle(dem::Repeat& heap);
 
 }  // namespace repose::calibrate

@@ -82,6 +82,7 @@ std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t s
         Json::parse(stored.description) != Json::parse(description_of(spec, seed))) {
       throw std::invalid_argument("it is of another run");
     }
+    stored.run.definition = spec.definition;
     return std::move(stored.run);
   } catch (const std::invalid_argument& error) {
     note_damaged(place, error.what());
@@ -105,6 +106,7 @@ std::vector<std::string> RunFolder::remarks() const {
 
 std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint64_t seed) const {
   std::optional<SimulatedRun> run = find(spec, seed);
+  if (run && !has_definition(*run, spec.definition)) return std::nullopt;
   if (!run || !run->failure.empty() || spec.viewing.views == 0) {
     if (run) run->views.clear();
     return run;

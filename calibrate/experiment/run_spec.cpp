@@ -49,7 +49,8 @@ RunSpec spec_of(const dem::Study& study, dem::Experiment experiment, const Named
   RunSpec spec{.protocol = study.experiments.at(experiment).protocol,
                .model = dem::model_for(study, experiment),
                .grain_fingerprint = grain.fingerprint,
-               .viewing = {.views = dem::entry_of(experiment).is_pictured ? views : 0}};
+               .viewing = {.views = dem::entry_of(experiment).is_pictured ? views : 0},
+               .definition = study.experiments.at(experiment).definition};
   spec.model.grain = grain.shape;
   if (auto* heap = std::get_if<dem::HeapProtocol>(&spec.protocol)) {
     heap->may_be_fewer = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -34,6 +35,7 @@ class ExperimentRunner {
   SimulatedRun run() {
     std::optional<SimulatedRun> saved = reusable();
     SimulatedRun run = saved ? *std::move(saved) : simulated();
+    run.definition = spec_.definition;
     if (!run.failure.empty()) return run;
     if (spec_.viewing.views == 0) {
       run.views.clear();
@@ -49,6 +51,7 @@ class ExperimentRunner {
     if (options_.folder == nullptr) return std::nullopt;
     std::optional<SimulatedRun> run = options_.folder->find(spec_, seed_);
     if (!run || !run->failure.empty()) return run;
+    if (!has_definition(*run, spec_.definition)) return std::nullopt;
     const bool has_film =
         !options_.trajectory || run->trajectory_s == options_.trajectory->interval_s;
     const bool needs_state = options_.saves_state || !is_pictured_as(*run, spec_.viewing);
@@ -67,13 +70,14 @@ class ExperimentRunner {
     start_ = Clock::now();
     try {
       dem::Repeat repeat = repeated(restart, spent_s);
-      if (!repeat.envelopes.empty()) add_position_angle(repeat);
-      run.value = repeat.value;
+      if (!repeat.envelopes.empty()) run.other_deg = add_position_angle(repeat);
+      if (std::isfinite(repeat.value)) run.value = repeat.value;
       run.readings = repeat.readings;
       run.steps = repeat.steps;
       run.timestep_s = repeat.timestep_s;
       run.clump_steps = repeat.clump_steps;
       state_ = repeat.state;
+      run.failure = no_heap_reason(run);
       if (const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol)) {
         measure_front(*boxes, run);
       }

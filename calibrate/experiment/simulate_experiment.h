@@ -28,8 +28,9 @@ struct SimulateOptions {
 /// where it was interrupted; and measures the pictures of a heap where those are not there. The one
 /// way in which all commands do it: the same spec and seed give the same bytes.
 ///
-/// An experiment in which nothing can be read, or that becomes unstable, is a run with a failure.
-/// A machine that cannot draw gives heaps without views and with a picture_error.
+/// An experiment in which nothing can be read, or that becomes unstable, is a run with a failure;
+/// of grains that make no heap (no_heap_reason) the final state is saved all the same. A machine
+/// that cannot draw gives heaps without views and with a picture_error.
 /// @throws dem::Interrupted  `report` asked for it.
 /// @throws std::invalid_argument  the protocol cannot be run, a file cannot be written, or a
 /// restart file is damaged.

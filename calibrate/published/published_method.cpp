@@ -67,7 +67,7 @@ std::vector<double> values_for(const Problem& problem, const std::string& experi
 class PublishedMethod {
  public:
   PublishedMethod(const Problem& problem, const StudyContext& context)
-      : problem_(problem), runner_(problem, context) {
+      : problem_(problem), context_(context), runner_(problem, context) {
     for (const Parameter& parameter : problem.parameters) {
       set_.push_back((parameter.min + parameter.max) / 2);
     }
@@ -82,6 +82,7 @@ class PublishedMethod {
     outcome_.measured_angle_deg = observable_of(problem_, "heap").mean;
     if (!ascend() || !fit_surface() || !check()) return std::nullopt;
     outcome_.values = set_;
+    outcome_.heap_angles_deg = heap_angles_deg(context_, outcome_.checks);
     return std::move(outcome_);
   }
 
@@ -240,6 +241,7 @@ class PublishedMethod {
   }
 
   const Problem& problem_;
+  const StudyContext& context_;
   JobRunner runner_;
   std::vector<double> set_;
   std::uint64_t heap_seeds_ = 0;

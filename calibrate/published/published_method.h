@@ -6,6 +6,7 @@
 
 #include "calibrate/fit/problem.h"
 #include "calibrate/statistics/regress/surface_report.h"
+#include "calibrate/study/heap_angles.h"
 #include "calibrate/study/study_context.h"
 
 /// The way a published study of hazelnuts was calibrated, step by step, to be compared with: one
@@ -40,7 +41,8 @@ struct PublishedOutcome {
   SurfaceReport surface;       ///< of the error; its least in the design's box is the answer
   std::vector<double> values;  ///< all six, as in Problem::parameters
   std::vector<PublishedHeap> verification;
-  std::vector<Run> checks;  ///< the runs of these
+  std::vector<Run> checks;      ///< the runs of these
+  NamedAngles heap_angles_deg;  ///< of these (heap_angles.h)
   double measured_angle_deg = 0;
 };
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_views.h"
 #include "calibrate/experiment/picture_angles.h"
@@ -71,6 +72,7 @@ ShownPicture with_overlay(const MeasuredHeap& heap, int side_px, const std::stri
 }
 
 std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
+                                                const std::string& definition,
                                                 std::vector<std::string>& remarks) {
   const std::string name = shortened(picture.file.filename().string());
   try {
@@ -88,8 +90,10 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
     if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
     heap.angle = std::move(sized.angle);
     constexpr double kSame_deg = 0.01;
-    const double now_deg = heap.angle.angle_rad.value_or(0) / kDegree;
-    if (picture.angle_deg && std::abs(now_deg - *picture.angle_deg) > kSame_deg) {
+    const auto now_rad = vision::angle_by(heap.angle, definition);
+    const bool is_same =
+        now_rad && std::abs(*now_rad / kDegree - picture.angle_deg.value_or(0)) <= kSame_deg;
+    if (picture.angle_deg && !is_same) {
       remarks.push_back(
           fmt::format("{} gave {}° when the study was made, but not now: the file or the program "
                       "has changed since.",
@@ -112,11 +116,10 @@ std::optional<std::size_t> most_typical(const std::vector<MeasuredHeap>& heaps) 
   const PictureMean mean = mean_of_pictures(angles);
   if (!mean.angle_deg) return std::nullopt;
   const auto rank = [&](std::size_t k) {
-    const auto& [status, angle_rad] = angles[k];
-    const bool counts = angle_rad && counts_in_mean(status);
+    const auto angle_rad = angle_by(angles[k], {});
     const double off_deg =
-        counts ? std::abs(*angle_rad / kDegree - mean.angle_deg->mean) : kNothing_deg;
-    return std::pair(!counts || status != vision::MeasureStatus::ok, off_deg);
+        angle_rad ? std::abs(*angle_rad / kDegree - mean.angle_deg->mean) : kNothing_deg;
+    return std::pair(!angle_rad || angles[k].status != vision::MeasureStatus::ok, off_deg);
   };
   std::size_t best = 0;
   for (std::size_t k = 1; k < heaps.size(); ++k) {
@@ -130,7 +133,8 @@ std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPic
   const int side_px = longest_side_px(study.pictures.size());
   std::vector<MeasuredHeap> heaps;
   for (const PictureReading& picture : study.pictures) {
-    std::optional<MeasuredHeap> heap = measured_photograph(picture, shown.remarks);
+    std::optional<MeasuredHeap> heap =
+        measured_photograph(picture, shown.definition, shown.remarks);
     if (!heap) continue;
     shown.photographs.push_back(with_overlay(*heap, side_px, "Photograph"));
     heaps.push_back(*std::move(heap));
@@ -239,10 +243,19 @@ void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, Heap
   shown.comparison = comparison_table(comparison);
 }
 
+/// By which the study reads its heaps; empty: by the usual one.
+std::string definition_of(const ReportedStudy& study) {
+  if (!study.record) return {};
+  const auto& experiments = study.record->study.experiments;
+  const auto heap = experiments.find(dem::Experiment::heap);
+  return heap == experiments.end() ? std::string() : heap->second.definition;
+}
+
 }  // namespace
 
 HeapPictures heap_pictures(const ReportedStudy& study) {
   HeapPictures shown;
+  shown.definition = definition_of(study);
   const std::optional<MeasuredHeap> photograph = show_photographs(study, shown);
   if (!study.result) return shown;
   if (!has_heap(*study.result)) return shown;
@@ -316,6 +329,12 @@ Chapter heap_chapter(const HeapPictures& pictures) {
       : pictures.renders.empty()   ? "How the photographs are measured"
                                    : "Photographs and pictures of the simulation are measured by "
                                      "the same program in the same way")});
+  if (!base::is_usual_definition(pictures.definition)) {
+    chapter.blocks.push_back(Remark{fmt::format(
+        "The angles that the coefficients are fitted to are of the same heaps by another "
+        "definition, {}: {}.",
+        pictures.definition, base::find_definition(pictures.definition)->description)});
+  }
   if (!pictures.photographs.empty()) {
     const std::size_t count = pictures.photographs.size();
     chapter.blocks.push_back(Heading{"Photographs"});

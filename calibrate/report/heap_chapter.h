@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calibrate/report/document.h"
@@ -22,6 +23,9 @@ struct HeapPictures {
   std::optional<Table> comparison;
   std::optional<Chart> heap_model;   ///< the 3-D view
   std::vector<std::string> remarks;  ///< what is not there, and why
+  /// By which the study reads them (base/angle_definition.h); empty: by the usual one. Pictures
+  /// show the usual one.
+  std::string definition;
 };
 
 /// The photograph that stands for all is the one among those of the mean, without a flag if there

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "base/whole_file.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
@@ -146,6 +147,11 @@ void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry
   }
   settings.add("fraction of the real stiffness", shown(described->second.stiffness_factor),
                states(stated, "stiffness_factor"));
+  if (entry.is_pictured) {
+    const std::string& definition = described->second.definition;
+    settings.add("definition of the angle:", std::string(base::definition_meant(definition)),
+                 !definition.empty());
+  }
   settings.add_to(table, std::string(entry.name),
                   measured_text(record, entry, described->second.measured));
 }

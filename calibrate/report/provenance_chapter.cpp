@@ -62,6 +62,11 @@ void add_model(const StudyResult& result, DataTable& data) {
   if (from.clump.size_sd_percent) {
     add(data, "standard deviation of sizes", fmt::format("{:.3g} %", *from.clump.size_sd_percent));
   }
+  if (from.heap_definition) {
+    add(data, "definition of a heap's angle", text_of(*from.heap_definition));
+    const std::string simulated = simulated_text(*from.heap_definition);
+    if (!simulated.empty()) add(data, "mean angle of the heaps simulated last", simulated);
+  }
   add(data, "fraction of the real stiffness", by_experiment(from.stiffness_factor, ""));
   add(data, "shortest time step", by_experiment(from.shortest_timestep_s, " s"));
 }

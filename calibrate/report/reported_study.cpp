@@ -60,8 +60,9 @@ std::optional<SavedRun> run_in(const fs::path& file) {
     const auto simulated = nlohmann::json::parse(stored.description);
     SavedRun run{.experiment = simulated.at("experiment"),
                  .values = {},
-                 .readings = stored.run.readings,
+                 .readings = {},
                  .failure = stored.run.failure};
+    if (run.failure.empty()) run.readings = stored.run.readings;
     std::erase_if(run.readings, [](const auto& reading) { return !std::isfinite(reading.second); });
     for (const auto& [pair, contact] : simulated.items()) {
       if (!pair.starts_with("particle_")) continue;

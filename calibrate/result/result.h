@@ -44,12 +44,25 @@ inline constexpr std::array<std::pair<AgreementVerdict, std::string_view>, 3> kA
 
 std::string name_of(AgreementVerdict verdict);
 
+struct HeapDefinition;
+/// "whole_flank (least-squares line from toe to crest)", and whether that is assumed.
+std::string text_of(const HeapDefinition& definition);
+/// "23.90 degrees by it; by outer_window -0.41, whole_flank -1.90"; empty: unknown.
+std::string simulated_text(const HeapDefinition& definition);
+
 struct ClumpFacts {
   std::string source;  ///< the scan, or the sizes it was made from
   std::size_t spheres = 0;
   double volume_error = 0;                     ///< relative
   double inertia_error = 0;                    ///< relative
   std::optional<double> size_sd_percent = {};  ///< of bulks; none: grains of one size
+};
+
+/// By which definition heaps were measured, on the bench and simulated.
+struct HeapDefinition {
+  std::string name;           ///< of base/angle_definition.h
+  bool is_assumed = false;    ///< the study gives a number and does not say by which
+  NamedValues simulated_deg;  ///< what the heaps of the last check read by each; or none
 };
 
 /// What coefficients belong to: they mean nothing without it.
@@ -63,8 +76,9 @@ struct Provenance {
   std::string damping = dem::name_of(dem::DampingModel::per_contact);
   std::string damping_definition = dem::damping_definition(dem::DampingModel::per_contact);
   ClumpFacts clump;
-  NamedValues stiffness_factor;     ///< of each experiment
-  NamedValues shortest_timestep_s;  ///< of each experiment's runs
+  NamedValues stiffness_factor;                        ///< of each experiment
+  NamedValues shortest_timestep_s;                     ///< of each experiment's runs
+  std::optional<HeapDefinition> heap_definition = {};  ///< none: there is no heap
 };
 
 struct ResultParameter : FittedParameter {

@@ -41,6 +41,13 @@ void fields(Io& io, Held<Io, ClumpFacts>& clump) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, HeapDefinition>& definition) {
+  io("name", definition.name);
+  io("is_assumed", definition.is_assumed);
+  io("simulated_deg", definition.simulated_deg);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, Provenance>& provenance) {
   fields(io, provenance.study);
   io("first_seed", provenance.first_seed);
@@ -54,6 +61,9 @@ void fields(Io& io, Held<Io, Provenance>& provenance) {
   io("clump", provenance.clump);
   io("stiffness_factor", provenance.stiffness_factor);
   io("shortest_timestep_s", provenance.shortest_timestep_s);
+  if (io.has("heap_definition", provenance.heap_definition.has_value())) {
+    io("heap_definition", provenance.heap_definition);
+  }
 }
 
 template <typename Io>

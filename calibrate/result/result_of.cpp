@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "calibrate/experiment/simulated_run.h"
 #include "calibrate/fit/family.h"
 #include "calibrate/fit/unit_box.h"
@@ -105,8 +106,21 @@ std::optional<double> size_sd_percent(const dem::Model& model) {
   return 100 * model.size_sd_fraction;
 }
 
+std::optional<HeapDefinition> heap_definition_of(const StudyRecord& record, const Problem& problem,
+                                                 const NamedAngles& simulated_deg) {
+  const dem::ExperimentEntry& entry = dem::entry_of(dem::Experiment::heap);
+  const auto heap = record.study.experiments.find(entry.experiment);
+  const auto is_of_heaps = [&](const Observable& one) { return one.experiment == entry.name; };
+  const bool is_used = std::ranges::any_of(problem.observables, is_of_heaps) ||
+                       std::ranges::any_of(problem.held_out, is_of_heaps);
+  if (heap == record.study.experiments.end() || !is_used) return std::nullopt;
+  return HeapDefinition{.name = std::string(base::definition_meant(heap->second.definition)),
+                        .is_assumed = is_definition_assumed(entry, heap->second),
+                        .simulated_deg = simulated_deg};
+}
+
 Provenance provenance_of(const StudyRecord& record, const Problem& problem,
-                         const std::vector<Run>& runs) {
+                         const std::vector<Run>& runs, const NamedAngles& heap_angles_deg) {
   const dem::Study& study = record.study;
   NamedValues stiffness;
   for (const Experiment& experiment : problem.experiments) {
@@ -126,7 +140,8 @@ Provenance provenance_of(const StudyRecord& record, const Problem& problem,
                     .inertia_error = record.grain.errors.inertia_error,
                     .size_sd_percent = size_sd_percent(study.model)},
           .stiffness_factor = stiffness,
-          .shortest_timestep_s = shortest_timesteps(runs)};
+          .shortest_timestep_s = shortest_timesteps(runs),
+          .heap_definition = heap_definition_of(record, problem, heap_angles_deg)};
 }
 
 PublishedVerification verification_of(const PublishedOutcome& outcome) {
@@ -196,8 +211,9 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
   for (ResponseSurface& surface : joint.surfaces) {
     for (std::vector<double>& row : surface.simulated) round_for_drawing(row);
   }
-  return {.provenance = provenance_of(record, problem.problem, outcome.runs),
-          .found = std::move(joint)};
+  return {
+      .provenance = provenance_of(record, problem.problem, outcome.runs, outcome.heap_angles_deg),
+      .found = std::move(joint)};
 }
 
 StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
@@ -217,7 +233,8 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
     published.warnings.push_back({.code = "shape", .message = std::move(shape)});
   }
   published.error_surface.runs.clear();  // they are the composite design
-  return {.provenance = provenance_of(record, problem.problem, {}), .found = std::move(published)};
+  return {.provenance = provenance_of(record, problem.problem, {}, outcome.heap_angles_deg),
+          .found = std::move(published)};
 }
 
 }  // namespace repose::calibrate

@@ -90,8 +90,10 @@ void JobRunner::keep(const SimulatedJob& done) const {
 }
 
 Run JobRunner::possible(const SimulatedJob& done) const {
-  Run run = run_of(done);
   const RunSpec spec = context_.simulator.spec(done.job);
+  SimulatedJob read = done;
+  read.run.definition = spec.definition;  // another process does not send it
+  Run run = run_of(read);
   std::string fault = fault_of(spec, run);
   if (fault.empty()) return run;
   context_.folder.note(

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "calibrate/experiment/simulated_run.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/statistics/summary.h"
@@ -161,6 +162,7 @@ class Maker {
     }
     const dem::Measured& measured = described->second.measured;
     note_unknown_camera(described->second);
+    note_unknown_definition(entry, described->second);
     const bool is_measured = measured.mean || !measured.values.empty();
     if (with_effect.empty()) {
       if (is_measured) {
@@ -203,6 +205,17 @@ class Maker {
         "are seen from far away: of heaps of nuts a level camera three widths away reads 0.8 "
         "degrees less than that. Fix: camera_distance_mm, from the heap's middle to the lens, and "
         "camera_height_mm, of the lens above the plate");
+  }
+
+  void note_unknown_definition(const dem::ExperimentEntry& entry,
+                               const dem::StudyExperiment& described) {
+    if (!is_definition_assumed(entry, described)) return;
+    made_.notes.push_back(fmt::format(
+        "[experiment.{}] does not say by which definition its angle was measured: {} is assumed, "
+        "{}. Others differ by degrees; many publications fit a line to the whole flank. Fix: "
+        "definition = \"whole_flank\", or whichever it is; repose measure --definitions lists "
+        "them",
+        entry.name, base::kUsualDefinition.name, base::kUsualDefinition.description));
   }
 
   int readings_per_run(const dem::ExperimentEntry& entry) const {
@@ -248,6 +261,15 @@ class Maker {
 };
 
 }  // namespace
+
+bool is_definition_assumed(const dem::ExperimentEntry& entry,
+                           const dem::StudyExperiment& described) {
+  const dem::Measured& measured = described.measured;
+  const bool is_ours =
+      !measured.pictures.empty() || !measured.videos.empty() || measured.sheet.has_value();
+  const bool is_told = measured.mean.has_value() || !measured.values.empty();
+  return entry.is_pictured && described.definition.empty() && is_told && !is_ours;
+}
 
 Budget budget_named(const std::string& name) {
   constexpr double kMinute_s = 60;

@@ -5,6 +5,7 @@
 
 #include "calibrate/fit/problem.h"
 #include "dem/shape/clump/clump_file.h"
+#include "dem/study/experiment_table.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {
@@ -26,6 +27,11 @@ Budget budget_named(const std::string& name);
 /// or by what chance does in the simulation where that is more (Misfit::measured_uncertainty). It
 /// is said in JointFit::warnings.
 inline constexpr double kAssumedSdFraction = .05;
+
+/// The bench's angle is given as a number, and not by which definition it was measured. Pictures,
+/// films and sheets are measured by ours.
+bool is_definition_assumed(const dem::ExperimentEntry& entry,
+                           const dem::StudyExperiment& described);
 
 /// What a study leaves to be found, what it measured, and what of that can be used.
 struct StudyProblem {

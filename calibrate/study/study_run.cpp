@@ -361,6 +361,7 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
   note_sensitivity(problem, outcome.stiffness, outcome.notes);
   note_sensitivity(problem, outcome.shape, outcome.notes);
   note_missing_grains(outcome.notes, outcome.runs);
+  outcome.heap_angles_deg = heap_angles_deg(context, outcome.checks);
   outcome.simulated = runner.simulated();
   outcome.reused = runner.reused();
   return outcome;

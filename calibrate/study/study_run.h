@@ -10,6 +10,7 @@
 #include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
+#include "calibrate/study/heap_angles.h"
 #include "calibrate/study/study_context.h"
 #include "calibrate/study/study_problem.h"
 
@@ -51,6 +52,7 @@ struct StudyOutcome {
   ShapeCheck shape;                        ///< grains of more spheres
   std::vector<Run> runs;                   ///< those that the fit was made from
   std::vector<Run> checks;                 ///< those of the last check
+  NamedAngles heap_angles_deg;             ///< of these (heap_angles.h)
   std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs
   int simulated = 0;                       ///< runs made by this call
   int reused = 0;                          ///< runs found in the folder

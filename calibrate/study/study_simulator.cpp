@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "calibrate/study/coefficients.h"
 
 namespace repose::calibrate {
@@ -17,7 +18,10 @@ Run run_of(const SimulatedJob& done) {
   Run run{.job = done.job, .readings = readings_of(done.run), .failure = done.run.failure};
   if (run.failure.empty() && !run.readings.contains("value")) {
     run.readings.clear();
-    run.failure = "it has no value";
+    run.failure =
+        base::is_usual_definition(done.run.definition)
+            ? "it has no value"
+            : fmt::format("its angle cannot be measured by the definition {}", done.run.definition);
   }
   return run;
 }

@@ -47,13 +47,22 @@ vision::ReposeAngle measured_angle(const std::filesystem::path& file) {
   return vision::measure_sized_heap(vision::read_picture(file), told, scale).angle;
 }
 
-calibrate::PictureReading reading_of(const std::filesystem::path& file) {
+calibrate::PictureReading reading_of(const std::filesystem::path& file,
+                                     const std::string& definition) {
   const vision::ReposeAngle angle = measured_angle(file);
   calibrate::PictureReading reading{.file = std::filesystem::absolute(file),
                                     .status = name_of(angle.status),
                                     .angle_deg = {},
                                     .reason = angle.reason};
-  if (angle.angle_rad) reading.angle_deg = to_degrees(*angle.angle_rad);
+  if (const auto angle_rad = vision::angle_by(angle, definition)) {
+    reading.angle_deg = to_degrees(*angle_rad);
+  } else if (angle.status != vision::MeasureStatus::refused) {
+    reading.status = name_of(vision::MeasureStatus::refused);
+    reading.reason = fmt::format(
+        "its angle cannot be measured by the definition {}: too little of the flank is seen. Fix: "
+        "take pictures in which the heap is larger and whole.",
+        definition);
+  }
   return reading;
 }
 
@@ -73,7 +82,10 @@ std::vector<std::string> names_of(const std::vector<std::filesystem::path>& file
 
 /// Photographs and films of the bench's heaps: each gives a reading, or it is said why it gives
 /// none.
-void measure_heaps(const dem::Measured& measured, CalibratePlan& plan) {
+void measure_heaps(CalibratePlan& plan) {
+  const auto heap = plan.record.study.experiments.find(dem::Experiment::heap);
+  if (heap == plan.record.study.experiments.end()) return;
+  const dem::Measured& measured = heap->second.measured;
   if (measured.pictures.empty() && measured.videos.empty()) return;
   const FileList list = measured.videos.empty()
                             ? list_pictures_and_films(names_of(measured.pictures))
@@ -84,7 +96,7 @@ void measure_heaps(const dem::Measured& measured, CalibratePlan& plan) {
   for (const std::filesystem::path& file : list.files) {
     attempt(plan.errors, [&] {
       const calibrate::PictureReading& reading =
-          plan.record.pictures.emplace_back(reading_of(file));
+          plan.record.pictures.emplace_back(reading_of(file, heap->second.definition));
       if (calibrate::counts_in_mean(reading.status)) any = true;
       if (reading.status != "ok") plan.notes.push_back(note_on(reading));
     });
@@ -169,7 +181,7 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   check_places(plan);
   attempt(plan.errors,
           [&] { plan.record.sheets = calibrate::read_sheets(plan.record.study, no_rows); });
-  measure_heaps(dem::measured_in(plan.record.study, dem::Experiment::heap), plan);
+  measure_heaps(plan);
   read_films(plan);
   if (!plan.errors.empty()) return plan;
   plan.record.study = calibrate::as_measured(std::move(plan.record.study), plan.record.pictures,

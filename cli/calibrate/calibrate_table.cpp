@@ -222,6 +222,20 @@ void add_additions(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
+/// By what heaps were measured.
+void add_heap_definition(const calibrate::Provenance& provenance, Page& page) {
+  if (!provenance.heap_definition) return;
+  const calibrate::HeapDefinition& definition = *provenance.heap_definition;
+  page.add_gap();
+  const std::string simulated = simulated_text(definition);
+  page.add(fmt::format(
+      "Angles of heaps are by the definition {}.{}{}", text_of(definition),
+      simulated.empty() ? "" : " The simulated heaps have " + simulated + '.',
+      definition.is_assumed
+          ? " If the bench's angle is by another, state it: definition = ... in [experiment.heap]."
+          : ""));
+}
+
 std::string belongs_to_text(const calibrate::Provenance& of) {
   std::string stiffness;
   for (const auto& [experiment, factor] : of.stiffness_factor) {
@@ -257,6 +271,7 @@ std::string joint_table(const calibrate::JointResult& joint,
   add_family(joint, page);
   add_advice(joint, page);
   add_additions(joint, page);
+  add_heap_definition(provenance, page);
   page.add_gap();
   page.add(belongs_to_text(provenance));
   return page.text();

@@ -40,6 +40,16 @@ std::string continue_text(const SimulatePlan& plan) {
                                  : "The same command resumes from here.";
 }
 
+/// Programs are told as well, where one asks: a value of null, and why.
+void write_reasons(const SimulatePlan& plan, const std::vector<Run>& runs) {
+  const bool is_all_run =
+      count(runs, RunOutcome::bad_input) + count(runs, RunOutcome::internal_error) == 0;
+  if (!is_all_run || plan.json_file.empty()) return;
+  Outputs outputs;
+  outputs.add(plan.json_file, simulate_json(plan, runs));
+  outputs.write();
+}
+
 /// Says why there is no result. What is wrong with the input is so for every seed, and told once.
 ExitCode fail(const SimulatePlan& plan, const std::vector<Run>& runs) {
   std::set<std::string> told;
@@ -48,10 +58,14 @@ ExitCode fail(const SimulatePlan& plan, const std::vector<Run>& runs) {
     std::string whose = fmt::format("seed {}: ", plan.seeds[k]);
     if (run.outcome == RunOutcome::internal_error) whose += "internal error: ";
     if (run.outcome == RunOutcome::bad_input) whose.clear();
-    const std::string line = whose + run.error;
+    std::string line = whose + run.error;
+    if (!run.state_file.empty() && run.outcome == RunOutcome::no_reading) {
+      line += fmt::format(" To look at it: repose render {} --out heap.png.", run.state_file);
+    }
     if (!run.error.empty() && told.insert(line).second) print_line(line);
   }
   print_line("no result; " + finished_text(plan, runs));
+  write_reasons(plan, runs);
   if (count(runs, RunOutcome::internal_error) > 0) return ExitCode::internal_error;
   return count(runs, RunOutcome::bad_input) > 0 ? ExitCode::bad_input
                                                 : ExitCode::nothing_measurable;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/angle_definition.h"
 #include "base/version.h"
 #include "cli/common/degrees.h"
 #include "cli/simulate/simulate_values.h"
@@ -86,17 +87,23 @@ Json finite_value_or_null(const std::optional<double>& value) {
   return value ? finite_or_null(*value) : Json(nullptr);
 }
 
+Json object_of(const std::vector<std::pair<std::string, double>>& numbers) {
+  Json json = Json::object();
+  for (const auto& [name, number] : numbers) json[name] = finite_or_null(number);
+  return json;
+}
+
 /// A heap's angle from both sources, and each view of it.
 void add_pictures(const Run& run, Json& json) {
   const calibrate::SimulatedRun& result = run.result;
-  const auto seen = calibrate::mean_of_views(result.views).angle_deg;
+  const auto seen = calibrate::picture_mean(result).angle_deg;
   json["source"] = calibrate::is_from_pictures(result) ? "pictures" : "positions";
   json["angle_from_pictures_deg"] = seen ? finite_or_null(seen->mean) : Json(nullptr);
   json["sd_between_views_deg"] = seen ? finite_value_or_null(seen->sd) : Json(nullptr);
-  json["angle_from_positions_deg"] = finite_or_null(result.value);
+  json["angle_from_positions_deg"] = finite_value_or_null(calibrate::position_value(result));
   json["views"] = Json::array();
   for (const calibrate::HeapView& view : result.views) {
-    const auto& angle = view.picture.angle_rad;
+    const auto angle = calibrate::angle_by(view.picture, result.definition);
     json["views"].push_back({{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
                              {"status", name_of(view.picture.status)},
                              {"angle_deg", angle ? Json(rounded_degrees(*angle)) : Json(nullptr)}});
@@ -110,9 +117,10 @@ void add_sources(const SimulatePlan& plan, const std::vector<Run>& runs, Json& j
   json["source"] = source_of(runs);
   const auto& pictures = angles->pictures;
   json["angle_from_pictures_deg"] = pictures ? Json(pictures->mean) : Json(nullptr);
-  json["angle_from_positions_deg"] = finite_or_null(angles->positions.mean);
+  const auto& positions = angles->positions;
+  json["angle_from_positions_deg"] = positions ? Json(positions->mean) : Json(nullptr);
   json["sd_from_pictures_deg"] = pictures ? finite_value_or_null(pictures->sd) : Json(nullptr);
-  json["sd_from_positions_deg"] = finite_value_or_null(angles->positions.sd);
+  json["sd_from_positions_deg"] = positions ? finite_value_or_null(positions->sd) : Json(nullptr);
   json["sd_between_views_deg"] = finite_value_or_null(angles->between_views_pictures);
   json["views"] = angles->views;
   json["views_refused"] = angles->refused;
@@ -128,7 +136,8 @@ Json run_json(const Run& run) {
   Json readings = Json::object();
   for (const auto& [name, value] : result.readings) readings[name] = finite_or_null(value);
   Json json{{"seed", result.seed},
-            {"value", finite_or_null(calibrate::value_of(result))},
+            {"value", finite_value_or_null(calibrate::value_of(result))},
+            {"reason", result.failure.empty() ? Json(nullptr) : Json(result.failure)},
             {"wall_s", result.wall_s},
             {"steps", result.steps},
             {"clump_steps_per_s", finite_or_null(result.clump_steps / result.wall_s)},
@@ -137,6 +146,8 @@ Json run_json(const Run& run) {
             {"overlay", run.overlay_file.empty() ? Json(nullptr) : Json(run.overlay_file)},
             {"readings", readings}};
   if (!result.views.empty()) add_pictures(run, json);
+  const auto definitions = calibrate::values_by_definition(result);
+  if (!definitions.empty()) json["definitions_deg"] = object_of(definitions);
   return json;
 }
 
@@ -169,7 +180,14 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
     }
   }
   add_sources(plan, runs, json);
-  for (const Run& run : runs) json["repeats"].push_back(run_json(run));
+  if (entry.is_pictured) {
+    json["definition"] = base::definition_meant(plan.spec.definition);
+    json["definitions_deg"] = object_of(means_by_definition(runs));
+  }
+  for (const Run& run : runs) {
+    const bool has_ended = run.outcome == RunOutcome::done || run.outcome == RunOutcome::no_reading;
+    if (has_ended) json["repeats"].push_back(run_json(run));
+  }
   json["warnings"] = Json::array();
   // Was said when the run began.
   if (const std::string shape = dem::warning_of_shape(plan.grain); !shape.empty()) {

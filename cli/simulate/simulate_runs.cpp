@@ -95,7 +95,10 @@ class Batch {
     };
     run.result = simulate_experiment(spec_, seed, options);
     if (!run.result.failure.empty()) {
-      fail(run, RunOutcome::no_reading, run.result.failure);
+      run.outcome = RunOutcome::no_reading;
+      run.error = run.result.failure;
+      progress_.report(index, 1);
+      if (folder_) name_state(run, place);
       return;
     }
     run.outcome = RunOutcome::done;
@@ -103,16 +106,22 @@ class Batch {
     if (folder_) name_files(run, place);
   }
 
-  /// Puts what is to be looked at beside the store, where the seed tells whose it is.
-  void name_files(Run& run, const std::string& place) {
+  /// Puts the final state beside the store, where the seed tells whose it is; false without one.
+  bool name_state(Run& run, const std::string& place) {
     const std::string state = place + ".vtp";
     const auto name = std::filesystem::path(state).filename().string();
-    if (!folder_->copy_state(spec_, run.result.seed, name)) {
-      throw std::invalid_argument(fmt::format(
-          "{}: its run in {} was changed in the meantime. Fix: run the same command again.", state,
-          folder_->runs().string()));
-    }
+    if (!folder_->copy_state(spec_, run.result.seed, name)) return false;
     run.state_file = state;
+    return true;
+  }
+
+  /// The same, with a picture of it.
+  void name_files(Run& run, const std::string& place) {
+    if (!name_state(run, place)) {
+      throw std::invalid_argument(fmt::format(
+          "{}: its run in {} was changed in the meantime. Fix: run the same command again.",
+          place + ".vtp", folder_->runs().string()));
+    }
     const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol);
     if (run.result.views.empty() && boxes == nullptr) return;
     run.overlay_file = place + ".overlay.png";

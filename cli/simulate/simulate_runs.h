@@ -27,8 +27,8 @@ struct Run {
 };
 
 /// Runs all repeats that the --out folder does not hold already, several at a time, and puts each
-/// one's state and overlay there under the name of its seed. The first that fails, or an
-/// interruption, stops the others.
+/// one's state and overlay there under the name of its seed. The first with an error, or an
+/// interruption, stops the others; one without a reading does not.
 std::vector<Run> run_repeats(const SimulatePlan& plan, const std::atomic<bool>& is_interrupted);
 
 }  // namespace repose::cli

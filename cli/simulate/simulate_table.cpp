@@ -1,10 +1,11 @@
 #include "cli/simulate/simulate_table.h"
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "cli/common/page.h"
 #include "cli/simulate/simulate_json.h"
 #include "cli/simulate/simulate_values.h"
@@ -31,7 +32,8 @@ Table repeats_table(const SimulatePlan& plan, const std::vector<Run>& runs) {
                {}});
   for (const Run& run : runs) {
     const calibrate::SimulatedRun& result = run.result;
-    table.add_row({std::to_string(result.seed), fmt::format("{:.3f}", calibrate::value_of(result)),
+    const auto value = calibrate::value_of(result);
+    table.add_row({std::to_string(result.seed), value ? fmt::format("{:.3f}", *value) : kNothing,
                    std::to_string(result.steps),
                    fmt::format("{:.3f}", result.timestep_s * kMicroseconds),
                    fmt::format("{:.1f}", result.wall_s),
@@ -92,6 +94,20 @@ void add_sources(const std::vector<Run>& runs, Page& page) {
   page.add(table);
 }
 
+/// The mean by each definition of the angle, and which of them is the value.
+void add_definitions(const SimulatePlan& plan, const std::vector<Run>& runs, Page& page) {
+  const auto means = means_by_definition(runs);
+  if (means.empty()) return;
+  Table table({{.heading = "  definition of the angle"}, number_column("mean [deg]"), {}, {}});
+  for (const auto& [name, mean] : means) {
+    const bool is_value = name == base::definition_meant(plan.spec.definition);
+    table.add_row({"  " + name, fmt::format("{:.2f}", mean), is_value ? "the value" : "",
+                   std::string(base::find_definition(name)->description)});
+  }
+  page.add_gap();
+  page.add(table);
+}
+
 /// "measured 9.420 mm, n = 10; simulated - measured = -0.290 mm (-3.1 %)"
 std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
   const dem::Measured& measured = dem::measured_in(plan.study, plan.experiment);
@@ -123,18 +139,31 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs
   return text;
 }
 
-/// The mean of each other reading over the repeats.
+/// "(20.1 … 23.4)", and of how many repeats where not all have it.
+std::string range_text(const std::vector<double>& values, std::size_t repeats) {
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  std::string text;
+  if (values.size() > 1) text = fmt::format("({:.4g} … {:.4g})", *least, *greatest);
+  if (values.size() == repeats) return text;
+  return text + fmt::format("{}of {} of {}", text.empty() ? "" : " ", values.size(), repeats);
+}
+
+/// The mean of each other reading over the repeats that have it.
 void add_readings(const std::vector<Run>& runs, Page& page) {
-  std::map<std::string, std::vector<double>> readings;
+  std::set<std::string> names;
   for (const Run& run : runs) {
-    for (const auto& [name, value] : run.result.readings) readings[name].push_back(value);
+    for (const auto& [name, value] : run.result.readings) names.insert(name);
   }
-  if (readings.empty()) return;
+  if (names.empty()) return;
   Table table({{}, {}, {}});
-  for (const auto& [name, values] : readings) {
-    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  for (const std::string& name : names) {
+    const std::vector<double> values = readings_named(runs, name);
+    if (values.empty()) {
+      table.add_row({"  " + name, kNothing, ""});
+      continue;
+    }
     table.add_row({"  " + name, fmt::format("{:.4g}", calibrate::summarise(values).mean),
-                   values.size() > 1 ? fmt::format("({:.4g} … {:.4g})", *least, *greatest) : ""});
+                   range_text(values, runs.size())});
   }
   page.add_gap();
   page.add("other readings");
@@ -193,6 +222,7 @@ std::string simulate_table(const SimulatePlan& plan, const std::vector<Run>& run
   page.add(mean_text(plan, runs));
   page.add(measured_text(plan, runs));
   add_sources(runs, page);
+  add_definitions(plan, runs, page);
   add_readings(runs, page);
   page.add_gap();
   page.add("these values are valid for");

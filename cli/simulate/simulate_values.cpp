@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+
+#include "base/angle_definition.h"
 
 namespace repose::cli {
 std::string source_of(const std::vector<Run>& runs) {
@@ -12,23 +15,48 @@ std::string source_of(const std::vector<Run>& runs) {
   return pictured == static_cast<std::ptrdiff_t>(runs.size()) ? "pictures" : "mixed";
 }
 
-std::vector<double> values_of(const std::vector<Run>& runs) {
+std::optional<std::vector<double>> values_of(const std::vector<Run>& runs) {
   std::vector<double> values;
   values.reserve(runs.size());
-  for (const Run& run : runs) values.push_back(calibrate::value_of(run.result));
+  for (const Run& run : runs) {
+    const auto value = calibrate::value_of(run.result);
+    if (run.outcome != RunOutcome::done || !value || !std::isfinite(*value)) return std::nullopt;
+    values.push_back(*value);
+  }
   return values;
 }
 
-std::optional<calibrate::Summary> summarise(const std::vector<Run>& runs) {
-  const std::vector<double> values = values_of(runs);
-  const auto is_number = [](double value) { return std::isfinite(value); };
-  const auto is_done = [](const Run& run) { return run.outcome == RunOutcome::done; };
-  if (values.empty() || !std::all_of(runs.begin(), runs.end(), is_done) ||
-      !std::all_of(values.begin(), values.end(), is_number)) {
-    return std::nullopt;
+std::vector<double> readings_named(const std::vector<Run>& runs, const std::string& name) {
+  std::vector<double> readings;
+  for (const Run& run : runs) {
+    const auto found = run.result.readings.find(name);
+    if (found == run.result.readings.end() || !std::isfinite(found->second)) continue;
+    readings.push_back(found->second);
   }
-  calibrate::Summary repeats = calibrate::summarise(values);
-  if (std::equal(values.begin() + 1, values.end(), values.begin())) {
+  return readings;
+}
+
+std::vector<std::pair<std::string, double>> means_by_definition(const std::vector<Run>& runs) {
+  std::map<std::string, std::vector<double>> angles;
+  for (const Run& run : runs) {
+    for (const auto& [name, angle] : calibrate::values_by_definition(run.result)) {
+      angles[name].push_back(angle);
+    }
+  }
+  std::vector<std::pair<std::string, double>> means;
+  for (const base::AngleDefinition& definition : base::kAngleDefinitions) {
+    const auto found = angles.find(std::string(definition.name));
+    if (found == angles.end() || found->second.size() < runs.size()) continue;
+    means.emplace_back(definition.name, calibrate::summarise(found->second).mean);
+  }
+  return means;
+}
+
+std::optional<calibrate::Summary> summarise(const std::vector<Run>& runs) {
+  const std::optional<std::vector<double>> values = values_of(runs);
+  if (!values || values->empty()) return std::nullopt;
+  calibrate::Summary repeats = calibrate::summarise(*values);
+  if (std::equal(values->begin() + 1, values->end(), values->begin())) {
     repeats.sd.reset();
     repeats.mean_uncertainty.reset();
   }
@@ -36,15 +64,14 @@ std::optional<calibrate::Summary> summarise(const std::vector<Run>& runs) {
 }
 
 std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs) {
+  if (runs.empty() || !values_of(runs)) return std::nullopt;
   HeapAngles angles;
   std::vector<double> positions, pictures, scatters;
   for (const Run& run : runs) {
     const calibrate::SimulatedRun& result = run.result;
     if (result.views.empty()) return std::nullopt;
-    positions.push_back(result.value);
-    const auto scatter = result.readings.find("between_views_deg");
-    if (scatter != result.readings.end()) angles.between_views_positions += scatter->second;
-    const calibrate::PictureMean seen = calibrate::mean_of_views(result.views);
+    if (const auto angle = calibrate::position_value(result)) positions.push_back(*angle);
+    const calibrate::PictureMean seen = calibrate::picture_mean(result);
     angles.views += static_cast<int>(result.views.size());
     angles.refused += seen.refused;
     angles.flagged += seen.flagged;
@@ -52,13 +79,21 @@ std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs) {
     if (seen.angle_deg) pictures.push_back(seen.angle_deg->mean);
     if (seen.angle_deg && seen.angle_deg->sd) scatters.push_back(*seen.angle_deg->sd);
   }
-  if (positions.empty()) return std::nullopt;
-  angles.positions = calibrate::summarise(positions);
-  angles.between_views_positions /= static_cast<double>(runs.size());
-  if (pictures.size() == runs.size()) angles.pictures = calibrate::summarise(pictures);
-  if (scatters.size() == runs.size()) {
-    angles.between_views_pictures = calibrate::summarise(scatters).mean;
+  const auto of_all = [&](const std::vector<double>& numbers) {
+    return numbers.size() == runs.size() ? std::optional(calibrate::summarise(numbers))
+                                         : std::nullopt;
+  };
+  const auto mean_of_all = [&](const std::vector<double>& numbers) {
+    const auto summary = of_all(numbers);
+    return summary ? std::optional(summary->mean) : std::nullopt;
+  };
+  angles.positions = of_all(positions);
+  angles.pictures = of_all(pictures);
+  // The reading is of the usual definition.
+  if (base::is_usual_definition(runs.front().result.definition)) {
+    angles.between_views_positions = mean_of_all(readings_named(runs, "between_views_deg"));
   }
+  angles.between_views_pictures = mean_of_all(scatters);
   return angles;
 }
 

@@ -1,20 +1,24 @@
 #include "cli/simulate/simulate_warnings.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "base/units.h"
+#include "calibrate/study/study_problem.h"
 #include "cli/simulate/simulate_values.h"
 
 namespace repose::cli {
 namespace {
 
-double reading_of(const Run& run, const std::string& name, double otherwise) {
+std::optional<double> reading_of(const Run& run, const std::string& name) {
   const auto found = run.result.readings.find(name);
-  return found == run.result.readings.end() ? otherwise : found->second;
+  if (found == run.result.readings.end() || !std::isfinite(found->second)) return std::nullopt;
+  return found->second;
 }
 
 RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
@@ -35,16 +39,22 @@ RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
 /// a single heap, which has none, than its scatter between directions.
 std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
                                          const std::vector<Run>& runs) {
-  double usual = 0, inner = 0, between_views = 0;
+  double usual = 0, inner = 0;
+  std::optional<double> between_views = 0;
   for (const Run& run : runs) {
-    if (reading_of(run, "no_heap", 0) != 0) return std::nullopt;  // a warning that says more
     const auto count = static_cast<double>(runs.size());
-    usual += run.result.value / count;
-    inner += reading_of(run, "inner_window_deg", run.result.value) / count;
-    between_views += reading_of(run, "between_views_deg", 0) / count;
+    const auto of_inner = reading_of(run, "inner_window_deg");
+    if (!run.result.value || !of_inner) return std::nullopt;  // nothing to compare
+    usual += *run.result.value / count;
+    inner += *of_inner / count;
+    const auto scatter = reading_of(run, "between_views_deg");
+    between_views =
+        between_views && scatter ? std::optional(*between_views + *scatter / count) : std::nullopt;
   }
-  const double yardstick = summary.mean_uncertainty.value_or(between_views);
-  if (std::abs(usual - inner) <= yardstick) return std::nullopt;
+  const std::optional<double> known =
+      summary.mean_uncertainty ? summary.mean_uncertainty : between_views;
+  if (!known || std::abs(usual - inner) <= *known) return std::nullopt;
+  const double yardstick = *known;
   return RunWarning{
       "window",
       {},
@@ -70,14 +80,13 @@ void add_picture_warnings(const std::vector<Run>& runs, std::vector<RunWarning>&
   for (const Run& run : runs) {
     const calibrate::SimulatedRun& result = run.result;
     if (result.views.empty() || calibrate::is_from_pictures(result)) continue;
-    warnings.push_back(
-        {"pictures_refused", result.seed,
-         fmt::format("{} of {} pictures could not be measured: its value is the "
-                     "angle from the grains' positions.",
-                     calibrate::mean_of_views(result.views).refused, result.views.size())});
+    warnings.push_back({"pictures_refused", result.seed,
+                        fmt::format("{} of {} pictures could not be measured: its value is the "
+                                    "angle from the grains' positions.",
+                                    calibrate::picture_mean(result).refused, result.views.size())});
   }
   const auto angles = heap_angles(runs);
-  if (!angles || source_of(runs) != "mixed") return;
+  if (!angles || !angles->positions || source_of(runs) != "mixed") return;
   warnings.push_back(
       {"mixed_sources",
        {},
@@ -86,7 +95,30 @@ void add_picture_warnings(const std::vector<Run>& runs, std::vector<RunWarning>&
                    "positions "
                    "with positions ({:.2f} degrees on average).",
                    angles->pictured, runs.size() - static_cast<std::size_t>(angles->pictured),
-                   angles->positions.mean)});
+                   angles->positions->mean)});
+}
+
+/// What the bench's angle may be off by where nobody says how it was measured.
+void add_definition_warning(const SimulatePlan& plan, const std::vector<Run>& runs,
+                            std::vector<RunWarning>& warnings) {
+  const dem::StudyExperiment& described = plan.study.experiments.at(plan.experiment);
+  if (!calibrate::is_definition_assumed(plan.spec.entry(), described)) return;
+  std::string others;
+  double used = 0;
+  for (const auto& [name, mean] : means_by_definition(runs)) {
+    if (name == base::kUsualDefinition.name) {
+      used = mean;
+    } else {
+      others += fmt::format("{}{} {:+.1f}", others.empty() ? "" : ", ", name, mean - used);
+    }
+  }
+  warnings.push_back(
+      {"assumed_definition",
+       {},
+       fmt::format("the study does not say by which definition the bench's angle was measured: {} "
+                   "is assumed ({}). By others these heaps differ by, in degrees: {}. Fix: "
+                   "definition = ... in [experiment.heap].",
+                   base::kUsualDefinition.name, base::kUsualDefinition.description, others)});
 }
 
 /// Heaps of fewer grains than the study asks for, since no more fit into the tube.
@@ -94,13 +126,13 @@ void add_grain_warning(const SimulatePlan& plan, const Run& run,
                        std::vector<RunWarning>& warnings) {
   const auto* heap = std::get_if<dem::HeapProtocol>(&plan.spec.protocol);
   if (heap == nullptr || !heap->grains) return;
-  const double grains = reading_of(run, "grains", *heap->grains);
-  if (grains >= *heap->grains) return;
+  const auto grains = reading_of(run, "grains");
+  if (!grains || *grains >= *heap->grains) return;
   warnings.push_back(
       {"fewer_grains", run.result.seed,
        fmt::format("only {1:g} of {0} grains fit into the tube. Fix: use fewer grains, "
                    "or a taller or wider tube.",
-                   *heap->grains, grains)});
+                   *heap->grains, *grains)});
 }
 
 /// A roll that hopped, or whose value is no distance along the flat.
@@ -108,10 +140,10 @@ void add_roll_warning(const SimulatePlan& plan, const Run& run, std::vector<RunW
   const auto* roll = std::get_if<dem::RollProtocol>(&plan.spec.protocol);
   if (roll == nullptr) return;
   const std::string hops = calibrate::warning_of_hops(
-      plan.spec.model.rolling, plan.spec.model.grain, reading_of(run, "hop_mm", 0));
+      plan.spec.model.rolling, plan.spec.model.grain, reading_of(run, "hop_mm").value_or(0));
   if (!hops.empty()) warnings.push_back({"hops", run.result.seed, hops});
-  if (reading_of(run, "stopped_on_incline", 0) == 0) return;
-  const double releases = reading_of(run, "releases", 1);
+  if (reading_of(run, "stopped_on_incline").value_or(0) == 0 || !run.result.value) return;
+  const double releases = reading_of(run, "releases").value_or(1);
   warnings.push_back(
       {"stayed_on_incline", run.result.seed,
        fmt::format(
@@ -119,21 +151,17 @@ void add_roll_warning(const SimulatePlan& plan, const Run& run, std::vector<RunW
            "the incline from the foot, {:.3f} mm from where it was let go. Fix: a steeper "
            "incline, as on the bench; or less rolling friction, if the bench's grains roll.",
            releases, releases == 1 ? "release" : "releases",
-           kMmPerM * roll->release_m + run.result.value)});
+           kMmPerM * roll->release_m + *run.result.value)});
 }
 
 /// What single repeats tell against their values.
 void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
   const std::uint64_t seed = run.result.seed;
-  if (reading_of(run, "no_heap", 0) != 0) {
-    warnings.push_back({"no_heap", seed,
-                        "the grains spread out in a layer; its angle is not an angle of repose."});
-  }
-  if (reading_of(run, "at_rest", 1) == 0) {
+  if (reading_of(run, "at_rest") == 0) {
     warnings.push_back(
         {"not_at_rest", seed, "grains were still moving when the time limit was reached."});
   }
-  const double never_rose = reading_of(run, "never_rose", 0);
+  const double never_rose = reading_of(run, "never_rose").value_or(0);
   auto* const grains_per_run = dem::entry_of(plan.experiment).readings_per_run;
   if (grains_per_run != nullptr && never_rose > 0) {
     warnings.push_back(
@@ -152,10 +180,15 @@ std::vector<RunWarning> warnings_of(const SimulatePlan& plan, const std::vector<
   const auto summary = summarise(runs);
   if (summary && summary->n > 1 && !summary->sd) warnings.push_back(no_scatter(plan, runs.size()));
   if (summary && plan.spec.entry().is_pictured) {
-    if (auto warning = window_matters(*summary, runs)) warnings.push_back(*std::move(warning));
+    const bool is_usual = base::is_usual_definition(plan.spec.definition);
+    auto warning = is_usual ? window_matters(*summary, runs) : std::nullopt;
+    if (warning) warnings.push_back(*std::move(warning));
     add_picture_warnings(runs, warnings);
+    add_definition_warning(plan, runs, warnings);
   }
-  for (const Run& run : runs) add_run_warnings(plan, run, warnings);
+  for (const Run& run : runs) {
+    if (run.outcome == RunOutcome::done) add_run_warnings(plan, run, warnings);
+  }
   return warnings;
 }
 

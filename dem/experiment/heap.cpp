@@ -22,8 +22,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongestLift_s = 600;
-/// Heaps lower than this many grain diameters are layers.
-constexpr double kLowestHeap = 2.5;
 /// Sides that a heap's envelopes are seen from.
 constexpr int kViews = 18;
 /// Shares of the run when the lift begins and when the tube is away.

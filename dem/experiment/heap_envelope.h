@@ -25,6 +25,9 @@ struct HeapEnvelope {
 /// ground.
 std::vector<HeapEnvelope> heap_envelopes(const std::vector<ClumpSphere>& spheres, int views);
 
+/// Heaps lower than this many grain diameters are layers, which have no angle of repose.
+inline constexpr double kLowestHeap = 2.5;
+
 /// The highest point of all envelopes, m.
 double height_m(const std::vector<HeapEnvelope>& envelopes);
 

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "base/angle_definition.h"
+#include "base/closest_word.h"
 #include "base/file_pattern.h"
 #include "dem/study/experiment_table.h"
 
@@ -156,6 +159,21 @@ void read_key(Section& section, const ProtocolKey& key) {
   }
 }
 
+/// definition = "whole_flank": by what an angle is measured.
+std::string read_definition(Section& section) {
+  const std::string key = "definition";
+  const auto name = section.text(key, "definition = \"whole_flank\"");
+  if (!name || base::find_definition(*name) != nullptr) return name.value_or("");
+  std::vector<std::string> known;
+  for (const base::AngleDefinition& one : base::kAngleDefinitions) known.emplace_back(one.name);
+  const std::string meant = base::closest_word(*name, known);
+  section.wrong(*section.value(key),
+                fmt::format("{} is one of {}", section.full(key), fmt::join(known, ", ")),
+                meant.empty() ? "that by which the bench's angle was measured"
+                              : fmt::format("did you mean \"{}\"?", meant));
+  return {};
+}
+
 void read_experiment(Section section, const ExperimentEntry& entry, const NamedFiles& files,
                      Study& study) {
   if (!section.exists()) return;
@@ -171,6 +189,7 @@ void read_experiment(Section section, const ExperimentEntry& entry, const NamedF
            number_key("stiffness_factor", "0.01", above(0, 1), described.stiffness_factor));
   described.measured = read_measured(section, entry, files);
   read_also(section, entry, described.measured);
+  if (entry.is_pictured) described.definition = read_definition(section);
   described.is_held_out = section.truth("held_out", "held_out = true").value_or(false);
   section.refuse_others();
   study.experiments.emplace(entry.experiment, std::move(described));

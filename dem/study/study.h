@@ -66,6 +66,9 @@ struct Measured {
 struct StudyExperiment {
   Protocol protocol;
   Measured measured;
+  /// By which its angle was measured on the bench, and is in simulations: a name of
+  /// base/angle_definition.h. Empty: not said, and the usual one is meant. Pictured ones only.
+  std::string definition = {};
   double stiffness_factor = 1;  ///< of the grains and walls in it; 1 is the real material
   /// Its readings are not fitted, but predicted from the fit of the others, and compared.
   bool is_held_out = false;

@@ -24,7 +24,11 @@ Provenance provenance(const std::string& method) {
                     .inertia_error = .02,
                     .size_sd_percent = 4.3},
           .stiffness_factor = {{"drop", 1}, {"heap", .01}},
-          .shortest_timestep_s = {{"drop", 1e-6}}};
+          .shortest_timestep_s = {{"drop", 1e-6}},
+          .heap_definition =
+              HeapDefinition{.name = "flank_20_80",
+                             .is_assumed = true,
+                             .simulated_deg = {{"flank_20_80", 23.9}, {"whole_flank", 21.3}}}};
 }
 
 FittedParameter restitution() {

@@ -58,14 +58,14 @@ std::string ten_digits(double value) {
 }
 
 std::string line_of(const SimulatedRun& run) {
-  std::string line = "value " + ten_digits(run.value);
+  std::string line = "value " + ten_digits(run.value.value());
   // Drawing and measuring differ in edge pixels from one kind of processor to the next.
   const auto seen = [](double value) { return fmt::format("{:.2f}", value); };
   for (const auto& [name, value] : run.readings) {
     const bool is_seen = name == "upper_angle_deg" || name == "lower_angle_deg";
     line += ' ' + name + ' ' + (is_seen ? seen(value) : ten_digits(value));
   }
-  if (!run.views.empty()) line += " seen " + seen(value_of(run));
+  if (!run.views.empty()) line += " seen " + seen(value_of(run).value());
   return line;
 }
 

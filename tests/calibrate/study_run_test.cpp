@@ -147,6 +147,35 @@ TEST_F(StudyRun, ARunIsNamedAfterThePartsOfItsBenchAlone) {
                     HasSubstr(R"("particle_incline":{"restitution":0.5)")));
 }
 
+TEST_F(StudyRun, SaysWhenTheDefinitionOfAHeapsAngleIsAssumed) {
+  const std::string mean = "experiment.heap.measured={mean=23,sd=1,n=5}";
+  const std::string rolling = "contact.particle_particle.rolling_friction={min=0,max=0.3}";
+  const auto notes = [&](const std::vector<std::string>& settings) {
+    const dem::Study study = read(settings);
+    return problem_of(study, grain_of(study), budget_named("quick")).notes;
+  };
+  const auto is_said = Contains(
+      AllOf(HasSubstr("[experiment.heap] does not say by which definition its angle was measured: "
+                      "flank_20_80 is assumed"),
+            HasSubstr("Fix: definition = ")));
+  EXPECT_THAT(notes({mean, rolling}), is_said);
+  for (const char* name : {"flank_20_80", "whole_flank"}) {
+    EXPECT_THAT(notes({mean, rolling, fmt::format("experiment.heap.definition=\"{}\"", name)}),
+                Not(is_said))
+        << name;
+  }
+}
+
+TEST_F(StudyRun, ALayerIsAFailedRunOfTheFit) {
+  const dem::Study study = read({"experiment.heap={grains=12,lift_speed_mm_s=200}",
+                                 "contact.particle_wall.rolling_friction=0.3"});
+  const std::atomic<bool> is_interrupted = false;
+  const SimulatedJob done = simulator_of(study).simulate(
+      {.experiment = "heap", .values = {.5, .2}, .seed = 1}, is_interrupted);
+  EXPECT_THAT(run_of(done).readings, IsEmpty());
+  EXPECT_THAT(run_of(done).failure, AllOf(HasSubstr("spread to a layer"), HasSubstr("Fix: ")));
+}
+
 TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));

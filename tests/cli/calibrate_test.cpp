@@ -1,7 +1,9 @@
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -12,8 +14,11 @@
 #include <sched.h>
 #include <sys/wait.h>
 
+#include "cli/calibrate/calibrate_options.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/command_test.h"
+#include "tests/support/heap_picture.h"
+#include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
 namespace repose::testing {
@@ -347,6 +352,31 @@ TEST_F(Calibrate, PicturesWithoutAHeapAreNoMeasurement) {
       run({"study.toml", "--set", "experiment.heap.measured = { pictures = [\"blank.png\"] }"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("none of the 1 pictures of the heap could be measured"));
+}
+
+TEST_F(Calibrate, PicturesAreReadByTheDefinitionOfTheStudy) {
+  HeapScene scene;
+  scene.width = 600;
+  scene.height = 400;
+  vision::write_picture(path("heap.png"), draw_heap(scene).picture);
+  const vision::ReposeAngle measured =
+      vision::measure_repose_angle(vision::read_picture(path("heap.png")));
+  const auto angle_deg = [&](std::vector<std::string> settings) {
+    settings.emplace_back("experiment.heap.measured = { pictures = [\"heap.png\"] }");
+    cli::CalibrateArguments arguments;
+    arguments.study = path("study.toml").string();
+    arguments.settings = settings;
+    const cli::CalibratePlan plan = cli::read_bench(arguments, calibrate::NoRows::refused);
+    EXPECT_THAT(plan.errors, IsEmpty());
+    return plan.record.pictures.at(0).angle_deg.value();
+  };
+  const auto by = [&](const char* name) {
+    return vision::angle_by(measured, name).value() * 180 / std::numbers::pi;
+  };
+  EXPECT_NEAR(angle_deg({}), by(""), 1e-5);
+  EXPECT_NEAR(angle_deg({"experiment.heap.definition = \"height_over_base\""}),
+              by("height_over_base"), 1e-5);
+  EXPECT_GT(std::abs(by("height_over_base") - by("")), .01);
 }
 
 TEST_F(Calibrate, ThePapersWayNeedsWhatItsStepsNeed) {

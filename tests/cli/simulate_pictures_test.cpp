@@ -30,7 +30,8 @@ class SimulatePictures : public CommandTest {
  protected:
   SimulatePictures() : CommandTest({"simulate", "heap", "study.toml"}) {
     folder_.write("study.toml", kPicturedStudy);
-    std::filesystem::copy(heap_->path() / "runs", path("runs"));
+    std::filesystem::copy(heap_->path() / "runs", path("runs"),
+                          std::filesystem::copy_options::recursive);
   }
 
   static void SetUpTestSuite() {
@@ -41,6 +42,17 @@ class SimulatePictures : public CommandTest {
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
   static void TearDownTestSuite() { heap_.reset(); }
+
+  /// A folder with the same runs, for a study that differs in how they are read.
+  void add_store(Words& words, const std::string& name) const {
+    std::filesystem::create_directory(path(name));
+    std::filesystem::copy(heap_->path() / "runs" / "runs", path(name) / "runs");
+    words.insert(words.end(), {"--out", name});
+  }
+
+  static double stored_wall_s() {
+    return json::parse(text_of(heap_->path() / "runs/result.json"))["repeats"][0]["wall_s"];
+  }
 
   json timeless(Words words) const {
     words.insert(words.end(), {"--out", "runs"});
@@ -142,24 +154,68 @@ TEST_F(SimulatePictures, ACameraOverThePlateIsRefused) {
 }
 
 TEST_F(SimulatePictures, AResultSaysWhereItsHeapsWereSeenFrom) {
-  Words words = {"--views", "1", "--set", "experiment.heap.grains=12", "--json", "layer.json"};
-  run(words);
-  EXPECT_TRUE(json::parse(text("layer.json"))["camera_mm"].is_null());
-  words.insert(words.end(), {"--set", "experiment.heap.camera_distance_mm=600"});
+  EXPECT_TRUE(timeless({"--views", "1"})["camera_mm"].is_null());
+  Words words = {"--views", "1",        "--set", "experiment.heap.camera_distance_mm=600",
+                 "--json",  "near.json"};
+  add_store(words, "near");
   EXPECT_THAT(run(words).out, HasSubstr("600 mm from the heap's middle, 40 mm above the plate"));
-  EXPECT_EQ(json::parse(text("layer.json"))["camera_mm"], json({600, 40}));
+  EXPECT_EQ(json::parse(text("near.json"))["camera_mm"], json({600, 40}));
 }
 
-TEST_F(SimulatePictures, ALayerThatNoPictureCanMeasureFallsBackOnPositions) {
-  const Finished finished =
-      run({"--set", "experiment.heap.grains=12", "--views", "4", "--json", "-"});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+TEST_F(SimulatePictures, AnotherDefinitionReadsTheSameRun) {
+  const json usual = timeless({"--views", "4"});
+  EXPECT_EQ(usual["definition"], "flank_20_80");
+  EXPECT_EQ(usual["value"], usual["definitions_deg"]["flank_20_80"]);
+  const json of_positions = timeless({"--views", "0"});
+  Words words = {"--set", "experiment.heap.definition=\"whole_flank\"", "--json", "whole.json"};
+  add_store(words, "whole");
+  for (const auto& [views, by_usual] : {std::pair("4", usual), {"0", of_positions}}) {
+    Words of_views = words;
+    of_views.insert(of_views.end(), {"--views", views});
+    const Finished finished = run(of_views);
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    const json whole = json::parse(text("whole.json"));
+    EXPECT_EQ(whole["definition"], "whole_flank");
+    EXPECT_EQ(whole["value"], by_usual["definitions_deg"]["whole_flank"]);
+    EXPECT_NE(whole["value"], by_usual["value"]);
+    EXPECT_EQ(whole["definitions_deg"], by_usual["definitions_deg"]);
+    EXPECT_EQ(whole["repeats"][0]["readings"], by_usual["repeats"][0]["readings"]);
+    EXPECT_EQ(whole["repeats"][0]["wall_s"], stored_wall_s()) << "not simulated again";
+    EXPECT_THAT(finished.out, HasSubstr("the value  least-squares line from toe"));
+  }
+}
+
+TEST_F(SimulatePictures, AnAngleOfUnknownDefinitionIsWarnedOf) {
+  Words words = {"--views", "1", "--set", "experiment.heap.measured={mean=25}", "--json", "-"};
+  add_store(words, "told");
+  const json heap = json::parse(run(words).out);
+  std::string message;
+  for (const json& warning : heap["warnings"]) {
+    if (warning["code"] == "assumed_definition") message = warning["message"];
+  }
+  EXPECT_THAT(message, AllOf(HasSubstr("flank_20_80 is assumed"), HasSubstr("whole_flank"),
+                             HasSubstr("Fix: definition = ")));
+}
+
+TEST_F(SimulatePictures, ALayerIsNoReading) {
+  const Finished finished = run({"--set", "experiment.heap.grains=12", "--views", "4", "--repeats",
+                                 "2", "--json", "-", "--out", "layer"});
+  EXPECT_EQ(finished.exit_code, 3) << finished.err;
+  EXPECT_THAT(finished.err,
+              AllOf(HasSubstr("seed 1: heap: the grains spread to a layer"),
+                    HasSubstr("seed 2: heap: "), HasSubstr("Fix: "),
+                    HasSubstr("repose render layer/heap_seed_1.vtp"), HasSubstr("no result")));
   const json layer = json::parse(finished.out);
-  EXPECT_EQ(layer["source"], "positions");
-  EXPECT_EQ(layer["value"], layer["angle_from_positions_deg"]);
-  EXPECT_TRUE(layer["angle_from_pictures_deg"].is_null() || layer["views_refused"] > 2);
-  EXPECT_THAT(finished.err, AllOf(HasSubstr("of 4 pictures could not be measured"),
-                                  HasSubstr("from the grains' positions")));
+  EXPECT_TRUE(layer["value"].is_null());
+  EXPECT_TRUE(layer["interval"].is_null());
+  ASSERT_EQ(layer["repeats"].size(), 2U);
+  const json& repeat = layer["repeats"][0];
+  EXPECT_TRUE(repeat["value"].is_null());
+  EXPECT_THAT(repeat["reason"].get<std::string>(), HasSubstr("spread to a layer"));
+  EXPECT_TRUE(repeat["readings"]["angle_xz_deg"].is_null());
+  EXPECT_GT(repeat["readings"]["height_mm"], 5);
+  EXPECT_TRUE(exists("layer/heap_seed_1.vtp"));
+  EXPECT_FALSE(exists("layer/result.json"));
 }
 
 TEST_F(SimulatePictures, NumbersOfViewsThatMakeNoSenseAreRefused) {

@@ -273,17 +273,18 @@ TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
   int warned = 0;
   for (const char* seed : {"17", "18", "19", "20", "21"}) {
     Words words = rough;
-    words.insert(words.end(), {"--seed", seed});
-    const json heap = timeless(words);
+    words.insert(words.end(), {"--seed", seed, "--json", "-"});
+    const json heap = json::parse(run(words).out);
     const json& readings = heap["repeats"][0]["readings"];
+    // A layer, or one that ends too steep for a window so narrow.
+    if (heap["value"].is_null() || readings["inner_window_deg"].is_null()) continue;
     const double apart =
         std::abs(heap["value"].get<double>() - readings["inner_window_deg"].get<double>());
-    const bool is_heap = readings["no_heap"] == 0;
     bool is_told = false;
     for (const json& warning : heap["warnings"]) {
       is_told = is_told || warning["code"] == "window";
     }
-    EXPECT_EQ(is_told, is_heap && apart > readings["between_views_deg"]) << heap;
+    EXPECT_EQ(is_told, apart > readings["between_views_deg"]) << heap;
     warned += is_told ? 1 : 0;
   }
   EXPECT_GT(warned, 0) << "forty grains: some heap is that low";

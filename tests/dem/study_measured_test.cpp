@@ -37,6 +37,22 @@ TEST_F(StudyFile, SaysHowFarBenchAndSimulationMayBeApart) {
   EXPECT_EQ(measured_in(study, Experiment::heap).also.front().tolerance, 3);
 }
 
+TEST_F(StudyFile, SaysByWhichDefinitionAHeapWasMeasured) {
+  const std::string heap = kStudy + "[experiment.heap]\n";
+  const auto definition = [](const Study& study) {
+    return study.experiments.at(Experiment::heap).definition;
+  };
+  EXPECT_EQ(definition(read(heap)), "") << "not said";
+  EXPECT_EQ(definition(read(heap + "definition = \"whole_flank\"\n")), "whole_flank");
+  EXPECT_EQ(definition(read(heap + "definition = \"flank_20_80\"\n")), "flank_20_80");
+  EXPECT_THAT(errors(heap + "definition = \"whole_flanks\"\n"),
+              AllOf(HasSubstr("experiment.heap.definition is one of flank_20_80, height_over_base"),
+                    HasSubstr("did you mean \"whole_flank\"?")));
+  EXPECT_THAT(errors(kStudy, {"experiment.drop.definition = \"whole_flank\""}),
+              HasSubstr("definition"))
+      << "a drop is no angle";
+}
+
 TEST_F(StudyFile, MeasuredValuesAreGivenInOneWay) {
   const std::string key = "experiment.drop.measured = ";
   EXPECT_THAT(errors(kStudy, {key + "{ values = [9], mean = 9 }"}),
