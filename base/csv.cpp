@@ -3,6 +3,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "base/text.h"
+
 namespace repose::base {
 
 namespace {
@@ -23,6 +25,7 @@ bool is_formula(std::string_view text) {
 }  // namespace
 
 std::string csv_cell(std::string_view text) {
+  if (!is_utf8(text)) return csv_cell(as_utf8(text));
   if (is_formula(text)) return csv_cell("'" + std::string(text));
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";

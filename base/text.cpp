@@ -4,7 +4,24 @@
 #include <sstream>
 #include <utility>
 
+#include <boost/nowide/utf/utf.hpp>
+
 namespace repose::base {
+
+std::string as_utf8(std::string_view text) {
+  namespace utf = boost::nowide::utf;
+  std::string valid;
+  for (const char* at = text.begin(); at != text.end();) {
+    const char* const begin = at;
+    const bool is_letter = utf::is_valid_codepoint(utf::utf_traits<char>::decode(at, text.end()));
+    if (!is_letter) at = begin + 1;
+    valid += is_letter ? std::string_view(begin, static_cast<std::size_t>(at - begin))
+                       : std::string_view("\uFFFD");
+  }
+  return valid;
+}
+
+bool is_utf8(std::string_view text) { return as_utf8(text) == text; }
 
 std::size_t letters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_a_letter));

@@ -16,6 +16,12 @@ constexpr bool starts_a_letter(char byte) {
 
 std::size_t letters(std::string_view text);
 
+/// Whether all bytes are UTF-8. Names of files need not be.
+bool is_utf8(std::string_view text);
+
+/// With U+FFFD for each byte that is none: what is in UTF-8 by its format stays so.
+std::string as_utf8(std::string_view text);
+
 /// The text in lines of at most `max_letters`, broken at blanks. Its own line breaks stay; a word
 /// that is longer alone stays whole.
 std::vector<std::string> wrapped(std::string_view text, std::size_t max_letters);

@@ -69,7 +69,13 @@ RunFolder::RunFolder(fs::path folder)
 }
 
 fs::path RunFolder::file(const RunSpec& spec, std::uint64_t seed, const char* ending) const {
-  return runs() / (key_of(spec, seed) + ending);
+  fs::path place = runs() / (key_of(spec, seed) + ending);
+  if (std::error_code ignored; fs::is_directory(place, ignored)) {
+    throw std::invalid_argument(
+        fmt::format("{}: is a folder, and a stored run is a file of that name. Fix: move it away.",
+                    place.string()));
+  }
+  return place;
 }
 
 std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t seed) const {

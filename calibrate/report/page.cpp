@@ -8,6 +8,7 @@
 #include <ctemplate/template_cache.h>
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "calibrate/report/tables.h"
 #include "calibrate/report/wording.h"
 
@@ -170,7 +171,7 @@ std::string html_of(const Document& document) {
       !templates.ExpandWithData("report", ctemplate::DO_NOT_STRIP, &page, nullptr, &result)) {
     throw std::runtime_error("the report's template is damaged. Fix: rebuild repose.");
   }
-  return result;
+  return base::as_utf8(result);  // names of files need not be, the page says that it is
 }
 
 }  // namespace repose::calibrate::report

@@ -42,7 +42,7 @@ BoardPlan plan_board(const BoardArguments& arguments) {
         fmt::format("--dpi {}: a PDF has no pixels. Fix: leave it out, or let --out end in .png.",
                     arguments.dpi));
   }
-  check_output_places({{"--out", arguments.out_file}}, {}, plan.errors);
+  check_output_places({{"--out", arguments.out_file, {}, "repose board"}}, {}, plan.errors);
   return plan;
 }
 

@@ -1,5 +1,8 @@
 #include "cli/common/output_places.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <stdexcept>
 #include <system_error>
 
@@ -8,6 +11,7 @@
 #include "base/whole_file.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
+#include "vision/film/film_angle.h"
 #include "vision/picture/made_here.h"
 
 namespace repose::cli {
@@ -15,14 +19,77 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What else such a name may be of.
+constexpr std::array<std::string_view, 14> kOtherEndings{".json", ".csv", ".html", ".htm", ".toml",
+                                                         ".pdf",  ".stl", ".glb",  ".obj", ".ply",
+                                                         ".vtp",  ".vtk", ".xlsx", ".ods"};
+
+std::string small_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
+}
+
+/// Of the name alone, so that no photograph is measured later that is a page.
+std::string error_of_name(const OutputPlace& place) {
+  const std::string ending = small_ending(place.file);
+  if (place.ending.empty() || ending == place.ending ||
+      (ending == ".htm" && place.ending == ".html")) {
+    return {};
+  }
+  const bool is_other =
+      has_picture_ending(place.file) || vision::has_film_ending(place.file) ||
+      std::find(kOtherEndings.begin(), kOtherEndings.end(), ending) != kOtherEndings.end();
+  if (!is_other) return {};
+  return fmt::format("names of {} files are for another kind of file. Fix: a name that ends in {}.",
+                     ending, place.ending);
+}
+
+/// Of a file that is there already.
+std::string error_of_earlier(const OutputPlace& place) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(place.file, ignored) || fs::file_size(place.file, ignored) == 0) {
+    return {};
+  }
+  constexpr const char* kFix = "Fix: choose another name, or move it away.";
+  if (has_picture_ending(place.file)) {
+    return vision::is_made_here(place.file)
+               ? ""
+               : fmt::format("already exists, and is not a picture written by repose. {}", kFix);
+  }
+  if (place.mark.empty()) return {};
+  // A file that cannot be read is not ours either.
+  std::string content;
+  try {
+    content = base::read_whole_file(place.file);
+  } catch (const std::invalid_argument&) {
+  }
+  if (content.find(place.mark) != std::string::npos) return {};
+  return fmt::format("already exists, and is not what this option writes. {}", kFix);
+}
+
 bool same_file(const fs::path& a, const fs::path& b) { return identity(a) == identity(b); }
 
 }  // namespace
 
+OutputPlace json_place(const std::string& file, std::string_view key, const char* option) {
+  return {.option = option, .file = file, .ending = ".json", .mark = key};
+}
+
+OutputPlace csv_place(const char* option, const std::string& file, std::string_view column) {
+  return {.option = option, .file = file, .ending = ".csv", .mark = column};
+}
+
+OutputPlace page_place(const char* option, const std::string& file) {
+  constexpr std::string_view kGenerator = R"(<meta name="generator" content="repose)";
+  return {.option = option, .file = file, .ending = ".html", .mark = kGenerator};
+}
+
 void check_output_places(const std::vector<OutputPlace>& places,
                          const std::vector<fs::path>& inputs, std::vector<std::string>& errors) {
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& [option, file] = places[i];
+    const auto& [option, file, ending, mark] = places[i];
     if (file.empty()) continue;
     for (std::size_t j = 0; j < i; ++j) {
       if (places[j].file.empty() || !same_file(places[j].file, file)) continue;
@@ -30,18 +97,13 @@ void check_output_places(const std::vector<OutputPlace>& places,
                                    places[j].option, option, file));
     }
     if (file == kStandardOutput) continue;
-    if (has_picture_ending(file) && !vision::is_made_here(file)) {
-      errors.push_back(
-          fmt::format("{} {}: already exists, and is not a picture written by repose. Fix: choose "
-                      "another name, or move it "
-                      "away.",
-                      option, file));
-    }
-    for (const fs::path& input : inputs) {
-      if (input.empty() || !same_file(input, file)) continue;
-      errors.push_back(fmt::format(
-          "{} {}: would overwrite an input file. Fix: choose another name.", option, file));
-    }
+    const bool is_input = std::any_of(inputs.begin(), inputs.end(), [&](const fs::path& input) {
+      return !input.empty() && same_file(input, file);
+    });
+    std::string error = is_input ? "would overwrite an input file. Fix: choose another name."
+                                 : error_of_name(places[i]);
+    if (error.empty()) error = error_of_earlier(places[i]);
+    if (!error.empty()) errors.push_back(fmt::format("{} {}: {}", option, file, error));
     try {
       base::check_can_write(file);
     } catch (const std::invalid_argument& error) {

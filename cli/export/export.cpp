@@ -1,5 +1,6 @@
 #include "cli/export/export.h"
 
+#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include "calibrate/study/study_folder.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_table.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "cli/common/table.h"
@@ -78,7 +80,7 @@ ExportPlan plan_export(const ExportArguments& arguments) {
                            calibrate::kResultFile, calibrate::kHeapFile}) {
     read.push_back(fs::path(arguments.folder) / name);
   }
-  check_output_places({{"--json", arguments.json_file}}, read, plan.errors);
+  check_output_places({json_place(arguments.json_file, "\"conversions\"")}, read, plan.errors);
   plan.request = {.target = target.value_or(calibrate::ExportTarget::liggghts),
                   .takes_approximate = arguments.takes_approximate || !target};
   plan.out_folder = arguments.out_folder.empty()
@@ -130,9 +132,15 @@ std::string export_table(const ExportPlan& plan, int columns) {
 }  // namespace
 
 ExitCode run_export(const ExportArguments& arguments) {
+  // A signal waits until nothing is half done.
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const ExportPlan plan = plan_export(arguments);
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
+  if (is_interrupted) {
+    print_line("interrupted, nothing was exported");
+    return ExitCode::interrupted;
+  }
   calibrate::write_export(plan.out_folder, plan.made.files, arguments.out_folder.empty());
   Outputs outputs;
   outputs.add(arguments.json_file, export_json(plan));

@@ -110,10 +110,11 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   plan.notes = std::move(list.notes);
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   read_step(arguments, plan);
-  const std::vector<OutputPlace> places = {{"--json", arguments.json_file},
-                                           {"--csv", arguments.csv_file},
-                                           {"--summary", arguments.summary_file},
-                                           {"--report", arguments.report_file}};
+  const std::vector<OutputPlace> places = {
+      json_place(arguments.json_file, "\"ground_tilt_deg\""),
+      csv_place("--csv", arguments.csv_file, "ground_tilt_deg"),
+      json_place(arguments.summary_file, "\"mean_deg\"", "--summary"),
+      page_place("--report", arguments.report_file)};
   check_output_places(places, plan.pictures, plan.errors);
   if (arguments.overlay_folder.empty()) return plan;
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "calibrate/start/usual_experiment.h"
 #include "cli/common/number.h"
@@ -161,6 +162,13 @@ void read_file(const NewArguments& arguments, NewPlan& plan) {
     plan.errors.push_back(
         fmt::format("{}: a study's name has no control characters. Fix: choose another name.",
                     base::printable(arguments.study)));
+    return;
+  }
+  if (!base::is_utf8(arguments.study)) {
+    plan.errors.push_back(fmt::format(
+        "{}: is not UTF-8, as the study, which names the folder of its sheets, must be. Fix: "
+        "choose another name, and do without other encodings in names of folders.",
+        base::printable(arguments.study)));
     return;
   }
   try {

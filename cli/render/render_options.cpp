@@ -14,6 +14,7 @@
 #include "cli/common/option_value.h"
 #include "cli/common/output_places.h"
 #include "dem/study/study.h"
+#include "vision/picture/made_here.h"
 
 namespace repose::cli {
 namespace {
@@ -212,6 +213,23 @@ render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene) {
   return camera;
 }
 
+namespace {
+
+/// Pictures have a mark of their own.
+std::string_view mark_of(RenderOutput output) {
+  switch (output) {
+    case RenderOutput::film:
+      return vision::kFilmComment;
+    case RenderOutput::model:
+      return kMeshMark;
+    case RenderOutput::picture:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
 RenderPlan plan_render(const RenderArguments& arguments) {
   RenderPlan plan;
   plan.is_series = arguments.state.ends_with(".pvd");
@@ -243,9 +261,9 @@ RenderPlan plan_render(const RenderArguments& arguments) {
     plan.errors.push_back(fmt::format(
         "--mask {}: JPEG would spoil it. Fix: a name that ends in .png.", arguments.mask_file));
   }
-  check_output_places({{"--out", arguments.out_file},
+  check_output_places({{"--out", arguments.out_file, {}, mark_of(plan.output)},
                        {"--mask", arguments.mask_file},
-                       {"--truth", arguments.truth_file}},
+                       json_place(arguments.truth_file, "\"camera\"", "--truth")},
                       {arguments.state}, plan.errors);
   return plan;
 }

@@ -1,5 +1,6 @@
 #include "cli/report/report.h"
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "base/whole_file.h"
 #include "calibrate/report/study_report.h"
 #include "calibrate/study/study_folder.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 
@@ -41,7 +43,7 @@ std::vector<fs::path> files_read(const fs::path& folder) {
 /// Before the long work: where the page and its tables would go can be written.
 void check_places(const fs::path& folder, const fs::path& page, const fs::path& tables) {
   std::vector<std::string> errors;
-  check_output_places({{"--out", page.string()}}, files_read(folder), errors);
+  check_output_places({page_place("--out", page.string())}, files_read(folder), errors);
   if (!tables.empty()) make_output_folder("--tables", tables, errors);
   base::ErrorList all;
   for (const std::string& error : errors) all.add(error);
@@ -51,6 +53,8 @@ void check_places(const fs::path& folder, const fs::path& page, const fs::path& 
 }  // namespace
 
 ExitCode run_report(const ReportArguments& arguments) {
+  // A signal waits until nothing is half done.
+  const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const fs::path folder = arguments.folder;
   const fs::path page =
       arguments.out_file.empty() ? folder / "report.html" : fs::path(arguments.out_file);
@@ -60,6 +64,10 @@ ExitCode run_report(const ReportArguments& arguments) {
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) check_places(folder, page, tables);
   const calibrate::report::Report report = calibrate::report::study_report(folder);
+  if (is_interrupted) {
+    print_line("interrupted, no report was written");
+    return ExitCode::interrupted;
+  }
   if (!tables.empty()) {
     std::vector<base::NamedText> files;
     for (const calibrate::report::CsvFile& table : report.tables) {

@@ -100,9 +100,9 @@ ShapePlan plan_shape(const ShapeArguments& arguments) {
                          {"--mesh", arguments.mesh_file, plan.errors},
                          {{".glb", dem::ShapeFormat::glb}, {".stl", dem::ShapeFormat::stl}})
                          .value_or(plan.mesh_format);
-  check_output_places({{"--out", arguments.out_file},
-                       {"--mesh", arguments.mesh_file},
-                       {"--json", arguments.json_file}},
+  check_output_places({json_place(arguments.out_file, "\"repose clump\"", "--out"),
+                       {"--mesh", arguments.mesh_file, {}, kMeshMark},
+                       json_place(arguments.json_file, "\"spheres\"")},
                       {arguments.scan}, plan.errors);
   return plan;
 }

@@ -96,7 +96,7 @@ void check_study(SimulatePlan& plan) {
 }
 
 void check_places(SimulatePlan& plan) {
-  std::vector<OutputPlace> places = {{"--json", plan.json_file}};
+  std::vector<OutputPlace> places = {json_place(plan.json_file, "\"repeats\"")};
   if (!plan.out_folder.empty() && make_output_folder("--out", plan.out_folder, plan.errors)) {
     places.push_back({"--out", result_file(plan).string()});
     places.push_back({"--out", (plan.out_folder / "run.json").string()});

@@ -74,8 +74,8 @@ TrackPlan plan_track(const TrackArguments& arguments) {
                                              {{"first", false}, {"all", true}})
                                .value_or(false);
   plan.threads = read_threads({"--threads", arguments.threads, plan.errors});
-  std::vector<OutputPlace> places = {{"--json", arguments.json_file},
-                                     {"--csv", arguments.csv_file}};
+  std::vector<OutputPlace> places = {json_place(arguments.json_file, "\"experiment\""),
+                                     csv_place("--csv", arguments.csv_file, "_uncertainty_")};
   read_overlay(arguments, plan, places);
   check_output_places(places, plan.videos, plan.errors);
   return plan;

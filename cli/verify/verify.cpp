@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/output.h"
+#include "cli/common/output_places.h"
 #include "cli/common/progress.h"
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
@@ -63,6 +64,10 @@ std::string verify_json(const std::vector<dem::CaseResult>& results) {
 }  // namespace
 
 ExitCode run_verify(const VerifyArguments& arguments) {
+  std::vector<std::string> errors;
+  check_output_places({json_place(arguments.json_file, "\"timestep_s\"")}, {}, errors);
+  print_lines(errors);
+  if (!errors.empty()) return ExitCode::bad_input;
   std::vector<dem::CaseResult> results;
   {
     Progress progress(dem::case_names().size(), "verified");

@@ -22,6 +22,11 @@ TEST(Csv, NoCellIsAFormula) {
   for (const char* number : {"-1.5", "+2", "-1e-5", "–"}) EXPECT_EQ(csv_cell(number), number);
 }
 
+TEST(Csv, BytesThatAreNoUtf8AreReplaced) {
+  EXPECT_EQ(csv_cell("a\xFF.jpg"), "a\uFFFD.jpg");
+  EXPECT_EQ(csv_cell("=\xFF,"), "\"'=\uFFFD,\"");
+}
+
 TEST(Csv, ARowEndsItsLine) {
   EXPECT_EQ(csv_row(std::vector<std::string>{"a", "", "b,c"}), "a,,\"b,c\"\n");
 }

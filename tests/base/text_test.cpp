@@ -10,6 +10,17 @@ using ::testing::IsEmpty;
 
 TEST(Text, LettersAreNotBytes) { EXPECT_EQ(letters("23° ± 1 …"), 9U); }
 
+TEST(Text, WhatIsNoUtf8BecomesTheLetterForIt) {
+  EXPECT_TRUE(is_utf8("23° ± 1 …"));
+  EXPECT_FALSE(
+      is_utf8("Gr\xF6\xDF"
+              "e"));
+  EXPECT_EQ(as_utf8("Gr\xF6\xDF"
+                    "e"),
+            "Gr\uFFFD\uFFFDe");
+  EXPECT_EQ(as_utf8("23° ± 1 …"), "23° ± 1 …");
+}
+
 TEST(Text, LinesBreakAtBlanksAndLongWordsStayWhole) {
   EXPECT_THAT(wrapped("one two three_is_too_long four", 8),
               ElementsAre("one two", "three_is_too_long", "four"));

@@ -245,6 +245,54 @@ TEST_F(Folders, SignalsEndAStudyInGoodOrder) {
   }
 }
 
+/// Ends a command after some milliseconds, more each time, until it ends by that with exit code
+/// 130.
+/// @param made  what it would write
+void expect_good_ends(const TemporaryFolder& folder, const Words& words,
+                      const std::filesystem::path& made) {
+  constexpr int kStep_ms = 3, kTries = 300;
+  int delay_ms = 0;
+  for (int k = 0; k < kTries; ++k) {
+    std::filesystem::remove_all(made);
+    const pid_t program = start_repose(folder, words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+    ::kill(program, SIGTERM);
+    int status = 0;
+    ::waitpid(program, &status, 0);
+    if (!WIFEXITED(status)) {  // it had not begun
+      delay_ms += kStep_ms;
+      continue;
+    }
+    if (WEXITSTATUS(status) == 130) {
+      EXPECT_FALSE(std::filesystem::exists(made));
+      return;
+    }
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    EXPECT_TRUE(std::filesystem::exists(made));
+    delay_ms = std::max(0, delay_ms - 2 * kStep_ms);
+  }
+  ADD_FAILURE() << words.front() << " never ended with exit code 130";
+}
+
+TEST_F(Folders, SignalsEndReportsInGoodOrder) {
+  ASSERT_EQ(run({"calibrate", "study.toml", "--out", "d"}).exit_code, 0);
+  expect_good_ends(folder_, {"report", "d"}, path("d/report.html"));
+  expect_good_ends(folder_, {"export", "d", "--to", "yade"}, path("d/export/yade"));
+}
+
+TEST_F(Folders, ARunFileThatIsAFolderIsNamed) {
+  ASSERT_EQ(run({"calibrate", "study.toml", "--out", "d"}).exit_code, 0);
+  const std::filesystem::path run_file = stored("d", ".json").front();
+  std::filesystem::remove(run_file);
+  std::filesystem::create_directory(run_file);
+  std::filesystem::remove(path("d/result.json"));
+  const Finished refused = run({"calibrate", "study.toml", "--out", "d"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr(run_file.filename().string() + ": is a folder"),
+                    HasSubstr("Fix: move it away"), Not(HasSubstr("name a file inside it"))));
+}
+
 TEST_F(Folders, AStudyNeedsFewOpenFilesAndLittleMemory) {
   std::string limits = "ulimit -n 256";
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -8,6 +8,9 @@
 /// Others are somebody's photographs.
 namespace repose::vision {
 
+/// The comment in films of ours.
+inline constexpr const char* kFilmComment = "Software: repose";
+
 /// Adds the mark to the content of a PNG or JPEG file.
 void mark_as_made_here(std::vector<std::uint8_t>& content);
 

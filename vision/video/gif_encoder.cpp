@@ -8,6 +8,7 @@
 
 #include <gif_lib.h>
 
+#include "vision/picture/made_here.h"
 #include "vision/video/film_encoder.h"
 
 namespace repose::vision {
@@ -28,7 +29,8 @@ class GifEncoder : public FilmEncoder {
     is_good_ = is_good_ && EGifPutExtensionLeader(gif_, APPLICATION_EXT_FUNC_CODE) == GIF_OK &&
                EGifPutExtensionBlock(gif_, 11, "NETSCAPE2.0") == GIF_OK &&
                EGifPutExtensionBlock(gif_, forever.size(), forever.data()) == GIF_OK &&
-               EGifPutExtensionTrailer(gif_) == GIF_OK;
+               EGifPutExtensionTrailer(gif_) == GIF_OK &&
+               EGifPutComment(gif_, kFilmComment) == GIF_OK;
   }
   ~GifEncoder() override {
     if (gif_ != nullptr) EGifCloseFile(gif_, nullptr);

@@ -10,6 +10,7 @@ extern "C" {
 }
 
 #include "vision/picture/ffmpeg.h"
+#include "vision/picture/made_here.h"
 #include "vision/video/film_encoder.h"
 
 namespace repose::vision {
@@ -75,6 +76,8 @@ Output opened_output(const fs::path& file, const AVCodecContext& codec) {
   }
   stream->time_base = codec.time_base;
   stream->avg_frame_rate = codec.framerate;
+  // By which it is known as a film of ours; see vision/picture/made_here.h.
+  av_dict_set(&format->metadata, "comment", kFilmComment, 0);
   const std::string name = "file:" + file.string();
   const bool is_good = avio_open(&format->pb, name.c_str(), AVIO_FLAG_WRITE) >= 0 &&
                        avformat_write_header(format, nullptr) >= 0;
