@@ -20,6 +20,7 @@
 #include "cli/common/picture_list.h"
 #include "cli/common/progress.h"
 #include "cli/common/terminal.h"
+#include "vision/camera/board.h"
 #include "vision/camera/lens_file.h"
 #include "vision/measure/status_name.h"
 
@@ -36,8 +37,9 @@ struct CameraPlan {
 
 CameraPlan plan_camera(const CameraArguments& arguments) {
   CameraPlan plan;
-  plan.square_mm = read_positive({"--square-mm", arguments.square_mm, plan.errors},
-                                 "the side of a printed square in mm", "--square-mm 23.9")
+  plan.square_mm = read_number_within({"--square-mm", arguments.square_mm, plan.errors},
+                                      vision::kSmallestSquare_mm, vision::kLargestSquare_mm,
+                                      "--square-mm 23.9, the side of a printed one")
                        .value_or(plan.square_mm);
   plan.threads = read_threads({"--threads", arguments.threads, plan.errors});
   FileList list = list_pictures(arguments.pictures);
@@ -47,7 +49,8 @@ CameraPlan plan_camera(const CameraArguments& arguments) {
   if (arguments.out_file == kStandardOutput) {
     plan.errors.emplace_back("--out -: a camera file is read by its name. Fix: name a file.");
   }
-  check_output_places({{"--out", arguments.out_file}, {"--json", arguments.json_file}},
+  check_output_places({{"--out", arguments.out_file, ".toml", "by repose camera"},
+                       json_place(arguments.json_file, "\"square_mm\"")},
                       plan.pictures, plan.errors);
   return plan;
 }

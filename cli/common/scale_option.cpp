@@ -15,17 +15,22 @@ namespace repose::cli {
 std::optional<vision::ScaleBar> read_scale_bar(const Typed& typed, std::string_view fix) {
   if (typed.text.empty()) return std::nullopt;
   const auto numbers = numbers_in<double, 5>(typed.text);
-  constexpr double kLeast_px = 10;
   if (!numbers || !((*numbers)[4] > 0) ||
-      std::hypot((*numbers)[2] - (*numbers)[0], (*numbers)[3] - (*numbers)[1]) < kLeast_px) {
+      std::hypot((*numbers)[2] - (*numbers)[0], (*numbers)[3] - (*numbers)[1]) <
+          vision::kShortestBar_px) {
     typed.refuse(fmt::format("two points in pixels, at least {:g} apart, and their distance in "
                              "mm: X1,Y1,X2,Y2,MM",
-                             kLeast_px),
+                             vision::kShortestBar_px),
                  fix);
     return std::nullopt;
   }
   const auto& [x1, y1, x2, y2, length_mm] = *numbers;
-  return vision::ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
+  const vision::ScaleBar bar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
+  const std::string problem = problem_of(bar);
+  if (problem.empty()) return bar;
+  typed.errors.push_back(
+      fmt::format("{} {}: {}. Fix: give the distance in mm.", typed.option, typed.text, problem));
+  return std::nullopt;
 }
 
 vision::ScaleOptions read_scale(const ScaleArguments& arguments, std::string_view scale_fix,
@@ -33,9 +38,10 @@ vision::ScaleOptions read_scale(const ScaleArguments& arguments, std::string_vie
   vision::ScaleOptions scale;
   scale.finds_board = arguments.finds_board;
   scale.scale = read_scale_bar({"--scale", arguments.scale, errors}, scale_fix);
-  scale.square_mm = read_positive({"--square-mm", arguments.square_mm, errors},
-                                  "the side of a printed square in mm", "--square-mm 23.9")
-                        .value_or(scale.square_mm);
+  scale.square_mm =
+      read_number_within({"--square-mm", arguments.square_mm, errors}, vision::kSmallestSquare_mm,
+                         vision::kLargestSquare_mm, "--square-mm 23.9, the side of a printed one")
+          .value_or(scale.square_mm);
   constexpr double kFarthest_mm = 10000;
   scale.behind_mm = read_number_within({"--board-behind", arguments.board_behind_mm, errors}, 0,
                                        kFarthest_mm, "--board-behind 150")

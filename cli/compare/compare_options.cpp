@@ -10,6 +10,7 @@
 #include "cli/common/output_places.h"
 #include "cli/common/picture_options.h"
 #include "vision/hints/hint_file.h"
+#include "vision/measure/scale_bar.h"
 
 namespace repose::cli {
 namespace {
@@ -23,17 +24,27 @@ std::array<std::string, 2> for_each_picture(const std::string& text) {
   return {text.substr(0, comma), text.substr(comma + 1)};
 }
 
+/// What can be meant, mm: of a pixel, see vision/measure/scale_bar.h; of a heap's base, that it is
+/// no wider than a stockpile.
+std::array<double, 2> possible_lengths(PictureScale::From from) {
+  constexpr double kNarrowestBase_mm = .1, kWidestBase_mm = 1e6;
+  if (from == PictureScale::From::base) return {kNarrowestBase_mm, kWidestBase_mm};
+  return {vision::kFinestScale_mm_per_px, vision::kCoarsestScale_mm_per_px};
+}
+
 void read_scale(const char* option, const std::string& text, PictureScale::From from,
                 ComparePlan& plan) {
   if (text.empty()) return;
   const std::array<std::string, 2> texts = for_each_picture(text);
   for (const std::size_t i : {0, 1}) {
     const auto mm = number_in<double>(texts[i]);
-    if (!mm || *mm <= 0) {
+    const auto [least, most] = possible_lengths(from);
+    if (!mm || !(*mm >= least && *mm <= most)) {
       const Typed typed{option, text, plan.errors};
       typed.refuse(
-          "one number of mm, more than 0, or one for each picture with a comma between "
-          "them",
+          fmt::format("one number of mm from {:g} to {:g}, or one for each picture with a comma "
+                      "between them",
+                      least, most),
           fmt::format("{0} 0.25 or {0} 0.25,0.4", option));
       return;
     }
@@ -63,8 +74,9 @@ bool may_have_saved_scales(const ComparePlan& plan) {
 
 void read_grain(const CompareArguments& arguments, ComparePlan& plan) {
   if (arguments.grain_mm.empty()) return;
-  const auto mm = read_positive({"--grain-mm", arguments.grain_mm, plan.errors}, "a number of mm",
-                                "give the grains' mean diameter");
+  constexpr double kSmallest_mm = 1e-3, kLargest_mm = 1e3;
+  const auto mm = read_number_within({"--grain-mm", arguments.grain_mm, plan.errors}, kSmallest_mm,
+                                     kLargest_mm, "give the grains' mean diameter in mm");
   if (!mm) return;
   if (arguments.mm_per_px.empty() && arguments.base_mm.empty() && !may_have_saved_scales(plan)) {
     plan.errors.push_back(
@@ -174,8 +186,9 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
     inputs.insert(inputs.end(), source.pictures.begin(), source.pictures.end());
     inputs.insert(inputs.end(), source.states.begin(), source.states.end());
   }
-  check_output_places({{"--overlay", plan.overlay_file}, {"--json", plan.json_file}}, inputs,
-                      plan.errors);
+  check_output_places(
+      {{"--overlay", plan.overlay_file}, json_place(plan.json_file, "\"margin_deg\"")}, inputs,
+      plan.errors);
   return plan;
 }
 

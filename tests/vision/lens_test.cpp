@@ -147,5 +147,38 @@ TEST(LensFile, AllErrorsAreToldAtOnce) {
   EXPECT_THROW(read_lens_file(folder.path() / "none.toml"), std::invalid_argument);
 }
 
+TEST(LensFile, LensesThatCannotBeAreRefused) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "camera.toml";
+  const auto error_of = [&](Lens lens) -> std::string {
+    base::write_whole_file(file, lens_file_text(lens, "test"));
+    try {
+      read_lens_file(file);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(error_of(barrel()), "");
+  Lens none = barrel();
+  none.focal_px.value = 1;
+  none.centre_x_px.value = -3;
+  EXPECT_THAT(error_of(none), AllOf(HasSubstr("focal_px must be from 0.18 to 170 times"),
+                                    HasSubstr("centre_x_px must lie in the picture")));
+  Lens bent = barrel();
+  bent.k1.value = 5;
+  EXPECT_THAT(error_of(bent), AllOf(HasSubstr("k1 moves the edge"), HasSubstr("Fix: ")));
+  bent.k1.value = -.9;  // folds
+  EXPECT_THAT(error_of(bent), HasSubstr("k1 moves the edge"));
+  bent = barrel();
+  bent.p1.value = .5;
+  EXPECT_THAT(error_of(bent), HasSubstr("p1 moves the corner"));
+  // From far away the same coefficient does little.
+  bent = barrel();
+  bent.focal_px.value = 30'000;
+  bent.k1.value = 5;
+  EXPECT_EQ(error_of(bent), "");
+}
+
 }  // namespace
 }  // namespace repose::vision

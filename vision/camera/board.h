@@ -15,7 +15,9 @@ inline constexpr int kBoardColumns = 10;
 /// Odd: boards of an even number of rows are laid out in another way since OpenCV 4.6.
 inline constexpr int kBoardRows = 7;
 inline constexpr double kBoardSquare_mm = 24;  ///< as it is printed at true size
-inline constexpr double kMarkerPart = 0.75;    ///< a marker's side / a square's
+/// What a printer or a poster can hold of it.
+inline constexpr double kSmallestSquare_mm = 1, kLargestSquare_mm = 1000;
+inline constexpr double kMarkerPart = 0.75;  ///< a marker's side / a square's
 inline constexpr const char* kBoardDictionary = "DICT_4X4_50";
 
 /// Corners at which four squares meet.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -97,6 +98,56 @@ class LensReader {
   base::ErrorList errors_;
 };
 
+/// Of the radial distortion at a distance from the axis.
+const char* largest_term(const Lens& lens, double r) {
+  const double r2 = r * r;
+  const std::array<std::pair<const char*, double>, 3> terms = {
+      {{"k1", std::abs(lens.k1.value) * r2},
+       {"k2", std::abs(lens.k2.value) * r2 * r2},
+       {"k3", std::abs(lens.k3.value) * r2 * r2 * r2}}};
+  return std::max_element(terms.begin(), terms.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// Numbers of another camera, or mistyped ones, are possible and change every size and angle.
+void check_plausible(const Lens& lens, LensReader& reader) {
+  // Straight lines stay straight up to about 140 degrees; telescopes see a third of a degree.
+  constexpr double kWidest = .18, kNarrowest = 170;
+  const double width = std::max(lens.width, lens.height);
+  const double focal = lens.focal_px.value;
+  reader.require(focal >= kWidest * width && focal <= kNarrowest * width, "focal_px",
+                 "must be from 0.18 to 170 times the longer side of the picture: lenses show 140 "
+                 "to 0.3 degrees");
+  reader.require(lens.centre_x_px.value >= 0 && lens.centre_x_px.value <= lens.width, "centre_x_px",
+                 "must lie in the picture");
+  reader.require(lens.centre_y_px.value >= 0 && lens.centre_y_px.value <= lens.height,
+                 "centre_y_px", "must lie in the picture");
+  // What distortion does to the picture's farthest corner, and that nothing is seen twice.
+  const double x = std::max(lens.centre_x_px.value, lens.width - lens.centre_x_px.value) / focal;
+  const double y = std::max(lens.centre_y_px.value, lens.height - lens.centre_y_px.value) / focal;
+  const double corner = std::hypot(x, y);
+  constexpr double kMostMoved = .6;  // a fisheye lens that is not called one has half of it
+  constexpr int kSteps = 100;
+  double before = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const double r = corner * step / kSteps, r2 = r * r;
+    const double factor = 1 + r2 * (lens.k1.value + r2 * (lens.k2.value + r2 * lens.k3.value));
+    const bool is_possible = std::abs(factor - 1) <= kMostMoved && factor * r > before;
+    before = factor * r;
+    if (is_possible) continue;
+    reader.require(false, largest_term(lens, r),
+                   "moves the edge of the picture by more than 60 %, or folds it. Rule: no lens "
+                   "does");
+    break;
+  }
+  constexpr double kMostTilted = .1;
+  reader.require(std::abs(lens.p1.value) * corner <= kMostTilted, "p1",
+                 "moves the corner of the picture by more than 10 %. Rule: no lens does");
+  reader.require(std::abs(lens.p2.value) * corner <= kMostTilted, "p2",
+                 "moves the corner of the picture by more than 10 %. Rule: no lens does");
+}
+
 toml::table parsed(const std::string& text, const fs::path& file) {
   std::string what;
   unsigned line = 1;
@@ -162,9 +213,12 @@ Lens read_lens_file(const fs::path& file) {
   reader.require(is_side(height), "height_px", "must be a whole number above 0");
   reader.require(lens.focal_px.value > 0, "focal_px", "must be above 0");
   reader.refuse_other_keys();
+  if (is_side(width) && is_side(height) && lens.focal_px.value > 0) {
+    lens.width = static_cast<int>(width);
+    lens.height = static_cast<int>(height);
+    check_plausible(lens, reader);
+  }
   reader.throw_if_any();
-  lens.width = static_cast<int>(width);
-  lens.height = static_cast<int>(height);
   return lens;
 }
 

@@ -171,6 +171,9 @@ void check(const Picture& picture, const MeasureOptions& options, const ScaleOpt
   for (const std::string& problem : options.problems_in(picture.width, picture.height)) {
     errors += (errors.empty() ? "" : "\n") + problem;
   }
+  const std::string of_scale =
+      scale.scale ? problem_in(*scale.scale, picture.width, picture.height) : "";
+  if (!of_scale.empty()) errors += (errors.empty() ? "" : "\n") + of_scale;
   if (!errors.empty()) throw std::invalid_argument(errors);
 }
 

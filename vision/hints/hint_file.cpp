@@ -60,12 +60,15 @@ std::optional<ScaleBar> scale_of(HintReader& reader) {
   const auto numbers = reader.numbers<5>("scale", kScale);
   if (!numbers) return std::nullopt;
   const auto& [x1, y1, x2, y2, length_mm] = *numbers;
-  constexpr double kLeast_px = 10;
-  if (!(length_mm > 0) || std::hypot(x2 - x1, y2 - y1) < kLeast_px) {
+  const ScaleBar bar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
+  if (!(length_mm > 0) || std::hypot(x2 - x1, y2 - y1) < kShortestBar_px) {
     reader.refuse("scale", fmt::format("must be {}", kScale));
-    return std::nullopt;
+  } else if (const std::string problem = problem_of(bar); !problem.empty()) {
+    reader.refuse("scale", problem);
+  } else {
+    return bar;
   }
-  return ScaleBar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
+  return std::nullopt;
 }
 
 /// What the file says of the scale; of the lens the file's name alone.
@@ -74,6 +77,10 @@ ScaleOptions read_scale(HintReader& reader) {
   scale.lens_file = reader.file_name("camera_file");
   scale.finds_board = reader.truth("board").value_or(false);
   scale.square_mm = reader.positive("square_mm").value_or(scale.square_mm);
+  if (scale.square_mm < kSmallestSquare_mm || scale.square_mm > kLargestSquare_mm) {
+    reader.refuse("square_mm", fmt::format("must be from {:g} to {:g}, of a printed board",
+                                           kSmallestSquare_mm, kLargestSquare_mm));
+  }
   scale.behind_mm = reader.positive("board_behind_mm").value_or(0);
   scale.scale = scale_of(reader);
   if (scale.finds_board) {
