@@ -9,6 +9,7 @@
 
 #include "calibrate/study/bench_films.h"
 #include "calibrate/study/bench_setting.h"
+#include "cli/common/copies.h"
 #include "cli/common/picture_list.h"
 #include "cli/track/track_batch.h"
 #include "vision/measure/status_name.h"
@@ -77,6 +78,15 @@ void read_films_of(const dem::ExperimentEntry& entry, const dem::StudyExperiment
     names.push_back(video.string());
   }
   FileList list = list_films(names);
+  const auto first_of = copies_among(list.files, std::vector<std::string>(list.files.size()));
+  std::vector<std::filesystem::path> films;
+  for (std::size_t i = 0; i < list.files.size(); ++i) {
+    if (first_of[i]) {
+      list.notes.push_back(text_of_copy(list.files[i], list.files[*first_of[i]]));
+    } else {
+      films.push_back(list.files[i]);
+    }
+  }
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
   TrackPlan tracking;
@@ -85,7 +95,7 @@ void read_films_of(const dem::ExperimentEntry& entry, const dem::StudyExperiment
     tracking.released_mm = calibrate::protocol_value(entry, described.protocol, "release_mm");
   }
   if (entry.experiment == dem::Experiment::tilt) tracking.filmed = Filmed::tilt;
-  tracking.videos = std::move(list.files);
+  tracking.videos = std::move(films);
   tracking.threads = plan.jobs;
   // Nothing is written yet that an interrupt could leave half done: it ends the program at once.
   const std::atomic<bool> is_interrupted = false;

@@ -9,6 +9,7 @@
 #include "calibrate/experiment/picture_angles.h"
 #include "calibrate/study/study_folder.h"
 #include "cli/calibrate/bench_films.h"
+#include "cli/common/copies.h"
 #include "cli/common/cores.h"
 #include "cli/common/degrees.h"
 #include "cli/common/number.h"
@@ -41,15 +42,18 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
   }
 }
 
-vision::ReposeAngle measured_angle(const std::filesystem::path& file) {
+/// @param pixels  is given those of a picture
+vision::ReposeAngle measured_angle(const std::filesystem::path& file, std::string& pixels) {
   const auto [told, scale] = vision::with_saved_hints({}, file);
   if (vision::has_film_ending(file)) return vision::measure_film(file, told, scale).heap.angle;
-  return vision::measure_sized_heap(vision::read_picture(file), told, scale).angle;
+  const vision::Picture picture = vision::read_picture(file);
+  pixels = pixels_of(picture);
+  return vision::measure_sized_heap(picture, told, scale).angle;
 }
 
 calibrate::PictureReading reading_of(const std::filesystem::path& file,
-                                     const std::string& definition) {
-  const vision::ReposeAngle angle = measured_angle(file);
+                                     const std::string& definition, std::string& pixels) {
+  const vision::ReposeAngle angle = measured_angle(file, pixels);
   calibrate::PictureReading reading{.file = std::filesystem::absolute(file),
                                     .status = name_of(angle.status),
                                     .angle_deg = {},
@@ -93,13 +97,26 @@ void measure_heaps(CalibratePlan& plan) {
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
   bool any = false;
+  std::vector<calibrate::PictureReading> readings;
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> pixels;
   for (const std::filesystem::path& file : list.files) {
     attempt(plan.errors, [&] {
-      const calibrate::PictureReading& reading =
-          plan.record.pictures.emplace_back(reading_of(file, heap->second.definition));
-      if (calibrate::counts_in_mean(reading.status)) any = true;
-      if (reading.status != "ok") plan.notes.push_back(note_on(reading));
+      std::string own_pixels;
+      readings.push_back(reading_of(file, heap->second.definition, own_pixels));
+      files.push_back(file);
+      pixels.push_back(std::move(own_pixels));
     });
+  }
+  const auto first_of = copies_among(files, pixels);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (first_of[i]) {
+      plan.notes.push_back(text_of_copy(files[i], files[*first_of[i]]));
+      continue;
+    }
+    if (calibrate::counts_in_mean(readings[i].status)) any = true;
+    if (readings[i].status != "ok") plan.notes.push_back(note_on(readings[i]));
+    plan.record.pictures.push_back(std::move(readings[i]));
   }
   if (plan.errors.empty() && !any) {
     plan.errors.push_back(
@@ -139,7 +156,7 @@ void check_places(CalibratePlan& plan) {
                            calibrate::kResultFile, calibrate::kHeapFile}) {
     read.push_back(plan.out_folder / name);
   }
-  check_output_places({{"--json", plan.json_file}}, read, plan.errors);
+  check_output_places({json_place(plan.json_file, "\"hash\"")}, read, plan.errors);
 }
 
 /// A dry run tells what the joint method would do, and gives no results.

@@ -133,7 +133,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
   if (!plan.errors.empty()) return ExitCode::bad_input;
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   if (plan.is_pair()) return compare_pair(std::move(plan), is_interrupted);
-  return compare_sets(plan, is_interrupted);
+  return compare_sets(std::move(plan), is_interrupted);
 }
 
 }  // namespace repose::cli

@@ -23,6 +23,7 @@ struct ComparePlan {
   vision::CompareOptions comparing;
   std::optional<double> grain_m;
   std::optional<calibrate::HeapCamera> camera;  ///< before simulated heaps; none: far away
+  int in_both = 0;  ///< heaps that are in both sets, found when they are read
   std::string overlay_file;
   std::string json_file;
 

@@ -1,15 +1,19 @@
 #include "cli/compare/compare_sets.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "calibrate/experiment/heap_views.h"
+#include "cli/common/copies.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
@@ -40,6 +44,7 @@ struct Work {
   std::array<std::vector<SeenHeap>, 2> sets;
   std::vector<std::unique_ptr<calibrate::HeapViewSession>> sessions;
   std::vector<Task> tasks;
+  std::array<std::vector<std::string>, 2> pixels;  ///< of each photograph
   std::vector<std::string> errors;
 };
 
@@ -49,6 +54,7 @@ void add_pictures(const ComparePlan& plan, std::size_t set, Work& work) {
     SeenHeap seen{.views = std::vector<vision::ReposeAngle>(1), .m_per_px = {}};
     if (scale) seen.m_per_px = scale->length_m;
     work.sets[set].push_back(std::move(seen));
+    work.pixels[set].emplace_back();
     work.tasks.push_back({.set = set, .heap = heap});
   }
 }
@@ -76,13 +82,14 @@ void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
 
 /// Of a photograph with a saved scale, that too.
 vision::ReposeAngle measured(const ComparePlan& plan, const Task& task, render::Renderer* renderer,
-                             SeenHeap& seen) {
+                             SeenHeap& seen, Work& work) {
   const vision::MeasureOptions& options = plan.measuring[task.set];
   if (task.session != nullptr) {
     return task.session->take(*renderer, static_cast<int>(task.view), options).angle;
   }
   const std::filesystem::path& file = plan.sources[task.set].pictures[task.heap];
   const vision::Picture picture = vision::read_picture(file);
+  work.pixels[task.set][task.heap] = pixels_of(picture);
   const vision::PictureSettings told =
       vision::with_saved_hints({.measuring = options, .scale = {}}, file);
   vision::SizedHeap heap = vision::measure_sized_heap(picture, told.measuring, told.scale);
@@ -106,7 +113,7 @@ void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupte
       if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
       SeenHeap& seen = work.sets[task.set][task.heap];
       vision::ReposeAngle& angle = seen.views[task.view];
-      angle = measured(plan, task, renderer.get(), seen);
+      angle = measured(plan, task, renderer.get(), seen, work);
       name_options(angle, names);
     } catch (const std::invalid_argument& error) {
       const HeapSource& source = plan.sources[task.set];
@@ -120,6 +127,60 @@ void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupte
   }
 }
 
+/// The files of a set.
+std::vector<std::filesystem::path>& files_of(HeapSource& source) {
+  return source.states.empty() ? source.pictures : source.states;
+}
+
+/// Takes copies out of each set, and says how many heaps are in both.
+void drop_copies(ComparePlan& plan, Work& work) {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> pixels;
+  for (const std::size_t set : {0, 1}) {
+    const auto& own = files_of(plan.sources[set]);
+    files.insert(files.end(), own.begin(), own.end());
+    work.pixels[set].resize(own.size());
+    pixels.insert(pixels.end(), work.pixels[set].begin(), work.pixels[set].end());
+  }
+  const std::size_t first_size = files_of(plan.sources[0]).size();
+  const auto first_of = copies_among(files, pixels);
+  std::array<std::vector<std::filesystem::path>, 2> kept;
+  std::array<std::vector<SeenHeap>, 2> heaps;
+  std::set<std::size_t> in_second;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::size_t set = i < first_size ? 0 : 1;
+    const std::size_t same = first_of[i].value_or(i);
+    const bool is_repeated = set == 0 ? same != i : !in_second.insert(same).second;
+    if (is_repeated) {
+      print_line(text_of_copy(files[i], files[same]));
+      continue;
+    }
+    if (set == 1 && same < first_size) ++plan.in_both;
+    kept[set].push_back(files[i]);
+    heaps[set].push_back(std::move(work.sets[set][i - (set == 0 ? 0 : first_size)]));
+  }
+  for (const std::size_t set : {0, 1}) {
+    files_of(plan.sources[set]) = std::move(kept[set]);
+    work.sets[set] = std::move(heaps[set]);
+  }
+}
+
+/// A set agrees with itself, whatever its grains are.
+void warn_of_both(const ComparePlan& plan, vision::SetComparison& comparison) {
+  if (plan.in_both == 0) return;
+  const auto& [first, second] = plan.sources;
+  const auto size = [](const HeapSource& source) {
+    return static_cast<int>(source.pictures.size() + source.states.size());
+  };
+  const bool is_all = plan.in_both == size(first) && plan.in_both == size(second);
+  comparison.warnings.push_back(
+      {"same_heaps",
+       is_all ? "Both sets are the same heaps: a set is compared with itself, and that they agree "
+                "says nothing."
+              : fmt::format("{} of the heaps {} in both sets: that they agree says less.",
+                            plan.in_both, plan.in_both == 1 ? "is" : "are")});
+}
+
 void write_figure(const ComparePlan& plan, const vision::SetComparison& comparison) {
   if (plan.overlay_file.empty()) return;
   vision::HeapSetsNotes notes{.titles = {}, .margin_rad = plan.comparing.margin_rad};
@@ -129,7 +190,7 @@ void write_figure(const ComparePlan& plan, const vision::SetComparison& comparis
 
 }  // namespace
 
-ExitCode compare_sets(const ComparePlan& plan, const std::atomic<bool>& is_interrupted) {
+ExitCode compare_sets(ComparePlan plan, const std::atomic<bool>& is_interrupted) {
   Work work;
   for (const std::size_t set : {0, 1}) {
     add_pictures(plan, set, work);
@@ -143,8 +204,10 @@ ExitCode compare_sets(const ComparePlan& plan, const std::atomic<bool>& is_inter
   print_lines(work.errors);
   if (!work.errors.empty()) return ExitCode::bad_input;
 
-  const vision::SetComparison comparison =
+  drop_copies(plan, work);
+  vision::SetComparison comparison =
       vision::compare_sets(work.sets[0], work.sets[1], plan.comparing.margin_rad);
+  warn_of_both(plan, comparison);
   const bool is_refused = !comparison.sets[0].mean_rad || !comparison.sets[1].mean_rad;
   if (is_refused && !comparison.iou && !plan.overlay_file.empty()) {
     print_line(plan.overlay_file + ": not drawn, as there is nothing to compare");

@@ -8,6 +8,6 @@
 namespace repose::cli {
 
 /// Carries out `repose compare` where one of both is more than one picture.
-ExitCode compare_sets(const ComparePlan& plan, const std::atomic<bool>& is_interrupted);
+ExitCode compare_sets(ComparePlan plan, const std::atomic<bool>& is_interrupted);
 
 }  // namespace repose::cli

@@ -1,11 +1,13 @@
 #include "cli/measure/measure.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "calibrate/report/measure_report.h"
+#include "cli/common/copies.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
@@ -27,6 +29,25 @@ void print_errors(const std::vector<MeasuredPicture>& pictures) {
   }
 }
 
+/// Of pictures and films that are copies of an earlier one.
+void name_copies(std::vector<MeasuredPicture>& pictures) {
+  std::vector<MeasuredPicture*> whole;
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> pixels;
+  for (MeasuredPicture& picture : pictures) {
+    if (is_of_series(picture) || picture.outcome != Outcome::measured) continue;
+    whole.push_back(&picture);
+    files.emplace_back(picture.file);
+    pixels.push_back(picture.pixels);
+  }
+  const auto first_of = copies_among(files, pixels);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (!first_of[i]) continue;
+    whole[i]->copy_of = files[*first_of[i]].string();
+    print_line(text_of_copy(files[i], files[*first_of[i]]));
+  }
+}
+
 std::string human_text(const std::vector<MeasuredPicture>& pictures,
                        const MeasureArguments& arguments) {
   const auto is_unread = [](const auto& picture) { return picture.outcome != Outcome::measured; };
@@ -44,7 +65,7 @@ std::string human_text(const std::vector<MeasuredPicture>& pictures,
 std::string report_page(const std::vector<MeasuredPicture>& pictures) {
   std::vector<calibrate::report::MeasuredPhotograph> shown;
   for (const MeasuredPicture& picture : pictures) {
-    if (is_of_series(picture)) continue;
+    if (is_of_series(picture) || !picture.copy_of.empty()) continue;
     shown.push_back({.file = picture.file,
                      .error = picture.outcome == Outcome::measured ? "" : picture.error,
                      .angle = picture.angle,
@@ -90,11 +111,12 @@ ExitCode run_measure(const MeasureArguments& arguments) {
   print_lines(plan.notes);
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
-  const std::vector<MeasuredPicture> pictures = measure_batch(plan, is_interrupted);
+  std::vector<MeasuredPicture> pictures = measure_batch(plan, is_interrupted);
   if (is_interrupted) {
     print_line("interrupted, no results were written");
     return ExitCode::interrupted;
   }
+  name_copies(pictures);
   Outputs outputs = results_of(pictures, arguments);
   outputs.write_files();
   print_errors(pictures);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
 
+#include "cli/common/copies.h"
 #include "cli/common/memory.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
@@ -257,6 +258,7 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
   attempt(measured.front(), [&] {
     const vision::Picture picture = vision::read_picture(file);
     MeasuredPicture& one = measured.front();
+    one.pixels = pixels_of(picture);
     one.told = vision::with_saved_hints({plan.options, plan.scale}, file);
     vision::SizedHeap heap =
         vision::measure_sized_heap(picture, one.told.measuring, one.told.scale);

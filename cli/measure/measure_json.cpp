@@ -152,6 +152,7 @@ void add_film(const std::optional<FilmedPicture>& filmed, Json& json) {
 Json picture_json(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Json json{{"file", picture.file},
+            {"copy_of", picture.copy_of.empty() ? Json() : Json(picture.copy_of)},
             {"status", name_of(angle.status)},
             {"angle_deg", degrees(angle.angle_rad)},
             {"uncertainty_deg", degrees(angle.uncertainty_rad)},

@@ -36,8 +36,10 @@ struct MeasuredPicture {
   bool has_scale = false;                  ///< a board that was seen, or a given scale
   vision::HeapSizes sizes;
   std::optional<vision::Proposal> proposal;  ///< what would help, when it is refused
-  std::string overlay_error;                 ///< why there is no overlay
-  calibrate::report::PageJpeg overlay;       ///< where the plan keeps them
+  std::string pixels;         ///< a fingerprint of the picture's; empty: not read, or a film
+  std::string copy_of;        ///< an earlier file that shows the same; empty: it is no copy
+  std::string overlay_error;  ///< why there is no overlay
+  calibrate::report::PageJpeg overlay;  ///< where the plan keeps them
 };
 
 /// A frame of a film's series, which is no repeat of anything.

@@ -21,6 +21,10 @@ std::string remarks_on(const Summary& summary) {
   if (summary.pictures.refused > 0) {
     left_out.push_back(fmt::format("{} refused", summary.pictures.refused));
   }
+  if (summary.copies > 0) {
+    left_out.push_back(
+        fmt::format("{} {} of others", summary.copies, summary.copies == 1 ? "copy" : "copies"));
+  }
   if (summary.not_read > 0) left_out.push_back(fmt::format("{} not read", summary.not_read));
   if (!left_out.empty()) {
     text += fmt::format("\nleft out of the mean: {}", fmt::join(left_out, ", "));
@@ -35,6 +39,10 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
   std::vector<calibrate::PictureAngle> angles;
   for (const MeasuredPicture& picture : pictures) {
     if (is_of_series(picture)) continue;
+    if (!picture.copy_of.empty()) {
+      ++summary.copies;
+      continue;
+    }
     if (picture.outcome == Outcome::measured) {
       angles.push_back({picture.angle.status, picture.angle.angle_rad});
     } else {
@@ -73,6 +81,7 @@ std::string summary_json(const Summary& summary) {
   json["flagged"] = summary.pictures.flagged;
   json["refused"] = summary.pictures.refused;
   json["not_read"] = summary.not_read;
+  json["copies"] = summary.copies;
   return json.dump(2) + '\n';
 }
 

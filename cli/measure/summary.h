@@ -12,6 +12,7 @@ namespace repose::cli {
 struct Summary {
   calibrate::PictureMean pictures;
   int not_read = 0;
+  int copies = 0;  ///< of pictures that are counted
 };
 
 Summary summarise(const std::vector<MeasuredPicture>& pictures);

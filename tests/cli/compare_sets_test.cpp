@@ -47,6 +47,21 @@ class CompareOfSets : public CommandTest {
   }
 };
 
+TEST_F(CompareOfSets, CopiesAreCountedOnceAndASetAgainstItselfSaysSo) {
+  std::filesystem::copy(path("flat"), path("twice"));
+  std::filesystem::copy(path("flat/1.png"), path("twice/copy.png"));
+  const Finished done = run({"twice", "flat", "--json", "-"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("twice/copy.png: the same picture as twice/1.png, counted once"));
+  const json compared = json::parse(done.out);
+  EXPECT_EQ(compared["sets"][0]["n"], 3);
+  EXPECT_THAT(compared["warnings"].dump(), HasSubstr("same_heaps"));
+  EXPECT_THAT(run({"twice", "flat"}).out, HasSubstr("a set is compared with itself"));
+  std::filesystem::copy(path("steep/1.png"), path("twice/other.png"));
+  EXPECT_THAT(run({"twice", "flat"}).out, HasSubstr("3 of the heaps are in both sets"));
+  EXPECT_THAT(result({"flat", "steep"})["warnings"].dump(), Not(HasSubstr("same_heaps")));
+}
+
 TEST_F(CompareOfSets, FoldersAreComparedByTheirMeans) {
   const Finished done = run({"flat", "flat_again", "--overlay", "both.png"});
   EXPECT_EQ(done.exit_code, 0);

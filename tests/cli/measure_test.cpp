@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -218,16 +219,48 @@ TEST_F(Measure, ABoxOutsideOnePictureErrorsOnlyThatPicture) {
 
 TEST_F(Measure, SeveralPicturesHaveAMeanOfThoseThatAreOk) {
   draw_heap_to("a.png");
-  draw_heap_to("b.png");
+  draw_heap_to("b.png");  // a copy: no second heap
+  HeapScene other;
+  other.width = 600;
+  other.height = 400;
+  other.form.left_rad = other.form.right_rad = .5;
+  vision::write_picture(folder_.path() / "c.png", draw_heap(other).picture);
   draw_plain("black.png");
-  const Finished result = run({"a.png", "b.png", "black.png", "--summary", "mean.json"});
+  const Finished result =
+      run({"a.png", "b.png", "c.png", "black.png", "--summary", "mean.json", "--json", "all.json"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("mean "), HasSubstr("sd 0.00° n = 2"),
-                                HasSubstr("(Student)"), HasSubstr("1 refused")));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("mean "), HasSubstr("n = 2"), HasSubstr("(Student)"),
+                                HasSubstr("1 refused, 1 copy of others")));
+  EXPECT_THAT(result.err, HasSubstr("b.png: the same picture as a.png, counted once"));
   const json summary = json::parse(text("mean.json"));
   EXPECT_EQ(summary["n"], 2);
   EXPECT_EQ(summary["refused"], 1);
-  EXPECT_EQ(summary["interval_deg"][0], summary["mean_deg"]);
+  EXPECT_EQ(summary["copies"], 1);
+  EXPECT_LT(summary["interval_deg"][0], summary["mean_deg"]);
+  const json all = json::parse(text("all.json"));
+  EXPECT_EQ(all[1]["copy_of"], "a.png");
+  EXPECT_TRUE(all[2]["copy_of"].is_null());
+}
+
+TEST_F(Measure, ACopyInAnotherFormatIsNoSecondHeap) {
+  draw_heap_to("a.png");
+  const vision::Picture heap = vision::read_picture(folder_.path() / "a.png");
+  // A bitmap, rows from below: the same pixels in other bytes.
+  std::string bitmap = "BM";
+  const auto number = [&](std::uint32_t value, int bytes) {
+    for (int k = 0; k < bytes; ++k) bitmap += static_cast<char>(value >> (8 * k) & 0xFFU);
+  };
+  const auto width = static_cast<std::uint32_t>(heap.width);
+  const auto height = static_cast<std::uint32_t>(heap.height);
+  const std::uint32_t size = 3 * width * height;
+  number(54 + size, 4), number(0, 4), number(54, 4), number(40, 4), number(width, 4);
+  number(height, 4), number(1, 2), number(24, 2), number(0, 4), number(size, 4);
+  number(2835, 4), number(2835, 4), number(0, 4), number(0, 4);
+  for (std::uint32_t row = height; row-- > 0;) {
+    bitmap.append(heap.bgr.begin() + 3 * width * row, heap.bgr.begin() + 3 * width * (row + 1));
+  }
+  folder_.write("b.bmp", bitmap);
+  EXPECT_THAT(run({"a.png", "b.bmp"}).err, HasSubstr("b.bmp: the same picture as a.png"));
 }
 
 /// Fields of a line without quotes in it.
