@@ -40,7 +40,22 @@ void fields(Io& io, Held<Io, SurfaceTerm>& term) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, BlockEffect>& effect) {
+  io("block", effect.label);
+  io("runs", effect.runs);
+  io("value", effect.value);
+  io("standard_error", effect.standard_error);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, SurfaceBlocks>& blocks) {
+  io("column", blocks.column);
+  io("effects", blocks.effects);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, SurfaceVariances>& anova) {
+  if (io.has("blocks", anova.blocks.has_value())) io("blocks", anova.blocks);
   io("model", anova.model);
   io("residual", anova.residual);
   io("lack_of_fit", anova.lack_of_fit);
@@ -104,12 +119,19 @@ void fields(Io& io, Held<Io, FittedRun>& run) {
   io("fitted", run.fitted);
   io.derived("residual", run.response - run.fitted);
   io("leverage", run.leverage);
+  if (io.has("block", !run.block.empty())) io("block", run.block);
 }
 
 template <typename Io>
 void fields(Io& io, Held<Io, SurfaceDiagnostic>& diagnostic) {
   io("code", diagnostic.code);
   io("message", diagnostic.message);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, LeftOut>& left_out) {
+  io("what", left_out.what);
+  io("why", left_out.why);
 }
 
 template <typename Io>
@@ -120,6 +142,7 @@ void fields(Io& io, Held<Io, SurfaceSummary>& surface) {
   io.names().factors.clear();
   for (const SurfaceFactor& factor : surface.factors) io.names().factors.push_back(factor.name);
   io("coefficients", surface.coefficients);
+  if (io.has("blocks", surface.blocks.has_value())) io("blocks", surface.blocks);
   io("anova", surface.anova);
   io("residual_sd", surface.residual_sd);
   io("r2", surface.r2);
@@ -132,6 +155,8 @@ void fields(Io& io, Held<Io, SurfaceSummary>& surface) {
   io("target", surface.target);
   if (io.has("runs", !surface.runs.empty())) io("runs", surface.runs);
   io("warnings", surface.warnings);
+  if (io.has("left_out", !surface.left_out.empty())) io("left_out", surface.left_out);
+  if (io.has("notes", !surface.notes.empty())) io("notes", surface.notes);
 }
 
 }  // namespace repose::calibrate

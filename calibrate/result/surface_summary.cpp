@@ -62,7 +62,9 @@ SurfaceSummary summary_of(const SurfaceReport& report) {
                          .model = fit.model,
                          .factors = factors_of(fit),
                          .coefficients = terms_in(fit),
-                         .anova = {.model = fit.explained,
+                         .blocks = {},
+                         .anova = {.blocks = {},
+                                   .model = fit.explained,
                                    .residual = fit.residual,
                                    .lack_of_fit = fit.lack_of_fit,
                                    .pure_error = fit.pure_error,
@@ -76,7 +78,13 @@ SurfaceSummary summary_of(const SurfaceReport& report) {
                          .extremes = report.extremes,
                          .target = {},
                          .runs = fit.runs,
-                         .warnings = report.diagnostics};
+                         .warnings = report.diagnostics,
+                         .left_out = {},
+                         .notes = {}};
+  if (fit.blocks) {
+    summary.blocks = SurfaceBlocks{fit.blocks->runs.name, fit.blocks->effects};
+    summary.anova.blocks = fit.blocks->variance;
+  }
   if (report.target) summary.target = target_of(fit, *report.target);
   return summary;
 }

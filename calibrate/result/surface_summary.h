@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/statistics/left_out.h"
 #include "calibrate/statistics/regress/surface_report.h"
 
 namespace repose::calibrate {
@@ -26,7 +27,14 @@ struct SurfaceTerm {
   double natural = 0;  ///< of the factors in their own units
 };
 
+/// Blocks of runs, as in FittedBlocks.
+struct SurfaceBlocks {
+  std::string column;
+  std::vector<BlockEffect> effects;
+};
+
 struct SurfaceVariances {
+  std::optional<Variance> blocks = {};
   Variance model;  ///< all terms but the constant
   Variance residual;
   std::optional<Variance> lack_of_fit;
@@ -57,6 +65,7 @@ struct SurfaceSummary {
   SurfaceModel model = SurfaceModel::quadratic;
   std::vector<SurfaceFactor> factors;
   std::vector<SurfaceTerm> coefficients;
+  std::optional<SurfaceBlocks> blocks = {};
   SurfaceVariances anova;
   double residual_sd = 0;
   double r2 = 0;
@@ -68,6 +77,8 @@ struct SurfaceSummary {
   std::optional<SurfaceTarget> target;
   std::vector<FittedRun> runs;  ///< empty in a study's result, which has all runs itself
   std::vector<SurfaceDiagnostic> warnings;
+  std::vector<LeftOut> left_out = {};   ///< of a table of runs
+  std::vector<std::string> notes = {};  ///< on that table
 };
 
 SurfaceSummary summary_of(const SurfaceReport& report);

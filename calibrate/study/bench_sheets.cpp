@@ -40,10 +40,15 @@ void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& prot
 SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
                             const dem::StudyExperiment& described, NoRows no_rows,
                             base::ErrorList& errors) {
-  SheetReadings sheet{
-      .experiment = std::string(entry.name), .file = *described.measured.sheet, .values = {}};
+  SheetReadings sheet{.experiment = std::string(entry.name),
+                      .file = *described.measured.sheet,
+                      .rows = 0,
+                      .notes = {},
+                      .values = {}};
   const BenchTest test = bench_test_named(entry.sheet.test);
-  const std::vector<BenchReading> readings = read_sheet(sheet.file, test, {}, no_rows, errors);
+  const auto [readings, left_out, notes] = read_sheet(sheet.file, test, {}, no_rows, errors);
+  for (const LeftOut& one : left_out) sheet.notes.push_back(text_of(one, sheet.file));
+  sheet.notes.insert(sheet.notes.end(), notes.begin(), notes.end());
   check_protocol(entry, described.protocol, readings, errors);
   check_readings(test, readings);
   sheet.rows = static_cast<int>(readings.size());

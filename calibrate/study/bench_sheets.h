@@ -15,6 +15,8 @@ struct SheetReadings {
   std::string experiment;
   std::filesystem::path file;
   int rows = 0;
+  std::vector<std::string>
+      notes;  ///< rows that were left out or may be no readings, a sentence each
   /// Of each grain, in the unit of the experiment: repeats on one grain are averaged first.
   std::vector<double> values;
 };

@@ -121,6 +121,18 @@ Observable observable_of(const dem::Measured& measured) {
   return observable;
 }
 
+/// What a bench can have read, in the experiment's unit. A tube that is full of grains holds some
+/// percent of them at least: loose fibres 5, random packings of anything rounder 50 or more.
+dem::Range measurable_range(const dem::Study& study, const dem::ClumpShape& grain,
+                            const dem::ExperimentEntry& entry) {
+  dem::Model model = dem::model_for(study, entry.experiment);
+  model.grain = grain;
+  dem::Range range = entry.possible(model, study.experiments.at(entry.experiment).protocol);
+  constexpr double kLoosest = .05;
+  if (entry.experiment == dem::Experiment::fill) range.from = kLoosest * range.to;
+  return range;
+}
+
 class Maker {
  public:
   Maker(const dem::Study& study, const dem::ClumpFile& grain) : study_(study), grain_(grain) {}
@@ -269,6 +281,32 @@ bool is_definition_assumed(const dem::ExperimentEntry& entry,
       !measured.pictures.empty() || !measured.videos.empty() || measured.sheet.has_value();
   const bool is_told = measured.mean.has_value() || !measured.values.empty();
   return entry.is_pictured && described.definition.empty() && is_told && !is_ours;
+}
+
+std::vector<std::string> impossible_readings(const dem::Study& study,
+                                             const dem::ClumpShape& grain) {
+  std::vector<std::string> errors;
+  for (const auto& [experiment, described] : study.experiments) {
+    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    const dem::Range range = measurable_range(study, grain, entry);
+    std::vector<double> readings = described.measured.values;
+    if (described.measured.mean) readings.push_back(*described.measured.mean);
+    const auto impossible = std::find_if(readings.begin(), readings.end(),
+                                         [&](double value) { return !range.contains(value); });
+    if (impossible == readings.end()) continue;
+    constexpr double kThousand = 1000;
+    const std::string thousands =
+        range.contains(kThousand * *impossible)
+            ? fmt::format("{:.10g} if a point parts thousands or the unit is another one; ",
+                          kThousand * *impossible)
+            : "";
+    errors.push_back(fmt::format(
+        "{}: [experiment.{}] measured = {:.10g} {}. Rule: its {} is from {:.4g} to {:.4g} {} with "
+        "this grain and protocol. Fix: {}correct the reading, or the study.",
+        study.file.string(), entry.name, *impossible, entry.unit, entry.value_name, range.from,
+        range.to, entry.unit, thousands));
+  }
+  return errors;
 }
 
 Budget budget_named(const std::string& name) {

@@ -39,6 +39,12 @@ struct StudyProblem {
   std::vector<std::string> notes;  ///< assumptions, and what was left out
 };
 
+/// Readings that no bench with this grain and protocol gives, a line for each experiment that has
+/// one: a bulk density of 1.403 kg/m3, a rebound above the drop. Files of readings must have been
+/// read before. Proved by BenchSheets.ImpossibleReadings* in
+/// tests/calibrate.
+std::vector<std::string> impossible_readings(const dem::Study& study, const dem::ClumpShape& grain);
+
 /// Unknowns are the coefficients with bounds; observables what each experiment measured. Pictures
 /// must have been measured before: `measured.values` then holds their angles.
 /// @throws std::invalid_argument  nothing is to be found, nothing was measured, or the problem is

@@ -54,6 +54,7 @@ Json sheets_json(const std::vector<SheetReadings>& sheets) {
     json.push_back({{"experiment", sheet.experiment},
                     {"file", sheet.file.string()},
                     {"rows", sheet.rows},
+                    {"notes", sheet.notes},
                     {"values", sheet.values}});
   }
   return json;
@@ -65,6 +66,7 @@ std::vector<SheetReadings> sheets_in(const Json& json) {
     sheets.push_back({.experiment = sheet.at("experiment"),
                       .file = sheet.at("file").get<std::string>(),
                       .rows = sheet.at("rows"),
+                      .notes = sheet.value("notes", std::vector<std::string>()),
                       .values = sheet.at("values")});
   }
   return sheets;

@@ -198,12 +198,21 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   check_places(plan);
   attempt(plan.errors,
           [&] { plan.record.sheets = calibrate::read_sheets(plan.record.study, no_rows); });
+  for (const calibrate::SheetReadings& sheet : plan.record.sheets) {
+    plan.notes.insert(plan.notes.end(), sheet.notes.begin(), sheet.notes.end());
+  }
   measure_heaps(plan);
   read_films(plan);
   if (!plan.errors.empty()) return plan;
   plan.record.study = calibrate::as_measured(std::move(plan.record.study), plan.record.pictures,
                                              plan.record.sheets, plan.record.films);
-  attempt(plan.errors, [&] { plan.record.grain = dem::build_grain(plan.record.study.grain); });
+  attempt(plan.errors, [&] {
+    plan.record.grain = dem::build_grain(plan.record.study.grain);
+    for (std::string& error :
+         calibrate::impossible_readings(plan.record.study, plan.record.grain.shape)) {
+      plan.errors.push_back(std::move(error));
+    }
+  });
   for (const std::string& repair : plan.record.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.record.grain.source, repair));
   }

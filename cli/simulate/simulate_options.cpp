@@ -11,6 +11,7 @@
 #include "calibrate/experiment/heap_views.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/study/bench_sheets.h"
+#include "calibrate/study/study_problem.h"
 #include "cli/common/cores.h"
 #include "cli/common/number.h"
 #include "cli/common/option_names.h"
@@ -128,6 +129,9 @@ void build_bench(SimulatePlan& plan) {
     add_lines(error.what(), plan.errors);
     return;
   }
+  for (std::string& error : calibrate::impossible_readings(plan.study, plan.grain.shape)) {
+    plan.errors.push_back(std::move(error));
+  }
   for (const std::string& repair : plan.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.grain.source, repair));
   }
@@ -158,8 +162,11 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
     plan.study = dem::read_study(arguments.study, arguments.settings);
     is_read = true;
     // A simulation needs no readings: they are compared with where there are some.
-    plan.study =
-        with_readings(plan.study, calibrate::read_sheets(plan.study, calibrate::NoRows::allowed));
+    const auto sheets = calibrate::read_sheets(plan.study, calibrate::NoRows::allowed);
+    for (const calibrate::SheetReadings& sheet : sheets) {
+      plan.notes.insert(plan.notes.end(), sheet.notes.begin(), sheet.notes.end());
+    }
+    plan.study = with_readings(plan.study, sheets);
   } catch (const std::invalid_argument& error) {
     add_lines(naming_options(error.what(), kSimulateNames), plan.errors);
   }

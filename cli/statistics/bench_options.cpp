@@ -104,11 +104,15 @@ std::map<std::string, double> constants_in(const Settings& settings, const std::
 /// A table's rows; columns that it lacks come from the settings.
 void add_table_readings(const std::string& file, const Settings& settings, BenchPlan& plan) {
   base::ErrorList errors;
-  for (calibrate::BenchReading& reading :
-       calibrate::read_sheet(file, plan.test, constants_in(settings, file, plan),
-                             calibrate::NoRows::refused, errors)) {
+  calibrate::Sheet sheet = calibrate::read_sheet(
+      file, plan.test, constants_in(settings, file, plan), calibrate::NoRows::refused, errors);
+  for (calibrate::BenchReading& reading : sheet.readings) {
     plan.readings.push_back(std::move(reading));
   }
+  for (const calibrate::LeftOut& one : sheet.left_out) {
+    plan.notes.push_back(calibrate::text_of(one, file));
+  }
+  plan.notes.insert(plan.notes.end(), sheet.notes.begin(), sheet.notes.end());
   errors.throw_if_any();
 }
 
@@ -117,6 +121,7 @@ void evaluate(BenchPlan& plan) {
   if (plan.readings.empty()) return;
   try {
     plan.result = calibrate::evaluate_bench(plan.test, plan.readings);
+    plan.result.notes.insert(plan.result.notes.end(), plan.notes.begin(), plan.notes.end());
   } catch (const std::invalid_argument& error) {
     add_lines(error.what(), plan.errors);
   }
@@ -151,7 +156,7 @@ BenchPlan plan_bench(const BenchArguments& arguments) {
     }
   }
   evaluate(plan);
-  check_output_places({{"--json", plan.json_file}},
+  check_output_places({json_place(plan.json_file, "\"equation\"")},
                       {arguments.files.begin(), arguments.files.end()}, plan.errors);
   return plan;
 }

@@ -14,6 +14,7 @@ struct BenchPlan {
   std::vector<calibrate::BenchReading> readings;
   calibrate::BenchResult result;
   std::string json_file;
+  std::vector<std::string> notes;  ///< on the tables; the result has them too
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
 };

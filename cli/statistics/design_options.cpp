@@ -164,9 +164,16 @@ calibrate::Design fitted_line(const DesignArguments& arguments, const std::vecto
     plan.errors.emplace_back("--fit: the response is not named. Fix: add --response COLUMN.");
   }
   if (!plan.errors.empty()) return {};
-  const calibrate::RunTable table = calibrate::runs_in(
-      calibrate::read_table(arguments.fitted_table), arguments.response, {}, codings);
-  const calibrate::Regression plane = calibrate::regress(table, calibrate::SurfaceModel::linear);
+  const calibrate::TableOfRuns table =
+      calibrate::runs_in(calibrate::read_table(arguments.fitted_table),
+                         {.response = arguments.response, .codings = codings});
+  for (const calibrate::LeftOut& one : table.left_out) {
+    plan.notes.push_back(
+        fmt::format("{}: {} is left out ({})", arguments.fitted_table, one.what, one.why));
+  }
+  plan.notes.insert(plan.notes.end(), table.notes.begin(), table.notes.end());
+  const calibrate::Regression plane =
+      calibrate::regress(table.runs, calibrate::SurfaceModel::linear);
   constexpr double kSignificant = .05;
   if (plane.explained.p.value_or(0) > kSignificant) {
     plan.notes.push_back(fmt::format(
@@ -234,12 +241,16 @@ DesignPlan plan_design(const DesignArguments& arguments) {
   check_kind(arguments, plan);
   const auto order_seed =
       read_seed({"--random-order", arguments.random_order, plan.errors}).value_or(1);
-  check_output_places({{"--out", arguments.out_file}}, {arguments.fitted_table}, plan.errors);
   try {
     plan.design = make_design(arguments, plan);
   } catch (const std::invalid_argument& error) {
     add_lines(error.what(), plan.errors);
   }
+  // A table to which results were added has another header.
+  const std::string csv = design_csv(plan.design, plan.csv);
+  const std::string header = csv.substr(0, csv.find('\n') + 1);
+  check_output_places({csv_place("--out", arguments.out_file, header)}, {arguments.fitted_table},
+                      plan.errors);
   if (!plan.errors.empty()) return plan;
   if (!arguments.random_order.empty()) calibrate::randomise_order(plan.design, order_seed);
   note_negative_levels(plan);

@@ -13,9 +13,12 @@ ExitCode run_regress(const RegressArguments& arguments) {
   print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
 
+  calibrate::SurfaceSummary summary = summary_of(plan.report);
+  summary.left_out = plan.left_out;
+  summary.notes = plan.notes;
   Outputs outputs;
-  outputs.add(plan.json_file, to_json(summary_of(plan.report)));
-  outputs.show(regress_table(plan.report, columns_of(stdout)));
+  outputs.add(plan.json_file, to_json(summary));
+  outputs.show(regress_table(plan, columns_of(stdout)));
   outputs.write();
   return ExitCode::done;
 }

@@ -13,6 +13,7 @@ struct RegressArguments {
   std::string response;
   std::string factors;  ///< A,B,C
   std::string model;
+  std::string blocks;                ///< a column, or "none"
   std::vector<std::string> codings;  ///< NAME=MIN:MAX
   std::string target;
   std::string json_file;

@@ -22,6 +22,7 @@ namespace {
 /// How the library calls the options.
 constexpr std::array kRegressNames{
     OptionName{.value = "linear model", .option = "--model linear"},
+    OptionName{.value = "blocks column", .option = "--blocks"},
     OptionName{.value = "factor columns", .option = "--factors A,B,C"}};
 constexpr std::array kTarget{OptionName{.value = "target value", .option = "--target"}};
 
@@ -80,11 +81,17 @@ RegressPlan plan_regress(const RegressArguments& arguments) {
     if (const auto coding = factor_in("--coding", text, plan.errors)) codings.push_back(*coding);
   }
   plan.target = read_target(arguments.target, plan.errors);
-  check_output_places({{"--json", plan.json_file}}, {arguments.table}, plan.errors);
+  check_output_places({json_place(plan.json_file, "\"coefficients\"")}, {arguments.table},
+                      plan.errors);
   try {
-    const calibrate::RunTable runs = calibrate::runs_in(calibrate::read_table(arguments.table),
-                                                        arguments.response, factors, codings);
-    plan.report = report_on(calibrate::regress(runs, plan.model), plan.target);
+    calibrate::TableOfRuns table =
+        calibrate::runs_in(calibrate::read_table(arguments.table), {.response = arguments.response,
+                                                                    .factors = factors,
+                                                                    .blocks = arguments.blocks,
+                                                                    .codings = codings});
+    plan.left_out = std::move(table.left_out);
+    plan.notes = std::move(table.notes);
+    plan.report = report_on(calibrate::regress(table.runs, plan.model), plan.target);
     for (calibrate::SurfaceDiagnostic& diagnostic : plan.report.diagnostics) {
       diagnostic.message = naming_options(std::move(diagnostic.message), kTarget);
     }

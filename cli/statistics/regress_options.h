@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/statistics/left_out.h"
 #include "calibrate/statistics/regress/surface_report.h"
 #include "cli/statistics/regress.h"
 
@@ -15,6 +16,8 @@ struct RegressPlan {
   std::optional<calibrate::WantedValue> target;
   std::string json_file;
   calibrate::SurfaceReport report;
+  std::vector<calibrate::LeftOut> left_out;
+  std::vector<std::string> notes;
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
 };

@@ -42,6 +42,27 @@ void add_heading(const calibrate::Regression& fit, Page& page) {
   page.add(fmt::format("{} from {}: {} model, {} runs", fit.response_name, fmt::join(names, ", "),
                        name_of(fit.model), fit.runs.size()));
   page.add(fmt::format("coded -1 … 1 are {}", fmt::join(codings, ", ")));
+  if (fit.blocks) {
+    page.add(fmt::format("blocks by {}: {}", fit.blocks->runs.name,
+                         fmt::join(fit.blocks->runs.labels, ", ")));
+  }
+}
+
+void add_left_out(const std::vector<calibrate::LeftOut>& left_out, Page& page) {
+  for (const auto& [what, why] : left_out) page.add(fmt::format("not used: {} ({})", what, why));
+}
+
+/// How far each block lies from the mean of all, which the surface is of.
+void add_blocks(const calibrate::Regression& fit, Table& table) {
+  for (const calibrate::BlockEffect& effect : fit.blocks->effects) {
+    const double half_width = fit.student_t * effect.standard_error;
+    table.add_row({fmt::format("{} {}", fit.blocks->runs.name, effect.label),
+                   fmt::format("{:.4g}", effect.value),
+                   fmt::format("{:.4g}", effect.standard_error), kNothing, kNothing,
+                   fit.is_exact ? kNothing
+                                : fmt::format("{:.4g} … {:.4g}", effect.value - half_width,
+                                              effect.value + half_width)});
+  }
 }
 
 void add_coefficients(const calibrate::Regression& fit, Page& page) {
@@ -60,6 +81,7 @@ void add_coefficients(const calibrate::Regression& fit, Page& page) {
              ? kNothing
              : fmt::format("{:.4g} … {:.4g}", coefficient.interval[0], coefficient.interval[1])});
   }
+  if (fit.blocks) add_blocks(fit, table);
   page.add_gap();
   page.add(table);
 }
@@ -95,6 +117,7 @@ void add_anova(const calibrate::Regression& fit, Page& page) {
                number_column("mean square"),
                number_column("F"),
                number_column("p")});
+  if (fit.blocks) add_variance(fit.blocks->runs.name + " (blocks)", fit.blocks->variance, table);
   add_variance("model", fit.explained, table);
   for (const calibrate::Coefficient& coefficient : fit.coefficients) {
     if (coefficient.term.empty()) continue;
@@ -209,9 +232,11 @@ void add_target(const calibrate::SurfaceReport& report, Page& page) {
 
 }  // namespace
 
-std::string regress_table(const calibrate::SurfaceReport& report, int columns) {
+std::string regress_table(const RegressPlan& plan, int columns) {
+  const calibrate::SurfaceReport& report = plan.report;
   Page page(columns);
   add_heading(report.fit, page);
+  add_left_out(plan.left_out, page);
   add_coefficients(report.fit, page);
   add_equation(report.fit, page);
   add_anova(report.fit, page);
@@ -220,6 +245,7 @@ std::string regress_table(const calibrate::SurfaceReport& report, int columns) {
   if (!report.diagnostics.empty()) page.add_gap();
   for (const calibrate::SurfaceDiagnostic& diagnostic : report.diagnostics)
     page.add("! ", diagnostic.message);
+  for (const std::string& note : plan.notes) page.add("! ", note);
   return page.text();
 }
 

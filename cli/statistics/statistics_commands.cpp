@@ -55,8 +55,13 @@ Examples:
 
 constexpr const char* kRegressNotes = R"(
 TABLE is a CSV table with one row per run, a column for each factor and one for
-the response. Without --factors, all columns but the response and those
-that repose design adds (run, standard, point, NAME_coded) are factors.
+the response. Without --factors, all columns but the response and those that
+are written beside a design (order of runs, kind of point, NAME_coded, remarks)
+are factors. What is not used is listed.
+
+Runs of another day or batch may be shifted as a whole: --blocks names the
+column that tells them apart. A column of text, or one called block, is taken
+for it unless --blocks none is given.
 
 Models: linear (1, A), interaction (and A*B), quadratic (and A^2). Factors are
 coded: --coding gives the levels coded as -1 and 1; otherwise a column that is
@@ -122,6 +127,7 @@ Command regress_command() {
       .options = {{"table", "TABLE.csv", "Runs and their results", &given->table, true},
                   {"--response", "COLUMN", "Response column", &given->response, true},
                   {"--factors", "A,B,C", "Factor columns", &given->factors},
+                  {"--blocks", "COLUMN|none", "Column of blocks of runs", &given->blocks},
                   {"--model", "linear|interaction|quadratic", "Model (quadratic)", &given->model},
                   {"--coding", "NAME=MIN:MAX", "Levels coded as -1 and 1; repeatable",
                    &given->codings},

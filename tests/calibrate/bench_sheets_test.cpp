@@ -88,6 +88,37 @@ measured = { readings = "heaps.csv" }
   EXPECT_THAT(read[3].values, ElementsAre(23.5));
 }
 
+TEST_F(BenchSheets, RowsThatAreNoReadingsAreLeftOutAndSaid) {
+  write("drops.csv",
+        "sample;drop_mm;rebound_mm\n1;500;125\n2;500;131\n3;500;120\nMean;500;125,3\n;;\n");
+  const auto read = sheets("[experiment.drop]\nmeasured = { readings = \"drops.csv\" }\n");
+  EXPECT_THAT(read.at(0).values, ElementsAre(125, 131, 120));
+  ASSERT_THAT(read.at(0).notes, SizeIs(1));
+  EXPECT_THAT(read.at(0).notes[0], HasSubstr("drops.csv: line 5 is left out (labelled \"Mean\")"));
+  write("drops.csv", "drop_mm,rebound_mm\n500,125\n500,131\n500,120\n500,125.33\n");
+  EXPECT_THAT(errors("[experiment.drop]\nmeasured = { readings = \"drops.csv\" }\n"),
+              HasSubstr("drops.csv:5: this last row looks like mean"));
+}
+
+TEST_F(BenchSheets, ImpossibleReadingsAreToldByTheStudysGrain) {
+  const auto said = [&](const std::string& experiment) {
+    const dem::Study read = study(experiment);
+    const std::vector<std::string> all =
+        impossible_readings(read, dem::build_grain(read.grain).shape);
+    return all.empty() ? std::string() : all.front();
+  };
+  // Grains of 1000 kg/m3.
+  EXPECT_THAT(said("[experiment.fill]\nmeasured = { values = [1.403, 1.398] }\n"),
+              AllOf(HasSubstr("[experiment.fill] measured = 1.403 kg/m3"),
+                    HasSubstr("from 50 to 1000 kg/m3")));
+  EXPECT_THAT(said("[experiment.fill]\nmeasured = { mean = 0.603 }\n"),
+              HasSubstr("Fix: 603 if a point parts thousands"));
+  EXPECT_THAT(said("[experiment.fill]\nmeasured = { mean = 1403 }\n"), HasSubstr("1403"));
+  EXPECT_EQ(said("[experiment.fill]\nmeasured = { mean = 603 }\n"), "");
+  EXPECT_THAT(said("[experiment.drop]\nheight_mm = 100\nmeasured = { mean = 900 }\n"),
+              HasSubstr("[experiment.drop] measured = 900 mm"));
+}
+
 TEST_F(BenchSheets, RepeatsOnOneGrainAreAveragedFirst) {
   write("drops.csv", "sample,drop_mm,rebound_mm\nA,500,8\nB,500,11\nA,500,10\n");
   const auto read = sheets("[experiment.drop]\nmeasured = { readings = \"drops.csv\" }\n");

@@ -266,6 +266,78 @@ TEST(Regression, WhatTheDesignCannotTellApartIsNamed) {
               AllOf(HasSubstr("cannot tell"), Not(HasSubstr("constant"))));
 }
 
+/// A central composite design in two blocks: Myers and Montgomery, Response Surface Methodology, as
+/// ChemReact in R's package rsm (Lenth 2009, J. Stat. Softw. 32, 7).
+RunTable chemical_reaction() {
+  RunTable table;
+  table.name = "reaction.csv";
+  table.factors = {{"x1", 80, 90}, {"x2", 170, 180}};
+  table.levels = {{80, 80, 90, 90, 85, 85, 85, 85, 85, 85, 92.07, 77.93, 85, 85},
+                  {170, 180, 170, 180, 175, 175, 175, 175, 175, 175, 175, 175, 182.07, 167.93}};
+  table.response_name = "yield";
+  table.responses = {80.5, 81.5, 82.0, 83.5, 83.9, 84.3, 84.0,
+                     79.7, 79.8, 79.5, 78.4, 75.6, 78.5, 77.0};
+  table.blocks = Blocks{"block", {"B1", "B2"}, {0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1}};
+  return table;
+}
+
+TEST(RegressionBlocks, AgreeWithRsmOfR) {
+  // summary(rsm(Yield ~ Block + SO(x1, x2), data = CR)), whose intercept is that of block B1
+  const Regression fit = regress(chemical_reaction(), SurfaceModel::quadratic);
+  ASSERT_TRUE(fit.blocks);
+  constexpr double kSixDecimals = 6e-7;
+  EXPECT_NEAR(fit.coefficients[0].value, 84.095427 - 4.457530 / 2, kSixDecimals);
+  const double values[] = {.932541, .577712, .125000, -1.308555, -.933442};
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_NEAR(fit.coefficients[k + 1].value, values[k], kSixDecimals) << k;
+  }
+  EXPECT_NEAR(fit.coefficients[1].standard_error, .057699, kSixDecimals);
+  EXPECT_NEAR(fit.blocks->effects[0].value, 4.457530 / 2, kSixDecimals);
+  EXPECT_NEAR(fit.blocks->effects[1].value, -4.457530 / 2, kSixDecimals);
+  EXPECT_NEAR(fit.blocks->effects[1].standard_error, .087226 / 2, kSixDecimals);
+  EXPECT_EQ(fit.blocks->variance.df, 1);
+  EXPECT_NEAR(fit.blocks->variance.sum_of_squares, 69.531, 5e-4);
+  EXPECT_NEAR(fit.explained.sum_of_squares, 9.626 + .063 + 17.791, 2e-3);
+  EXPECT_EQ(fit.residual.df, 7);
+  EXPECT_NEAR(fit.residual.sum_of_squares, .186, 5e-4);
+  EXPECT_EQ(fit.pure_error->df, 4);
+  EXPECT_NEAR(*fit.lack_of_fit->f, .5307, 5e-5);
+  EXPECT_NEAR(*fit.lack_of_fit->p, .6851, 5e-5);
+  EXPECT_NEAR(fit.total.sum_of_squares,
+              fit.blocks->variance.sum_of_squares + fit.explained.sum_of_squares +
+                  fit.residual.sum_of_squares,
+              1e-9);
+}
+
+TEST(RegressionBlocks, AShiftOfABlockMovesNothingButItsEffect) {
+  RunTable table = chemical_reaction();
+  const Regression before = regress(table, SurfaceModel::quadratic);
+  for (std::size_t run = 7; run < 14; ++run) table.responses[run] += 10;
+  const Regression after = regress(table, SurfaceModel::quadratic);
+  for (std::size_t k = 1; k < before.coefficients.size(); ++k) {
+    EXPECT_NEAR(after.coefficients[k].value, before.coefficients[k].value, 1e-9);
+    EXPECT_NEAR(*after.coefficients[k].p, *before.coefficients[k].p, 1e-9);
+  }
+  EXPECT_NEAR(after.coefficients[0].value, before.coefficients[0].value + 5, 1e-9);
+  EXPECT_NEAR(after.r2, before.r2, 1e-9);
+  EXPECT_NEAR(*after.r2_predicted, *before.r2_predicted, 1e-9);
+  EXPECT_NEAR(after.runs[8].fitted, before.runs[8].fitted + 10, 1e-9);
+}
+
+TEST(RegressionBlocks, WhatBlocksMixUpIsNamed) {
+  RunTable same = line({0, 0, 0, 1, 1, 1}, {1, 2, 3, 5, 6, 7});
+  same.blocks = Blocks{"day", {"Mon", "Tue"}, {0, 0, 0, 1, 1, 1}};
+  EXPECT_THAT(regression_error(same, SurfaceModel::linear),
+              AllOf(HasSubstr("cannot tell"), HasSubstr("or blocks")));
+  same.blocks->labels = {"Mon"};
+  same.blocks->of_runs.assign(6, 0);
+  EXPECT_THAT(regression_error(same, SurfaceModel::linear), HasSubstr("day is the same in every"));
+  RunTable flat = line({0, 1, 2, 0, 1, 2}, {1, 1, 1, 5, 5, 5});
+  flat.blocks = Blocks{"day", {"Mon", "Tue"}, {0, 0, 0, 1, 1, 1}};
+  EXPECT_THAT(regression_error(flat, SurfaceModel::linear),
+              HasSubstr("y only differs between the blocks of day"));
+}
+
 TEST(Regression, NumbersThatAreNoneAreRefused) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(regression_error(line({0, 1, 2, 3}, {1, kNan, 2, 3}), SurfaceModel::linear),

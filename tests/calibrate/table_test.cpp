@@ -15,12 +15,21 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string table_error(const std::string& text, const std::vector<std::string>& columns = {}) {
+std::string table_error(const std::string& text, const std::vector<std::string>& names = {}) {
+  std::vector<NumberColumn> columns;
+  for (const std::string& name : names) columns.push_back({.name = name});
   return error_of([&] { numbers_of(parse_table("runs.csv", text), columns); });
 }
 
 std::vector<double> column(const std::string& text, const std::string& name) {
-  return numbers_of(parse_table("runs.csv", text), {&name, 1}).front();
+  const NumberColumn wanted{.name = name};
+  return numbers_of(parse_table("runs.csv", text), {&wanted, 1}).front();
+}
+
+/// Of a single column "a" whose numbers must lie within limits.
+std::string error_within(const std::string& text, double above, double below) {
+  const NumberColumn wanted{"a", above, below};
+  return error_of([&] { numbers_of(parse_table("runs.csv", text), {&wanted, 1}); });
 }
 
 TEST(Table, RowsKnowTheirLines) {
@@ -50,8 +59,58 @@ TEST(Table, PointsThatMayPartThousandsAreRefusedBesideDecimalCommas) {
                     HasSubstr("Fix: ")));
   EXPECT_THAT(table_error("a;b\n1;0,5\n-12.345.678;2\n", {"a", "b"}), HasSubstr("runs.csv:3"));
   EXPECT_THAT(column("a;b\n0.125;1,5\n12.5;2\n", "a"), ElementsAre(.125, 12.5));
-  EXPECT_THAT(column("a;b\n1.012;1\n", "a"), ElementsAre(1.012));
-  EXPECT_THAT(column("a;b\n1.012;nut, small\n", "a"), ElementsAre(1.012));
+}
+
+TEST(Table, PointsThatMayPartThousandsAreReadByWhatIsPossible) {
+  const std::string densities = "sample;a\nx;1.403\ny;1.398\n";
+  EXPECT_THAT(error_within(densities, 0, 1e5),
+              AllOf(HasSubstr("runs.csv:2: a is \"1.403\", which may mean 1403 as well as 1.403"),
+                    HasSubstr("runs.csv:3: "), HasSubstr("Fix: write 1403 if it does")));
+  EXPECT_THAT(error_within(densities, 10, 1e5), HasSubstr("which may mean 1403. Fix: "));
+  EXPECT_EQ(error_within("sample;a\nx;22.125\ny;23.250\n", 0, 90), "");
+  // Another number has a point between decimals; a column in another unit tells as well.
+  EXPECT_EQ(error_within("sample;a\nx;1.403\ny;1.4\n", 0, 1e5), "");
+  EXPECT_EQ(table_error("a;b\n1.012;0.5\n", {"a", "b"}), "");
+  EXPECT_EQ(error_within("sample,a\nx,1.403\n", 0, 1e5), "");
+  EXPECT_THAT(table_error("a;b\n1.012;nut, small\n", {"a"}), HasSubstr("may mean 1012"));
+}
+
+TEST(Table, QuotedDecimalCommasAreRead) {
+  EXPECT_THAT(column("b,a\nx,\"22,1\"\ny,\"1,403\"\n", "a"), ElementsAre(22.1, 1.403));
+  EXPECT_THAT(table_error("b,a\nx,\"1,403\"\n", {"a"}), HasSubstr("may mean 1403"));
+  EXPECT_THAT(table_error("b,a\nx,\"1,403.5\"\n", {"a"}), HasSubstr("points and commas"));
+}
+
+TEST(Table, ALineThatTellsTheSeparatorIsNoHeader) {
+  EXPECT_THAT(column("sep=;\r\na;b\r\n1,5;2\r\n", "a"), ElementsAre(1.5));
+  EXPECT_THAT(column("\xEF\xBB\xBF"
+                     "sep=,\na,b\n1.5,2\n",
+                     "a"),
+              ElementsAre(1.5));
+  EXPECT_EQ(parse_table("x", "sep=;\na;b\n1;2\n").rows[0].line, 3);
+}
+
+TEST(Table, ASingleColumnHasDecimalCommas) {
+  EXPECT_THAT(column("a\n22,1\n22,9\n", "a"), ElementsAre(22.1, 22.9));
+  EXPECT_THAT(column("a\n22.1\n", "a"), ElementsAre(22.1));
+  EXPECT_THAT(table_error("a\n1,22\n2,23\n"),
+              AllOf(HasSubstr("runs.csv:2: the header names one column"), HasSubstr("Fix: ")));
+}
+
+TEST(Table, WhatIsEmptyIsPassedOver) {
+  const Table table = parse_table("x", "a;b;;\n1;2;;\n;;;\n3;4\n;\n");
+  EXPECT_THAT(table.columns, ElementsAre("a", "b"));
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_THAT(table.rows[1].cells, ElementsAre("3", "4"));
+  EXPECT_THAT(table_error("a;;\n1;2;\n"), HasSubstr("column 2 has no name"));
+}
+
+TEST(Table, AnotherKindOfFileIsNamed) {
+  EXPECT_THAT(table_error("PK\x03\x04 rest"), HasSubstr("own file (.xlsx or .ods)"));
+  EXPECT_THAT(table_error("\xD0\xCF\x11\xE0 rest"), HasSubstr("own file (.xls)"));
+  EXPECT_THAT(table_error("\xFF\xFE"
+                          "a"),
+              AllOf(HasSubstr("UTF-16"), HasSubstr("CSV UTF-8")));
 }
 
 TEST(Table, OfManyErrorsTheFirstTenAreListed) {

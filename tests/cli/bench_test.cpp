@@ -33,6 +33,31 @@ TEST_F(BenchCommand, ATableOfReadingsGivesMeanScatterAndInterval) {
   EXPECT_EQ(quantity["values"].size(), 5U);
 }
 
+TEST_F(BenchCommand, WhatIsNotUsedOfATableIsSaid) {
+  folder_.write("a.csv",
+                std::string("sep=;\r\nsample;angle_deg;by\r\n;[deg];\r\na;22,1;x\r\nb;22,9;"
+                            "\r\nc;23,1;\r\nMittelwert;22,7;\r\nStabw.;0,53;\r\n;;\r\n"));
+  const Finished done = run({"sliding", "a.csv", "--json", "-"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json result = json::parse(done.out);
+  EXPECT_EQ(result["quantities"][0]["n"], 3);
+  const std::string notes = result["notes"].dump();
+  EXPECT_THAT(notes, AllOf(HasSubstr("a.csv: line 3 is left out (units)"),
+                           HasSubstr("line 7 is left out (labelled \\\"Mittelwert\\\")"),
+                           HasSubstr("line 8 is left out"), HasSubstr("column by is left out")));
+  EXPECT_THAT(run({"sliding", "a.csv"}).out, HasSubstr("line 7 is left out"));
+  folder_.write("b.csv", std::string("angle_deg\n22.1\n22.9\n23.1\n22.7\n0.53\n"));
+  EXPECT_THAT(run({"sliding", "b.csv"}).err, HasSubstr("b.csv:5: lines 5 to 6 look like mean"));
+}
+
+TEST_F(BenchCommand, ADensityOfGasIsNone) {
+  folder_.write("a.csv", std::string("sample;bulk_density_kg_m3\na;1.403\nb;1.398\n"));
+  EXPECT_THAT(run({"fill", "a.csv"}).err,
+              AllOf(HasSubstr("a.csv:2: bulk_density_kg_m3 is \"1.403\", which may mean 1403"),
+                    HasSubstr("Fix: write 1403")));
+  EXPECT_THAT(run({"fill", "--set", "bulk_density_kg_m3=1.4"}).err, HasSubstr("more than 5"));
+}
+
 TEST_F(BenchCommand, AnExperimentsNameStandsForTheTestOfItsSheet) {
   folder_.write("tilts.csv", std::string("angle_deg\n22.1\n22.9\n"));
   const Finished by_experiment = run({"tilt", "tilts.csv", "--json", "-"});

@@ -105,6 +105,74 @@ TEST_F(OutputsOf, PicturesThatReposeDidNotMakeStay) {
   EXPECT_EQ(text("photos/heap.png"), "somebody's photograph");
 }
 
+TEST_F(OutputsOf, FilesOfOthersStay) {
+  const std::string hints = "# Hints for heap.png\n";
+  folder_.write("heap.png.repose.toml", hints);
+  folder_.write("package.json", std::string("{\"name\": \"mine\"}\n"));
+  folder_.write("mine.csv", std::string("sample,angle_deg\na,22\n"));
+  folder_.write("page.html", std::string("<html><title>mine</title></html>\n"));
+  folder_.write("camera.toml", hints);
+  std::filesystem::copy(path("heap.png"), path("film.mp4"));
+  const std::string study = text("study.toml");
+  for (const std::string words :
+       {"measure heap.png --csv heap.png.repose.toml", "measure heap.png --json package.json",
+        "measure heap.png --csv mine.csv", "measure heap.png --report page.html",
+        "measure heap.png --report new.jpg", "measure heap.png --summary package.json",
+        "bench sliding angles.csv --json study.toml",
+        "bench sliding angles.csv --json package.json",
+        "regress runs.csv --response angle_deg --json package.json",
+        "design sweep --factor a=0:1 --out mine.csv", "design sweep --factor a=0:1 --out runs.csv",
+        "shape --size-mm 3,3,3 --out package.json", "verify --json package.json",
+        "simulate drop study.toml --json package.json", "compare heap.png heap.png --json film.mp4",
+        "calibrate study.toml --json mine.csv"}) {
+    const Finished refused = shell("repose " + words);
+    EXPECT_EQ(refused.exit_code, 2) << words;
+    EXPECT_THAT(refused.err, HasSubstr("Fix: ")) << words;
+    EXPECT_THAT(refused.err, ::testing::AnyOf(HasSubstr("for another kind of file"),
+                                              HasSubstr("is not what this option writes")))
+        << words;
+  }
+  EXPECT_EQ(text("heap.png.repose.toml"), hints);
+  EXPECT_EQ(text("package.json"), "{\"name\": \"mine\"}\n");
+  EXPECT_EQ(text("mine.csv"), "sample,angle_deg\na,22\n");
+  EXPECT_EQ(text("study.toml"), study);
+  EXPECT_FALSE(exists("new.jpg"));
+}
+
+TEST_F(OutputsOf, ItsOwnFilesAreReplaced) {
+  folder_.write("heap.png.repose.toml", std::string("pitch_deg = 0\n"));
+  for (const std::string words :
+       {"measure heap.png --json a.json --csv a.csv --report a.html --summary s.json",
+        "compare heap.png heap.png --json c.json --overlay c.png",
+        "bench sliding angles.csv --json b.json",
+        "regress runs.csv --response angle_deg --json r.json",
+        "design sweep --factor a=0:1 --out d.csv", "board --out board.pdf", "board --out board.png",
+        "shape --size-mm 3,3,3 --out clump.json --json shape.json --mesh m.stl",
+        "shape --size-mm 3,3,3 --mesh m.glb",
+        "simulate drop study.toml --set contact.particle_wall.restitution=0.3 --set "
+        "contact.particle_wall.sliding_friction=0.3 --json drop.json"}) {
+    for (int k = 0; k < 2; ++k) {
+      const Finished done = shell("repose " + words);
+      EXPECT_EQ(done.exit_code, 0) << words << done.err;
+    }
+  }
+  // Results that somebody has added stay.
+  folder_.write("d.csv", std::string("run,point,a,y\n1,level,0,3\n"));
+  EXPECT_EQ(shell("repose design sweep --factor a=0:1 --out d.csv").exit_code, 2);
+}
+
+TEST_F(OutputsOf, NamesThatAreNoUtf8DoNotSpoilFiles) {
+  const Finished done =
+      shell("cp heap.png $'h\\xFF.png'; repose measure $'h\\xFF.png' --csv a.csv --report a.html");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  for (const char* file : {"a.csv", "a.html"}) {
+    EXPECT_THAT(text(file), AllOf(HasSubstr("h\uFFFD.png"), Not(HasSubstr("\xFF")))) << file;
+  }
+  const Finished refused = shell("repose new $'s\\xFF.toml'");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("s\\xFF.toml: is not UTF-8"), HasSubstr("Fix: ")));
+}
+
 TEST_F(OutputsOf, WhatDoesNotFitIntoTheMemoryIsSaid) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need more memory than is allowed here";

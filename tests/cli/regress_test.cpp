@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -144,6 +146,83 @@ TEST_F(RegressCommand, EveryErrorOfTheTableIsNamedWithItsLine) {
   folder_.write("ragged.csv", std::string("a,y\n1,2\n3\n4,5,6\n"));
   EXPECT_THAT(run({"ragged.csv", "--response", "y"}).err,
               AllOf(HasSubstr("ragged.csv:3:"), HasSubstr("ragged.csv:4:")));
+}
+
+/// Two days, the second 4 lower, y = 20 + 2 a + b elsewhere.
+std::string two_days(const std::string& name, const std::string& first, const std::string& second) {
+  std::string table = "a,b," + name + ",y\n";
+  const std::array<std::array<double, 3>, 7> runs = {
+      {{-1, -1, .1}, {-1, 1, -.1}, {1, -1, .05}, {1, 1, -.2}, {0, 0, .1}, {0, 0, 0}, {0, 1, .15}}};
+  for (const double day : {0., 1.}) {
+    for (const auto& [a, b, noise] : runs) {
+      const double x = day == 0 ? a : -b;
+      const double z = day == 0 ? b : a;
+      table += fmt::format("{},{},{},{:.2f}\n", x, z, day == 0 ? first : second,
+                           20 + 2 * x + z - 4 * day + noise);
+    }
+  }
+  return table;
+}
+
+TEST_F(RegressCommand, AColumnOfTextIsBlocks) {
+  folder_.write("runs.csv", two_days("Day", "Mon", "Tue"));
+  const Words words = {"runs.csv", "--response", "y", "--model", "linear"};
+  const json blocked = result(words);
+  EXPECT_EQ(blocked["factors"].size(), 2U);
+  EXPECT_EQ(blocked["blocks"]["column"], "Day");
+  EXPECT_EQ(blocked["blocks"]["effects"][1]["block"], "Tue");
+  EXPECT_NEAR(blocked["blocks"]["effects"][0]["value"].get<double>(), 2, .15);
+  EXPECT_NEAR(blocked["coefficients"][0]["value"].get<double>(), 18, .15);
+  EXPECT_EQ(blocked["anova"]["blocks"]["df"], 1);
+  EXPECT_LT(blocked["residual_sd"].get<double>(), .2);
+  EXPECT_EQ(blocked["runs"][0]["block"], "Mon");
+  const std::string shown = run(words).out;
+  EXPECT_THAT(shown, AllOf(HasSubstr("blocks by Day: Mon, Tue"), HasSubstr("Day Tue"),
+                           HasSubstr("Day (blocks)"), HasSubstr("mean of these blocks")));
+
+  Words without = words;
+  without.insert(without.end(), {"--blocks", "none"});
+  EXPECT_FALSE(result(without).contains("blocks"));
+  EXPECT_GT(result(without)["residual_sd"].get<double>(), 1);
+  EXPECT_THAT(run(without).out, HasSubstr("not used: column Day"));
+
+  // A number for each day is a factor, unless it is said to be blocks.
+  folder_.write("runs.csv", two_days("Day", "1", "2"));
+  EXPECT_EQ(result(words)["factors"].size(), 3U);
+  Words named = words;
+  named.insert(named.end(), {"--blocks", "Day"});
+  EXPECT_EQ(result(named)["coefficients"], blocked["coefficients"]);
+  folder_.write("runs.csv", two_days("Block", "1", "2"));
+  EXPECT_EQ(result(words)["coefficients"], blocked["coefficients"]);
+  Words wrong = words;
+  wrong.insert(wrong.end(), {"--blocks", "Week"});
+  EXPECT_THAT(run(wrong).err, HasSubstr("has no column Week for blocks"));
+}
+
+TEST_F(RegressCommand, WhatOtherProgramsWriteBesideARunIsNoFactor) {
+  const std::string runs[] = {"-1,-1,1.02", "-1,1,2.97", "1,-1,5.1", "1,1,7.03", "0,0,4.1"};
+  const auto table = [&](const std::string& header, const std::array<std::string, 5>& before) {
+    std::string text = header + ",A,B,y\n";
+    for (std::size_t i = 0; i < 5; ++i) text += before[i] + ',' + runs[i] + '\n';
+    return text;
+  };
+  const Words words = {"runs.csv", "--response", "y", "--model", "linear"};
+  folder_.write("runs.csv", table("n", {"5", "1", "3", "2", "4"}));
+  const json counted = result(words);
+  EXPECT_EQ(counted["factors"].size(), 2U);
+  EXPECT_EQ(counted["left_out"][0]["what"], "column n");
+  EXPECT_THAT(run(words).out, HasSubstr("not used: column n (each number once"));
+  // Two runs are missing, so that no column counts from 1 on.
+  folder_.write("runs.csv", table("StdOrder,Run Order,PtType,Blocks,Comments",
+                                  {"5,7,1,1,wet", "1,1,1,1,", "3,2,1,1,", "7,5,1,1,", "4,6,0,1,"}));
+  EXPECT_EQ(result(words)["coefficients"], counted["coefficients"]);
+  EXPECT_EQ(result(words)["left_out"].size(), 5U);
+  Words named = words;
+  named.insert(named.end(), {"--factors", "n,A"});
+  folder_.write("runs.csv", table("n", {"5", "1", "3", "2", "4"}));
+  EXPECT_EQ(result(named)["factors"][0]["name"], "n");
+  folder_.write("runs.csv", std::string("n,m,y\n1,2,3.3\n2,1,4.1\n3,4,5.9\n4,3,6.2\n"));
+  EXPECT_THAT(run(words).err, HasSubstr("n, m hold each number once"));
 }
 
 TEST_F(RegressCommand, DesignsThatCannotCarryTheModelAreRefused) {

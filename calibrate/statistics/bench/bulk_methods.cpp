@@ -7,11 +7,18 @@
 #include "calibrate/statistics/bench/units.h"
 
 namespace repose::calibrate {
+namespace {
+
+/// Beads of foamed polystyrene have 8 and more, osmium without any gaps has 22,590.
+constexpr double kLightestFill_kg_m3 = 5, kHeaviestFill_kg_m3 = 22590;
+
+}  // namespace
 
 Method fill_method() {
   return {
       .source = "mean of the fillings",
-      .columns = {{"bulk_density_kg_m3", "mass in the tube by the tube's volume"}},
+      .columns = {{"bulk_density_kg_m3", "mass in the tube by the tube's volume",
+                   kLightestFill_kg_m3, kHeaviestFill_kg_m3}},
       .outputs = {{"bulk_density", "kg/m3", "bulk density", [](ReadingValues v) { return v[0]; }}},
       .error = {},
       .validity = "No material constant: it belongs to this tube, filled in this way."};

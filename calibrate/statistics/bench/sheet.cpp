@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "calibrate/statistics/table/other_rows.h"
+
 namespace repose::calibrate {
 namespace {
 
@@ -23,7 +25,7 @@ std::optional<std::vector<double>> values_in(const Table& table, const TableRow&
       continue;
     }
     const auto column = table.column(name);
-    const auto number = column ? number_of(table, row.cells[*column]) : std::nullopt;
+    const auto number = column ? number_of(row.cells[*column]) : std::nullopt;
     if (!number) return std::nullopt;
     values.push_back(*number);
   }
@@ -31,14 +33,13 @@ std::optional<std::vector<double>> values_in(const Table& table, const TableRow&
 }
 
 /// The columns that the table must have; those that it has and must not are errors.
-std::vector<std::string> needed_columns(const Table& table,
-                                        const std::map<std::string, double>& constants,
-                                        const std::vector<std::string>& names,
-                                        base::ErrorList& errors) {
-  std::vector<std::string> needed;
-  for (const std::string& name : names) {
+std::vector<NumberColumn> needed_columns(const Table& table,
+                                         const std::map<std::string, double>& constants,
+                                         BenchTest test, base::ErrorList& errors) {
+  std::vector<NumberColumn> needed;
+  for (const auto& [name, what, above, below] : columns_of(test)) {
     if (!constants.contains(name)) {
-      needed.push_back(name);
+      needed.push_back({name, above, below});
     } else if (table.column(name)) {
       errors.add(
           fmt::format("{}: has a column {}, and --set gives it too. Fix: leave one of them out.",
@@ -65,31 +66,42 @@ std::vector<std::string> column_names(BenchTest test) {
   return names;
 }
 
-std::vector<BenchReading> read_sheet(const std::filesystem::path& file, BenchTest test,
-                                     const std::map<std::string, double>& constants, NoRows no_rows,
-                                     base::ErrorList& errors) {
-  const Table table = read_table(file, NoRows::allowed);
+std::string text_of(const LeftOut& left_out, const std::filesystem::path& file) {
+  return fmt::format("{}: {} is left out ({}).", file.string(), left_out.what, left_out.why);
+}
+
+Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
+                 const std::map<std::string, double>& constants, NoRows no_rows,
+                 base::ErrorList& errors) {
+  Table table = read_table(file, NoRows::allowed);
   const std::vector<std::string> names = column_names(test);
+  OtherRows other = take_other_rows(table, names, errors);
+  Sheet sheet{
+      .readings = {}, .left_out = std::move(other.left_out), .notes = std::move(other.notes)};
+  for (const std::string& column : table.columns) {
+    const bool is_used =
+        column == kSampleColumn || std::find(names.begin(), names.end(), column) != names.end();
+    if (!is_used) sheet.left_out.push_back({"column " + column, "not a reading of this test"});
+  }
   if (table.rows.empty() && no_rows == NoRows::refused) {
     errors.add(
         fmt::format("{}: no readings yet: fill in a row for each reading below its header, {}.",
                     table.name, fmt::join(names, ", ")));
   }
   try {
-    numbers_of(table, needed_columns(table, constants, names, errors));
+    numbers_of(table, needed_columns(table, constants, test, errors));
   } catch (const std::invalid_argument& error) {
     errors.add(error.what());
   }
-  std::vector<BenchReading> readings;
   const auto sample = table.column(kSampleColumn);
   for (const TableRow& row : table.rows) {
     auto values = values_in(table, row, constants, names);
     if (!values) continue;  // said above
-    readings.push_back({.place = fmt::format("{}:{}", table.name, row.line),
-                        .values = *std::move(values),
-                        .sample = sample ? row.cells[*sample] : ""});
+    sheet.readings.push_back({.place = fmt::format("{}:{}", table.name, row.line),
+                              .values = *std::move(values),
+                              .sample = sample ? row.cells[*sample] : ""});
   }
-  return readings;
+  return sheet;
 }
 
 }  // namespace repose::calibrate

@@ -8,6 +8,7 @@
 
 #include "base/error_list.h"
 #include "calibrate/statistics/bench/bench.h"
+#include "calibrate/statistics/left_out.h"
 #include "calibrate/statistics/table/table.h"
 
 /// Readings of a bench test as they are written down at the bench: a CSV table, a row each.
@@ -21,12 +22,23 @@ BenchTest bench_test_named(std::string_view name);
 
 std::vector<std::string> column_names(BenchTest test);
 
-/// The rows of a sheet. Readings that are the same in all rows may be in `constants` instead of a
-/// column. Adds every error: columns that are missing or given twice, cells that are no numbers, no
-/// rows below the header unless that is allowed. Rows with such a cell are left out.
+/// "drops.csv: line 5 is left out (labelled "Mean")."
+std::string text_of(const LeftOut& left_out, const std::filesystem::path& file);
+
+/// What a sheet holds.
+struct Sheet {
+  std::vector<BenchReading> readings;
+  std::vector<LeftOut> left_out;   ///< rows and columns that are no readings of the test
+  std::vector<std::string> notes;  ///< what a person should look at, a sentence each
+};
+
+/// The rows of a sheet, without those that are no readings (take_other_rows). Readings that are the
+/// same in all rows may be in `constants` instead of a column. Adds every error: columns that are
+/// missing or given twice, cells that are no numbers, no rows below the header unless that is
+/// allowed. Rows with such a cell are left out.
 /// @throws std::invalid_argument  it is no table, see parse_table.
-std::vector<BenchReading> read_sheet(const std::filesystem::path& file, BenchTest test,
-                                     const std::map<std::string, double>& constants, NoRows no_rows,
-                                     base::ErrorList& errors);
+Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
+                 const std::map<std::string, double>& constants, NoRows no_rows,
+                 base::ErrorList& errors);
 
 }  // namespace repose::calibrate

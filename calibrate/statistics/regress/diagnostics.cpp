@@ -30,6 +30,7 @@ double r2_of_squares(const Regression& regression) {
   RunTable table;
   table.factors = regression.factors;
   table.levels.resize(table.factors.size());
+  if (regression.blocks) table.blocks = regression.blocks->runs;
   for (const FittedRun& run : regression.runs) {
     for (std::size_t i = 0; i < table.factors.size(); ++i) {
       table.levels[i].push_back(table.factors[i].natural(run.coded[i]));
@@ -121,6 +122,20 @@ void diagnostic_fit(const Regression& regression, std::vector<SurfaceDiagnostic>
   }
 }
 
+void diagnostic_blocks(const Regression& regression, std::vector<SurfaceDiagnostic>& diagnostics) {
+  if (!regression.blocks) return;
+  const auto [least, greatest] = std::minmax_element(
+      regression.blocks->effects.begin(), regression.blocks->effects.end(),
+      [](const BlockEffect& a, const BlockEffect& b) { return a.value < b.value; });
+  diagnostics.push_back(
+      {"blocks",
+       fmt::format("{} is shifted by {:.4g} from {} {} to {}. The surface and its intervals are "
+                   "those of the mean of these blocks; a run in another block is shifted too, by "
+                   "how much they do not say.",
+                   regression.response_name, greatest->value - least->value,
+                   regression.blocks->runs.name, least->label, greatest->label)});
+}
+
 std::string direction_text(const Regression& regression, const CanonicalAxis& axis) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < axis.direction.size(); ++i) {
@@ -196,6 +211,7 @@ std::vector<SurfaceDiagnostic> diagnostics_of(const Regression& regression,
   std::vector<SurfaceDiagnostic> diagnostics;
   diagnostic_response(regression, extremes.least, diagnostics);
   diagnostic_fit(regression, diagnostics);
+  diagnostic_blocks(regression, diagnostics);
   if (form) diagnostic_optimum(regression, *form, diagnostics);
   if (target) diagnostic_target(regression, extremes, *target, diagnostics);
   return diagnostics;

@@ -10,6 +10,7 @@
 
 #include "base/distributions.h"
 #include "base/error_list.h"
+#include "calibrate/statistics/regress/blocks.h"
 #include "calibrate/statistics/regress/quadratic.h"
 
 namespace repose::calibrate {
@@ -61,11 +62,14 @@ void check(const RunTable& table, std::size_t terms, base::ErrorList& errors) {
   }
   check_column(table, table.response_name, table.responses,
                "there is nothing to explain: name another response", errors);
-  errors.require(table.responses.size() > terms,
-                 fmt::format("{}: {} runs for the {} terms of the model. Rule: more runs than "
+  check_blocks(table, errors);
+  const std::size_t blocks = block_columns_of(table);
+  errors.require(table.responses.size() > terms + blocks,
+                 fmt::format("{}: {} runs for the {} terms of the model{}. Rule: more runs than "
                              "terms. Fix: make more runs, or choose the linear model or fewer "
                              "factor columns.",
-                             table.name, table.responses.size(), terms));
+                             table.name, table.responses.size(), terms,
+                             blocks == 0 ? "" : fmt::format(" and {} more for blocks", blocks)));
 }
 
 std::vector<FittedRun> coded_runs(const RunTable& table) {
@@ -75,6 +79,7 @@ std::vector<FittedRun> coded_runs(const RunTable& table) {
     for (std::size_t i = 0; i < table.factors.size(); ++i) {
       runs[run].coded.push_back(table.factors[i].coded(table.levels[i][run]));
     }
+    if (table.blocks) runs[run].block = table.blocks->labels[table.blocks->of_runs[run]];
   }
   return runs;
 }
@@ -96,12 +101,15 @@ struct Decomposition {
   Eigen::ColPivHouseholderQR<MatrixXd> qr;
 };
 
-Decomposition decompose(const Regression& regression) {
+Decomposition decompose(const RunTable& table, const Regression& regression) {
   const Index runs = index_of(regression.runs.size());
-  MatrixXd design(runs, index_of(regression.coefficients.size()));
+  const Index terms = index_of(regression.coefficients.size());
+  MatrixXd design(runs, terms + index_of(block_columns_of(table)));
   for (std::size_t i = 0; i < regression.runs.size(); ++i) {
-    design.row(index_of(i)) = term_values(regression.coefficients, regression.runs[i].coded);
+    design.row(index_of(i)).head(terms) =
+        term_values(regression.coefficients, regression.runs[i].coded);
   }
+  if (table.blocks) add_block_columns(*table.blocks, design);
   Decomposition decomposition;
   decomposition.scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   decomposition.qr.setThreshold(kOwnFraction);
@@ -115,16 +123,22 @@ void check_rank(const RunTable& table, const Regression& regression,
   if (rank == decomposition.qr.cols()) return;
   std::vector<std::string> names;
   for (Index k = rank; k < decomposition.qr.cols(); ++k) {
-    const Index column = decomposition.qr.colsPermutation().indices()[k];
-    const Term& term = regression.coefficients[static_cast<std::size_t>(column)].term;
+    const auto column = static_cast<std::size_t>(decomposition.qr.colsPermutation().indices()[k]);
+    const std::size_t terms = regression.coefficients.size();
+    if (column >= terms) {
+      names.push_back(
+          fmt::format("{} {}", table.blocks->name, table.blocks->labels[column - terms]));
+      continue;
+    }
+    const Term& term = regression.coefficients[column].term;
     names.push_back(term.empty() ? "the constant" : name_of(term, regression.factors));
   }
   std::sort(names.begin(), names.end());
   throw std::invalid_argument(
-      fmt::format("{}: the runs cannot tell {} from other terms. Rule: a square needs three levels "
-                  "of its factor, and no term may follow from others. Fix: choose the linear "
-                  "model or fewer factor columns, or a design made for the model.",
-                  table.name, fmt::join(names, ", ")));
+      fmt::format("{}: the runs cannot tell {} from other terms{}. Rule: a square needs three "
+                  "levels of its factor, and no term may follow from others. Fix: choose the "
+                  "linear model or fewer factor columns, or a design made for the model.",
+                  table.name, fmt::join(names, ", "), table.blocks ? " or blocks" : ""));
 }
 
 /// F of a variance against an error's; none where the error is nothing but rounding.
@@ -135,12 +149,13 @@ void test_against(Variance& variance, const Variance& error, bool is_testable) {
 }
 
 /// Residual = lack of fit + pure error. Montgomery, sec. 11.2: runs with equal levels can differ
-/// only by error.
+/// only by error, those of one block if there are blocks.
 void split_residual(const RunTable& table, Regression& regression) {
   std::map<std::vector<double>, std::vector<double>> groups;
   for (std::size_t run = 0; run < table.responses.size(); ++run) {
     std::vector<double> levels;
     for (const std::vector<double>& column : table.levels) levels.push_back(column[run]);
+    if (table.blocks) levels.push_back(static_cast<double>(table.blocks->of_runs[run]));
     groups[levels].push_back(table.responses[run]);
   }
   Variance pure;
@@ -169,6 +184,7 @@ void split_residual(const RunTable& table, Regression& regression) {
 }
 
 void set_residuals(Regression& regression, const Decomposition& decomposition) {
+  // Terms and blocks.
   const Index runs = decomposition.qr.rows(), terms = decomposition.qr.cols();
   const MatrixXd q = decomposition.qr.householderQ() * MatrixXd::Identity(runs, terms);
   double mean = 0, largest = 0;
@@ -179,6 +195,9 @@ void set_residuals(Regression& regression, const Decomposition& decomposition) {
   for (std::size_t i = 0; i < regression.runs.size(); ++i) {
     FittedRun& run = regression.runs[i];
     run.fitted = regression.predicted(run.coded);
+    if (const auto& blocks = regression.blocks) {
+      run.fitted += blocks->effects[blocks->runs.of_runs[i]].value;
+    }
     run.leverage = q.row(index_of(i)).squaredNorm();
     const double residual = run.response - run.fitted;
     regression.residual.sum_of_squares += residual * residual;
@@ -189,19 +208,22 @@ void set_residuals(Regression& regression, const Decomposition& decomposition) {
   }
   regression.residual.df = static_cast<int>(runs - terms);
   regression.total.df = static_cast<int>(runs) - 1;
-  regression.explained.df = static_cast<int>(terms) - 1;
-  regression.explained.sum_of_squares =
-      regression.total.sum_of_squares - regression.residual.sum_of_squares;
+  const Variance between = regression.blocks ? regression.blocks->variance : Variance{};
+  const Variance within{.sum_of_squares = regression.total.sum_of_squares - between.sum_of_squares,
+                        .df = regression.total.df - between.df,
+                        .f = {},
+                        .p = {}};
+  regression.explained.df = static_cast<int>(regression.coefficients.size()) - 1;
+  regression.explained.sum_of_squares = within.sum_of_squares - regression.residual.sum_of_squares;
   constexpr double kRounding = 1e-13;
   regression.is_exact = regression.residual.sum_of_squares <=
                         std::pow(kRounding * largest, 2) * static_cast<double>(runs);
   regression.residual_sd = std::sqrt(regression.residual.mean_square());
-  const double total = regression.total.sum_of_squares;
-  regression.r2 = 1 - regression.residual.sum_of_squares / total;
-  regression.r2_adjusted = 1 - regression.residual.mean_square() / regression.total.mean_square();
+  regression.r2 = 1 - regression.residual.sum_of_squares / within.sum_of_squares;
+  regression.r2_adjusted = 1 - regression.residual.mean_square() / within.mean_square();
   if (!has_press) return;
   regression.press = press;
-  regression.r2_predicted = 1 - press / total;
+  regression.r2_predicted = 1 - press / within.sum_of_squares;
 }
 
 /// What the fit loses without some terms: b'C^-1 b, C their block of (X'X)^-1.
@@ -221,10 +243,11 @@ Variance loss_without(const Regression& regression, const std::vector<Index>& te
 }
 
 void set_tests(Regression& regression, const Decomposition& decomposition) {
-  const Index terms = decomposition.qr.cols();
-  const MatrixXd r = decomposition.qr.matrixR().topRows(terms);
+  const Index columns = decomposition.qr.cols();
+  const Index terms = index_of(regression.coefficients.size());
+  const MatrixXd r = decomposition.qr.matrixR().topRows(columns);
   const MatrixXd inverse_r =
-      r.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(terms, terms));
+      r.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(columns, columns));
   const MatrixXd unscaled =
       decomposition.scale.asDiagonal() * (decomposition.qr.colsPermutation() * inverse_r);
   const MatrixXd inverse_normal = unscaled * unscaled.transpose();
@@ -250,7 +273,11 @@ void set_tests(Regression& regression, const Decomposition& decomposition) {
   for (const std::vector<Index>& which : of_factor) {
     regression.of_factor.push_back(loss_without(regression, which, inverse_normal));
   }
-  const MatrixXd covariance = variance * inverse_normal;
+  if (regression.blocks) {
+    const Index blocks = columns - terms;
+    set_errors(*regression.blocks, variance * inverse_normal.bottomRightCorner(blocks, blocks));
+  }
+  const MatrixXd covariance = variance * inverse_normal.topLeftCorner(terms, terms);
   regression.covariance.assign(covariance.data(), covariance.data() + covariance.size());
   test_against(regression.explained, regression.residual, !regression.is_exact);
 }
@@ -284,7 +311,7 @@ Regression regress(const RunTable& table, SurfaceModel model) {
   regression.runs = coded_runs(table);
   regression.box = box_of(regression.runs);
   for (const Term& term : terms) regression.coefficients.emplace_back().term = term;
-  const Decomposition decomposition = decompose(regression);
+  const Decomposition decomposition = decompose(table, regression);
   check_rank(table, regression, decomposition);
 
   const Eigen::Map<const VectorXd> responses(table.responses.data(),
@@ -292,6 +319,9 @@ Regression regress(const RunTable& table, SurfaceModel model) {
   const VectorXd values = decomposition.scale.cwiseProduct(decomposition.qr.solve(responses));
   for (std::size_t k = 0; k < terms.size(); ++k)
     regression.coefficients[k].value = values[index_of(k)];
+  if (table.blocks) {
+    regression.blocks = fitted_blocks(table, values.tail(index_of(block_columns_of(table))));
+  }
   set_natural(regression);
   set_residuals(regression, decomposition);
   set_tests(regression, decomposition);

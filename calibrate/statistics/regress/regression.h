@@ -18,6 +18,14 @@ enum class SurfaceModel {
   quadratic,    ///< and x_i^2
 };
 
+/// Which runs were made together, on one day or of one batch: all of a block may be shifted against
+/// those of another.
+struct Blocks {
+  std::string name;                  ///< of the column: "Day"
+  std::vector<std::string> labels;   ///< of each block: "Mon", in the order of their first runs
+  std::vector<std::size_t> of_runs;  ///< the block of each run
+};
+
 /// Results of runs.
 struct RunTable {
   std::string name;                         ///< for messages
@@ -25,6 +33,7 @@ struct RunTable {
   std::vector<std::vector<double>> levels;  ///< natural: [factor][run]
   std::string response_name;
   std::vector<double> responses;
+  std::optional<Blocks> blocks = {};
 };
 
 /// A product of up to two factors: {} is 1, {0} the first factor, {1, 1} the second's square.
@@ -59,8 +68,24 @@ struct Coefficient {
 struct FittedRun {
   std::vector<double> coded;
   double response = 0;
-  double fitted = 0;
+  double fitted = 0;  ///< with the shift of its block
   double leverage = 0;
+  std::string block = {};  ///< its label, where runs are in blocks
+};
+
+/// By how much a block is shifted against the mean of all blocks.
+struct BlockEffect {
+  std::string label;
+  int runs = 0;
+  double value = 0;
+  double standard_error = 0;
+};
+
+/// What the blocks do. They have no F: blocks are not assigned to runs by chance.
+struct FittedBlocks {
+  Blocks runs;
+  std::vector<BlockEffect> effects;  ///< they add up to 0
+  Variance variance;                 ///< of the blocks' means, before the terms
 };
 
 struct Regression {
@@ -72,16 +97,17 @@ struct Regression {
   std::vector<FittedRun> runs;
   std::vector<std::array<double, 2>> box;  ///< coded levels that the runs span, of each factor
 
-  Variance explained;  ///< by all terms but the constant
+  Variance explained;  ///< by all terms but the constant, beyond what the blocks explain
   Variance residual;
   Variance total;
   std::optional<Variance> pure_error;   ///< scatter of runs with the same levels
   std::optional<Variance> lack_of_fit;  ///< the rest of the residual, against the pure error
   std::vector<Variance> of_factor;      ///< what the fit loses without any term of a factor
+  std::optional<FittedBlocks> blocks;
 
   double residual_sd = 0;
   bool is_exact = false;  ///< nothing but rounding is left: no test is possible
-  double r2 = 0;
+  double r2 = 0;          ///< of the scatter within blocks, like the two that follow
   double r2_adjusted = 0;
   /// Prediction sum of squares: each run foretold from the others. None if a run stands alone for
   /// some term (leverage 1).
@@ -89,18 +115,20 @@ struct Regression {
   std::optional<double> r2_predicted;
   double student_t = 0;  ///< 97.5 % point for the residual's degrees of freedom
 
+  /// At the mean of the blocks, each of which counts the same.
   double predicted(std::span<const double> coded) const;
   /// Standard error of the surface there, not of a new run.
   double standard_error(std::span<const double> coded) const;
 };
 
 /// Least squares by QR decomposition. Montgomery, Design and Analysis of Experiments (8th ed.),
-/// ch. 10 and 11. Proved by Regression.* in tests/calibrate/regress_test.cpp: the hazelnut study's
-/// printed analysis, R's lm, and NIST's Longley problem.
+/// ch. 10 and 11; blocks ch. 4 and 11.4.3. Proved by Regression.* and RegressionBlocks.* in
+/// tests/calibrate/regress_test.cpp: the hazelnut study's printed analysis, R's lm, and NIST's
+/// Longley problem.
 ///
 /// @throws std::invalid_argument  every error: no factors or more than 8, a constant factor or
-/// response, not more runs than terms, values that are not finite, terms that the design cannot
-/// tell from others.
+/// response, not more runs than terms and blocks, values that are not finite, terms that the design
+/// cannot tell from others or from blocks.
 Regression regress(const RunTable& table, SurfaceModel model);
 
 }  // namespace repose::calibrate

@@ -1,7 +1,11 @@
 #include "calibrate/statistics/regress/run_table.h"
 
 #include <algorithm>
-#include <array>
+#include <cctype>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -10,22 +14,194 @@
 #include <fmt/ranges.h>
 
 #include "base/error_list.h"
+#include "calibrate/statistics/table/other_rows.h"
 
 namespace repose::calibrate {
 namespace {
 
-bool is_bookkeeping(std::string_view column) {
-  constexpr std::array<std::string_view, 3> kNames = {"run", "standard", "point"};
-  return std::find(kNames.begin(), kNames.end(), column) != kNames.end() ||
-         column.ends_with("_coded");
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::vector<std::string> all_factors(const Table& table, const std::string& response) {
-  std::vector<std::string> factors;
-  for (const std::string& column : table.columns) {
-    if (column != response && !is_bookkeeping(column)) factors.push_back(column);
+/// Small letters and digits only: "Std Order" is stdorder.
+std::string plain_name(std::string_view column) {
+  std::string name;
+  for (const char letter : column) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (std::isalnum(byte) != 0) name += static_cast<char>(std::tolower(byte));
   }
-  return factors;
+  return name;
+}
+
+bool is_one_of(const std::string& name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A column of a table: what it holds.
+class Column {
+ public:
+  Column(const Table& table, std::size_t place) {
+    for (const TableRow& row : table.rows) {
+      const std::string& cell = row.cells[place];
+      ++counts_[cell];
+      const auto number = number_of(cell);
+      has_text_ = has_text_ || (!number && !cell.empty());
+      if (number) numbers_.push_back(*number);
+    }
+    rows_ = table.rows.size();
+  }
+
+  bool is_empty() const { return numbers_.empty() && !has_text_; }
+  bool is_text() const { return numbers_.empty() && has_text_; }
+  std::size_t different() const { return counts_.size(); }
+  /// Two values or more, each in two rows or more.
+  bool may_be_blocks() const {
+    return counts_.size() > 1 && std::all_of(counts_.begin(), counts_.end(),
+                                             [](const auto& one) { return one.second > 1; });
+  }
+  /// Whole numbers, all different.
+  bool may_be_order() const {
+    std::set<double> seen;
+    return numbers_.size() == rows_ &&
+           std::all_of(numbers_.begin(), numbers_.end(), [&](double number) {
+             return number >= 0 && number == std::floor(number) && seen.insert(number).second;
+           });
+  }
+  /// Each from 0 or 1 on once.
+  bool is_count() const {
+    constexpr std::size_t kFewest = 4;
+    if (rows_ < kFewest || !may_be_order()) return false;
+    const auto [least, greatest] = std::minmax_element(numbers_.begin(), numbers_.end());
+    return *least <= 1 && *greatest - *least == static_cast<double>(rows_ - 1);
+  }
+
+ private:
+  std::map<std::string, int> counts_;
+  std::vector<double> numbers_;
+  bool has_text_ = false;
+  std::size_t rows_ = 0;
+};
+
+/// What designs, programs for them and people write beside the levels, by its name; empty: it is
+/// something else.
+std::string bookkeeping_of(const std::string& name, const Column& column) {
+  const std::string plain = plain_name(name);
+  if (is_one_of(plain, {"run", "standard"}) ||
+      (column.may_be_order() &&
+       is_one_of(plain, {"std", "stdorder", "standardorder", "order", "runorder", "runno",
+                         "runnumber", "trial", "id", "row", "rowname", "rownames"}))) {
+    return "the order of the runs";
+  }
+  if (is_one_of(plain, {"point", "pointtype", "pttype", "spacetype", "buildtype", "pattern"})) {
+    return "the kind of point";
+  }
+  if (name.ends_with("_coded")) return "coded levels of another column";
+  const bool is_remark = is_one_of(plain, {"comment", "comments", "note", "notes", "remark",
+                                           "remarks", "date", "time", "timestamp"});
+  if (is_remark && column.is_text()) return "a remark";
+  return {};
+}
+
+/// Says of each column what it is.
+class ColumnSorter {
+ public:
+  ColumnSorter(const Table& table, const RunColumns& wanted, base::ErrorList& errors)
+      : table_(table), wanted_(wanted), factors_(wanted.factors), blocks_(wanted.blocks) {
+    if (blocks_ == kNoBlocks) blocks_.clear();
+    for (std::size_t place = 0; place < table.columns.size(); ++place) look_at(place);
+    if (candidates_.size() > 1) {
+      errors.add(
+          fmt::format("{}: {} may all be blocks. Fix: name one of them as blocks column, or none.",
+                      table.name, fmt::join(candidates_, ", ")));
+    } else if (!candidates_.empty()) {
+      blocks_ = candidates_.front();
+    }
+    settle_counts(errors);
+  }
+
+  const Names& factors() const { return factors_; }
+  const std::string& blocks() const { return blocks_; }
+  std::vector<LeftOut> take_left_out() { return std::move(left_out_); }
+
+ private:
+  void look_at(std::size_t place) {
+    const std::string& name = table_.columns[place];
+    if (name == wanted_.response || name == blocks_ || contains(wanted_.factors, name)) return;
+    const Column column(table_, place);
+    const std::string bookkeeping = bookkeeping_of(name, column);
+    const bool seeks_blocks = wanted_.blocks.empty();
+    const bool is_called_block = is_one_of(plain_name(name), {"block", "blocks"});
+    if (!bookkeeping.empty()) {
+      leave_out(name, bookkeeping);
+    } else if (column.is_empty()) {
+      leave_out(name, "empty");
+    } else if (seeks_blocks && (column.is_text() || is_called_block) && column.may_be_blocks()) {
+      candidates_.push_back(name);
+    } else if (column.is_text() || is_called_block) {
+      leave_out(name, column.different() == 1 ? "the same in every run"
+                      : seeks_blocks          ? "text that does not part the runs into blocks"
+                                              : "there are no blocks");
+    } else if (!wanted_.factors.empty()) {
+      return;  // left out by who named the factors
+    } else if (column.is_count()) {
+      counts_.push_back(name);
+    } else {
+      factors_.push_back(name);
+    }
+  }
+
+  void settle_counts(base::ErrorList& errors) {
+    if (counts_.empty()) return;
+    if (!factors_.empty()) {
+      for (const std::string& name : counts_) {
+        leave_out(name,
+                  "each number once, as in the order of runs; if it is a factor, name the "
+                  "factor columns");
+      }
+      return;
+    }
+    factors_ = counts_;
+    if (counts_.size() == 1) return;
+    errors.add(fmt::format(
+        "{}: {} hold each number once, as the order of runs does. Fix: name the factor columns.",
+        table_.name, fmt::join(counts_, ", ")));
+  }
+
+  void leave_out(const std::string& name, std::string why) {
+    if (!wanted_.factors.empty()) return;
+    left_out_.push_back({"column " + name, std::move(why)});
+  }
+
+  const Table& table_;
+  const RunColumns& wanted_;
+  Names factors_;
+  std::string blocks_;
+  Names candidates_;  ///< for blocks
+  Names counts_;
+  std::vector<LeftOut> left_out_;
+};
+
+Blocks blocks_in(const Table& table, const std::string& name) {
+  const auto place = table.column(name);
+  if (!place) {
+    throw std::invalid_argument(fmt::format("{}: has no column {} for blocks. Fix: it has {}.",
+                                            table.name, name, fmt::join(table.columns, ", ")));
+  }
+  Blocks blocks{.name = name, .labels = {}, .of_runs = {}};
+  for (const TableRow& row : table.rows) {
+    const std::string& label = row.cells[*place];
+    if (label.empty()) {
+      throw std::invalid_argument(
+          fmt::format("{}:{}: {} is empty. Fix: write the run's block, or delete the row.",
+                      table.name, row.line, name));
+    }
+    const auto known = std::find(blocks.labels.begin(), blocks.labels.end(), label);
+    blocks.of_runs.push_back(static_cast<std::size_t>(known - blocks.labels.begin()));
+    if (known == blocks.labels.end()) blocks.labels.push_back(label);
+  }
+  return blocks;
 }
 
 /// Which runs are corners of a central composite design: they are at -1 and +1.
@@ -82,29 +258,41 @@ void check_names(const Table& table, const std::string& response,
 
 }  // namespace
 
-RunTable runs_in(const Table& table, const std::string& response,
-                 const std::vector<std::string>& factors, const std::vector<Factor>& codings) {
-  const std::vector<std::string> names = factors.empty() ? all_factors(table, response) : factors;
+TableOfRuns runs_in(Table table, const RunColumns& columns) {
   base::ErrorList errors;
-  check_names(table, response, names, codings, errors);
-  std::vector<std::string> columns = names;
-  columns.push_back(response);
-  RunTable runs;
+  // Factors are no help there: a design's runs in the centre are at the mean of them all.
+  const Names response = {columns.response};
+  OtherRows other = take_other_rows(table, response, errors);
+  ColumnSorter sorted(table, columns, errors);
+  const Names& names = sorted.factors();
+  check_names(table, columns.response, names, columns.codings, errors);
+  TableOfRuns result{
+      .runs = {}, .left_out = std::move(other.left_out), .notes = std::move(other.notes)};
+  RunTable& runs = result.runs;
   runs.name = table.name;
-  runs.response_name = response;
+  runs.response_name = columns.response;
+  std::vector<NumberColumn> numbers;
+  for (const std::string& name : names) numbers.push_back({.name = name});
+  numbers.push_back({.name = columns.response});
   try {
-    runs.levels = numbers_of(table, columns);
+    if (!sorted.blocks().empty()) runs.blocks = blocks_in(table, sorted.blocks());
+  } catch (const std::invalid_argument& error) {
+    errors.add(error.what());
+  }
+  try {
+    runs.levels = numbers_of(table, numbers);
   } catch (const std::invalid_argument& error) {
     errors.add(error.what());
   }
   errors.throw_if_any();
+  for (LeftOut& one : sorted.take_left_out()) result.left_out.push_back(std::move(one));
   runs.responses = std::move(runs.levels.back());
   runs.levels.pop_back();
   const std::vector<bool> is_cube = cube_runs(table);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    runs.factors.push_back(coding_of(names[i], runs.levels[i], is_cube, codings));
+    runs.factors.push_back(coding_of(names[i], runs.levels[i], is_cube, columns.codings));
   }
-  return runs;
+  return result;
 }
 
 }  // namespace repose::calibrate

@@ -1,6 +1,7 @@
 #include "calibrate/statistics/table/table.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -64,19 +65,39 @@ class Parser {
   std::vector<TableRow> rows_;
 };
 
-char delimiter_of(std::string_view text) {
-  const std::size_t start = text.find_first_not_of(" \r\n");
-  if (start == std::string_view::npos) return ',';
-  const std::string_view header = text.substr(start, text.find('\n', start) - start);
-  for (const char delimiter : {';', '\t'}) {
-    if (header.find(delimiter) != std::string_view::npos) return delimiter;
-  }
-  return ',';
+/// The line of a text at `start`, without its end.
+std::string_view line_at(std::string_view text, std::size_t start) {
+  std::string_view line = text.substr(start, text.find('\n', start) - start);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
 }
 
-std::vector<TableRow> rows_of(const std::string& name, std::string_view text, char delimiter) {
+/// How a spreadsheet is told what parts the cells, in a line of its own above the header.
+std::optional<char> told_delimiter(std::string_view text) {
+  static const std::regex kLine("\"?sep=(;|,|\\t|\\|)\"?[;,\t ]*", std::regex::icase);
+  const std::string first(line_at(text, 0));
+  std::smatch found;
+  if (!std::regex_match(first, found, kLine)) return std::nullopt;
+  return found[1].str().front();
+}
+
+constexpr char kNoDelimiter = '\0';
+
+char delimiter_of(std::string_view text) {
+  const std::size_t start = text.find_first_not_of(" \r\n");
+  if (start == std::string_view::npos) return kNoDelimiter;
+  const std::string_view header = line_at(text, start);
+  for (const char delimiter : {';', '\t', ','}) {
+    if (header.find(delimiter) != std::string_view::npos) return delimiter;
+  }
+  return kNoDelimiter;
+}
+
+/// @param lines_before  of the file, before the text
+std::vector<TableRow> rows_of(const std::string& name, std::string_view text, char delimiter,
+                              int lines_before) {
   Parser parser(delimiter);
-  int line = 0;
+  int line = lines_before;
   const auto refuse = [&] {
     throw std::invalid_argument(fmt::format(
         "{}:{}: a quotation mark stands where none may, or one is missing. Fix: save the table "
@@ -93,7 +114,28 @@ std::vector<TableRow> rows_of(const std::string& name, std::string_view text, ch
   return parser.take_rows();
 }
 
-/// A spreadsheet's own file, or one in UTF-16, has bytes that no text in UTF-8 has.
+/// What is no text, by its first bytes.
+void check_kind(const std::string& name, std::string_view text) {
+  struct Kind {
+    std::string_view start;
+    const char* what;
+  };
+  constexpr std::array<Kind, 5> kKinds = {{
+      {"PK\x03\x04", "a spreadsheet's own file (.xlsx or .ods)"},
+      {"\xD0\xCF\x11\xE0", "a spreadsheet's own file (.xls)"},
+      {"%PDF", "a PDF"},
+      {"\xFF\xFE", "text in UTF-16"},
+      {"\xFE\xFF", "text in UTF-16"},
+  }};
+  for (const auto& [start, what] : kKinds) {
+    if (!text.starts_with(start)) continue;
+    throw std::invalid_argument(fmt::format(
+        "{}: is {}. Rule: a table is text in UTF-8. Fix: save it from the spreadsheet as CSV "
+        "UTF-8.",
+        name, what));
+  }
+}
+
 void check_letters(const std::string& name, std::string_view text) {
   const auto is_no_letter = [](char letter) {
     constexpr char kFirstLetter = ' ', kDelete = 0x7F;
@@ -110,39 +152,128 @@ void check_letters(const std::string& name, std::string_view text) {
                   name, 1 + std::count(text.begin(), found, '\n'), static_cast<int>(*found)));
 }
 
-/// "1.012", "12.345.678": a number, or in a table with decimal commas perhaps a thousand times as
-/// much.
-bool may_have_thousands(std::string_view cell) {
-  static const std::regex kGroups("[+-]?[1-9][0-9]{0,2}(\\.[0-9]{3})+");
-  return std::regex_match(cell.begin(), cell.end(), kGroups);
+bool is_empty(const TableRow& row) {
+  return std::all_of(row.cells.begin(), row.cells.end(),
+                     [](const std::string& cell) { return cell.empty(); });
 }
 
-/// The first row of these columns with a decimal comma in a number; null when there is none.
-const TableRow* row_with_comma(const Table& table, std::span<const std::size_t> columns) {
-  if (!table.has_decimal_comma) return nullptr;
-  for (const TableRow& row : table.rows) {
-    for (const std::size_t column : columns) {
-      const std::string& cell = row.cells[column];
-      if (cell.find(',') != std::string::npos && number_of(table, cell)) return &row;
+/// Spreadsheets write separators as far as a sheet was ever filled in.
+void drop_what_is_empty(std::vector<TableRow>& rows) {
+  std::erase_if(rows, is_empty);
+  if (rows.empty()) return;
+  std::size_t columns = 0;
+  for (const TableRow& row : rows) {
+    for (std::size_t k = columns; k < row.cells.size(); ++k) {
+      if (!row.cells[k].empty()) columns = k + 1;
     }
   }
-  return nullptr;
+  for (TableRow& row : rows) {
+    const bool is_header = &row == &rows.front();
+    const std::size_t wanted = is_header ? columns : rows.front().cells.size();
+    if (row.cells.size() > wanted &&
+        std::all_of(row.cells.begin() + static_cast<std::ptrdiff_t>(wanted), row.cells.end(),
+                    [](const std::string& cell) { return cell.empty(); })) {
+      row.cells.resize(wanted);
+    }
+  }
 }
 
-/// What is wrong with a cell that must be a number, after its place; empty: nothing.
-std::string problem_of(const std::string& cell, bool is_number, const TableRow* comma) {
-  if (!is_number) {
-    return fmt::format(
-        "\"{}\", which is not a finite number. Fix: write a number, or delete the row.", cell);
+/// In a table of one column, "1,22" under "2,23" may be a number and its row's: "3,25".
+void check_single_column(const Table& table) {
+  constexpr std::size_t kFewest = 2;
+  if (table.rows.size() < kFewest) return;
+  for (const int first : {0, 1}) {
+    int next = first;
+    const bool counts = std::all_of(table.rows.begin(), table.rows.end(), [&](const TableRow& row) {
+      return row.cells.size() == 1 && row.cells.front().starts_with(fmt::format("{},", next++));
+    });
+    if (!counts) continue;
+    throw std::invalid_argument(fmt::format(
+        "{}:{}: the header names one column, and \"{}\" may be a row's number and a reading. Fix: "
+        "name both columns, as in row,{}; or write decimal points.",
+        table.name, table.rows.front().line, table.rows.front().cells.front(),
+        table.columns.front()));
   }
-  if (comma != nullptr && may_have_thousands(cell)) {
-    return fmt::format(
-        "\"{}\", which may mean thousands: line {} has a decimal comma. Fix: write "
-        "all numbers with a decimal comma and without points.",
-        cell, comma->line);
-  }
-  return {};
 }
+
+/// "1.012", "12.345.678": a number, or perhaps a thousand times as much.
+bool may_have_thousands(std::string_view cell, char mark) {
+  static const std::regex kPoints("[+-]?[1-9][0-9]{0,2}(\\.[0-9]{3})+");
+  static const std::regex kCommas("[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+");
+  return std::regex_match(cell.begin(), cell.end(), mark == '.' ? kPoints : kCommas);
+}
+
+std::optional<double> without(std::string_view cell, char mark) {
+  std::string digits(cell);
+  std::erase(digits, mark);
+  return number_of(digits);
+}
+
+/// What points and commas in the numbers of a table mean, as far as they tell.
+class NumberMarks {
+ public:
+  NumberMarks(const Table& table, std::span<const std::size_t> columns) : table_(table) {
+    for (const TableRow& row : table.rows) {
+      for (const std::size_t column : columns) {
+        const std::string& cell = row.cells[column];
+        if (!number_of(cell)) continue;
+        for (const char mark : {'.', ','}) {
+          if (cell.find(mark) == std::string::npos) continue;
+          if (mark == ',' && table.has_decimal_comma && comma_row_ == nullptr) comma_row_ = &row;
+          if (may_have_thousands(cell, mark)) continue;
+          if (mark == '.') has_decimal_point_ = true;
+          if (mark == ',' && comma_row_ == nullptr) comma_row_ = &row;
+        }
+      }
+    }
+  }
+
+  /// What is wrong with a cell that must be a number, after its place; empty: nothing.
+  std::string problem_of(const std::string& cell, const NumberColumn& column) const {
+    const bool has_comma = cell.find(',') != std::string::npos;
+    const bool has_point = cell.find('.') != std::string::npos;
+    const auto value = number_of(cell);
+    if (!value && has_comma && has_point) {
+      return fmt::format(
+          "\"{}\", which has points and commas. Fix: write it with a decimal point, and without "
+          "signs between thousands.",
+          cell);
+    }
+    const char mark = has_comma ? ',' : '.';
+    const bool is_ambiguous = may_have_thousands(cell, mark);
+    if (!value && (!is_ambiguous || is_settled(mark))) {
+      return fmt::format(
+          "\"{}\", which is not a finite number. Fix: write a number, or delete the row.", cell);
+    }
+    if (!is_ambiguous || is_settled(mark)) return {};
+    const auto is_possible = [&](double number) {
+      return number > column.above && number < column.below;
+    };
+    const double thousands = without(cell, mark).value_or(0);
+    if (value && is_possible(*value) && !is_possible(thousands)) return {};
+    if (comma_row_ != nullptr && mark == '.') {
+      return fmt::format(
+          "\"{}\", which may mean thousands: line {} has a decimal comma. Fix: write "
+          "all numbers with a decimal comma and without points.",
+          cell, comma_row_->line);
+    }
+    return fmt::format(
+        "\"{}\", which may mean {:.10g}{}. Fix: write {:.10g} if it does{}.", cell, thousands,
+        value && is_possible(*value) ? fmt::format(" as well as {:.10g}", *value) : "", thousands,
+        value ? fmt::format(", otherwise {:.10g} with a 0 behind it, as in {}0", *value, cell)
+              : "");
+  }
+
+ private:
+  bool is_settled(char mark) const {
+    if (mark == ',') return table_.has_decimal_comma || comma_row_ != nullptr;
+    return !table_.has_decimal_comma || (has_decimal_point_ && comma_row_ == nullptr);
+  }
+
+  const Table& table_;
+  const TableRow* comma_row_ = nullptr;  ///< the first with a decimal comma
+  bool has_decimal_point_ = false;
+};
 
 void check_header(const Table& table, int line, base::ErrorList& errors) {
   std::set<std::string> names;
@@ -167,10 +298,15 @@ std::optional<std::size_t> Table::column(std::string_view wanted) const {
 }
 
 Table parse_table(const std::string& name, std::string_view text, NoRows no_rows) {
+  check_kind(name, text);
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   check_letters(name, text);
-  const char delimiter = delimiter_of(text);
-  std::vector<TableRow> rows = rows_of(name, text, delimiter);
+  const std::optional<char> told = told_delimiter(text);
+  if (told) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  const char delimiter = told.value_or(delimiter_of(text));
+  std::vector<TableRow> rows =
+      rows_of(name, text, delimiter == kNoDelimiter ? ';' : delimiter, told ? 1 : 0);
+  drop_what_is_empty(rows);
   if (rows.empty()) {
     throw std::invalid_argument(
         name + ": is empty. Fix: give a table whose first line names the columns.");
@@ -194,6 +330,7 @@ Table parse_table(const std::string& name, std::string_view text, NoRows no_rows
   }
   errors.add(ragged);
   errors.throw_if_any();
+  if (delimiter == kNoDelimiter) check_single_column(table);
   return table;
 }
 
@@ -201,9 +338,9 @@ Table read_table(const std::filesystem::path& file, NoRows no_rows) {
   return parse_table(file.string(), base::read_whole_file(file), no_rows);
 }
 
-std::optional<double> number_of(const Table& table, std::string_view cell) {
+std::optional<double> number_of(std::string_view cell) {
   std::string text(cell);
-  if (table.has_decimal_comma && text.find('.') == std::string::npos) {
+  if (text.find('.') == std::string::npos) {
     const std::size_t comma = text.find(',');
     if (comma != std::string::npos) text[comma] = '.';
   }
@@ -216,32 +353,32 @@ std::optional<double> number_of(const Table& table, std::string_view cell) {
 }
 
 std::vector<std::vector<double>> numbers_of(const Table& table,
-                                            std::span<const std::string> columns) {
+                                            std::span<const NumberColumn> columns) {
+  std::vector<NumberColumn> found;
   std::vector<std::size_t> places;
   base::ErrorList errors;
-  for (const std::string& wanted : columns) {
-    if (const auto column = table.column(wanted)) {
+  for (const NumberColumn& wanted : columns) {
+    if (const auto column = table.column(wanted.name)) {
+      found.push_back(wanted);
       places.push_back(*column);
       continue;
     }
-    const std::string guess = base::closest_word(wanted, table.columns);
-    errors.add(fmt::format("{}: has no column {}. {}Fix: it has {}.", table.name, wanted,
+    const std::string guess = base::closest_word(wanted.name, table.columns);
+    errors.add(fmt::format("{}: has no column {}. {}Fix: it has {}.", table.name, wanted.name,
                            guess.empty() ? "" : fmt::format("Did you mean {}? ", guess),
                            fmt::join(table.columns, ", ")));
   }
-  const TableRow* comma = row_with_comma(table, places);
+  const NumberMarks marks(table, places);
   base::ErrorList cells(kMostRowErrors);
   std::vector<std::vector<double>> numbers(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (const TableRow& row : table.rows) {
       const std::string& cell = row.cells[places[i]];
-      const auto number = number_of(table, cell);
-      const std::string problem = problem_of(cell, number.has_value(), comma);
+      const std::string problem = marks.problem_of(cell, found[i]);
       if (!problem.empty()) {
-        cells.add(fmt::format("{}:{}: {} is {}", table.name, row.line, table.columns[places[i]],
-                              problem));
+        cells.add(fmt::format("{}:{}: {} is {}", table.name, row.line, found[i].name, problem));
       }
-      numbers[i].push_back(number.value_or(0));
+      numbers[i].push_back(number_of(cell).value_or(0));
     }
   }
   errors.add(cells);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,33 +25,44 @@ struct Table {
   std::string name;  ///< for messages
   std::vector<std::string> columns;
   std::vector<TableRow> rows;
-  bool has_decimal_comma = false;  ///< cells are parted by semicolons or tabs: 3,5 may be a number
+  /// Cells are not parted by commas, so numbers are likely to have decimal commas.
+  bool has_decimal_comma = false;
 
   std::optional<std::size_t> column(std::string_view wanted) const;
 };
 
 enum class NoRows { refused, allowed };
 
-/// Reads RFC 4180 text, in UTF-8 with or without a byte order mark. Cells are parted by the first
-/// of semicolon, tab and comma that the header has. Blank lines are passed over.
+/// A column of numbers; each must lie between `above` and `below`.
+struct NumberColumn {
+  std::string name;
+  double above = -std::numeric_limits<double>::infinity();
+  double below = std::numeric_limits<double>::infinity();
+};
+
+/// Reads RFC 4180 text, in UTF-8 with or without a byte order mark. Cells are parted by what a
+/// first line "sep=;" says, otherwise by the first of semicolon, tab and comma that the header has;
+/// a header with none of them is that of a single column, whose commas are decimal ones. Rows and
+/// columns in which nothing is written are passed over, and so are empty cells behind the last
+/// column.
 ///
 /// @throws std::invalid_argument  every error, a line each: "NAME:LINE: ... Fix: ...": no header,
 /// no rows, columns without a name or with the same name, rows with too few or too many cells,
-/// quotes that do not match, bytes that are no letters.
+/// quotes that do not match, bytes that are no letters, a spreadsheet's own file.
 Table parse_table(const std::string& name, std::string_view text, NoRows no_rows = NoRows::refused);
 
 /// parse_table of a file's content.
 Table read_table(const std::filesystem::path& file, NoRows no_rows = NoRows::refused);
 
-/// A cell as a finite number; none if it is not one.
-std::optional<double> number_of(const Table& table, std::string_view cell);
+/// A cell as a finite number, with a decimal point or comma; none if it is not one.
+std::optional<double> number_of(std::string_view cell);
 
-/// The numbers of some columns: [column][row].
+/// The numbers of some columns: [column][row]. That they are possible is not checked: the range
+/// only serves to tell what "1.403" means.
 ///
 /// @throws std::invalid_argument  every error: columns that are not there, cells that are no finite
-/// numbers, or that may have a point between thousands where other numbers have a decimal comma,
-/// each with its line.
+/// numbers, or whose point or comma may part thousands, each with its line.
 std::vector<std::vector<double>> numbers_of(const Table& table,
-                                            std::span<const std::string> columns);
+                                            std::span<const NumberColumn> columns);
 
 }  // namespace repose::calibrate

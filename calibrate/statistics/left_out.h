@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace repose::calibrate {
+
+/// What of a table was not used.
+struct LeftOut {
+  std::string what;  ///< "line 5", "column Run"
+  std::string why;   ///< "labelled \"Mean\""
+};
+
+}  // namespace repose::calibrate

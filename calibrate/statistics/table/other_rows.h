@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error_list.h"
+#include "calibrate/statistics/left_out.h"
+#include "calibrate/statistics/table/table.h"
+
+/// Rows of a spreadsheet's table that are no readings: units below the header, and what somebody
+/// worked out of the readings, such as their mean.
+namespace repose::calibrate {
+
+struct OtherRows {
+  std::vector<LeftOut> left_out;
+  std::vector<std::string> notes;  ///< what a person should look at, a sentence each
+};
+
+/// Takes these rows out of the table:
+///   - the first one, where it holds units ("deg", "[mm]") in place of numbers;
+///   - those labelled with a word for a statistic: "mean", "SD", "Standardabweichung".
+///
+/// Rows at the table's end without such a label, whose numbers are mean, standard deviation and so
+/// on of the rows above, are errors where chance gives such readings in less than 1 of 100 tables:
+/// by Student's distribution of a further reading (Hahn, Meeker 1991, Statistical Intervals, sec.
+/// 4.7), times the step of the last digit. A last row that equals the mean and could be chance is
+/// in the notes. Proved by OtherRows.* in tests/calibrate/other_rows_test.cpp.
+///
+/// @param readings  columns with the numbers that were read; those that the table lacks are passed
+///                  over
+/// @param errors    are added to, each "NAME:LINE: ... Fix: ..."
+OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
+                          base::ErrorList& errors);
+
+}  // namespace repose::calibrate
