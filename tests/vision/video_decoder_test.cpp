@@ -49,6 +49,23 @@ std::string row(int first, int second) {
   return bytes;
 }
 
+constexpr std::size_t kMatrixBytes = 36;
+
+/// A number of two bytes before the binary point and two after it.
+std::string fixed(double number) {
+  const auto whole = static_cast<std::uint32_t>(number * 65536);
+  std::string bytes;
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(whole >> shift);
+  return bytes;
+}
+
+/// Says that a film is to be shown as wide as this: its width stands behind the track's matrix.
+void stretch_film(const std::filesystem::path& file, double width) {
+  std::string bytes = testing::text_of(file);
+  bytes.replace(bytes.rfind(row(1, 0) + row(0, 1)) + kMatrixBytes, 4, fixed(width));
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
 void turn_film(const std::filesystem::path& file, const std::string& matrix) {
   std::string bytes = testing::text_of(file);
   const std::string unturned = row(1, 0) + row(0, 1);
@@ -86,6 +103,74 @@ TEST(VideoDecoder, TurnsPicturesAsTheFilmSays) {
   }
 }
 
+/// Dark, with a light upper left quarter.
+Picture light_corner(int width, int height) {
+  Picture picture = light_above(width, 2 * height);
+  picture.height = height;
+  picture.bgr.resize(picture.bgr.size() / 2);
+  for (std::size_t k = 0; k < picture.bgr.size(); ++k) {
+    const auto x = static_cast<int>(k / 3) % width;
+    if (x >= width / 2) picture.bgr[k] = kDark;
+  }
+  return picture;
+}
+
+TEST(VideoDecoder, MirrorsPicturesAsTheFilmSays) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "film.mp4";
+  struct Case {
+    std::string matrix;
+    cv::Size size;
+    cv::Point light;
+  };
+  for (const Case& shown : {Case{row(-1, 0) + row(0, 1), {64, 48}, {50, 10}},
+                            {row(1, 0) + row(0, -1), {64, 48}, {14, 38}},
+                            {row(0, 1) + row(1, 0), {48, 64}, {10, 14}},
+                            {row(0, -1) + row(-1, 0), {48, 64}, {38, 50}},
+                            {row(2, 0) + row(0, 2), {64, 48}, {14, 10}}}) {
+    write_film(file, light_corner(64, 48), 1);
+    turn_film(file, shown.matrix);
+    const cv::Mat bgr = first_picture(file);
+    ASSERT_EQ(bgr.size(), shown.size);
+    EXPECT_NEAR(bgr.at<cv::Vec3b>(shown.light)[1], kLight, 4) << shown.light;
+    const cv::Point other(shown.size.width - shown.light.x, shown.size.height - shown.light.y);
+    EXPECT_NEAR(bgr.at<cv::Vec3b>(other)[1], kDark, 4) << shown.light;
+  }
+}
+
+TEST(VideoDecoder, RefusesPicturesThatAreToBeShownAskew) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "film.mp4";
+  for (const std::string& matrix : {row(1, 1) + row(-1, 1), row(1, 1) + row(0, 1)}) {
+    write_film(file, light_above(64, 48), 1);
+    turn_film(file, matrix);
+    EXPECT_THAT(error_of([&] { first_picture(file); }),
+                AllOf(HasSubstr("turned by"), HasSubstr("Fix: ")));
+  }
+}
+
+TEST(VideoDecoder, MakesPixelsSquareAsTheFilmSaysTheyAreNot) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "film.mp4";
+  struct Case {
+    double shown_width;
+    int width;
+  };
+  for (const Case& wide : {Case{128, 128}, Case{32, 32}, Case{64, 64}}) {
+    write_film(file, light_corner(64, 48), 2);
+    stretch_film(file, wide.shown_width);
+    const cv::Mat bgr = first_picture(file);
+    ASSERT_EQ(bgr.size(), cv::Size(wide.width, 48));
+    EXPECT_NEAR(bgr.at<cv::Vec3b>(10, wide.width / 4)[1], kLight, 4) << wide.width;
+    EXPECT_NEAR(bgr.at<cv::Vec3b>(10, 3 * wide.width / 4)[1], kDark, 4) << wide.width;
+    EXPECT_EQ(VideoDecoder(file).claimed_pixels(), wide.width * 48);
+  }
+  write_film(file, light_corner(64, 48), 2);
+  stretch_film(file, 640);
+  EXPECT_THAT(error_of([&] { VideoDecoder(file).claimed_pixels(); }),
+              AllOf(HasSubstr("pixels are 10 times as wide as high"), HasSubstr("Fix: ")));
+}
+
 TEST(VideoDecoder, ReadsTheLastColumnsOfAnyWidth) {
   const TemporaryFolder folder;
   for (const char* name : {"film.mp4", "film.gif"}) {
@@ -106,8 +191,7 @@ TEST(VideoDecoder, SaysWhatTheFilmClaimsOfItself) {
   for (const char* name : {"film.mp4", "film.gif"}) {
     write_film(folder.path() / name, light_above(64, 48), 7);
     VideoDecoder film(folder.path() / name);
-    EXPECT_EQ(film.width(), 64) << name;
-    EXPECT_EQ(film.height(), 48) << name;
+    EXPECT_EQ(film.claimed_pixels(), 64 * 48) << name;
     EXPECT_NEAR(film.claimed_frames_per_s().value_or(0), 25, 0.01) << name;
     EXPECT_EQ(film.claimed_frames(), 7) << name;
     for (int k = 0; k < 7; ++k) {

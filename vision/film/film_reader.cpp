@@ -7,11 +7,13 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "vision/film/frame_files.h"
+#include "vision/picture/film_head.h"
 #include "vision/picture/mat_of_picture.h"
 #include "vision/picture/opencv_threads.h"
 #include "vision/picture/picture.h"
@@ -30,22 +32,11 @@ constexpr double kUsualFramesPerS = 30;
   throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
 }
 
-/// By its first bytes: the decoder would also follow playlists to other files and places.
-bool is_film(std::string_view head) {
-  using namespace std::string_view_literals;
-  if (head.size() < 12) return false;
-  for (const std::string_view box : {"ftyp"sv, "moov"sv, "mdat"sv, "wide"sv, "free"sv, "skip"sv}) {
-    if (head.substr(4, 4) == box) return true;
-  }
-  const bool is_avi = head.starts_with("RIFF") && head.substr(8, 3) == "AVI";
-  return is_avi || head.starts_with("\x1a\x45\xdf\xa3"sv) || head.starts_with("GIF8");
-}
-
-void check_size(const fs::path& file, double width, double height) {
-  if (width * height <= kMostPixels) return;
+void check_size(const fs::path& file, double pixels) {
+  if (pixels <= kMostPixels) return;
   refuse_film(file,
-              fmt::format("its frames are {:.0f} x {:.0f} pixels, {:.0f} million are the most",
-                          width, height, kMostPixels / 1e6),
+              fmt::format("its frames have {:.0f} million pixels, {:.0f} million are the most",
+                          pixels / 1e6, kMostPixels / 1e6),
               "convert it to 1920 x 1080.");
 }
 
@@ -63,6 +54,7 @@ void check(const fs::path& file) {
   stream.read(head.data(), head.size());
   if (!stream && stream.gcount() == 0)
     refuse_film(file, "is empty or cannot be read", "copy it again.");
+  // By its first bytes: the decoder would also follow playlists to other files and places.
   if (!is_film({head.data(), static_cast<std::size_t>(stream.gcount())})) {
     refuse_film(file, "is no film that repose reads",
                 "convert it to MP4 (H.264); MOV, AVI, MKV, WebM and GIF are read too.");
@@ -84,6 +76,8 @@ class FilmReader::Source {
   /// False at the end; of a frame that is skipped only the time is set.
   virtual bool next(FilmFrame& frame, bool is_skipped) = 0;
   virtual int claimed_frames() const = 0;
+  /// What times are multiples of; 0: they are as they are.
+  virtual double time_unit_s() const { return 0; }
 };
 
 /// A file.
@@ -92,7 +86,7 @@ class FilmReader::VideoSource : public FilmReader::Source {
   explicit VideoSource(const fs::path& file)
       : film_((check(file), file)),
         claimed_interval_s_(1 / film_.claimed_frames_per_s().value_or(kUsualFramesPerS)) {
-    check_size(file, film_.width(), film_.height());
+    check_size(file, film_.claimed_pixels());
   }
 
   bool next(FilmFrame& frame, bool is_skipped) override {
@@ -106,6 +100,7 @@ class FilmReader::VideoSource : public FilmReader::Source {
     const std::int64_t count = film_.claimed_frames();
     return count > 0 && count < kMostFrames ? static_cast<int>(count) : 0;
   }
+  double time_unit_s() const override { return film_.stamp_unit_s(); }
 
  private:
   /// Where time stamps are missing or do not advance, one frame after the other.
@@ -142,7 +137,7 @@ class FilmReader::FolderSource : public FilmReader::Source {
     frame.time_s = static_cast<double>(now.place) * interval_s_;
     if (is_skipped) return true;
     picture_ = read_picture(now.file);
-    check_size(now.file, picture_.width, picture_.height);
+    check_size(now.file, 1. * picture_.width * picture_.height);
     frame.bgr = mat_of(picture_);
     return true;
   }
@@ -155,7 +150,8 @@ class FilmReader::FolderSource : public FilmReader::Source {
   Picture picture_;  ///< what the last frame's pixels are in
 };
 
-FilmReader::FilmReader(const FilmFile& file) : file_(file.path), lens_(file.lens) {
+FilmReader::FilmReader(const FilmFile& file, std::vector<double> times_s)
+    : file_(file.path), times_s_(std::move(times_s)), lens_(file.lens) {
   keep_opencv_to_one_thread();
   std::error_code error;
   if (file.frames_per_s && fs::is_directory(file_, error)) {
@@ -169,8 +165,17 @@ FilmReader::~FilmReader() = default;
 
 int FilmReader::claimed_frames() const { return source_->claimed_frames(); }
 
+double FilmReader::time_unit_s() const { return source_->time_unit_s(); }
+
+bool FilmReader::advance(FilmFrame& frame, bool is_skipped) {
+  if (!source_->next(frame, is_skipped)) return false;
+  if (number_ < times_s_.size()) frame.time_s = times_s_[number_];
+  ++number_;
+  return true;
+}
+
 bool FilmReader::next(FilmFrame& frame) {
-  if (!source_->next(frame, false)) return false;
+  if (!advance(frame, false)) return false;
   if (size_.empty()) size_ = frame.bgr.size();
   if (frame.bgr.size() != size_) {
     refuse_film(file_, "the size of its frames changes", "keep the part of one size.");
@@ -182,6 +187,6 @@ bool FilmReader::next(FilmFrame& frame) {
   return true;
 }
 
-bool FilmReader::skip(FilmFrame& frame) { return source_->next(frame, true); }
+bool FilmReader::skip(FilmFrame& frame) { return advance(frame, true); }
 
 }  // namespace repose::vision

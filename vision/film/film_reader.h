@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -22,7 +23,8 @@ class FilmReader {
  public:
   /// @throws std::invalid_argument  "FILE: what. Fix: ...": missing, empty, no film, damaged, or of
   /// too many pixels; of a folder, also as frame_files(), and without a frame rate.
-  explicit FilmReader(const FilmFile& file);
+  /// @param times_s  of its frames, which a survey found; none: by its own time stamps
+  explicit FilmReader(const FilmFile& file, std::vector<double> times_s = {});
   ~FilmReader();
   FilmReader(const FilmReader&) = delete;
   FilmReader& operator=(const FilmReader&) = delete;
@@ -38,13 +40,19 @@ class FilmReader {
 
   /// How many frames the file says it has, which need not be true; 0 where it does not say.
   int claimed_frames() const;
+  /// What its time stamps are rounded to; 0 where they are not.
+  double time_unit_s() const;
 
  private:
   class Source;
   class VideoSource;
   class FolderSource;
 
+  bool advance(FilmFrame& frame, bool is_skipped);
+
   std::filesystem::path file_;
+  std::vector<double> times_s_;
+  std::size_t number_ = 0;  ///< of the next frame
   std::unique_ptr<Source> source_;
   cv::Size size_;
   std::optional<Lens> lens_;

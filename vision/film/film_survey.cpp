@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
 #include "vision/film/comb_finder.h"
 #include "vision/film/film_reader.h"
+#include "vision/film/frame_times.h"
 
 namespace repose::vision {
 namespace {
@@ -114,6 +116,7 @@ FilmSurvey survey_film(const FilmFile& file, const FilmProgress& progress) {
     if (progress) progress(done / std::max({1.0, done, 1.0 * survey.claimed_frames}));
   }
   survey.samples = samples.take();
+  survey.times_s = unrounded_times(std::move(survey.times_s), film.time_unit_s());
   survey.is_interlaced = combs.is_interlaced();
   read_rate(survey);
   return survey;

@@ -50,7 +50,7 @@ cv::Mat places_that_count(const FilmSurvey& survey, const MeasureOptions& option
 RestFinder find_rest(const FilmFile& file, const FilmSurvey& survey, cv::Mat counts,
                      const FilmProgress& progress) {
   RestFinder finder(std::move(counts));
-  FilmReader film(file);
+  FilmReader film(file, survey.times_s);
   FilmFrame frame;
   const std::size_t count = survey.times_s.size();
   for (std::size_t k = 0; k < count; ++k) {

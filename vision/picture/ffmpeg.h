@@ -33,8 +33,8 @@ Packet empty_packet();
 /// Black, with rows that are padded.
 Frame blank_frame(int width, int height, AVPixelFormat format);
 
-/// From one way to store the pixels of a frame to another of the same size. Between RGB and YUV by
-/// ITU-R BT.601, whatever a film says of its colours.
+/// From one way to store the pixels of a frame to another, of another size where the two differ.
+/// Between RGB and YUV by ITU-R BT.601, whatever a film says of its colours.
 class Conversion {
  public:
   /// @throws std::invalid_argument  "what. Fix: ...": pixels of a kind that cannot be converted.

@@ -12,6 +12,7 @@
 
 #include "base/whole_file.h"
 #include "vision/picture/bmp.h"
+#include "vision/picture/film_head.h"
 #include "vision/picture/jpeg.h"
 #include "vision/picture/made_here.h"
 #include "vision/picture/mat_of_picture.h"
@@ -33,7 +34,12 @@ std::string_view text_at(Bytes bytes, std::size_t from, std::size_t length) {
   return {reinterpret_cast<const char*>(bytes.data()) + from, length};
 }
 
-enum class Format { jpeg, png, tiff, bmp, webp, heic, unknown };
+enum class Format { jpeg, png, tiff, bmp, webp, heic, film, unknown };
+
+/// Of the containers that begin alike, those of HEIC and AVIF: by the brand that comes first.
+bool is_picture_brand(std::string_view brand) {
+  return brand.starts_with("he") || brand == "mif1" || brand == "msf1" || brand.starts_with("avi");
+}
 
 /// By content: names lie.
 Format format_of(Bytes bytes) {
@@ -43,7 +49,13 @@ Format format_of(Bytes bytes) {
   if (text_at(bytes, 0, 4) == "II*\0"sv || text_at(bytes, 0, 4) == "MM\0*"sv) return Format::tiff;
   if (text_at(bytes, 0, 2) == "BM" && bytes.size() > 26) return Format::bmp;
   if (text_at(bytes, 0, 4) == "RIFF" && text_at(bytes, 8, 4) == "WEBP") return Format::webp;
-  if (text_at(bytes, 4, 4) == "ftyp") return Format::heic;
+  if (text_at(bytes, 4, 4) == "ftyp" && is_picture_brand(text_at(bytes, 8, 4))) {
+    return Format::heic;
+  }
+  const bool is_gif = text_at(bytes, 0, 4) == "GIF8";  // most of them are pictures
+  if (!is_gif && is_film(text_at(bytes, 0, std::min<std::size_t>(bytes.size(), 16)))) {
+    return Format::film;
+  }
   return Format::unknown;
 }
 
@@ -63,6 +75,10 @@ Picture decode(Bytes bytes) {
       throw std::invalid_argument(
           "is a HEIC or AVIF picture, which cannot be read. Fix: convert it to JPEG, for example "
           "with heif-convert, or set the telephone's camera to \"most compatible\".");
+    case Format::film:
+      throw std::invalid_argument(
+          "is a film, and a picture is needed here. Fix: name a picture of what it shows at rest; "
+          "repose measure and repose track read films.");
     case Format::unknown:
       break;
   }

@@ -202,7 +202,7 @@ std::optional<PlateMotion> plate_in_film(const FilmFile& file, const FilmSurvey&
                                          const FilmProgress& progress) {
   const int reduction = reduction_for(survey.size);
   const cv::Mat moves = moves_in(survey.samples, reduction);
-  FilmReader film(file);
+  FilmReader film(file, survey.times_s);
   FilmFrame frame;
   std::vector<FollowedEdge> all;
   const std::size_t count = survey.times_s.size();

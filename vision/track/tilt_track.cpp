@@ -152,8 +152,8 @@ std::string read_slide(const PlateMotion& motion, const PlateGrains& grains,
 }
 
 /// The frame of the onset, or the last one before a slide that was not found.
-Picture frame_at(const FilmFile& file, double time_s) {
-  FilmReader film(file);
+Picture frame_at(const FilmFile& file, const FilmSurvey& survey, double time_s) {
+  FilmReader film(file, survey.times_s);
   FilmFrame frame;
   if (!film.next(frame)) return {};
   cv::Mat shown = frame.bgr.clone();
@@ -194,7 +194,8 @@ TiltTrack track_tilt(const FilmFile& file, const TrackOptions& options) {
   TiltTrack track;
   FilmSurvey survey;
   track.reason = read(file, survey, options.progress, track);
-  if (options.draws_strobe) track.strobe = frame_at(file, track.has_reading ? track.onset_s : 0);
+  if (options.draws_strobe)
+    track.strobe = frame_at(file, survey, track.has_reading ? track.onset_s : 0);
   return track;
 }
 

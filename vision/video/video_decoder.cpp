@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
-extern "C" {
-#include <libavutil/display.h>
-}
+
+#include "vision/video/shown_frame.h"
 
 namespace repose::vision {
 namespace {
@@ -22,6 +21,22 @@ constexpr int kMostDamaged = 512;
       fmt::format("{}: the film cannot be decoded: it is damaged, or of an unknown kind. Fix: copy "
                   "it from the telephone again, or convert it to MP4 (H.264).",
                   file.string()));
+}
+
+/// A picture that stands for what is heard, such as a record's cover.
+bool is_cover(const AVStream& stream) {
+  return (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
+}
+
+[[noreturn]] void refuse_sound(const AVFormatContext& input, const std::filesystem::path& file) {
+  for (unsigned k = 0; k < input.nb_streams; ++k) {
+    if (input.streams[k]->codecpar->codec_type != AVMEDIA_TYPE_AUDIO) continue;
+    throw std::invalid_argument(
+        fmt::format("{}: has sound and no moving picture. Fix: name the film itself; where the "
+                    "camera stored pictures and sound apart, that of the pictures.",
+                    file.string()));
+  }
+  refuse_film(file);
 }
 
 /// Of files only, and of no kind that points to other files or places.
@@ -48,38 +63,6 @@ ffmpeg::Codec decoder_of(const AVStream& stream) {
   return codec;
 }
 
-const std::int32_t* display_matrix(const AVStream& stream) {
-#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
-  const AVPacketSideData* found =
-      av_packet_side_data_get(stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data,
-                              AV_PKT_DATA_DISPLAYMATRIX);
-  const std::uint8_t* data = found ? found->data : nullptr;
-#else
-  const std::uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
-#endif
-  return reinterpret_cast<const std::int32_t*>(data);
-}
-
-/// How telephones say how they were held: clockwise, to be applied to the picture.
-int quarter_turns(const AVStream& stream) {
-  const std::int32_t* matrix = display_matrix(stream);
-  const double degrees = matrix ? av_display_rotation_get(matrix) : 0;  // anticlockwise
-  return std::isfinite(degrees) ? static_cast<int>(std::lround(-degrees / 90) + 4) % 4 : 0;
-}
-
-void turn(const cv::Mat& lying, int quarters, cv::Mat& upright) {
-  switch (quarters) {
-    case 1:
-      return cv::rotate(lying, upright, cv::ROTATE_90_CLOCKWISE);
-    case 2:
-      return cv::rotate(lying, upright, cv::ROTATE_180);
-    case 3:
-      return cv::rotate(lying, upright, cv::ROTATE_90_COUNTERCLOCKWISE);
-    default:
-      return lying.copyTo(upright);
-  }
-}
-
 }  // namespace
 
 VideoDecoder::VideoDecoder(const std::filesystem::path& file)
@@ -88,14 +71,25 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file)
   input_ = opened(file);
   if (avformat_find_stream_info(input_.get(), nullptr) < 0) refuse_film(file);
   const int best = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (best < 0) refuse_film(file);
+  if (best < 0 || is_cover(*input_->streams[best])) refuse_sound(*input_, file);
   stream_ = input_->streams[best];
   codec_ = decoder_of(*stream_);
   if (!codec_) refuse_film(file);
 }
 
-int VideoDecoder::width() const { return codec_->width; }
-int VideoDecoder::height() const { return codec_->height; }
+ShownFrame VideoDecoder::shown(const AVFrame* frame) const {
+  try {
+    return shown_frame(*stream_, frame);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", file_.string(), error.what()));
+  }
+}
+
+double VideoDecoder::claimed_pixels() const {
+  return static_cast<double>(shown(nullptr).width_of(codec_->width)) * codec_->height;
+}
+
+double VideoDecoder::stamp_unit_s() const { return av_q2d(stream_->time_base); }
 
 std::optional<double> VideoDecoder::claimed_frames_per_s() const {
   const double rate = av_q2d(av_guess_frame_rate(input_.get(), stream_, nullptr));
@@ -137,8 +131,10 @@ std::optional<double> VideoDecoder::time_stamp_s() const {
 }
 
 void VideoDecoder::copy_to(cv::Mat& bgr) {
-  if (!bgr_ || bgr_->width != frame_->width || bgr_->height != frame_->height) {
-    bgr_ = ffmpeg::blank_frame(frame_->width, frame_->height, AV_PIX_FMT_BGR24);
+  const ShownFrame shown = this->shown(frame_.get());
+  const int width = shown.width_of(frame_->width);
+  if (!bgr_ || bgr_->width != width || bgr_->height != frame_->height) {
+    bgr_ = ffmpeg::blank_frame(width, frame_->height, AV_PIX_FMT_BGR24);
   }
   try {
     to_bgr_.run(*frame_, *bgr_);
@@ -147,7 +143,7 @@ void VideoDecoder::copy_to(cv::Mat& bgr) {
   }
   const cv::Mat padded(bgr_->height, bgr_->width, CV_8UC3, bgr_->data[0],
                        static_cast<std::size_t>(bgr_->linesize[0]));
-  turn(padded, quarter_turns(*stream_), bgr);
+  shown.turn(padded, bgr);
 }
 
 }  // namespace repose::vision

@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "vision/picture/ffmpeg.h"
+#include "vision/video/shown_frame.h"
 
 namespace repose::vision {
 
@@ -14,11 +15,12 @@ namespace repose::vision {
 /// file claims need be true.
 class VideoDecoder {
  public:
-  /// @throws std::invalid_argument  "FILE: what. Fix: ...": damaged, or of an unknown kind.
+  /// @throws std::invalid_argument  "FILE: what. Fix: ...": damaged, of an unknown kind, or sound.
   explicit VideoDecoder(const std::filesystem::path& file);
 
-  int width() const;
-  int height() const;
+  /// Of a picture as it is shown.
+  /// @throws std::invalid_argument  as copy_to()
+  double claimed_pixels() const;
   std::optional<double> claimed_frames_per_s() const;
   /// 0 where the file does not say.
   std::int64_t claimed_frames() const;
@@ -27,12 +29,16 @@ class VideoDecoder {
   bool advance();
   /// When the picture is shown, where the file says so: from any start on.
   std::optional<double> time_stamp_s() const;
-  /// The picture, upright, into memory that is used again for the next one.
-  /// @throws std::invalid_argument  "FILE: what. Fix: ..."
+  /// What time stamps are multiples of: MKV has whole milliseconds, GIF hundredths of a second.
+  double stamp_unit_s() const;
+  /// The picture as it is to be shown: upright, of square pixels, into memory that is used again
+  /// for the next one.
+  /// @throws std::invalid_argument  "FILE: what. Fix: ...": see shown_frame()
   void copy_to(cv::Mat& bgr);
 
  private:
   bool send_next_packet();
+  ShownFrame shown(const AVFrame* frame) const;
 
   std::filesystem::path file_;
   ffmpeg::Input input_;

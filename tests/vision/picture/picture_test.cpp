@@ -20,6 +20,7 @@ using testing::Bytes;
 using testing::coded;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using testing::TemporaryFolder;
 using ::testing::ThrowsMessage;
@@ -316,6 +317,15 @@ TEST_F(PictureFile, HeicIsNamedAndConvertible) {
                                                               "ftypheic....",
                                                               16))),
               AllOf(HasSubstr("HEIC"), HasSubstr("convert")));
+}
+
+TEST_F(PictureFile, FilmIsNamed) {
+  for (const std::string& head :
+       {std::string("\0\0\0\x20", 4) + "ftypisom\x02", std::string("\0\0\0\x14", 4) + "ftypqt  ",
+        std::string("\0\0\0\x08", 4) + "wide....", std::string("RIFF....AVI LIST")}) {
+    EXPECT_THAT(error_of(folder_.write("heap.jpg", head + "........")),
+                AllOf(HasSubstr("is a film"), Not(HasSubstr("HEIC"))));
+  }
 }
 
 TEST_F(PictureFile, UnreadableFileIsSaid) {
