@@ -16,6 +16,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kRad = std::numbers::pi / 180;
 
@@ -109,6 +110,16 @@ TEST(Bench, IntervalsThatReachTooFarAreSaid) {
   const BenchResult result =
       evaluate_bench(BenchTest::restitution, readings({{500, 1}, {500, 90}}));
   EXPECT_THAT(result.notes, Contains(HasSubstr("impossible")));
+}
+
+TEST(Bench, DropsThatDifferAreNamed) {
+  std::vector<BenchReading> rows = readings({{500, 180}, {505, 190}, {301, 193}, {496, 170}});
+  rows[2].place = "drops.csv:4";
+  EXPECT_THAT(evaluate_bench(BenchTest::restitution, rows).notes,
+              Contains(AllOf(HasSubstr("1 of 4 drops"), HasSubstr("drops.csv:4 (301 mm)"))));
+  rows.erase(rows.begin() + 2);
+  EXPECT_THAT(evaluate_bench(BenchTest::restitution, rows).notes,
+              Not(Contains(HasSubstr("another height"))));
 }
 
 TEST(Bench, RepeatsOnOneSampleAreAveragedFirst) {

@@ -1,6 +1,7 @@
 #include "calibrate/statistics/bench/bench.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -132,6 +133,33 @@ std::vector<std::string> notes_on(const Method& method, std::span<const BenchRea
   return notes;
 }
 
+/// Of drops from other heights than the rest: restitution falls with speed, and a later bounce that
+/// is taken for the first one falls from lower. Tested by Bench.DropsThatDifferAreNamed.
+void note_other_drops(const std::vector<ReadingColumn>& columns,
+                      std::span<const BenchReading> readings, std::vector<std::string>& notes) {
+  constexpr double kSame = .05;
+  constexpr std::size_t kMostNamed = 5;
+  const auto column = std::ranges::find(columns, "drop_mm", &ReadingColumn::name);
+  if (column == columns.end()) return;
+  const auto at = static_cast<std::size_t>(column - columns.begin());
+  std::vector<double> drops_mm;
+  for (const BenchReading& reading : readings) drops_mm.push_back(reading.values[at]);
+  const auto middle = drops_mm.begin() + static_cast<std::ptrdiff_t>(drops_mm.size() / 2);
+  std::nth_element(drops_mm.begin(), middle, drops_mm.end());
+  std::string named;
+  std::size_t others = 0;
+  for (const BenchReading& reading : readings) {
+    const double drop_mm = reading.values[at];
+    if (std::abs(drop_mm - *middle) <= kSame * *middle || ++others > kMostNamed) continue;
+    named += fmt::format("{}{} ({:.4g} mm)", named.empty() ? "" : ", ", reading.place, drop_mm);
+  }
+  if (others == 0) return;
+  notes.push_back(fmt::format(
+      "{} of {} drops are from another height than {:.4g} mm, by more than {:g} %: {}{}. "
+      "Restitution falls with speed: do not mix heights, nor first with later bounces.",
+      others, readings.size(), *middle, 100 * kSame, named, others > kMostNamed ? " ..." : ""));
+}
+
 }  // namespace
 
 std::vector<ReadingColumn> columns_of(BenchTest test) { return method_of(test).columns; }
@@ -170,6 +198,7 @@ BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> reading
         {output.name, output.unit, output.what, std::move(values), repeats});
   }
   result.notes = notes_on(method, readings, result.quantities);
+  note_other_drops(method.columns, readings, result.notes);
   return result;
 }
 
