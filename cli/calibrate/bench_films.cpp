@@ -59,6 +59,8 @@ calibrate::FilmReading reading_of(const TrackedFilm& film, const dem::Experiment
   if (status_of(film) != vision::MeasureStatus::ok) {
     reading.reason = has_reading(film) ? warnings_text(film) : reason_of(film);
   }
+  // Its bounces are later ones, whose fall is not the bench's.
+  if (film.filmed == Filmed::drop && !film.drop.has_first_bounce()) return reading;
   if (has_reading(film)) read_row(entry, protocol, row_of(film), reading);
   return reading;
 }

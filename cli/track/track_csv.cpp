@@ -29,7 +29,7 @@ std::string sample_of(const TrackedFilm& film) {
 std::string drop_row(const TrackedFilm& film, std::size_t k) {
   const vision::Bounce& bounce = film.drop.bounces[k];
   const std::vector<std::string> cells = {sample_of(film),
-                                          fmt::format("{}", k + 1),
+                                          fmt::format("{}", bounce.number),
                                           number(bounce.drop_mm.value),
                                           number(bounce.rebound_mm.value),
                                           number(bounce.drop_mm.uncertainty),
@@ -81,7 +81,9 @@ std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& pl
   std::string csv = kDropHeader;
   for (const TrackedFilm& film : films) {
     const std::size_t bounces = film.drop.bounces.size();
-    const std::size_t count = plan.tells_all_bounces ? bounces : std::min<std::size_t>(1, bounces);
+    // Of a film whose first bounce was not read there is none to give.
+    const std::size_t first = film.drop.has_first_bounce() ? 1 : 0;
+    const std::size_t count = plan.tells_all_bounces ? bounces : first;
     for (std::size_t k = 0; k < count; ++k) csv += drop_row(film, k);
   }
   return csv;

@@ -25,7 +25,8 @@ const char* filmed_name(Filmed filmed) {
 }
 
 Json bounce_json(const vision::Bounce& bounce) {
-  return {{"time_s", bounce.time_s},
+  return {{"number", bounce.number},
+          {"time_s", bounce.time_s},
           {"restitution", bounce.restitution.value},
           {"restitution_uncertainty", bounce.restitution.uncertainty},
           {"drop_mm", bounce.drop_mm.value},
@@ -40,6 +41,15 @@ Json bounce_json(const vision::Bounce& bounce) {
 Json bounces_json(const std::vector<vision::Bounce>& bounces) {
   Json json = Json::array();
   for (const vision::Bounce& bounce : bounces) json.push_back(bounce_json(bounce));
+  return json;
+}
+
+Json unread_bounces_json(const std::vector<vision::UnreadBounce>& bounces) {
+  Json json = Json::array();
+  for (const vision::UnreadBounce& bounce : bounces) {
+    json.push_back(
+        {{"number", bounce.number}, {"time_s", bounce.time_s ? Json(*bounce.time_s) : Json()}});
+  }
   return json;
 }
 
@@ -129,6 +139,7 @@ void add_readings(const TrackedFilm& film, Json& json) {
   const bool has_track = has_reading(film);
   if (film.filmed == Filmed::drop) {
     json["bounces"] = bounces_json(film.drop.bounces);
+    json["unread_bounces"] = unread_bounces_json(film.drop.unread_bounces);
     json["track"] = has_track ? drop_track_json(film.drop) : Json();
   } else if (film.filmed == Filmed::roll) {
     json["roll"] = has_track ? roll_json(film.roll) : Json();

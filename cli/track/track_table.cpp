@@ -1,6 +1,7 @@
 #include "cli/track/track_table.h"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,8 @@ namespace repose::cli {
 namespace {
 
 std::string cell(const vision::Estimate& estimate, int decimals) {
+  // Of what is smaller than it usually is, a digit must be left.
+  while (decimals < 6 && std::abs(estimate.value) < 5 * std::pow(10, -decimals)) ++decimals;
   return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, estimate.uncertainty, decimals);
 }
 
@@ -48,13 +51,27 @@ void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
   if (drop.bounces.empty()) {
     table.add_row({film.file, kNothing, kNothing, kNothing, kNothing, kNothing, status}, colour);
   }
-  for (std::size_t k = 0; k < drop.bounces.size(); ++k) {
-    const vision::Bounce& bounce = drop.bounces[k];
-    table.add_row({k == 0 ? film.file : "", fmt::format("{}", k + 1),
-                   fmt::format("{:.3f}", bounce.time_s), cell(bounce.restitution, 3),
-                   cell(bounce.drop_mm, 1), cell(bounce.rebound_mm, 1), k == 0 ? status : ""},
-                  k == 0 ? colour : Colour::none);
+  bool is_first = true;
+  const auto add_row = [&](int number, const std::string& time, const std::string& restitution,
+                           const std::string& drop_mm, const std::string& rebound_mm) {
+    table.add_row({is_first ? film.file : "", fmt::format("{}", number), time, restitution, drop_mm,
+                   rebound_mm, is_first ? status : ""},
+                  is_first ? colour : Colour::none);
+    is_first = false;
+  };
+  auto unread = drop.unread_bounces.begin();
+  const auto add_unread = [&](int before) {
+    for (; unread != drop.unread_bounces.end() && unread->number < before; ++unread) {
+      add_row(unread->number, unread->time_s ? fmt::format("{:.3f}", *unread->time_s) : kNothing,
+              kNothing, kNothing, kNothing);
+    }
+  };
+  for (const vision::Bounce& bounce : drop.bounces) {
+    add_unread(bounce.number);
+    add_row(bounce.number, fmt::format("{:.3f}", bounce.time_s), cell(bounce.restitution, 3),
+            cell(bounce.drop_mm, 1), cell(bounce.rebound_mm, 1));
   }
+  add_unread(std::numeric_limits<int>::max());
   if (!drop.bounces.empty()) table.add_note(kBelow, scale_text(drop));
   add_notes(table, film);
 }
@@ -114,7 +131,9 @@ double value_of(const TrackedFilm& film) {
 std::string mean_text(const std::vector<TrackedFilm>& films, Filmed filmed) {
   std::vector<double> values;
   for (const TrackedFilm& film : films) {
-    if (has_reading(film)) values.push_back(value_of(film));
+    if (has_reading(film) && (filmed != Filmed::drop || film.drop.has_first_bounce())) {
+      values.push_back(value_of(film));
+    }
   }
   if (values.size() < 2) return {};
   const calibrate::Summary summary = calibrate::summarise(values);

@@ -42,17 +42,27 @@ measured = { videos = ["drops/*.mp4"] }
     std::filesystem::create_directory(path("drops"));
   }
 
+  static DrawnDrop drop_of(double restitution) {
+    return {.width = 240,
+            .height = 200,
+            .frames_per_s = 60,
+            .seconds = .9,
+            .mm_per_px = 1.8,
+            .drop_mm = kDrop_mm,
+            .restitution = restitution,
+            .radius_px = 5,
+            .release_s = .1};
+  }
   void draw(const char* name, double restitution, double plays_at = 60) const {
-    const DrawnDrop drop{.width = 240,
-                         .height = 200,
-                         .frames_per_s = 60,
-                         .seconds = .9,
-                         .mm_per_px = 1.8,
-                         .drop_mm = kDrop_mm,
-                         .restitution = restitution,
-                         .radius_px = 5,
-                         .release_s = .1};
-    write_film(path(name), drop, plays_at);
+    write_film(path(name), drop_of(restitution), plays_at);
+  }
+  /// A film that begins after the first bounce, while the grain rises.
+  void draw_end(const char* name) const {
+    const DrawnDrop drop = drop_of(.6);
+    vision::FilmWriter film(path(name), drop.frames_per_s);
+    const cv::Mat scene = drop.scene();
+    for (int frame = 21; frame < drop.frames(); ++frame) film.add(drop.picture(frame, scene));
+    film.close();
   }
 
   Finished calibrated() const {
@@ -88,17 +98,19 @@ TEST_F(CalibrateFilms, ThatGiveNoReadingAreNamedAndLeftOut) {
   draw("drops/a.mp4", .6);
   draw("drops/b.mp4", .6);
   draw("drops/slow.mp4", .6, 30);
+  draw_end("drops/end.mp4");
   folder_.write("drops/note.mp4", std::string("hello"));
   const Finished done = calibrated();
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.err, AllOf(HasSubstr("drops/note.mp4: is no film that repose reads"),
+                              HasSubstr("the first bounce was not read"),
                               HasSubstr("drops/slow.mp4: drop_mm = "),
                               HasSubstr("the study has height_mm = 250 in [experiment.drop]"),
                               HasSubstr("(this film is left out)"), Not(HasSubstr("a.mp4"))));
   const json result = json::parse(text("result.json"));
   EXPECT_NEAR(result["observables"][0]["measured"], kDrop_mm * .6 * .6, 3);
   ASSERT_EQ(run_repose(folder_, {"report", "out"}).exit_code, 0);
-  EXPECT_THAT(text("out/report.html"), HasSubstr("4 films, 2 of which could be read"));
+  EXPECT_THAT(text("out/report.html"), HasSubstr("5 films, 2 of which could be read"));
 }
 
 TEST_F(CalibrateFilms, NoneOfWhichGivesAReadingAreAllNamed) {

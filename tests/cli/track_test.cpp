@@ -50,6 +50,26 @@ struct TrackCommand : CommandTest {
   }
 };
 
+TEST_F(TrackCommand, AFilmWithoutItsFirstBounceIsInNoTableOfFirstBounces) {
+  const DrawnDrop drop{.width = 240, .height = 200, .seconds = 1, .mm_per_px = 1.8, .radius_px = 5};
+  vision::FilmWriter film(path("end.mp4"), drop.frames_per_s);
+  const cv::Mat scene = drop.scene();
+  // It rises from its first bounce, at .526 s.
+  for (int frame = 33; frame < drop.frames(); ++frame) film.add(drop.picture(frame, scene));
+  film.close();
+  const Finished first = run({"drop", "end.mp4", "--csv", "first.csv", "--json", "t.json"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(text("first.csv").find('\n') + 1, text("first.csv").size()) << "its header alone";
+  const json track = json::parse(text("t.json"))[0];
+  EXPECT_EQ(track["status"], "flagged");
+  EXPECT_EQ(track["bounces"][0]["number"], 2);
+  EXPECT_EQ(track["unread_bounces"][0]["number"], 1);
+  EXPECT_TRUE(track["unread_bounces"][0]["time_s"].is_null());
+  EXPECT_THAT(first.out, HasSubstr("the first bounce was not read"));
+  ASSERT_EQ(run({"drop", "end.mp4", "--bounces", "all", "--csv", "all.csv"}).exit_code, 0);
+  EXPECT_THAT(text("all.csv"), HasSubstr("\nend,2,"));
+}
+
 TEST_F(TrackCommand, FilmsOfDropsBecomeATableThatTheBenchReads) {
   draw("a.mp4", .6);
   draw("b.mp4", .5);

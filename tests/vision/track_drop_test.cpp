@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -22,6 +23,7 @@ using repose::testing::TemporaryFolder;
 using repose::testing::write_film;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// Small, so that many can be drawn.
 DrawnDrop small_drop() {
@@ -289,6 +291,128 @@ TEST(TrackDrop, AFolderOfItsFramesIsTheSameFilm) {
   EXPECT_NEAR(track.bounces.front().restitution.value, drop.restitution, .02);
   EXPECT_EQ(track.film.dropped_frames, 2);
   EXPECT_THAT(track.warnings, has_warning("dropped_frames"));
+}
+
+/// A film of some of a drop's frames, whatever the camera did, at even time stamps.
+DropTrack tracked_frames(const DrawnDrop& drop, const std::vector<int>& frames, double plays_at) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "drop.mp4";
+  vision::FilmWriter film(file, plays_at);
+  const cv::Mat scene = drop.scene();
+  for (const int frame : frames) film.add(drop.picture(frame, scene));
+  film.close();
+  return track_drop(file);
+}
+
+/// Lasts longer, so that bounces are left when the first is not seen.
+DrawnDrop bouncy_drop() {
+  DrawnDrop drop = small_drop();
+  drop.seconds = 2;
+  drop.restitution = .8;
+  drop.sideways_px_s = 5;
+  return drop;
+}
+
+void expect_first_bounce(const DropTrack& track, const DrawnDrop& drop, double height_off) {
+  ASSERT_FALSE(track.bounces.empty()) << track.reason;
+  const Bounce& first = track.bounces.front();
+  EXPECT_EQ(first.number, 1);
+  EXPECT_NEAR(first.restitution.value, drop.restitution, .015);
+  EXPECT_NEAR(first.drop_mm.value, drop.drop_mm, height_off * drop.drop_mm);
+}
+
+TEST(TrackDrop, FramesThatRepeatAreLeftOut) {
+  const DrawnDrop drop = bouncy_drop();
+  std::vector<int> frames;
+  for (int k = 0; k < 2 * drop.frames(); ++k) frames.push_back(k / 2);
+  const DropTrack track = tracked_frames(drop, frames, 2 * drop.frames_per_s);
+  EXPECT_EQ(track.status, MeasureStatus::ok) << track.reason;
+  EXPECT_THAT(track.warnings, has_warning("repeated_frames"));
+  expect_first_bounce(track, drop, .03);
+}
+
+TEST(TrackDrop, FramesOfALowerRateWithRepeatsAmongThemGetTheirTimesBack) {
+  DrawnDrop drop = bouncy_drop();
+  drop.frames_per_s = 50;
+  std::vector<int> frames;
+  for (int k = 0; k < 120; ++k) frames.push_back(5 * k / 6);
+  const DropTrack track = tracked_frames(drop, frames, 60);
+  EXPECT_EQ(track.status, MeasureStatus::ok) << track.reason;
+  EXPECT_THAT(track.warnings, has_warning("repeated_frames"));
+  expect_first_bounce(track, drop, .03);
+  EXPECT_NEAR(track.film.frames_per_s, 50, .1);
+}
+
+TEST(TrackDrop, FramesThatAreLeftOutBehindEvenStampsAreSeenInTheFlights) {
+  const DrawnDrop drop = bouncy_drop();
+  std::vector<int> frames;
+  for (int k = 0; k < drop.frames(); ++k) {
+    if (k != 20 && k != 34 && k != 35 && k != 47 && k != 75) frames.push_back(k);
+  }
+  const DropTrack track = tracked_frames(drop, frames, drop.frames_per_s);
+  EXPECT_EQ(track.status, MeasureStatus::flagged) << track.reason;
+  EXPECT_THAT(track.warnings, has_warning("skipped_frames"));
+  expect_first_bounce(track, drop, .04);
+}
+
+TEST(TrackDrop, AFilmThatChangesItsSpeedIsNamedSo) {
+  DrawnDrop drop = bouncy_drop();
+  drop.frames_per_s = 240;
+  std::vector<int> frames;
+  for (int k = 0; k < 90; k += 8) frames.push_back(k);
+  for (int k = 90; k < 330; k += 2) frames.push_back(k);
+  for (int k = 330; k < drop.frames(); k += 8) frames.push_back(k);
+  const DropTrack track = tracked_frames(drop, frames, 30);
+  EXPECT_NE(track.status, MeasureStatus::ok);
+  if (track.bounces.empty()) {
+    EXPECT_THAT(track.reason, HasSubstr("the film changes its speed"));
+  } else {
+    EXPECT_THAT(track.warnings, has_warning("speed_changes"));
+  }
+}
+
+/// A folder of frames without some of them, whose time goes by.
+DropTrack tracked_without(const DrawnDrop& drop, int from, int to) {
+  const TemporaryFolder folder;
+  const cv::Mat scene = drop.scene();
+  for (int frame = 0; frame < drop.frames(); ++frame) {
+    if (frame >= from && frame < to) continue;
+    write_picture(folder.path() / ("frame" + std::to_string(frame) + ".png"),
+                  drop.picture(frame, scene));
+  }
+  return track_drop({folder.path(), drop.frames_per_s});
+}
+
+TEST(TrackDrop, BouncesAreNumberedFromTheFirstOneThoughItIsNotSeen) {
+  // It falls from .2 s to .426 s, and again until .787 s and 1.076 s.
+  const DropTrack track = tracked_without(bouncy_drop(), 23, 40);
+  ASSERT_FALSE(track.bounces.empty()) << track.reason;
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  EXPECT_THAT(track.warnings, has_warning("first_bounce_missing"));
+  EXPECT_FALSE(track.has_first_bounce());
+  EXPECT_EQ(track.bounces.front().number, 2);
+  EXPECT_NEAR(track.bounces.front().time_s, .787, .01);
+  EXPECT_THAT(track.unread_bounces, ::testing::SizeIs(1));
+}
+
+TEST(TrackDrop, BouncesThatAreNotSeenAreCounted) {
+  const DropTrack track = tracked_without(bouncy_drop(), 42, 53);
+  ASSERT_FALSE(track.bounces.empty()) << track.reason;
+  EXPECT_TRUE(track.has_first_bounce());
+  EXPECT_THAT(track.warnings, Not(has_warning("first_bounce_missing")));
+  ASSERT_GE(track.bounces.size(), 2U);
+  EXPECT_EQ(track.bounces[1].number, 3);
+  ASSERT_THAT(track.unread_bounces, ::testing::SizeIs(1));
+  EXPECT_EQ(track.unread_bounces.front().number, 2);
+  EXPECT_NEAR(track.unread_bounces.front().time_s.value_or(0), .787, .01);
+}
+
+TEST(TrackDrop, AFilmThatPlaysTooFastForAnyBenchIsFlagged) {
+  const DrawnDrop drop = small_drop();
+  const DropTrack track = tracked(drop, {}, 6000);
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  ASSERT_THAT(track.warnings, has_warning("frame_rate"));
+  EXPECT_THAT(track.warnings.front().message, HasSubstr("slower or faster"));
 }
 
 /// Of each frame every other row is that of a frame that was taken half a frame later.

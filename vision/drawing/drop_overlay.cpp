@@ -28,23 +28,22 @@ void draw_flights(const Canvas& canvas, const DropTrack& track) {
 void draw_impacts(const Canvas& canvas, const DropTrack& track, const Lettering& lettering) {
   const double arm = .015;
   std::vector<cv::Rect> labels;
-  for (std::size_t k = 0; k < track.bounces.size(); ++k) {
-    const cv::Point2d at = canvas.at(track.bounces[k].place);
+  for (const Bounce& bounce : track.bounces) {
+    const cv::Point2d at = canvas.at(bounce.place);
     const cv::Point2d across(canvas.length(arm), 0);
     canvas.draw({at - across, at + across}, kVermilion, 1.2);
-    draw_label(canvas, track.bounces[k].place, fmt::format("{}", k + 1), lettering, labels);
+    draw_label(canvas, bounce.place, fmt::format("{}", bounce.number), lettering, labels);
   }
 }
 
 std::vector<TextRow> rows_of(const DropTrack& track, const std::string& title) {
   std::vector<TextRow> rows = {{title, kDark}};
-  for (std::size_t k = 0; k < track.bounces.size(); ++k) {
-    const Bounce& bounce = track.bounces[k];
+  for (const Bounce& bounce : track.bounces) {
     rows.push_back(
         {fmt::format("{}: at {:.3f} s, restitution {:.3f} ± {:.3f}, from {:.1f} mm to "
                      "{:.1f} mm",
-                     k + 1, bounce.time_s, bounce.restitution.value, bounce.restitution.uncertainty,
-                     bounce.drop_mm.value, bounce.rebound_mm.value),
+                     bounce.number, bounce.time_s, bounce.restitution.value,
+                     bounce.restitution.uncertainty, bounce.drop_mm.value, bounce.rebound_mm.value),
          kDark});
   }
   add_verdict(track.status, track.reason, track.warnings, rows);

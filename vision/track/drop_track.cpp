@@ -1,10 +1,12 @@
 #include "vision/track/drop_track.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/units.h"
-#include "vision/track/drop_candidate.h"
+#include "vision/track/bounce_numbers.h"
+#include "vision/track/drop_timing.h"
 #include "vision/track/drop_verdict.h"
 #include "vision/track/film_grains.h"
 #include "vision/track/film_scale.h"
@@ -15,24 +17,6 @@ namespace repose::vision {
 namespace {
 
 constexpr double kGravity_mm_s2 = 9806.65;
-
-/// Those that flew most, the best first.
-std::vector<DropCandidate> candidates_in(const FilmGrains& film) {
-  constexpr std::size_t kMost = 24;
-  std::vector<DropCandidate> candidates;
-  for (const GrainPath& path : film.paths) {
-    if (candidates.size() == kMost) break;
-    candidates.push_back(drop_candidate(path, film));
-  }
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    // What is seen more clearly comes before its shadow.
-    const auto rank = [](const DropCandidate& one) {
-      return one.impacts.empty() ? 0 : one.flown() * one.path->back().blob.contrast;
-    };
-    return rank(a) > rank(b);
-  });
-  return candidates;
-}
 
 /// The straight line sideways that a flight follows: place and speed at a time.
 std::array<double, 2> sideways(const DropCandidate& grain, std::size_t k, double time_s) {
@@ -151,9 +135,12 @@ void read_grain(const DropCandidate& grain, const FilmGrains& film, const FilmSc
   std::nth_element(areas.begin(), middle, areas.end());
   track.grain_px = 2 * std::sqrt(*middle / CV_PI);
   for (std::size_t k = 0; k < fit.curves().size(); ++k) track.flights.push_back(path_of(grain, k));
-  for (const std::size_t k : grain.impacts) {
-    track.bounces.push_back(bounce_after(grain, k, mm));
+  const BounceNumbers numbers = number_bounces(grain, film);
+  for (std::size_t n = 0; n < grain.impacts.size(); ++n) {
+    track.bounces.push_back(bounce_after(grain, grain.impacts[n], mm));
+    track.bounces.back().number = numbers.of_impacts[n];
   }
+  track.unread_bounces = numbers.unread;
 }
 
 /// The part of the grain's path that was fitted.
@@ -170,16 +157,16 @@ GrainPath flown_path(const DropCandidate& grain) {
 }  // namespace
 
 DropTrack track_drop(const FilmFile& file, const TrackOptions& options) {
-  const FilmGrains film = grains_in_film(file, options.progress);
+  const TimedDrop drop = timed_drop(grains_in_film(file, options.progress));
+  const FilmGrains& film = drop.film;
   DropTrack track{.film = facts_of(film.survey)};
-  const std::vector<DropCandidate> candidates = candidates_in(film);
-  const bool has_grain = !candidates.empty() && !candidates.front().impacts.empty();
+  const bool has_grain = !drop.candidates.empty() && !drop.candidates.front().impacts.empty();
   const FilmScale scale(options, film.scene, file.lens);
-  if (has_grain) read_grain(candidates.front(), film, scale, track);
-  judge_drop(film, candidates, scale, track);
+  if (has_grain) read_grain(drop.candidates.front(), film, scale, track);
+  judge_drop(drop, scale, track);
   if (options.draws_strobe && !film.scene.empty()) {
-    track.strobe =
-        strobe_picture(file, film.scene, has_grain ? flown_path(candidates.front()) : GrainPath{});
+    track.strobe = strobe_picture(file, film.scene,
+                                  has_grain ? flown_path(drop.candidates.front()) : GrainPath{});
   }
   return track;
 }

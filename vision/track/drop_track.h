@@ -12,6 +12,7 @@ namespace repose::vision {
 
 /// One impact with the free flights before and after it.
 struct Bounce {
+  int number = 1;  ///< from the first on, also of those that were not read
   double time_s = 0;
   Point place = {};           ///< of the grain's centre
   Estimate restitution = {};  ///< speed after over speed before, along gravity
@@ -19,6 +20,12 @@ struct Bounce {
   Estimate rebound_mm = {};   ///< height of rise with the speed after
   int sightings_before = 0;
   int sightings_after = 0;
+};
+
+/// An impact between flights, one of which was not seen well enough.
+struct UnreadBounce {
+  int number = 1;
+  std::optional<double> time_s = {};  ///< about; none before the first flight that was
 };
 
 /// A fitted flight, to be drawn.
@@ -35,8 +42,9 @@ struct DropTrack {
   std::vector<Warning> warnings = {};
   FilmFacts film = {};
 
-  std::vector<Bounce> bounces = {};  ///< in their order
-  double gravity_px_s2 = 0;          ///< by the film's own time stamps
+  std::vector<Bounce> bounces = {};               ///< in their order
+  std::vector<UnreadBounce> unread_bounces = {};  ///< before the last that was read
+  double gravity_px_s2 = 0;                       ///< by the film's own time stamps
   /// Of the scale; without one, what gravity and the time stamps make it.
   std::optional<double> mm_per_px = {};
   bool has_scale = false;
@@ -51,6 +59,9 @@ struct DropTrack {
   std::vector<GrainPlace> places = {};  ///< all of the grain's path
   std::vector<FlightPath> flights = {};
   Picture strobe = {};  ///< the grain at successive times in one picture, when it was asked for
+
+  /// Whether the first bounce listed is the first that the grain made.
+  bool has_first_bounce() const { return !bounces.empty() && bounces.front().number == 1; }
 };
 
 /// Follows the grain that is dropped in a film and fits a parabola to each flight between impacts.

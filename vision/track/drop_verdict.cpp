@@ -1,8 +1,10 @@
 #include "vision/track/drop_verdict.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,7 +27,8 @@ bool is_another_grain(const DropCandidate& grain, const DropCandidate& other) {
   return theirs.area_px < kAlike * ours.area_px && ours.area_px < kAlike * theirs.area_px;
 }
 
-std::string of_the_grain(const std::vector<DropCandidate>& candidates) {
+std::string of_the_grain(const TimedDrop& drop) {
+  const std::vector<DropCandidate>& candidates = drop.candidates;
   const DropCandidate& grain = candidates.front();
   if (!grain.impacts.empty()) {
     for (std::size_t k = 1; k < candidates.size(); ++k) {
@@ -44,6 +47,14 @@ std::string of_the_grain(const std::vector<DropCandidate>& candidates) {
     return "nothing that moves falls freely: no part of a path is a parabola. Fix: film a drop "
            "from "
            "the side, at 60 frames per second or more, with the whole fall in the picture.";
+  }
+  if (drop.speed_change) {
+    return fmt::format(
+        "the film changes its speed: in a part of it all goes {:.2g} times as fast as in the rest. "
+        "Rule: one speed all through. Fix: give the film as the camera stored it, without slow "
+        "motion in a "
+        "part of it, or cut it to a part of one speed that shows the fall and a bounce.",
+        *drop.speed_change);
   }
   return "no bounce was seen from the fall to the rise: the grain is lost at its impact, leaves "
          "the "
@@ -71,6 +82,67 @@ void check_rate(DropTrack& track) {
                    track.film.frames_per_s / std::sqrt(ratio)));
 }
 
+/// Without a scale, by what a bench and a grain can be: drops of 2 mm to 10 m, grains of 0.1 to 300
+/// mm. A film that plays n times slower than it was taken makes both n^2 times as large.
+void check_size(DropTrack& track) {
+  if (track.has_scale) return;
+  constexpr double kLowest_mm = 2, kHighest_mm = 1e4, kSmallest_mm = .1, kLargest_mm = 300;
+  const double drop_mm = track.bounces.front().drop_mm.value;
+  const double grain_mm = track.grain_px * track.mm_per_px.value_or(0);
+  if (drop_mm > kLowest_mm && drop_mm < kHighest_mm && grain_mm > kSmallest_mm &&
+      grain_mm < kLargest_mm) {
+    return;
+  }
+  warn(track, "frame_rate",
+       fmt::format("at the film's {:.4g} frames per second gravity makes the fall {:.3g} mm high "
+                   "and the grain {:.3g} mm wide, which cannot be: the film plays slower or faster "
+                   "than it was taken. Heights need a scale; restitution does not",
+                   track.film.frames_per_s, drop_mm, grain_mm));
+}
+
+void check_times(const TimedDrop& drop, DropTrack& track) {
+  if (drop.has_own_times && drop.film.repeated.count == 0) {
+    warn(track, "uneven_stamps",
+         "its time stamps come unevenly, and the flights show that its frames were taken evenly: "
+         "the times used are even");
+  }
+  if (drop.skipped_frames > 0) {
+    warn(track, "skipped_frames",
+         fmt::format("{} frames were left out behind time stamps that do not show it: the grain "
+                     "goes several frames' way at once, and that time was put in again. Heights by "
+                     "gravity are wrong if the film was made shorter by it",
+                     drop.skipped_frames));
+  }
+  if (drop.speed_change) {
+    warn(track, "speed_changes",
+         fmt::format("the film changes its speed: in a part of it all goes {:.2g} times as fast as "
+                     "in the rest. Give the film as the camera stored it",
+                     *drop.speed_change));
+  }
+}
+
+std::string joined_numbers(const std::vector<UnreadBounce>& bounces) {
+  std::vector<int> numbers;
+  for (const UnreadBounce& one : bounces) numbers.push_back(one.number);
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
+void check_numbers(DropTrack& track) {
+  if (!track.unread_bounces.empty()) {
+    warn(track, "unread_bounces",
+         fmt::format("bounce {} was not read: too few frames of a flight beside it, or the grain "
+                     "was not seen",
+                     joined_numbers(track.unread_bounces)));
+  }
+  if (!track.has_first_bounce()) {
+    warn(track, "first_bounce_missing",
+         fmt::format("the first bounce was not read: the one that comes first here is the "
+                     "grain's {}. or a later one. Film from before the release, with more frames "
+                     "per second",
+                     track.bounces.front().number));
+  }
+}
+
 void check_lean(DropTrack& track) {
   constexpr double kLean_rad = 2 * std::numbers::pi / 180;
   if (std::abs(track.lean_rad) <= kLean_rad) return;
@@ -82,11 +154,11 @@ void check_lean(DropTrack& track) {
 
 void check_bounces(DropTrack& track) {
   constexpr int kFew = 6;
-  std::vector<std::size_t> few, gaining;
-  for (std::size_t k = 0; k < track.bounces.size(); ++k) {
-    const Bounce& bounce = track.bounces[k];
-    if (std::min(bounce.sightings_before, bounce.sightings_after) < kFew) few.push_back(k + 1);
-    if (bounce.restitution.value - bounce.restitution.uncertainty > 1) gaining.push_back(k + 1);
+  std::vector<int> few, gaining;
+  for (const Bounce& bounce : track.bounces) {
+    const int number = bounce.number;
+    if (std::min(bounce.sightings_before, bounce.sightings_after) < kFew) few.push_back(number);
+    if (bounce.restitution.value - bounce.restitution.uncertainty > 1) gaining.push_back(number);
   }
   if (!few.empty()) {
     warn(track, "few_frames",
@@ -104,24 +176,29 @@ void check_bounces(DropTrack& track) {
 
 }  // namespace
 
-void judge_drop(const FilmGrains& film, const std::vector<DropCandidate>& candidates,
-                const FilmScale& scale, DropTrack& track) {
-  track.reason = fault_of(film);
-  if (track.reason.empty()) track.reason = of_the_grain(candidates);
+void judge_drop(const TimedDrop& drop, const FilmScale& scale, DropTrack& track) {
+  track.reason = fault_of(drop.film);
+  if (track.reason.empty()) track.reason = of_the_grain(drop);
   if (!track.reason.empty()) {
     track.bounces.clear();
+    track.unread_bounces.clear();
     return;
   }
   if (scale.misses_board()) {
     warn(track, "no_board", fmt::format("heights are by gravity: {}", kNoBoardSeen));
   }
   check_rate(track);
-  const bool is_doubtful_film = warn_of_film(film, track.warnings);
+  check_size(track);
+  const bool is_doubtful_film = warn_of_film(drop.film, track.warnings);
+  check_times(drop, track);
+  check_numbers(track);
   check_lean(track);
   check_bounces(track);
-  const auto is_doubtful = [](const Warning& warning) {
-    return warning.code == "no_board" || warning.code == "frame_rate" ||
-           warning.code == "gains_energy";
+  constexpr std::array<std::string_view, 6> kDoubtful = {"no_board",      "frame_rate",
+                                                         "gains_energy",  "skipped_frames",
+                                                         "speed_changes", "first_bounce_missing"};
+  const auto is_doubtful = [&](const Warning& warning) {
+    return std::ranges::find(kDoubtful, warning.code) != kDoubtful.end();
   };
   const bool is_flagged =
       is_doubtful_film || std::any_of(track.warnings.begin(), track.warnings.end(), is_doubtful);

@@ -5,6 +5,7 @@
 
 #include "vision/film/film_file.h"
 #include "vision/film/film_survey.h"
+#include "vision/film/repeat_finder.h"
 #include "vision/track/grain_path.h"
 
 namespace repose::vision {
@@ -15,7 +16,14 @@ struct FilmGrains {
   cv::Mat scene = {};
   std::vector<GrainPath> paths = {};     ///< the longest way first, less the scene's shifts
   std::vector<cv::Point2d> shifts = {};  ///< of the scene in each frame [px]
+  RepeatedFrames repeated = {};          ///< these are in no path
+  /// When frames may have been taken if not at their time stamps, a list of all frames each: in a
+  /// pattern of repeats, or evenly where the stamps are not.
+  std::vector<std::vector<double>> other_times_s = {};
 };
+
+/// The same film with each frame taken at another time.
+FilmGrains retimed(const FilmGrains& film, const std::vector<double>& times_s);
 
 double farthest_shift_px(const FilmGrains& film);
 

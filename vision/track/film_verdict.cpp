@@ -1,5 +1,9 @@
 #include "vision/track/film_verdict.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 namespace repose::vision {
 
 std::string fault_of(const FilmGrains& film) {
@@ -14,6 +18,16 @@ std::string fault_of(const FilmGrains& film) {
 }
 
 bool warn_of_film(const FilmGrains& film, std::vector<Warning>& warnings) {
+  if (film.repeated.count > 0) {
+    const auto left_out =
+        std::count(film.repeated.is_repeat.begin(), film.repeated.is_repeat.end(), true);
+    warnings.push_back(
+        {.code = "repeated_frames",
+         .message = fmt::format(
+             "{} of its frames only repeat the one before them{}: they were "
+             "left out",
+             left_out, film.repeated.taken_at ? ", in a pattern of another frame rate" : "")});
+  }
   return warn_of_film(film.survey, farthest_shift_px(film), warnings);
 }
 

@@ -39,12 +39,26 @@ double PathFinder::cost(const GrainPath& path, double time_s, const Blob& blob) 
   return off / reach + ratio / kMostRatio + colours / kMostColours;
 }
 
+void PathFinder::note_gap(double time_s) {
+  constexpr double kGap = 1.6;
+  if (last_s_ && time_s - *last_s_ > kGap * interval_s_) {
+    gaps_.push_back({*last_s_, time_s - *last_s_ - interval_s_});
+  }
+  last_s_ = time_s;
+}
+
+double PathFinder::unseen_s(double since_s) const {
+  double unseen_s = 0;
+  for (const Gap& gap : gaps_) unseen_s += gap.begins_s >= since_s ? gap.lasts_s : 0;
+  return unseen_s;
+}
+
 void PathFinder::forget_lost(double time_s) {
   constexpr double kLongest_s = .07;
   constexpr double kFrames = 3.5;
   const double patience_s = std::max(kLongest_s, kFrames * interval_s_);
   const auto lost = std::stable_partition(open_.begin(), open_.end(), [&](const GrainPath& path) {
-    return time_s - path.back().time_s <= patience_s;
+    return time_s - path.back().time_s - unseen_s(path.back().time_s) <= patience_s;
   });
   std::move(lost, open_.end(), std::back_inserter(closed_));
   open_.erase(lost, open_.end());
@@ -53,6 +67,7 @@ void PathFinder::forget_lost(double time_s) {
 }
 
 void PathFinder::add(int frame, double time_s, const std::vector<Blob>& blobs) {
+  note_gap(time_s);
   forget_lost(time_s);
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t path = 0; path < open_.size(); ++path) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "vision/track/blobs.h"
@@ -31,7 +32,17 @@ class PathFinder {
   double cost(const GrainPath& path, double time_s, const Blob& blob) const;
   void forget_lost(double time_s);
 
+  /// Frames that are missing: while they were taken nothing could be seen, and nothing is lost.
+  struct Gap {
+    double begins_s = 0;
+    double lasts_s = 0;
+  };
+  void note_gap(double time_s);
+  double unseen_s(double since_s) const;
+
   double interval_s_;
+  std::optional<double> last_s_;
+  std::vector<Gap> gaps_;
   std::vector<GrainPath> open_;
   std::vector<GrainPath> closed_;
 };
