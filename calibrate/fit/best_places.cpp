@@ -32,7 +32,7 @@ std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
   std::vector<Unknown> unknowns;
   for (std::size_t i = 0; i < surrogates.size(); ++i) {
     const std::vector<double> flat = surrogates[i].covariance(candidates);
-    const double noise = surrogates[i].warp().noise_sd;
+    const double noise = surrogates[i].run_sd();
     unknowns.push_back(
         {Eigen::Map<const Eigen::MatrixXd>(flat.data(), size, size), noise * noise, weights[i]});
   }

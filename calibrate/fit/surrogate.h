@@ -56,6 +56,9 @@ class Surrogate {
   double uncertainty(const Point& point) const;
   /// Standard deviation of single readings of a bench where w is expected, by chance.
   double reading_sd(double w) const;
+  /// By what single runs are off the curve, in w: by chance or, without it, by what the curve does
+  /// not follow.
+  double run_sd() const { return process_ ? process_->noise_sd() : 0; }
   /// Of w between points, inflated, row by row.
   std::vector<double> covariance(const std::vector<Point>& points) const;
 
