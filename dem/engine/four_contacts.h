@@ -96,7 +96,7 @@ REPOSE_INLINE void find_energies(std::span<const Touching> touching, const Meeti
   energies.assign(meeting.pairs.size(), {});
   for (std::size_t at = 0; at < touching.size(); at += kLanes) {
     const std::span<const Touching> left = touching.subspan(at);
-    FourTouching<Other> four;
+    FourTouching<Other> four = {};
     set_lanes(four, left, meeting, spare);
     Contacts c;
     const Lanes radius = each([&](std::size_t k) { return four.sphere[k]->radius; });
