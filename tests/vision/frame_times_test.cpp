@@ -47,6 +47,20 @@ TEST(UnroundedTimes, LeaveWhatIsUnevenByItself) {
   EXPECT_EQ(unrounded_times(fine_s, 1 / 15360.), fine_s);
 }
 
+TEST(FrameGrid, CountsTheStepsBehindUnsteadyStamps) {
+  std::vector<double> stamps_s, steps;
+  for (int k = 0; k < 300; ++k) {
+    if (k > 120 && k < 126) continue;
+    steps.push_back(k);
+    stamps_s.push_back((k + .3 * std::sin(2.3 * k * k)) / 240);
+  }
+  const auto grid = grid_of(stamps_s);
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->steps, steps);
+  EXPECT_NEAR(grid->step_s, 1 / 240., 1e-5);
+  EXPECT_NEAR(grid->off, .3 / std::sqrt(2), .03);
+}
+
 /// What changes to each frame of a film that shows, of a thing in flights of so many frames, the
 /// frames with these numbers.
 std::vector<double> changes_between(const std::vector<int>& shown, int flight) {

@@ -54,11 +54,17 @@ Line line_through(const std::vector<double>& steps, const std::vector<double>& s
   return line;
 }
 
+/// Counted from where even steps would be by now, which follows the stamps slowly: single ones may
+/// come half a step early or late.
 std::vector<double> whole_steps(const std::vector<double>& stamps_s, double step_s) {
+  constexpr double kFollows = .2;
   std::vector<double> steps = {0};
+  double even_s = stamps_s.front();
   for (std::size_t k = 1; k < stamps_s.size(); ++k) {
-    const double gone = std::round((stamps_s[k] - stamps_s[k - 1]) / step_s);
-    steps.push_back(steps.back() + std::max(1.0, gone));
+    const double gone = std::max(1.0, std::round((stamps_s[k] - even_s) / step_s));
+    steps.push_back(steps.back() + gone);
+    even_s += gone * step_s;
+    even_s += kFollows * (stamps_s[k] - even_s);
   }
   return steps;
 }
