@@ -256,9 +256,10 @@ TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
 
 TEST(Result, WarnsOfAClumpOfAnotherShapeAndOfRollsThatHop) {
   MadeUpStudy made = plate_study();
-  made.record.grain = {.source = "stick", .shape = dem::sphere_shape(5e-3)};
+  made.record.grain.source = "stick";
+  made.record.grain.shape = dem::sphere_shape(5e-3);
   made.record.study.model.rolling = dem::RollingModel::elastic_plastic;
-  for (Run& run : made.outcome.runs) run.readings["hop_mm"] = .04;
+  for (auto& run : made.outcome.runs) run.readings["hop_mm"] = .04;
   const auto warnings = [&] {
     StudyResult result = result_of(made.record, made.problem, made.outcome);
     return joint_in(result).warnings;
