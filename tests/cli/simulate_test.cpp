@@ -225,7 +225,7 @@ TEST_F(Simulate, RollsThatAreNoDistanceAreWarnedOf) {
   const Words stays = {"roll", "study.toml", "--set", "contact.particle_wall.rolling_friction=.5"};
   EXPECT_THAT(run(stays).err,
               AllOf(HasSubstr("seed 1: the grain did not reach the flat in 1 release"),
-                    HasSubstr("0.00"), HasSubstr("from where it was let go")));
+                    HasSubstr(", 0.0"), HasSubstr("mm from where it was let go")));
   const json roll = timeless(stays);
   EXPECT_NEAR(roll["value"].get<double>(), -20, .1);
   ASSERT_EQ(roll["warnings"].size(), 1U);
