@@ -56,17 +56,16 @@ void add_typed_readings(const Settings& settings, const std::vector<std::string>
                         BenchPlan& plan) {
   std::size_t count = 1;
   for (const auto& [name, values] : settings) count = std::max(count, values.size());
+  for (const auto& [name, values] : settings) {
+    if (values.size() == 1 || values.size() == count) continue;
+    plan.errors.push_back(
+        fmt::format("--set {}: has {} values, another reading has {}. Fix: give one for each "
+                    "repeat, or a single one that holds for all.",
+                    name, values.size(), count));
+  }
   std::vector<std::string> missing;
   for (const std::string& name : names) {
-    const auto found = settings.find(name);
-    if (found == settings.end()) {
-      missing.push_back(name);
-    } else if (found->second.size() != 1 && found->second.size() != count) {
-      plan.errors.push_back(
-          fmt::format("--set {}: has {} values, another reading has {}. Fix: give one for each "
-                      "repeat, or a single one that holds for all.",
-                      name, found->second.size(), count));
-    }
+    if (!settings.contains(name)) missing.push_back(name);
   }
   if (!missing.empty()) {
     plan.errors.push_back(fmt::format(
@@ -78,9 +77,13 @@ void add_typed_readings(const Settings& settings, const std::vector<std::string>
   for (std::size_t i = 0; i < count; ++i) {
     calibrate::BenchReading reading{
         .place = fmt::format("reading {}", i + 1), .values = {}, .sample = {}};
-    for (const std::string& name : names) {
-      const std::vector<double>& values = settings.at(name);
-      reading.values.push_back(values.size() == 1 ? values.front() : values[i]);
+    const auto value = [i](const std::vector<double>& values) {
+      return values.size() == 1 ? values.front() : values[i];
+    };
+    for (const std::string& name : names) reading.values.push_back(value(settings.at(name)));
+    for (const std::string& name : calibrate::optional_column_names(plan.test)) {
+      const auto given = settings.find(name);
+      if (given != settings.end()) reading.optional.emplace(name, value(given->second));
     }
     plan.readings.push_back(std::move(reading));
   }
@@ -145,7 +148,11 @@ BenchPlan plan_bench(const BenchArguments& arguments) {
                                   {tests.begin(), tests.end()})) {
     plan.test = static_cast<calibrate::BenchTest>(*test);
     const std::vector<std::string> names = calibrate::column_names(plan.test);
-    const Settings settings = read_settings(arguments, names, plan);
+    std::vector<std::string> known = names;
+    for (std::string& name : calibrate::optional_column_names(plan.test)) {
+      known.push_back(std::move(name));
+    }
+    const Settings settings = read_settings(arguments, known, plan);
     if (arguments.files.empty()) add_typed_readings(settings, names, plan);
     for (const std::string& file : arguments.files) {
       try {

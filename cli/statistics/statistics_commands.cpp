@@ -11,21 +11,25 @@ namespace {
 
 constexpr const char* kBenchNotes = R"(
 READINGS are CSV tables with a row for each repeat and these columns:
-  restitution     drop_mm, rebound_mm
+  restitution     drop_mm, rebound_mm; diameter_mm and density_kg_m3, in_air
   sliding         angle_deg
-  rolling         incline_deg, released_mm (up it), stopped_mm (on the flat)
+  rolling         incline_deg, released_mm (up it), stopped_mm (on the flat);
+                  diameter_mm
   density         mass_g, before_ml, after_ml
   young           force_n, spot_mm, height_mm, compression_mm
   poisson         height_mm, shortening_mm, width_mm, widening_mm
   size            length_mm, width_mm, thickness_mm
   heap            angle_deg
-  drop_on_grains  drop_mm, rebound_mm
+  drop_on_grains  drop_mm, rebound_mm; in_air
   tilt_on_grains  angle_deg
   roll_on_grains  angle_deg
   fill            bulk_density_kg_m3
   pendulum        release_deg, swing_deg
   draw_down       discharged_percent
 drop, tilt and roll stand for restitution, sliding and rolling.
+Columns after a semicolon may be left out. A grain's diameter and density take
+out the drag of the air on a drop (in_air=0: there is none in the heights), a
+ball's diameter what it loses at the foot of the incline.
 
 A column "sample" names the grain: repeats on one grain are averaged first. A
 reading that is the same in all rows, or a short list, can be given with --set.
@@ -33,6 +37,7 @@ reading that is the same in all rows, or a short list, can be given with --set.
 Examples:
   repose bench sliding angles.csv
   repose bench restitution --set drop_mm=500 --set rebound_mm=9.1,9.6,9.4
+  repose bench rolling rolls.csv --set diameter_mm=20
 )";
 
 constexpr const char* kDesignNotes = R"(

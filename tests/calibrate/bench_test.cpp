@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -60,6 +61,84 @@ TEST(BenchFormulas, AgreeWithClosedForms) {
   EXPECT_DOUBLE_EQ(geometric_mean_diameter_of(4, 2, 1), 2);
   EXPECT_DOUBLE_EQ(sphericity_of(4, 2, 1), .5);
   EXPECT_DOUBLE_EQ(sphericity_of(3, 3, 3), 1);
+}
+
+// Simulated with the engine: a ball of R = 10 mm rolls down 20 degrees from S = 150 mm (restitution
+// .01, sliding friction 1).
+TEST(BenchFormulas, RollingFrictionWithTheFootIsThatOfTheSimulation) {
+  for (const auto& [mu, stopped_mm] :
+       {std::pair{.02, 2173.4}, std::pair{.05, 782.7}, std::pair{.1, 321.5}}) {
+    EXPECT_NEAR(rolled_distance_m(mu, 20 * kRad, .15, .01) / (1e-3 * stopped_mm), 1, 1e-3);
+    EXPECT_NEAR(rolling_friction_of(20 * kRad, .15, 1e-3 * stopped_mm, .01) / mu, 1, 1e-3);
+  }
+  EXPECT_NEAR(rolling_friction_of(20 * kRad, .15, .7824), .05556, 5e-6) << "without";
+}
+
+TEST(BenchFormulas, RollingFrictionWithTheFootIsTheInverseOfTheDistance) {
+  for (const double incline : {2., 20., 45., 70.}) {
+    for (const double mu : {.001, .03, .2}) {
+      if (mu >= std::tan(incline * kRad)) continue;
+      const double stopped = rolled_distance_m(mu, incline * kRad, .3, .004);
+      EXPECT_NEAR(rolling_friction_of(incline * kRad, .3, stopped, .004), mu, 1e-9 * mu) << incline;
+    }
+  }
+  // A gentle slope takes nothing: only where the ball touches is left.
+  const double mu = .001, b = .5 * kRad;
+  EXPECT_NEAR(rolled_distance_m(mu, b, .3, 1e-6), .3 * (std::sin(b) - mu * std::cos(b)) / mu,
+              1e-3 * .3);
+  EXPECT_NEAR(foot_distance_m(90 * kRad, .01), .01, 1e-12) << "a ball in a corner";
+}
+
+TEST(Bench, ADiameterTakesOutTheFoot) {
+  std::vector<BenchReading> rows = readings({{20, 150, 782.4}});
+  const BenchResult without = evaluate_bench(BenchTest::rolling, rows);
+  EXPECT_NEAR(without.quantities.front().repeats.mean, .05556, 5e-6);
+  EXPECT_THAT(without.notes, Contains(AllOf(HasSubstr("foot of the incline is neglected"),
+                                            HasSubstr("0.05 for one of 20 mm"))));
+  rows.front().optional = {{"diameter_mm", 20}};
+  const BenchResult with = evaluate_bench(BenchTest::rolling, rows);
+  EXPECT_NEAR(with.quantities.front().repeats.mean, .05, 5e-5);
+  EXPECT_THAT(with.notes, Contains(HasSubstr("without that mu_r would be 0.05556")));
+  rows.front().optional = {{"diameter_mm", 2000}};
+  EXPECT_THAT(error_of([&] { evaluate_bench(BenchTest::rolling, rows); }),
+              AllOf(HasSubstr("row 1: released_mm = 150: a ball of diameter_mm = 2000"),
+                    HasSubstr("176.3 mm from the foot")));
+}
+
+TEST(Bench, TheGrainsSizeAndDensityTakeOutTheAir) {
+  std::vector<BenchReading> rows = readings({{500, .458 * .458 * 500}});
+  const BenchResult without = evaluate_bench(BenchTest::restitution, rows);
+  EXPECT_NEAR(without.quantities.front().repeats.mean, .458, 1e-9);
+  EXPECT_THAT(without.notes, Contains(HasSubstr("The air's drag is neglected")));
+  rows.front().optional = {{"diameter_mm", 2}, {"density_kg_m3", 1100}};
+  const BenchResult with = evaluate_bench(BenchTest::restitution, rows);
+  EXPECT_NEAR(with.quantities.front().repeats.mean, .5, 5e-4);
+  EXPECT_THAT(with.notes,
+              Contains(AllOf(HasSubstr("without that e would be 0.458"), HasSubstr("± 0.003"))));
+  rows.front().optional = {{"in_air", 0}};
+  const BenchResult tracked = evaluate_bench(BenchTest::restitution, rows);
+  EXPECT_NEAR(tracked.quantities.front().repeats.mean, .458, 1e-9);
+  EXPECT_THAT(tracked.notes, Contains(HasSubstr("free of the air's drag")));
+}
+
+TEST(Bench, OptionalColumnsAreCheckedToo) {
+  std::vector<BenchReading> rows = readings({{500, 100}, {500, 110}});
+  const auto error = [&] {
+    return error_of([&] { evaluate_bench(BenchTest::restitution, rows); });
+  };
+  rows[0].optional = {{"diameter_mm", 2}};
+  rows[1].optional = {{"diameter_mm", 2}};
+  EXPECT_THAT(error(), HasSubstr("row 2: diameter_mm is given without density_kg_m3"));
+  rows[0].optional = rows[1].optional = {{"diameter_mm", -2}, {"density_kg_m3", 1100}};
+  EXPECT_THAT(error(), HasSubstr("row 1: diameter_mm = -2"));
+  rows[0].optional = {};
+  rows[1].optional = {{"diameter_mm", 2}, {"density_kg_m3", 1100}};
+  EXPECT_THAT(error(), HasSubstr("row 1: has no diameter_mm, which other readings have"));
+  rows[0].optional = rows[1].optional = {{"in_air", .5}};
+  EXPECT_THAT(error(), HasSubstr("in_air = 0.5"));
+  rows = readings({{500, 480}});
+  rows[0].optional = {{"diameter_mm", .2}, {"density_kg_m3", 50}};
+  EXPECT_THAT(error(), HasSubstr("cannot rise so high in air"));
 }
 
 TEST(Bench, ReadingsAreInTheUnitsOfTheirNames) {

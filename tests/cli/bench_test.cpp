@@ -84,6 +84,25 @@ TEST_F(BenchCommand, TablesAreJoinedAndTakeWhatIsTheSameFromTheCommandLine) {
   EXPECT_NEAR(quantity["mean"].get<double>(), .1107, 5e-4);
 }
 
+TEST_F(BenchCommand, OptionalReadingsComeFromTablesAndFromTheCommandLine) {
+  folder_.write("rolls.csv", std::string("incline_deg,released_mm,stopped_mm,diameter_mm\n"
+                                         "20,150,782.4,20\n"));
+  folder_.write("bare.csv", std::string("incline_deg,released_mm,stopped_mm\n20,150,782.4\n"));
+  const auto mean = [](const Finished& done) {
+    return json::parse(done.out)["quantities"][0]["mean"].get<double>();
+  };
+  EXPECT_NEAR(mean(run({"rolling", "rolls.csv", "--json", "-"})), .05, 5e-5);
+  EXPECT_NEAR(mean(run({"rolling", "bare.csv", "--set", "diameter_mm=20", "--json", "-"})), .05,
+              5e-5);
+  EXPECT_NEAR(mean(run({"rolling", "bare.csv", "--json", "-"})), .0556, 5e-5);
+  EXPECT_THAT(run({"rolling", "rolls.csv", "--set", "diameter_mm=20"}).err,
+              HasSubstr("has a column diameter_mm, and --set gives it too"));
+  EXPECT_THAT(run({"rolling", "rolls.csv", "bare.csv"}).err,
+              HasSubstr("bare.csv:2: has no diameter_mm, which other readings have"));
+  EXPECT_THAT(run({"sliding", "--set", "angle_deg=20", "--set", "diameter_mm=20"}).err,
+              HasSubstr("diameter_mm is not a reading of this test"));
+}
+
 TEST_F(BenchCommand, OneReadingHasNullsAndIsSaid) {
   const Finished done = run({"sliding", "--set", "angle_deg=22.7", "--json", "-"});
   const json result = json::parse(done.out);

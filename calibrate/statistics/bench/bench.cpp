@@ -58,26 +58,52 @@ std::string range_of(const ReadingColumn& column) {
   return fmt::format("{} and less than {:g}", least, column.below);
 }
 
+ReadingValues values_of(const BenchReading& reading) { return {reading.values, reading.optional}; }
+
+bool is_possible(const std::string& place, const ReadingColumn& column, double value,
+                 base::ErrorList& errors) {
+  if (value > column.above && value < column.below) return true;  // false for NaN
+  errors.add(
+      fmt::format("{}: {} = {:g}: the {} must be {}. Fix: correct the reading or leave it "
+                  "out.",
+                  place, column.name, value, column.what, range_of(column)));
+  return false;
+}
+
 void check_reading(const Method& method, const BenchReading& reading, base::ErrorList& errors) {
   if (reading.values.size() != method.columns.size()) {
     errors.add(fmt::format("{}: {} values are given for {} columns. Fix: give one for each.",
                            reading.place, reading.values.size(), method.columns.size()));
     return;
   }
-  bool is_possible = true;
+  bool are_possible = true;
   for (std::size_t i = 0; i < method.columns.size(); ++i) {
-    const ReadingColumn& column = method.columns[i];
-    const double value = reading.values[i];
-    if (value > column.above && value < column.below) continue;  // false for NaN
-    is_possible = false;
-    errors.add(
-        fmt::format("{}: {} = {:g}: the {} must be {}. Fix: correct the reading or leave it "
-                    "out.",
-                    reading.place, column.name, value, column.what, range_of(column)));
+    are_possible &= is_possible(reading.place, method.columns[i], reading.values[i], errors);
   }
-  if (!is_possible || !method.error) return;
-  if (const auto error = method.error(reading.values)) {
+  for (const ReadingColumn& column : method.optional_columns) {
+    const auto given = reading.optional.find(column.name);
+    if (given == reading.optional.end()) continue;
+    are_possible &= is_possible(reading.place, column, given->second, errors);
+  }
+  if (!are_possible || !method.error) return;
+  if (const auto error = method.error(values_of(reading))) {
     errors.add(fmt::format("{}: {}", reading.place, *error));
+  }
+}
+
+/// Results with and without what an optional column is for have no common mean.
+void check_all_or_none(const Method& method, std::span<const BenchReading> readings,
+                       base::ErrorList& errors) {
+  for (const ReadingColumn& column : method.optional_columns) {
+    const auto lacks = [&](const BenchReading& reading) {
+      return !reading.optional.contains(column.name);
+    };
+    const auto lacking = std::find_if(readings.begin(), readings.end(), lacks);
+    if (lacking == readings.end() || std::all_of(readings.begin(), readings.end(), lacks)) continue;
+    errors.add(
+        fmt::format("{}: has no {}, which other readings have. Rule: all of them or none. Fix: "
+                    "give the {} here, too.",
+                    lacking->place, column.name, column.what));
   }
 }
 
@@ -94,7 +120,7 @@ std::vector<double> sample_means(std::span<const BenchReading> readings,
     std::size_t index = sums.size();
     if (!reading.sample.empty()) index = known.emplace(reading.sample, index).first->second;
     if (index == sums.size()) sums.emplace_back();
-    sums[index].sum += value_of(reading.values);
+    sums[index].sum += value_of(values_of(reading));
     ++sums[index].count;
   }
   std::vector<double> means;
@@ -106,6 +132,11 @@ std::vector<double> sample_means(std::span<const BenchReading> readings,
 std::vector<std::string> notes_on(const Method& method, std::span<const BenchReading> readings,
                                   const std::vector<BenchQuantity>& quantities) {
   std::vector<std::string> notes = {method.validity};
+  if (method.remarks) {
+    std::vector<ReadingValues> values;
+    for (const BenchReading& reading : readings) values.push_back(values_of(reading));
+    for (std::string& remark : method.remarks(values)) notes.push_back(std::move(remark));
+  }
   const BenchQuantity& first = quantities.front();
   if (first.values.size() < readings.size()) {
     notes.push_back(fmt::format(
@@ -164,6 +195,10 @@ void note_other_drops(const std::vector<ReadingColumn>& columns,
 
 std::vector<ReadingColumn> columns_of(BenchTest test) { return method_of(test).columns; }
 
+std::vector<ReadingColumn> optional_columns_of(BenchTest test) {
+  return method_of(test).optional_columns;
+}
+
 std::vector<double> sample_means(BenchTest test, std::string_view column,
                                  std::span<const BenchReading> readings) {
   const std::vector<ReadingColumn> columns = columns_of(test);
@@ -181,6 +216,7 @@ void check_readings(BenchTest test, std::span<const BenchReading> readings) {
   constexpr std::size_t kMostErrors = 10;  // a table may have a million rows
   base::ErrorList errors(kMostErrors);
   for (const BenchReading& reading : readings) check_reading(method, reading, errors);
+  check_all_or_none(method, readings, errors);
   errors.throw_if_any();
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,14 +45,22 @@ struct ReadingColumn {
   double below = std::numeric_limits<double>::infinity();
 };
 
+/// The optional column of drops: 1 for heights read in air, 0 for those of a fall without it, as
+/// `repose track` writes them.
+inline constexpr std::string_view kInAirColumn = "in_air";
+
 /// What one reads in a test, in the order that evaluate_bench wants.
 std::vector<ReadingColumn> columns_of(BenchTest test);
+
+/// What may be given beside it: of the grain, or of how it was measured.
+std::vector<ReadingColumn> optional_columns_of(BenchTest test);
 
 /// One repeat of a test.
 struct BenchReading {
   std::string place;           ///< for messages: "drops.csv:4"
   std::vector<double> values;  ///< in the order and units of the columns
   std::string sample;  ///< repeats on one grain have the same name; empty: a grain of its own
+  std::map<std::string, double> optional = {};  ///< of the optional columns, those given
 };
 
 /// A column's mean over the repeats on each sample, samples in the order of their first reading.
@@ -61,7 +70,8 @@ std::vector<double> sample_means(BenchTest test, std::string_view column,
 
 /// @throws std::invalid_argument  every impossible reading, a line each: a rebound higher than the
 /// drop, an incline of 90 degrees or more, Poisson's ratio outside (-1, 0.5), what is not finite,
-/// and so on. Checked by tests/calibrate/bench_test.cpp.
+/// and so on; an optional column that some readings have and others have not. Checked by
+/// tests/calibrate/bench_test.cpp.
 void check_readings(BenchTest test, std::span<const BenchReading> readings);
 
 struct BenchQuantity {

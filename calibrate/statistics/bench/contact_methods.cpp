@@ -1,29 +1,191 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 #include <fmt/format.h>
 
+#include "base/air_drag.h"
 #include "base/units.h"
 #include "calibrate/statistics/bench/formulas.h"
 #include "calibrate/statistics/bench/method.h"
 #include "calibrate/statistics/bench/units.h"
 
 namespace repose::calibrate {
+namespace {
+
+constexpr const char* kDiameter = "diameter_mm";
+constexpr const char* kDensity = "density_kg_m3";
+
+// In restitution's columns, and in rolling's.
+constexpr std::size_t kDrop = 0, kRebound = 1;
+constexpr std::size_t kIncline = 0, kReleased = 1, kStopped = 2;
+
+double mean_of(std::span<const ReadingValues> readings,
+               const std::function<double(ReadingValues)>& value_of) {
+  double sum = 0;
+  for (const ReadingValues& reading : readings) sum += value_of(reading);
+  return sum / static_cast<double>(readings.size());
+}
+
+/// Whether heights are those of a fall in air.
+bool is_in_air(ReadingValues v) { return v.given(std::string(kInAirColumn)).value_or(1) != 0; }
+
+/// None: its drag is not known, or there is none.
+std::optional<base::FallingGrain> grain_in_air(ReadingValues v) {
+  const auto diameter_mm = v.given(kDiameter);
+  const auto density = v.given(kDensity);
+  if (!diameter_mm || !density || !is_in_air(v)) return std::nullopt;
+  return base::FallingGrain{.diameter_m = *diameter_mm * kMPerMm, .density_kg_m3 = *density};
+}
+
+double restitution_without_air(ReadingValues v, const base::FallingGrain& grain) {
+  const double drop_m = v[kDrop] * kMPerMm;
+  return restitution_of(drop_m, base::rise_without_air_m(grain, drop_m, v[kRebound] * kMPerMm));
+}
+
+double restitution_as_read(ReadingValues v) {
+  return restitution_of(v[kDrop] * kMPerMm, v[kRebound] * kMPerMm);
+}
+
+double restitution(ReadingValues v) {
+  const auto grain = grain_in_air(v);
+  return grain ? restitution_without_air(v, *grain) : restitution_as_read(v);
+}
+
+std::optional<std::string> drop_error(ReadingValues v) {
+  const double in_air = v.given(std::string(kInAirColumn)).value_or(1);
+  if (in_air != 0 && in_air != 1) {
+    return fmt::format(
+        "{} = {:g}. Rule: 1 for heights read in air, 0 for those of a fall without "
+        "it. Fix: take the column out for 1.",
+        kInAirColumn, in_air);
+  }
+  if (v[kRebound] > v[kDrop]) {
+    return fmt::format(
+        "rebound_mm = {:g} is more than drop_mm = {:g}, but no grain rebounds higher than "
+        "it fell. Fix: give both in mm, from the same point of the grain.",
+        v[kRebound], v[kDrop]);
+  }
+  if (v.given(kDiameter).has_value() != v.given(kDensity).has_value()) {
+    return fmt::format(
+        "{} is given without {}. Rule: the drag of the air follows from both. Fix: give both, or "
+        "neither.",
+        v.given(kDiameter) ? kDiameter : kDensity, v.given(kDiameter) ? kDensity : kDiameter);
+  }
+  const auto grain = grain_in_air(v);
+  if (!grain || restitution_without_air(v, *grain) <= 1) return std::nullopt;
+  return fmt::format(
+      "rebound_mm = {:g} after drop_mm = {:g}: a grain of {} = {:g} and {} = {:g} cannot rise so "
+      "high in air. Fix: check the grain's diameter and density.",
+      v[kRebound], v[kDrop], kDiameter, *v.given(kDiameter), kDensity, *v.given(kDensity));
+}
+
+std::vector<std::string> remarks_on_air(std::span<const ReadingValues> readings) {
+  if (!is_in_air(readings.front())) return {"The heights are free of the air's drag (in_air = 0)."};
+  const double as_read = mean_of(readings, restitution_as_read);
+  const auto grain = grain_in_air(readings.front());
+  if (grain) {
+    const double without_air = mean_of(readings, restitution);
+    const double u = base::drag_uncertainty(*grain);
+    return {fmt::format(
+        "The air's drag is taken out, as of a sphere of {:g} mm and {:g} kg/m3: without that e "
+        "would be {:.4g}. The drag is known to {:.0f} % (standard uncertainty), e to ± {:.2g} by "
+        "it, which the interval leaves out. Elongated grains are slowed more: repose calibrate "
+        "goes by their shape.",
+        *readings.front().given(kDiameter), grain->density_kg_m3, as_read, 100 * u,
+        u * std::abs(without_air - as_read))};
+  }
+  constexpr base::FallingGrain kSmall{.diameter_m = .002, .density_kg_m3 = 1200};
+  constexpr base::FallingGrain kLarge{.diameter_m = .01, .density_kg_m3 = 1200};
+  const auto of = [&](const base::FallingGrain& one) {
+    return mean_of(readings, [&](ReadingValues v) { return restitution_without_air(v, one); });
+  };
+  return {fmt::format(
+      "The air's drag is neglected, so that e is too low: these heights mean {:.4g} for a grain of "
+      "2 mm and 1200 kg/m3, {:.4g} for one of 10 mm. Fix: give {} and {}, too.",
+      of(kSmall), of(kLarge), kDiameter, kDensity)};
+}
+
+double rolling_friction(ReadingValues v) {
+  const double incline = v[kIncline] * kRadPerDeg;
+  const double released_m = v[kReleased] * kMPerMm;
+  const double stopped_m = v[kStopped] * kMPerMm;
+  const auto diameter_mm = v.given(kDiameter);
+  return diameter_mm
+             ? rolling_friction_of(incline, released_m, stopped_m, *diameter_mm * kMPerMm / 2)
+             : rolling_friction_of(incline, released_m, stopped_m);
+}
+
+double foot_mm(ReadingValues v, double diameter_mm) {
+  return foot_distance_m(v[kIncline] * kRadPerDeg, diameter_mm * kMPerMm / 2) * kMmPerM;
+}
+
+/// A ball in the corner touches both planes: it is let go above that and stops beyond.
+bool reaches_flat(ReadingValues v, double diameter_mm) {
+  return std::min(v[kReleased], v[kStopped]) > foot_mm(v, diameter_mm);
+}
+
+std::optional<std::string> roll_error(ReadingValues v) {
+  const auto diameter_mm = v.given(kDiameter);
+  if (!diameter_mm || reaches_flat(v, *diameter_mm)) return std::nullopt;
+  const bool is_released = v[kReleased] <= v[kStopped];
+  return fmt::format(
+      "{} = {:g}: a ball of {} = {:g} in the corner lies {:.4g} mm from the foot, d/2 tan(b/2). "
+      "Rule: more than that. Fix: measure from the foot to the ball's centre, along the plane that "
+      "it lies on, or correct the diameter.",
+      is_released ? "released_mm" : "stopped_mm", is_released ? v[kReleased] : v[kStopped],
+      kDiameter, *diameter_mm, foot_mm(v, *diameter_mm));
+}
+
+std::vector<std::string> remarks_on_foot(std::span<const ReadingValues> readings) {
+  const double neglected = mean_of(readings, [](ReadingValues v) {
+    return rolling_friction_of(v[kIncline] * kRadPerDeg, v[kReleased] * kMPerMm,
+                               v[kStopped] * kMPerMm);
+  });
+  if (readings.front().given(kDiameter)) {
+    return {fmt::format(
+        "What a ball loses at the foot of the incline is taken out: without that mu_r would be "
+        "{:.4g}.",
+        neglected)};
+  }
+  const auto with_foot = [&](double diameter_m) {
+    return mean_of(readings, [&](ReadingValues v) {
+      return rolling_friction_of(v[kIncline] * kRadPerDeg, v[kReleased] * kMPerMm,
+                                 v[kStopped] * kMPerMm, diameter_m / 2);
+    });
+  };
+  constexpr double kLarge_m = .02;
+  std::string text = fmt::format(
+      "What is lost at the foot of the incline is neglected, so that mu_r is too high: these "
+      "distances mean {:.4g} for a ball that is small beside them",
+      with_foot(0));
+  if (std::ranges::all_of(readings,
+                          [](ReadingValues v) { return reaches_flat(v, kLarge_m * kMmPerM); })) {
+    text += fmt::format(" and {:.4g} for one of 20 mm", with_foot(kLarge_m));
+  }
+  return {text + fmt::format(". Fix: give {}, too.", kDiameter)};
+}
+
+}  // namespace
+
+ReadingColumn in_air_column() {
+  constexpr double kOverOne = 1.000001;
+  return {std::string(kInAirColumn), "answer, 1 for heights read in air and 0 for others,",
+          kFromZero, kOverOne};
+}
 
 Method restitution_method() {
-  return {
-      .source = "e = sqrt(h / H)",
-      .columns = {{"drop_mm", "drop height H"}, {"rebound_mm", "rebound height h", kFromZero}},
-      .outputs = {{"restitution", "", "coefficient of restitution e",
-                   [](ReadingValues v) { return restitution_of(v[0] * kMPerMm, v[1] * kMPerMm); },
-                   0, 1}},
-      .error = [](ReadingValues v) -> std::optional<std::string> {
-        if (v[1] <= v[0]) return std::nullopt;
-        return fmt::format(
-            "rebound_mm = {:g} is more than drop_mm = {:g}, but no grain rebounds higher than "
-            "it fell. Fix: give both in mm, from the same point of the grain.",
-            v[1], v[0]);
-      },
-      .validity =
-          "Spin after the impact counts as loss: for a grain that is not a sphere this "
-          "is not a material constant, and not the e that a simulation needs."};
+  return {.source = "e = sqrt(h / H)",
+          .columns = {{"drop_mm", "drop height H"}, {"rebound_mm", "rebound height h", kFromZero}},
+          .outputs = {{"restitution", "", "coefficient of restitution e", restitution, 0, 1}},
+          .error = drop_error,
+          .validity =
+              "Spin after the impact counts as loss: for a grain that is not a sphere this "
+              "is not a material constant, and not the e that a simulation needs.",
+          .optional_columns = {{kDiameter, "diameter of the sphere of the grain's volume"},
+                               {kDensity, "density of the grain"},
+                               in_air_column()},
+          .remarks = remarks_on_air};
 }
 
 Method sliding_method() {
@@ -36,19 +198,20 @@ Method sliding_method() {
 }
 
 Method rolling_method() {
-  return {.source = "mu_r = S sin(b) / (S cos(b) + L)",
+  return {.source = "mu_r = S sin(b) / (S cos(b) + L), with the diameter less the loss at the foot",
           .columns = {{"incline_deg", "angle b of the incline", 0, kRightAngle_deg},
                       {"released_mm", "distance S down the incline"},
                       {"stopped_mm", "distance L along the flat", kFromZero}},
           .outputs = {{"rolling_friction", "", "coefficient of rolling friction mu_r",
-                       [](ReadingValues v) {
-                         return rolling_friction_of(v[0] * kRadPerDeg, v[1] * kMPerMm,
-                                                    v[2] * kMPerMm);
-                       }}},
-          .error = {},
+                       rolling_friction}},
+          .error = roll_error,
           .validity =
-              "Attributes all losses to rolling friction, including those at the foot of the "
-              "incline and by slipping: a simulation needs a smaller mu_r."};
+              "Attributes all other losses to rolling friction, such as those by slipping and by "
+              "bouncing of grains that are not round: a simulation of these needs a smaller mu_r.",
+          .optional_columns = {{kDiameter,
+                                "diameter of the ball, or across the axis it rolls "
+                                "about"}},
+          .remarks = remarks_on_foot};
 }
 
 }  // namespace repose::calibrate

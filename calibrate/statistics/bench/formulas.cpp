@@ -1,5 +1,6 @@
 #include "calibrate/statistics/bench/formulas.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace repose::calibrate {
@@ -10,6 +11,33 @@ double sliding_friction_of(double angle_rad) { return std::tan(angle_rad); }
 
 double rolling_friction_of(double incline_rad, double released_m, double stopped_m) {
   return released_m * std::sin(incline_rad) / (released_m * std::cos(incline_rad) + stopped_m);
+}
+
+double foot_distance_m(double incline_rad, double radius_m) {
+  return radius_m * std::tan(incline_rad / 2);
+}
+
+double rolled_distance_m(double mu_r, double incline_rad, double released_m, double radius_m) {
+  const double sine = std::sin(incline_rad);
+  const double cosine = std::cos(incline_rad);
+  const double foot_m = foot_distance_m(incline_rad, radius_m);
+  const double kept = std::max(0., (5 * cosine + 2) / 7 - 5. / 7 * mu_r * sine);
+  return kept * kept * (released_m - foot_m) * (sine - mu_r * cosine) / mu_r + foot_m;
+}
+
+double rolling_friction_of(double incline_rad, double released_m, double stopped_m,
+                           double radius_m) {
+  // The distance falls with the friction as long as the ball leaves the foot. By halving.
+  double low = 0;
+  double high =
+      std::min(std::tan(incline_rad), (std::cos(incline_rad) + .4) / std::sin(incline_rad));
+  constexpr int kHalvings = 60;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = .5 * (low + high);
+    const bool rolls_on = rolled_distance_m(middle, incline_rad, released_m, radius_m) > stopped_m;
+    (rolls_on ? low : high) = middle;
+  }
+  return .5 * (low + high);
 }
 
 double pendulum_restitution_of(double release_rad, double swing_rad) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,7 +11,24 @@
 
 namespace repose::calibrate {
 
-using ReadingValues = std::span<const double>;
+/// One repeat of a test, as its formulas see it.
+class ReadingValues {
+ public:
+  ReadingValues(std::span<const double> values, const std::map<std::string, double>& optional)
+      : values_(values), optional_(&optional) {}
+
+  /// Of the test's columns.
+  double operator[](std::size_t column) const { return values_[column]; }
+  /// Of an optional column.
+  std::optional<double> given(const std::string& column) const {
+    const auto found = optional_->find(column);
+    return found == optional_->end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  std::span<const double> values_;
+  const std::map<std::string, double>* optional_;
+};
 
 /// What comes out of a test.
 struct MethodOutput {
@@ -32,7 +50,12 @@ struct Method {
   std::function<std::optional<std::string>(ReadingValues)> error;
   /// What the number is and is not; always said.
   std::string validity;
+  std::vector<ReadingColumn> optional_columns = {};
+  /// What to know about these readings beside that, a sentence each.
+  std::function<std::vector<std::string>(std::span<const ReadingValues>)> remarks = {};
 };
+
+ReadingColumn in_air_column();
 
 Method restitution_method();
 Method sliding_method();

@@ -26,6 +26,8 @@ Method drop_on_grains_method() {
   method.source = "mean of the readings";
   method.outputs = {{"rebound", "mm", "height of rebound from glued grains",
                      [](ReadingValues v) { return v[1]; }}};
+  method.optional_columns = {in_air_column()};
+  method.remarks = {};
   method.validity =
       "No material constant: on a bed most grains are thrown aside. Calibrate a study with these "
       "readings.";

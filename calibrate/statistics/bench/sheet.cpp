@@ -32,19 +32,38 @@ std::optional<std::vector<double>> values_in(const Table& table, const TableRow&
   return values;
 }
 
-/// The columns that the table must have; those that it has and must not are errors.
+/// Of the optional columns what a row has, and what holds for all rows.
+std::map<std::string, double> optional_values_in(const Table& table, const TableRow& row,
+                                                 const std::map<std::string, double>& constants,
+                                                 const std::vector<std::string>& names) {
+  std::map<std::string, double> values;
+  for (const std::string& name : names) {
+    const auto constant = constants.find(name);
+    if (constant != constants.end()) values.insert(*constant);
+    const auto column = table.column(name);
+    const auto number = column ? number_of(row.cells[*column]) : std::nullopt;
+    if (number) values.emplace(name, *number);
+  }
+  return values;
+}
+
+/// The columns that must hold numbers: those that the table must have, and optional ones that it
+/// has. Those that it has and must not are errors.
 std::vector<NumberColumn> needed_columns(const Table& table,
                                          const std::map<std::string, double>& constants,
                                          BenchTest test, base::ErrorList& errors) {
+  for (const auto& [name, value] : constants) {
+    if (!table.column(name)) continue;
+    errors.add(
+        fmt::format("{}: has a column {}, and --set gives it too. Fix: leave one of them out.",
+                    table.name, name));
+  }
   std::vector<NumberColumn> needed;
   for (const auto& [name, what, above, below] : columns_of(test)) {
-    if (!constants.contains(name)) {
-      needed.push_back({name, above, below});
-    } else if (table.column(name)) {
-      errors.add(
-          fmt::format("{}: has a column {}, and --set gives it too. Fix: leave one of them out.",
-                      table.name, name));
-    }
+    if (!constants.contains(name)) needed.push_back({name, above, below});
+  }
+  for (const auto& [name, what, above, below] : optional_columns_of(test)) {
+    if (table.column(name)) needed.push_back({name, above, below});
   }
   return needed;
 }
@@ -60,10 +79,20 @@ BenchTest bench_test_named(std::string_view name) {
   return static_cast<BenchTest>(found - kBenchTestNames.begin());
 }
 
-std::vector<std::string> column_names(BenchTest test) {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<ReadingColumn>& columns) {
   std::vector<std::string> names;
-  for (const ReadingColumn& column : columns_of(test)) names.push_back(column.name);
+  for (const ReadingColumn& column : columns) names.push_back(column.name);
   return names;
+}
+
+}  // namespace
+
+std::vector<std::string> column_names(BenchTest test) { return names_of(columns_of(test)); }
+
+std::vector<std::string> optional_column_names(BenchTest test) {
+  return names_of(optional_columns_of(test));
 }
 
 std::string text_of(const LeftOut& left_out, const std::filesystem::path& file) {
@@ -75,12 +104,14 @@ Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
                  base::ErrorList& errors) {
   Table table = read_table(file, NoRows::allowed);
   const std::vector<std::string> names = column_names(test);
+  const std::vector<std::string> optional = optional_column_names(test);
   OtherRows other = take_other_rows(table, names, errors);
   Sheet sheet{
       .readings = {}, .left_out = std::move(other.left_out), .notes = std::move(other.notes)};
   for (const std::string& column : table.columns) {
-    const bool is_used =
-        column == kSampleColumn || std::find(names.begin(), names.end(), column) != names.end();
+    const bool is_used = column == kSampleColumn ||
+                         std::ranges::find(names, column) != names.end() ||
+                         std::ranges::find(optional, column) != optional.end();
     if (!is_used) sheet.left_out.push_back({"column " + column, "not a reading of this test"});
   }
   if (table.rows.empty() && no_rows == NoRows::refused) {
@@ -99,7 +130,8 @@ Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
     if (!values) continue;  // said above
     sheet.readings.push_back({.place = fmt::format("{}:{}", table.name, row.line),
                               .values = *std::move(values),
-                              .sample = sample ? row.cells[*sample] : ""});
+                              .sample = sample ? row.cells[*sample] : "",
+                              .optional = optional_values_in(table, row, constants, optional)});
   }
   return sheet;
 }

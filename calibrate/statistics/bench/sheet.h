@@ -20,7 +20,9 @@ inline constexpr std::string_view kSampleColumn = "sample";
 /// @throws std::invalid_argument  there is no such test.
 BenchTest bench_test_named(std::string_view name);
 
+/// Of the columns that a sheet must have, and of those that it may have.
 std::vector<std::string> column_names(BenchTest test);
+std::vector<std::string> optional_column_names(BenchTest test);
 
 /// "drops.csv: line 5 is left out (labelled "Mean")."
 std::string text_of(const LeftOut& left_out, const std::filesystem::path& file);
