@@ -13,13 +13,44 @@ double shear_modulus_pa(const dem::Material& material) {
   return material.young_modulus_pa / (2 * (1 + material.poisson_ratio));
 }
 
+/// What EDEM calls the rolling model, and what its coefficient multiplies.
+struct EdemRolling {
+  const char* name;
+  const char* meaning;
+  bool has_damping_ratio = false;
+};
+
+EdemRolling rolling_in_edem(dem::RollingModel model) {
+  switch (model) {
+    case dem::RollingModel::relative_constant_torque:
+      return {"RVD Rolling Friction", "torque per normal force and R*, against the relative spin"};
+    case dem::RollingModel::elastic_plastic:
+      return {"Type C Rolling Friction",
+              "torque at which the spring yields, per normal force and R*", true};
+    case dem::RollingModel::none:
+    case dem::RollingModel::constant_torque:
+      break;
+  }
+  return {"Standard Rolling Friction",
+          "torque per normal force and distance from the centre of mass to the contact, against "
+          "the particle's own spin"};
+}
+
+/// Of the damper of `elastic_plastic`, as a fraction of the critical one: dem/engine/rolling.h.
+constexpr double kRollingDampingRatio = .3;
+
 void add_interaction(const std::string& pair, const std::string& other,
-                     const Conversions& conversions, DeckFields& fields) {
+                     const Conversions& conversions, const EdemRolling& rolling,
+                     DeckFields& fields) {
   DeckFields& interaction = fields.add_section("INTERACTION");
   interaction.set("OTHER", other);
   interaction.set("RESTITUTION", exported(conversions, pair + "restitution"));
   interaction.set("SLIDING", exported(conversions, pair + "sliding_friction"));
   interaction.set("ROLLING", exported(conversions, pair + "rolling_friction"));
+  interaction.set("ROLLING_MEANING", rolling.meaning);
+  if (rolling.has_damping_ratio) {
+    interaction.add_section("DAMPED").set("DAMPING_RATIO", kRollingDampingRatio);
+  }
 }
 
 ExportedFile values_text(const ExportFacts& facts, const Conversions& conversions) {
@@ -35,9 +66,11 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   fields.set("WALL_YOUNG", wall.young_modulus_pa);
   fields.set("WALL_SHEAR", shear_modulus_pa(wall));
   fields.set("WALL_POISSON", wall.poisson_ratio);
-  add_interaction("contact.particle_wall.", sanitized(wall.name), conversions, fields);
+  const EdemRolling rolling = rolling_in_edem(facts.study().model.rolling);
+  fields.set("ROLLING_MODEL_NAME", rolling.name);
+  add_interaction("contact.particle_wall.", sanitized(wall.name), conversions, rolling, fields);
   if (facts.has_grain_contacts()) {
-    add_interaction("contact.particle_particle.", "itself", conversions, fields);
+    add_interaction("contact.particle_particle.", "itself", conversions, rolling, fields);
   }
   for (const dem::WallPart part : facts.parts()) {
     const dem::Material& material = facts.surface(part).material;
@@ -47,7 +80,7 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
     own.set("PART_YOUNG", material.young_modulus_pa);
     own.set("PART_SHEAR", shear_modulus_pa(material));
     own.set("PART_POISSON", material.poisson_ratio);
-    add_interaction("contact.particle_" + name_of(part) + '.', name, conversions, fields);
+    add_interaction("contact.particle_" + name_of(part) + '.', name, conversions, rolling, fields);
   }
   if (facts.has(dem::Experiment::heap)) {
     fields.add_section("HEAP").set("STIFFNESS", facts.stiffness(dem::Experiment::heap));
@@ -83,9 +116,15 @@ ExportedFile values_table(const ExportFacts& facts, const Conversions& conversio
   for (const dem::WallPart part : facts.parts()) {
     text += material_rows(name_of(part), facts.surface(part).material);
   }
+  const bool is_damped = rolling_in_edem(model.rolling).has_damping_ratio;
   for (const Conversion& conversion : conversions) {
-    text += fmt::format("grain with {},{},{},\n", other_of(conversion.coefficient),
-                        conversion.target_name, number(conversion.exported));
+    const std::string other = other_of(conversion.coefficient);
+    text += fmt::format("grain with {},{},{},\n", other, conversion.target_name,
+                        number(conversion.exported));
+    if (is_damped && conversion.coefficient.ends_with("rolling_friction")) {
+      text += fmt::format("grain with {},Rolling Viscous Damping Ratio,{},\n", other,
+                          kRollingDampingRatio);
+    }
   }
   text +=
       fmt::format("particle,Mass,{},kg\nparticle,Volume,{},m3\n", mass, facts.grain().volume_m3);

@@ -48,15 +48,8 @@ bool has_equal_radii(const dem::ClumpShape& grain) {
 /// The lever that a target multiplies its coefficient and the normal force with: of a wall in R, of
 /// two equal spheres in R* = R / 2.
 double lever(ExportTarget target, Partner partner) {
-  switch (target) {
-    case ExportTarget::yade:  // the mean of both radii
-    case ExportTarget::edem:  // each body's own arm
-      return partner == Partner::wall ? 1 : 2;
-    case ExportTarget::liggghts:
-    case ExportTarget::lammps:
-      break;
-  }
-  return 1;
+  const bool is_mean_of_radii = target == ExportTarget::yade;
+  return is_mean_of_radii && partner == Partner::grain ? 2 : 1;
 }
 
 bool is_centred_sphere(const dem::ClumpShape& grain) {
@@ -87,10 +80,24 @@ RollingConversion from_own_spin(ExportTarget target, Partner partner,
   return converted;
 }
 
-/// EDEM's law is `constant_torque`; from torques on a lever of R or R*.
-RollingConversion to_own_spin(Partner partner, const dem::ClumpShape& grain) {
-  RollingConversion converted = from_own_spin(ExportTarget::liggghts, partner, grain);
-  converted.factor = 1 / converted.factor;
+/// EDEM has all three laws, with the same levers: Standard, RVD and Type C rolling friction
+/// (Altair, EDEM 2023 documentation, "Rolling Friction").
+RollingConversion to_edem(dem::RollingModel model, Partner partner) {
+  RollingConversion converted;
+  if (model == dem::RollingModel::constant_torque) return converted;
+  if (model == dem::RollingModel::elastic_plastic) {
+    converted.fidelity = Fidelity::close;
+    converted.limits =
+        "The same limit and the same damping ratio; the spring up to there has EDEM's own normal "
+        "stiffness in it, which grows with the overlap otherwise than ours. ";
+  } else if (partner == Partner::grain) {
+    converted.fidelity = Fidelity::close;
+    converted.limits =
+        "Between two grains EDEM's manual prints the direction as that of half the sum of both "
+        "spins, which is nought where two equal grains roll off each other. We take it for the "
+        "relative spin, as in the model of Ai et al. (type A) that the manual says it is: simulate "
+        "roll_on_grains there before you trust it. ";
+  }
   return converted;
 }
 
@@ -118,11 +125,6 @@ void add_spring_limits(ExportTarget target, dem::RollingModel model, RollingConv
         "Their torque comes from a spring that yields at the limit: the same while the grain rolls "
         "one way. Its stiffness is fixed, that of our elastic-plastic spring on a wall under the "
         "grain's own weight. ";
-  } else if (model == dem::RollingModel::elastic_plastic && target == ExportTarget::edem) {
-    converted.fidelity = Fidelity::approximate;
-    converted.limits +=
-        "Their standard rolling friction has no spring: the same while the grain rolls, another "
-        "way to rest. ";
   } else if (model == dem::RollingModel::constant_torque && target == ExportTarget::liggghts) {
     converted.limits +=
         "Theirs leaves out spin about the contact's normal, and trembles about rest where ours "
@@ -149,12 +151,12 @@ RollingConversion convert_rolling(ExportTarget target, dem::RollingModel model, 
                                   const dem::ClumpShape& grain) {
   RollingConversion converted;
   if (model == dem::RollingModel::none) return converted;
-  const bool is_edem = target == ExportTarget::edem;
-  if (model == dem::RollingModel::constant_torque) {
-    if (is_edem) return converted;
+  if (target == ExportTarget::edem) {
+    converted = to_edem(model, partner);
+  } else if (model == dem::RollingModel::constant_torque) {
     converted = from_own_spin(target, partner, grain);
   } else {
-    converted = is_edem ? to_own_spin(partner, grain) : from_relative_spin(target, partner, grain);
+    converted = from_relative_spin(target, partner, grain);
   }
   add_spring_limits(target, model, converted);
   if (!converted.limits.empty()) converted.limits.pop_back();
@@ -192,6 +194,13 @@ std::string rolling_law(ExportTarget target, dem::RollingModel model) {
              "rotation; a wall counts with the sphere's radius";
     case ExportTarget::edem:
       break;
+  }
+  if (model == dem::RollingModel::relative_constant_torque) {
+    return "RVD rolling friction: mu_r F R* on both bodies, against their relative spin";
+  }
+  if (model == dem::RollingModel::elastic_plastic) {
+    return "Type C rolling friction: spring, up to mu_r F R*, and damper, against the relative "
+           "rotation";
   }
   return "standard rolling friction: mu_r F times each body's own distance from centre of mass to "
          "contact, against its own spin";

@@ -71,22 +71,33 @@ TEST(ConvertRolling, OwnSpinOfAClumpIsApproximate) {
   EXPECT_THAT(wall.limits, ::testing::HasSubstr("lever"));
 }
 
-TEST(ConvertRolling, EdemHasConstantTorqueAndTheInverseOfTheOthers) {
-  const dem::ClumpShape clump = dem::test::spheroid_clump(3);
-  for (const Partner partner : {Partner::wall, Partner::grain}) {
-    const auto same =
-        convert_rolling(ExportTarget::edem, RollingModel::constant_torque, partner, clump);
-    EXPECT_EQ(same.factor, 1);
-    EXPECT_EQ(same.fidelity, Fidelity::exact);
-    const auto there =
-        convert_rolling(ExportTarget::edem, RollingModel::relative_constant_torque, partner, clump);
-    const auto back =
-        convert_rolling(ExportTarget::liggghts, RollingModel::constant_torque, partner, clump);
-    EXPECT_NEAR(there.factor * back.factor, 1, 1e-12);
-    EXPECT_EQ(there.fidelity, Fidelity::approximate);
+// Standard: mu_r F r against each own spin; RVD: mu_r F R* against the relative spin; Type C: a
+// spring up to mu_r F R*.
+TEST(ConvertRolling, EdemHasAllThreeOfOurModels) {
+  using ::testing::HasSubstr;
+  for (const dem::ClumpShape& grain : {kSphere, dem::test::spheroid_clump(3)}) {
+    for (const Partner partner : {Partner::wall, Partner::grain}) {
+      for (const RollingModel model :
+           {RollingModel::constant_torque, RollingModel::relative_constant_torque,
+            RollingModel::elastic_plastic}) {
+        const auto converted = convert_rolling(ExportTarget::edem, model, partner, grain);
+        EXPECT_EQ(converted.factor, 1);
+        EXPECT_NE(converted.fidelity, Fidelity::approximate);
+      }
+    }
   }
-  EXPECT_EQ(sphere(ExportTarget::edem, RollingModel::elastic_plastic, Partner::wall).fidelity,
-            Fidelity::approximate);
+  const auto edem = [](RollingModel model, Partner partner) {
+    return sphere(ExportTarget::edem, model, partner);
+  };
+  EXPECT_EQ(edem(RollingModel::relative_constant_torque, Partner::wall).fidelity, Fidelity::exact);
+  EXPECT_THAT(edem(RollingModel::relative_constant_torque, Partner::grain).limits,
+              HasSubstr("half the sum of both spins"));
+  EXPECT_EQ(edem(RollingModel::elastic_plastic, Partner::wall).fidelity, Fidelity::close);
+  EXPECT_THAT(rolling_law(ExportTarget::edem, RollingModel::constant_torque),
+              HasSubstr("standard"));
+  EXPECT_THAT(rolling_law(ExportTarget::edem, RollingModel::relative_constant_torque),
+              HasSubstr("RVD"));
+  EXPECT_THAT(rolling_law(ExportTarget::edem, RollingModel::elastic_plastic), HasSubstr("Type C"));
 }
 
 // YADE's lever of mu_r F is (R1 + R2) / 2; ours R* = R on a wall, R / 2 between equal spheres.
