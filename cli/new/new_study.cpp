@@ -1,15 +1,19 @@
 #include "cli/new/new_study.h"
 
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "cli/common/output.h"
 #include "cli/common/page.h"
 #include "cli/common/terminal.h"
 #include "cli/new/new_options.h"
+#include "dem/contact/adhesion.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::cli {
@@ -48,6 +52,13 @@ std::string page_of(const NewPlan& plan, int columns) {
   page.add_gap();
   page.add(assumptions_of(study));
   page.add_gap();
+  const auto& [length_mm, width_mm, thickness_mm] = study.sizes_mm;
+  const double volume_m3 =
+      std::numbers::pi / 6 * length_mm * width_mm * thickness_mm * std::pow(kMPerMm, 3);
+  if (const auto sticky = dem::adhesion_warning(volume_m3, study.density_kg_m3)) {
+    page.add("! ", *sticky + '.');
+    page.add_gap();
+  }
   page.add("Next:");
   page.add("  1. ",
            fmt::format("fill in the sheets, one row per reading, at least ten readings each; "

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "calibrate/study/study_problem.h"
 #include "cli/simulate/simulate_values.h"
+#include "dem/contact/adhesion.h"
 
 namespace repose::cli {
 namespace {
@@ -177,6 +178,10 @@ void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunW
 
 std::vector<RunWarning> warnings_of(const SimulatePlan& plan, const std::vector<Run>& runs) {
   std::vector<RunWarning> warnings;
+  if (auto sticky = dem::adhesion_warning(plan.grain.shape.volume_m3,
+                                          plan.study.model.grain_material.density_kg_m3)) {
+    warnings.push_back({"cohesion", {}, *std::move(sticky) + '.'});
+  }
   const auto summary = summarise(runs);
   if (summary && summary->n > 1 && !summary->sd) warnings.push_back(no_scatter(plan, runs.size()));
   if (summary && plan.spec.entry().is_pictured) {

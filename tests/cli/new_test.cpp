@@ -46,6 +46,12 @@ TEST_F(NewCommand, WritesAStudyAndSheetsWhoseColumnsNameTheirUnits) {
               Each(::testing::ResultOf(base::letters, ::testing::Le(100U))));
 }
 
+TEST_F(NewCommand, PowdersAreSaidToStick) {
+  const Finished done = run({"p.toml", "--grain-mm", "0.1,0.1,0.1", "--tube-mm", "2x4"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("grains of 0.1 mm and 1200 kg/m3 would stick"));
+}
+
 TEST_F(NewCommand, TheStudyRunsOnceItsSheetsAreFilledIn) {
   ASSERT_EQ(run(kSoybean).exit_code, 0);
   const Finished empty = run_repose(folder_, {"calibrate", "soybean.toml"});
