@@ -20,8 +20,8 @@ struct UsualBench {
 /// A round number of mm, about six grains across; three times as high.
 double usual_tube_diameter_mm(const std::array<double, 3>& grain_mm);
 
-/// Grains that touch each other are softened to about 10 MPa, unless that would change what is
-/// read.
+/// Grains that touch each other are softened to about 10 MPa, those of a fill to 100 MPa, unless
+/// that would change what is read.
 dem::StudyExperiment usual_experiment(const dem::ExperimentEntry& entry, const UsualBench& bench);
 
 /// Its section of a study file: the heading and the keys of its protocol, a line each.
