@@ -16,8 +16,10 @@ bool has_decks(ExportTarget target, const dem::Protocol& protocol) {
       return true;
     case dem::Experiment::heap:
       return target != ExportTarget::lammps;
-    case dem::Experiment::fill:
-      return is_edem || (is_liggghts && !std::get<dem::FillProtocol>(protocol).taps);
+    case dem::Experiment::fill: {
+      const auto& fill = std::get<dem::FillProtocol>(protocol);
+      return is_edem || (is_liggghts && !fill.taps && !fill.pour_kg_s);
+    }
     case dem::Experiment::pendulum:
     case dem::Experiment::drop_on_grains:
     case dem::Experiment::tilt_on_grains:

@@ -86,7 +86,10 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
   fitted.unit = observable.unit;
   fitted.measured = observable.mean;
   fitted.measured_uncertainty = solution.misfit.measured_uncertainty(i);
-  fitted.measured_sd = fitted.measured_uncertainty * std::sqrt(observable.n);
+  fitted.systematic_uncertainty = observable.systematic_sd;
+  const double by_scatter2 =
+      std::pow(fitted.measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2);
+  fitted.measured_sd = std::sqrt(std::max(0., by_scatter2) * observable.n);
   fitted.sd_assumed = !observable.sd;
   fitted.simulated = surrogate.simulated(best);
   fitted.simulated_uncertainty = surrogate.uncertainty(best);

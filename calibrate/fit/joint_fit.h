@@ -46,10 +46,11 @@ struct FittedObservable {
   std::string name;
   std::string unit;
   double measured = 0;
-  double measured_sd = 0;           ///< of single readings
-  bool sd_assumed = false;          ///< the sd was not measured
-  double measured_uncertainty = 0;  ///< standard uncertainty of the mean
-  double simulated = 0;             ///< expected, by the surrogate
+  double measured_sd = 0;             ///< of single readings
+  bool sd_assumed = false;            ///< the sd was not measured
+  double measured_uncertainty = 0;    ///< standard uncertainty of the mean
+  double systematic_uncertainty = 0;  ///< the part of it that all readings have in common
+  double simulated = 0;               ///< expected, by the surrogate
   double simulated_uncertainty = 0;
   double simulated_sd = 0;      ///< scatter from seed to seed
   double predicted_sd = 0;      ///< scatter that it expects of single bench readings

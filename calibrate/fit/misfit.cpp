@@ -81,10 +81,13 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     surrogates_.emplace_back(training_set, start, thorough);
     const AsinhWarp& warp = surrogates_.back().warp();
     const double w = warp.of_expected(observable.mean);
-    measured_.push_back(uncertainty_of_mean(observable, surrogates_.back().reading_sd(w)));
+    const double by_scatter = uncertainty_of_mean(observable, surrogates_.back().reading_sd(w));
+    measured_.push_back(with_systematic(observable, by_scatter));
     const double sd =
-        std::hypot(few_readings_factor(observable) * measured_.back(), observable.shift_sd);
-    targets_.push_back({w, sd / warp.slope(w)});
+        std::hypot(with_systematic(observable, few_readings_factor(observable) * by_scatter),
+                   observable.shift_sd);
+    targets_.push_back(
+        {w, sd / warp.slope(w), std::pow(observable.systematic_sd / warp.slope(w), 2)});
   }
   if (!errors.empty()) throw std::invalid_argument(errors);
   correlation_ = reading_correlation_of(problem, surrogates_);

@@ -40,6 +40,10 @@ class Misfit {
   const std::vector<std::vector<double>>& reading_correlation() const { return correlation_; }
   /// 1 over the variance of the measured mean, in the units of the observable's surrogate.
   double weight(std::size_t observable) const;
+  /// The part of that variance which more readings do not lower.
+  double systematic_variance(std::size_t observable) const {
+    return targets_[observable].systematic2;
+  }
   /// What a search minimises: those of chi2(), and small ones that choose among equals.
   Residuals residuals(const Point& point, bool with_jacobian) const;
 
@@ -48,6 +52,7 @@ class Misfit {
   struct Target {
     double value = 0;
     double sd = 0;
+    double systematic2 = 0;  ///< of its square, what the readings have in common
   };
   /// The observables of one experiment.
   struct Together {

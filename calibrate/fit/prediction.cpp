@@ -92,11 +92,11 @@ double variance_of(const std::vector<double>& values) {
 double measured_uncertainty_of(const Problem& problem, const Observable& observable, double run_sd,
                                const std::vector<Run>& runs) {
   const double known = standard_uncertainty(observable);
-  if (observable.sd) return known;
+  if (observable.sd) return with_systematic(observable, known);
   const Experiment& experiment = experiment_named(problem, observable.experiment);
   const double reading_sd = std::hypot(run_sd * std::sqrt(experiment.readings_per_run),
                                        sd_within(experiment, observable.reading, runs));
-  return std::max(known, reading_sd / std::sqrt(observable.n));
+  return with_systematic(observable, std::max(known, reading_sd / std::sqrt(observable.n)));
 }
 
 void judge(const Problem& problem, const Observable& observable, double sets_df,
@@ -119,10 +119,11 @@ void judge(const Problem& problem, const Observable& observable, double sets_df,
 Prediction prediction_of(const Problem& problem, const JointFit& fit, const Observable& observable,
                          const std::vector<Run>& runs) {
   const SetMeans sets = means_of(problem, fit, observable, runs);
+  const double assumed = with_systematic(observable, standard_uncertainty(observable));
   Prediction prediction{.name = observable.name,
                         .unit = observable.unit,
                         .measured = observable.mean,
-                        .measured_uncertainty = standard_uncertainty(observable),
+                        .measured_uncertainty = assumed,
                         .predicted = kNone,
                         .uncertainty = kNone,
                         .interval = {kNone, kNone},

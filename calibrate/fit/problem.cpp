@@ -223,4 +223,8 @@ double standard_uncertainty(const Observable& observable) {
   return sd / std::sqrt(static_cast<double>(observable.n));
 }
 
+double with_systematic(const Observable& observable, double by_scatter) {
+  return std::hypot(by_scatter, observable.systematic_sd);
+}
+
 }  // namespace repose::calibrate

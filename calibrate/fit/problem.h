@@ -47,6 +47,9 @@ struct Experiment {
   double real_stiffness = 1;
   /// What part of run_s goes with the number of spheres.
   double spheres_share = 0;
+  /// Of a bench's "value": standard uncertainty as a fraction of it that all readings have in
+  /// common. Observables have it in their systematic_sd.
+  double systematic_fraction = 0;
 };
 
 /// The spheres that stand for a grain.
@@ -70,6 +73,10 @@ struct Observable {
   std::optional<double> assumed_sd_fraction;
   /// Standard uncertainty of what was added to the mean, beside that of the readings.
   double shift_sd = 0;
+  /// Standard uncertainty that all readings have in common, and what it is of, "" for none: more
+  /// readings do not lower it.
+  double systematic_sd = 0;
+  std::string systematic = {};
   /// A difference between bench and simulation up to this does not matter; see tolerance_of().
   std::optional<double> tolerance = {};
   /// What a bench can read. A simulated reading may lie outside, as a grain's that stays on the
@@ -147,7 +154,11 @@ std::vector<std::string> errors_of(const Problem& problem);
 /// Throws std::invalid_argument with every error of the problem, a line each.
 void require_sound(const Problem& problem);
 
-/// Standard uncertainty of an observable's mean, in its unit: sd / sqrt(n).
+/// Standard uncertainty of an observable's mean by the scatter of its readings, in its unit: sd /
+/// sqrt(n).
 double standard_uncertainty(const Observable& observable);
+
+/// That of the mean, by the scatter of its readings and by what they have in common.
+double with_systematic(const Observable& observable, double by_scatter);
 
 }  // namespace repose::calibrate

@@ -177,11 +177,11 @@ Verification verify(const Problem& problem, const std::vector<double>& values,
     const bool is_stochastic = experiment_named(problem, observable.experiment).is_stochastic;
     const CheckSample sample = check_sample(problem, values, observable, runs);
     simulated.push_back(mean_of(sample, is_stochastic, fit, i));
-    verification.observables.push_back(compared(observable, sample, simulated.back(),
-                                                fit != nullptr
-                                                    ? fit->observables[i].measured_uncertainty
-                                                    : standard_uncertainty(observable),
-                                                level));
+    verification.observables.push_back(
+        compared(observable, sample, simulated.back(),
+                 fit != nullptr ? fit->observables[i].measured_uncertainty
+                                : with_systematic(observable, standard_uncertainty(observable)),
+                 level));
   }
   verification.chance = joint_chance_of(problem, verification.observables, simulated, fit);
   find_disagreement(verification, level);

@@ -50,6 +50,11 @@ void warn_of_reach(const Problem& problem, const Solution& solution, std::size_t
       limits_text(problem, extreme)));
 }
 
+void warn_of_systematic(const Observable& observable, std::vector<std::string>& warnings) {
+  if (observable.systematic.empty()) return;
+  warnings.push_back(fmt::format("{}: {}", observable.name, observable.systematic));
+}
+
 void warn_of_scatter(const Observable& observable, const FittedObservable& fitted,
                      std::vector<std::string>& warnings) {
   if (!fitted.sd_assumed) return;
@@ -107,6 +112,7 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
     const FittedObservable& fitted = fit.observables[i];
     const SurrogateQuality& quality = fit.surrogates[i];
     warn_of_reach(problem, solution, i, fitted, warnings);
+    warn_of_systematic(problem.observables[i], warnings);
     warn_of_scatter(problem.observables[i], fitted, warnings);
     warn_of_likeness(problem.observables[i], fitted, quality.runs, warnings);
     if (quality.inflation > kDoubtful) {

@@ -105,6 +105,12 @@ OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
   // A problem that is dearer than its budget was given more.
   offered.problem.settings.budget_s = budget.settings.budget_s;
   keep_within(kFirstFraction * budget.settings.budget_s, offered);
+  for (const auto& [experiment, usual] : offered.added) {
+    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    if (entry.systematic == nullptr || !(entry.systematic(usual.protocol).sd > 0)) continue;
+    offered.notes.push_back(
+        fmt::format("{}: {}.", entry.name, entry.systematic(usual.protocol).note));
+  }
   return offered;
 }
 

@@ -19,7 +19,9 @@ struct OfferedStudy {
   std::map<dem::Experiment, dem::StudyExperiment> added;
   /// All experiments that depend on a coefficient that is sought; what was measured of them.
   Problem problem;
-  std::vector<std::string> notes;  ///< experiments left out because they take too long
+  /// Experiments left out because they take too long, or whose readings differ from the simulation
+  /// for a reason that is known.
+  std::vector<std::string> notes;
 };
 
 /// Adds the experiments that a study lacks, done in the usual way with its grains; but not those,

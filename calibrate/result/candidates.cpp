@@ -51,8 +51,9 @@ double deviance_of_scatters(const JointResult& joint) {
 }  // namespace
 
 int bench_readings(const ResultObservable& observable) {
-  const double root_n = observable.measured_sd / observable.measured_uncertainty;
-  return static_cast<int>(std::lround(root_n * root_n));
+  const double of_mean2 =
+      std::pow(observable.measured_uncertainty, 2) - std::pow(observable.systematic_uncertainty, 2);
+  return static_cast<int>(std::lround(std::pow(observable.measured_sd, 2) / of_mean2));
 }
 
 Candidate candidate_of(const std::string& name, const JointResult& joint) {

@@ -133,6 +133,9 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("sd", observable.measured_sd);
   io("sd_assumed", observable.sd_assumed);
   io("measured_uncertainty", observable.measured_uncertainty);
+  if (io.has("systematic_uncertainty", observable.systematic_uncertainty > 0)) {
+    io("systematic_uncertainty", observable.systematic_uncertainty);
+  }
   io("simulated", observable.simulated);
   io("simulated_uncertainty", observable.simulated_uncertainty);
   io("simulated_sd", observable.simulated_sd);

@@ -166,6 +166,10 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
                                entry.unit == "deg" ? "degrees" : entry.unit));
   text += sheet_comment(entry, place);
   const dem::StudyExperiment usual = usual_experiment(entry, bench_of(study));
+  if (entry.systematic != nullptr && entry.systematic(usual.protocol).sd > 0) {
+    text += toml_comment(
+        fmt::format("Until it is added below: {}.", entry.systematic(usual.protocol).note));
+  }
   text += protocol_lines(entry, usual.protocol);
   if (dem::has_grain_contacts(entry.experiment) && entry.softening_effect.empty()) {
     text += toml_comment("Fraction of the real stiffness: softer grains are simulated faster.");

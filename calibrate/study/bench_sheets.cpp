@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -37,6 +38,21 @@ void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& prot
   errors.add(rows);
 }
 
+/// Heights with and without air have no common mean.
+void check_one_air(const std::string& sheet, const std::vector<BenchReading>& readings,
+                   base::ErrorList& errors) {
+  std::set<double> answers;
+  for (const BenchReading& reading : readings) {
+    const auto given = reading.optional.find(std::string(kInAirColumn));
+    if (given != reading.optional.end()) answers.insert(given->second);
+  }
+  errors.require(
+      answers.size() <= 1,
+      fmt::format("{}: {} differs from row to row. Rule: all heights read in air (1), or "
+                  "all free of its drag (0). Fix: make two sheets, of two studies.",
+                  sheet, kInAirColumn));
+}
+
 SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
                             const dem::StudyExperiment& described, NoRows no_rows,
                             base::ErrorList& errors) {
@@ -51,6 +67,12 @@ SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
   sheet.notes.insert(sheet.notes.end(), notes.begin(), notes.end());
   check_protocol(entry, described.protocol, readings, errors);
   check_readings(test, readings);
+  check_one_air(sheet.file.filename().string(), readings, errors);
+  const auto is_without_air = [](const BenchReading& reading) {
+    const auto in_air = reading.optional.find(std::string(kInAirColumn));
+    return in_air != reading.optional.end() && in_air->second == 0;
+  };
+  sheet.in_air = std::ranges::none_of(readings, is_without_air);
   sheet.rows = static_cast<int>(readings.size());
   sheet.values = sample_means(test, entry.sheet.value, readings);
   return sheet;
@@ -76,7 +98,9 @@ std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows) 
 dem::Study with_readings(dem::Study study, const std::vector<SheetReadings>& sheets) {
   for (const SheetReadings& sheet : sheets) {
     const dem::Experiment experiment = dem::experiment_named(sheet.experiment).experiment;
-    study.experiments.at(experiment).measured.values = sheet.values;
+    dem::Measured& measured = study.experiments.at(experiment).measured;
+    measured.values = sheet.values;
+    measured.in_air = measured.in_air && sheet.in_air;
   }
   return study;
 }

@@ -19,6 +19,7 @@ struct SheetReadings {
       notes;  ///< rows that were left out or may be no readings, a sentence each
   /// Of each grain, in the unit of the experiment: repeats on one grain are averaged first.
   std::vector<double> values;
+  bool in_air = true;  ///< as dem::Measured::in_air: its column in_air
 };
 
 /// Reads all of them, in the order of the experiments. A sheet without rows has no values, or is an

@@ -12,6 +12,7 @@
 #include "calibrate/fit/budget.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/coefficients.h"
+#include "dem/contact/adhesion.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
@@ -112,6 +113,8 @@ Observable observable_of(const dem::Measured& measured) {
   observable.sd = measured.sd;
   observable.tolerance = measured.tolerance;
   observable.mean = measured.mean.value_or(0);
+  observable.systematic_sd = measured.systematic.sd;
+  observable.systematic = measured.systematic.note;
   if (measured.values.empty()) return observable;
   const calibrate::Summary repeats = calibrate::summarise(measured.values);
   observable.mean = repeats.mean;
@@ -133,6 +136,20 @@ dem::Range measurable_range(const dem::Study& study, const dem::ClumpShape& grai
   return range;
 }
 
+bool shares_systematic(const dem::ExperimentEntry& entry, const std::string& reading) {
+  return std::ranges::any_of(entry.readings, [&](const dem::Reading& known) {
+    return known.name == reading && known.shares_systematic;
+  });
+}
+
+/// No experiment has an error of its own kind and one of its readings.
+Observable with(const dem::SystematicFraction& systematic, Observable observable) {
+  if (!(systematic.sd > 0)) return observable;
+  observable.systematic_sd = systematic.sd * std::abs(observable.mean);
+  observable.systematic = systematic.note;
+  return observable;
+}
+
 class Maker {
  public:
   Maker(const dem::Study& study, const dem::ClumpFile& grain) : study_(study), grain_(grain) {}
@@ -148,6 +165,10 @@ class Maker {
                       "bounds to what you "
                       "seek, as in restitution = {{ min = 0.1, max = 0.6 }}.",
                       study_.file.string()));
+    }
+    if (auto sticky = dem::adhesion_warning(grain_.shape.volume_m3,
+                                            study_.model.grain_material.density_kg_m3)) {
+      made_.notes.push_back(*std::move(sticky));
     }
     for (const dem::ExperimentEntry& entry : dem::all_experiments()) add(entry);
     if (made_.problem.observables.empty()) {
@@ -173,6 +194,9 @@ class Maker {
       if (dem::depends_on(entry, made_.problem.parameters[k].name)) with_effect.push_back(k);
     }
     const dem::Measured& measured = described->second.measured;
+    const dem::SystematicFraction systematic = entry.systematic == nullptr
+                                                   ? dem::SystematicFraction{}
+                                                   : entry.systematic(described->second.protocol);
     note_unknown_camera(described->second);
     note_unknown_definition(entry, described->second);
     const bool is_measured = measured.mean || !measured.values.empty();
@@ -194,15 +218,19 @@ class Maker {
          .readings_per_run = readings_per_run(entry),
          .scatter_within = entry.is_pictured ? kOneViewScatter : "",
          .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor,
-         .spheres_share = spheres_share(study_, grain_.shape, entry)});
+         .spheres_share = spheres_share(study_, grain_.shape, entry),
+         .systematic_fraction = systematic.sd});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
-    if (is_measured) add(observable_of(measured), entry, "value");
+    if (is_measured) add(with(systematic, observable_of(measured)), entry, "value");
     for (const dem::MeasuredReading& reading : measured.also) {
       Observable observable;
       observable.mean = reading.mean;
       observable.sd = reading.sd;
       observable.n = reading.count.value_or(1);
       observable.tolerance = reading.tolerance;
+      observable.systematic_sd = reading.systematic.sd;
+      observable.systematic = reading.systematic.note;
+      if (shares_systematic(entry, reading.name)) observable = with(systematic, observable);
       add(observable, entry, reading.name);
     }
   }

@@ -11,6 +11,7 @@
 #include "base/version.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/picture_angles.h"
+#include "calibrate/study/bench_air.h"
 #include "calibrate/study/study_folder.h"
 
 namespace repose::calibrate {
@@ -55,6 +56,7 @@ Json sheets_json(const std::vector<SheetReadings>& sheets) {
                     {"file", sheet.file.string()},
                     {"rows", sheet.rows},
                     {"notes", sheet.notes},
+                    {"in_air", sheet.in_air},
                     {"values", sheet.values}});
   }
   return json;
@@ -67,7 +69,9 @@ std::vector<SheetReadings> sheets_in(const Json& json) {
                       .file = sheet.at("file").get<std::string>(),
                       .rows = sheet.at("rows"),
                       .notes = sheet.value("notes", std::vector<std::string>()),
-                      .values = sheet.at("values")});
+
+                      .values = sheet.at("values"),
+                      .in_air = sheet.value("in_air", true)});
   }
   return sheets;
 }
@@ -144,10 +148,12 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .budget_description = record.budget.description};
 }
 
-dem::Study as_measured(dem::Study study, const std::vector<PictureReading>& pictures,
+dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
+                       const std::vector<PictureReading>& pictures,
                        const std::vector<SheetReadings>& sheets,
                        const std::vector<FilmReading>& films) {
-  study = with_films(with_readings(std::move(study), sheets), films);
+  // Films see the drag and leave it out themselves.
+  study = with_films(without_air(with_readings(std::move(study), sheets), grain), films);
   const auto heap = study.experiments.find(dem::Experiment::heap);
   if (heap == study.experiments.end()) return study;
   for (const PictureReading& picture : pictures) {
@@ -223,12 +229,12 @@ StudyRecord read_study_record(const fs::path& folder) {
   record.pictures = notes->pictures;
   record.sheets = notes->sheets;
   record.films = notes->films;
+  record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));
   record.study =
       as_measured(dem::read_study_copy(kept(folder, kStudyCopy, *notes), record.settings),
-                  record.pictures, record.sheets, record.films);
+                  record.grain.shape, record.pictures, record.sheets, record.films);
   record.study.file = notes->study.file;
   record.study.hash = notes->study.hash;
-  record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));
   return record;
 }
 

@@ -63,8 +63,10 @@ struct StudyRecord {
 StudyIdentity identity_of(const StudyRecord& record);
 
 /// The study as measured, from the study as read: readings of its sheets and films and angles of
-/// its pictures are its measured values.
-dem::Study as_measured(dem::Study study, const std::vector<PictureReading>& pictures,
+/// its pictures are its measured values, those of drops as without air (without_air).
+/// @throws std::invalid_argument  see without_air.
+dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
+                       const std::vector<PictureReading>& pictures,
                        const std::vector<SheetReadings>& sheets,
                        const std::vector<FilmReading>& films);
 

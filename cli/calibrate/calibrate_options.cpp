@@ -204,10 +204,11 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   measure_heaps(plan);
   read_films(plan);
   if (!plan.errors.empty()) return plan;
-  plan.record.study = calibrate::as_measured(std::move(plan.record.study), plan.record.pictures,
-                                             plan.record.sheets, plan.record.films);
   attempt(plan.errors, [&] {
     plan.record.grain = dem::build_grain(plan.record.study.grain);
+    plan.record.study =
+        calibrate::as_measured(std::move(plan.record.study), plan.record.grain.shape,
+                               plan.record.pictures, plan.record.sheets, plan.record.films);
     for (std::string& error :
          calibrate::impossible_readings(plan.record.study, plan.record.grain.shape)) {
       plan.errors.push_back(std::move(error));

@@ -199,6 +199,8 @@ std::string simulate_json(const SimulatePlan& plan, const std::vector<Run>& runs
                                 {"message", warning.message}});
   }
   json["measured"] = measured_json(dem::measured_in(plan.study, plan.experiment));
+  json["measured"]["mean_without_air"] =
+      plan.mean_without_air ? Json(*plan.mean_without_air) : Json(nullptr);
   add_context(plan, json);
   return text_of(json);
 }

@@ -10,6 +10,8 @@
 
 #include "calibrate/experiment/heap_views.h"
 #include "calibrate/experiment/run_folder.h"
+#include "calibrate/statistics/summary.h"
+#include "calibrate/study/bench_air.h"
 #include "calibrate/study/bench_sheets.h"
 #include "calibrate/study/study_problem.h"
 #include "cli/common/cores.h"
@@ -122,9 +124,25 @@ void check_saved(SimulatePlan& plan) {
   if (!error.empty()) plan.errors.push_back(error);
 }
 
+/// None where the air makes no difference, or nothing was measured. A simulation needs no readings,
+/// and is made with impossible ones.
+std::optional<double> mean_without_air(SimulatePlan& plan) {
+  if (!dem::entry_of(plan.experiment).is_in_air) return std::nullopt;
+  try {
+    const dem::Measured measured =
+        dem::measured_in(calibrate::without_air(plan.study, plan.grain.shape), plan.experiment);
+    if (measured.systematic.note.empty()) return std::nullopt;
+    return measured.mean ? measured.mean : calibrate::summarise(measured.values).mean;
+  } catch (const std::invalid_argument& error) {
+    add_lines(error.what(), plan.notes);
+    return std::nullopt;
+  }
+}
+
 void build_bench(SimulatePlan& plan) {
   try {
     plan.grain = dem::build_grain(plan.study.grain);
+    plan.mean_without_air = mean_without_air(plan);
   } catch (const std::invalid_argument& error) {
     add_lines(error.what(), plan.errors);
     return;

@@ -26,6 +26,8 @@ struct SimulatePlan {
   std::string json_file;
   std::optional<double> trajectory_s;
   int views = 0;  ///< pictures of each heap
+  /// Of drops read in air: what their mean would be without, as the simulation is.
+  std::optional<double> mean_without_air;
 
   /// On the folder, from before it was looked at until the results are in it.
   std::optional<base::FolderLock> lock;

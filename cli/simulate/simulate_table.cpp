@@ -131,6 +131,10 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<Run>& runs
   std::string text = fmt::format("measured {:.3f}{}", *mean, unit);
   if (sd) text += fmt::format(" sd {:.3f}{}", *sd, unit);
   if (n) text += fmt::format(" n = {}", *n);
+  if (plan.mean_without_air) {
+    mean = plan.mean_without_air;
+    text += fmt::format(", {:.3f}{} without the drag of the air", *mean, unit);
+  }
   if (const auto summary = summarise(runs)) {
     const double difference = summary->mean - *mean;
     text += fmt::format("; simulated - measured = {:+.3f}{}", difference, unit);

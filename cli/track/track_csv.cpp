@@ -10,7 +10,7 @@ namespace repose::cli {
 namespace {
 
 constexpr const char* kDropHeader =
-    "sample,bounce,drop_mm,rebound_mm,drop_uncertainty_mm,rebound_uncertainty_mm,"
+    "sample,bounce,drop_mm,rebound_mm,in_air,drop_uncertainty_mm,rebound_uncertainty_mm,"
     "restitution,restitution_uncertainty,time_s,status\n";
 
 constexpr const char* kRollHeader =
@@ -32,6 +32,7 @@ std::string drop_row(const TrackedFilm& film, std::size_t k) {
                                           fmt::format("{}", bounce.number),
                                           number(bounce.drop_mm.value),
                                           number(bounce.rebound_mm.value),
+                                          "0",  // heights of falls without air
                                           number(bounce.drop_mm.uncertainty),
                                           number(bounce.rebound_mm.uncertainty),
                                           number(bounce.restitution.value),

@@ -54,11 +54,26 @@ void check_taps(const FillProtocol& protocol, base::ErrorList& errors) {
                              protocol.tap_m, protocol.tube_height_m));
 }
 
+/// Of grains that fill the tube, heaped over its rim or its collar's.
+void check_rate(const Model& model, const FillProtocol& protocol, base::ErrorList& errors) {
+  if (!protocol.pour_kg_s) return;
+  constexpr double kPacked = .65;
+  const double mass_kg = kPacked * volume_m3(protocol) * model.grain_material.density_kg_m3;
+  const double slowest_kg_s = mass_kg / kLongestPour_s;
+  errors.require(
+      std::isfinite(*protocol.pour_kg_s) && *protocol.pour_kg_s >= slowest_kg_s,
+      fmt::format("fill.pour_kg_s is {:g}. Rule: {:.3g} or more, which fills the tube in {:g} s: "
+                  "longer runs take too long. Fix: {:.3g}, since what is poured so slowly is "
+                  "hardly denser than that; or a smaller tube.",
+                  *protocol.pour_kg_s, slowest_kg_s, kLongestPour_s, slowest_kg_s));
+}
+
 void check(const Model& model, const FillProtocol& protocol) {
   base::ErrorList errors;
   find_errors(model, errors);
   check_sizes(protocol, 2 * largest_reach_m(model), errors);
   check_taps(protocol, errors);
+  check_rate(model, protocol, errors);
   constexpr double kPacked = .65;
   const double grains = kPacked * volume_m3(protocol) / model.grain.volume_m3;
   errors.require(
@@ -107,6 +122,17 @@ double tapped(ExperimentRun& run, const FillProtocol& protocol) {
   return bulk_below(run.simulation(), protocol.tube_height_m).relative_mass / poured;
 }
 
+/// None: as fast as they fall. Of sizes that vary, each is as likely.
+std::optional<double> grains_per_s(const FillProtocol& protocol, const Model& model,
+                                   const SimulationSetup& setup) {
+  if (!protocol.pour_kg_s) return std::nullopt;
+  double one_of_each_m3 = 0;
+  for (const GrainKind& kind : setup.kinds) one_of_each_m3 += kind.shape.volume_m3;
+  const double mean_kg =
+      model.grain_material.density_kg_m3 * one_of_each_m3 / static_cast<double>(setup.kinds.size());
+  return *protocol.pour_kg_s / mean_kg;
+}
+
 }  // namespace
 
 Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t seed,
@@ -117,7 +143,7 @@ Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t 
   const double spout_m = filled.tube_height_m + protocol.pour_m;
   std::map<std::string, double> readings;
   ExperimentRun filling = empty_tube(model, filled, {report, record}, spout_m);
-  pour(filling, filled, seed, spout_m);
+  pour(filling, filled, seed, spout_m, grains_per_s(protocol, model, filling.simulation().setup()));
   if (protocol.taps) readings["hausner_ratio"] = tapped(filling, protocol);
   ExperimentRun run = struck_level(filling, model, tube, spout_m);
   const Bulk bulk = bulk_below(run.simulation(), protocol.tube_height_m);

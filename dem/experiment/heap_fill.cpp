@@ -34,7 +34,8 @@ Wall tube_of(const Model& model, const HeapProtocol& protocol, double height_m) 
 }
 
 /// Places over the tube.
-RainPlan rain_of(const HeapProtocol& protocol, double reach_m, std::optional<double> spout_m) {
+RainPlan rain_of(const HeapProtocol& protocol, double reach_m, std::optional<double> spout_m,
+                 std::optional<double> grains_per_s) {
   const double room = .5 * protocol.tube_diameter_m - reach_m;
   const auto place = [room](Random& random) {
     const double radius = room * std::sqrt(random.uniform());
@@ -44,7 +45,8 @@ RainPlan rain_of(const HeapProtocol& protocol, double reach_m, std::optional<dou
   return {.place = place,
           .rim_m = protocol.tube_height_m,
           .grains = protocol.grains,
-          .spout_m = spout_m};
+          .spout_m = spout_m,
+          .grains_per_s = grains_per_s};
 }
 
 /// The grains up to the rim, and their contacts but those with the tube above it.
@@ -82,8 +84,9 @@ ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
 }
 
 void pour(ExperimentRun& filling, const HeapProtocol& protocol, std::uint64_t seed,
-          std::optional<double> spout_m) {
-  rain(filling, rain_of(protocol, reach_m(filling.simulation().setup()), spout_m), seed);
+          std::optional<double> spout_m, std::optional<double> grains_per_s) {
+  const double reach = reach_m(filling.simulation().setup());
+  rain(filling, rain_of(protocol, reach, spout_m, grains_per_s), seed);
 }
 
 ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,

@@ -23,7 +23,7 @@ ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
 /// Pours grains into it until they are heaped over its rim, `protocol.tube_height_m`, and rest.
 /// `filling` is empty, or was interrupted while it was filled.
 void pour(ExperimentRun& filling, const HeapProtocol& protocol, std::uint64_t seed,
-          std::optional<double> spout_m = {});
+          std::optional<double> spout_m = {}, std::optional<double> grains_per_s = {});
 
 /// The tube with what lies below its rim, its time set back to 0: grains whose centres lie higher
 /// are off.

@@ -118,8 +118,10 @@ struct GrainDropProtocol {
 ///
 /// The grains fall from a spout at `pour_m` above the rim, at random places over the tube and in
 /// random poses, until they heap over the rim and rest. Those whose centres of mass lie above the
-/// rim are struck off; all others stay whole. Value: bulk density, kg/m^3: the mass of those that
-/// stay by the tube's volume. Readings: "grains", "mass_g", "solid_fraction",
+/// rim are struck off; all others stay whole. They come as fast as they fall, a layer upon the
+/// other, which fills a tube of 150 mm in half a second, or at `pour_kg_s`, one by one: what
+/// is poured slowly has time to settle, and comes to lie denser. Value: bulk density, kg/m^3: the
+/// mass of those that stay by the tube's volume. Readings: "grains", "mass_g", "solid_fraction",
 /// "filling_height_mm" (mean height of the upper surface of what stays, over the tube's whole
 /// width).
 ///
@@ -132,11 +134,14 @@ struct GrainDropProtocol {
 struct FillProtocol {
   double tube_diameter_m = .1;  ///< inner
   double tube_height_m = .1;
-  double pour_m = .05;           ///< from the spout to the rim, or to the collar's
-  std::optional<int> taps = {};  ///< none: it is not tapped
-  double tap_m = .003;           ///< the drop of ISO 3953
+  double pour_m = .05;                   ///< from the spout to the rim, or to the collar's
+  std::optional<double> pour_kg_s = {};  ///< none: as fast as grains fall
+  std::optional<int> taps = {};          ///< none: it is not tapped
+  double tap_m = .003;                   ///< the drop of ISO 3953
 };
 inline constexpr int kMostTaps = 10'000;
+/// Longer pours would be simulated for too long; up to here most has settled.
+inline constexpr double kLongestPour_s = 60;
 
 /// Two equal grains on strings, side by side: one is drawn aside, let go, and strikes the other.
 ///

@@ -38,7 +38,8 @@ class Rain {
   }
   double highest_point_m(const ExperimentRun& run) const;
   void rain_up_to(ExperimentRun& run, double height_m);
-  void add_layer(ExperimentRun& run, double height_m);
+  /// At most so many grains; returns how many it has.
+  int add_layer(ExperimentRun& run, double height_m, int most);
 
   /// Of grains that are added at a height: as if they came from the spout, or in a steady rain.
   double speed_m_s(double height_m) const {
@@ -66,9 +67,10 @@ double Rain::highest_point_m(const ExperimentRun& run) const {
   return highest;
 }
 
-void Rain::add_layer(ExperimentRun& run, double height_m) {
+int Rain::add_layer(ExperimentRun& run, double height_m, int most) {
   std::vector<Vector> taken;
   for (int k = 0; k < kTriesPerLayer && left(run.simulation()) > 0; ++k) {
+    if (static_cast<int>(taken.size()) == most) break;
     Vector place = plan_.place(random_);
     place.z() = height_m;
     const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const Vector& other) {
@@ -82,16 +84,26 @@ void Rain::add_layer(ExperimentRun& run, double height_m) {
                           .velocity = {0, 0, -speed_m_s(height_m)}});
   }
   run.progress().random_draws = random_.draws();
+  return static_cast<int>(taken.size());
 }
 
 /// A layer at a time goes in just above the last one, which by then has fallen by its own height
-/// or lies on the grains below.
+/// or lies on the grains below. Of grains that come at a rate, a layer has those that are due; what
+/// finds no place there does not come later.
 void Rain::rain_up_to(ExperimentRun& run, double height_m) {
+  double due = 1;
   for (double highest = highest_point_m(run); highest < height_m && left(run.simulation()) > 0;
        highest = highest_point_m(run)) {
     const double layer_m = highest + 1.01 * reach_m_;
-    add_layer(run, layer_m);
-    run.advance_for(2 * reach_m_ / speed_m_s(layer_m));
+    const int most = plan_.grains_per_s ? static_cast<int>(due) : kTriesPerLayer;
+    const int added = add_layer(run, layer_m, most);
+    double wait_s = 2 * reach_m_ / speed_m_s(layer_m);
+    if (plan_.grains_per_s) {
+      const double left_over = std::min(due - added, 1.);
+      wait_s = std::max(wait_s, (1 - left_over) / *plan_.grains_per_s);
+      due = std::min<double>(left_over + wait_s * *plan_.grains_per_s, kTriesPerLayer);
+    }
+    run.advance_for(wait_s);
     run.report_progress(kFillFraction * (highest - plan_.floor_m) / (height_m - plan_.floor_m));
   }
 }

@@ -41,6 +41,7 @@ ExperimentEntry drop_entry() {
           .sheet = {.test = "restitution",
                     .value = "rebound_mm",
                     .protocol = {{"drop_mm", "height_mm"}}},
+          .is_in_air = true,
           .is_filmed = true,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<DropProtocol>(protocol).grains; },

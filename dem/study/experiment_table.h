@@ -22,7 +22,15 @@ struct Reading {
   std::string_view unit;  ///< "mm", "deg", "g", "s"; empty: a pure number
   /// A bench can measure it too: a key of [experiment.NAME.also_measured].
   bool is_measurable = false;
-  std::string_view needs = "";  ///< the key of the protocol without which there is none
+  std::string_view needs = "";     ///< the key of the protocol without which there is none
+  bool shares_systematic = false;  ///< has the experiment's SystematicFraction, too
+};
+
+/// By how much all readings of a bench may differ from the simulation for a reason that is known,
+/// and that more of them do not help against.
+struct SystematicFraction {
+  double sd = 0;               ///< standard uncertainty as a fraction of the reading
+  std::string_view note = "";  ///< the reason, and what would help
 };
 
 /// What a bench writes down of it, a row for each repeat: the columns of a test of `repose bench`.
@@ -58,10 +66,13 @@ struct ExperimentEntry {
   bool is_bulk = false;       ///< many loose grains, of all the sizes that they have
   bool is_usual = true;       ///< part of a new study that names no experiments
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
+  bool is_in_air = false;     ///< the drag of the air lowers its readings, and is not simulated
   bool is_filmed = false;     ///< a film of it on the bench gives a row of its sheet, or a picture
   std::vector<FilmedSetting> filmed_settings = {};
   /// How many readings of a bench a run's number is the mean of; null: one.
   int (*readings_per_run)(const Protocol& protocol) = nullptr;
+  /// Null: there is none, whatever the protocol.
+  SystematicFraction (*systematic)(const Protocol& protocol) = nullptr;
   /// What softened grains do to its value, to follow "a drop with stiffness_factor = 0.1"; empty:
   /// nothing that would matter.
   std::string_view softening_effect = "";

@@ -75,6 +75,7 @@ ExperimentEntry drop_on_grains_entry() {
                     .value = "rebound_mm",
                     .protocol = {{"drop_mm", "height_mm"}}},
           .is_usual = false,
+          .is_in_air = true,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainDropProtocol>(protocol).grains; },
           .softening_effect = "rebounds less than one with the real stiffness",

@@ -100,6 +100,15 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
   result.videos = files_named(measured, "videos", "videos = [\"drops/*.mp4\"]", files);
   check_medium(measured, "videos", &ExperimentEntry::is_filmed, entry,
                "only this is read off films");
+  if (const auto in_air = measured.truth("in_air", "in_air = false")) {
+    result.in_air = *in_air;
+    if (!entry.is_in_air) {
+      measured.wrong(*measured.value("in_air"),
+                     fmt::format("only of {}, whose readings the drag of the air lowers",
+                                 names_of_those(&ExperimentEntry::is_in_air)),
+                     "take this line out");
+    }
+  }
   measured.refuse_others();
   return result;
 }

@@ -34,6 +34,12 @@ struct CoefficientSet {
   Coefficient rolling_friction;
 };
 
+/// An error that all readings of an experiment have in common, so that more of them do not help.
+struct Systematic {
+  double sd = 0;     ///< standard uncertainty, in the unit of the readings
+  std::string note;  ///< what it is of; empty: there is none
+};
+
 /// Another reading of an experiment than its own number, measured on the bench: its mean.
 struct MeasuredReading {
   std::string name;  ///< as in the readings of the simulation: "base_radius_mm"
@@ -41,6 +47,7 @@ struct MeasuredReading {
   std::optional<double> sd;
   std::optional<int> count;
   std::optional<double> tolerance;  ///< as Measured::tolerance
+  Systematic systematic = {};
 };
 
 /// What was measured on the bench: readings, or their mean and scatter, or a sheet of readings, or
@@ -59,6 +66,9 @@ struct Measured {
   /// Standard uncertainty of a single one of the `values`, where it is known: they scatter by as
   /// much at least.
   std::optional<double> value_uncertainty;
+  /// Of drops: heights were read in air, not corrected for its drag, as films' are.
+  bool in_air = true;
+  Systematic systematic = {};  ///< of values and mean
   std::vector<MeasuredReading> also;
 };
 

@@ -35,6 +35,15 @@ Candidate candidate(const std::string& name, double means, double scatter) {
   return {.name = name, .means = means, .scatter = scatter, .values = {}};
 }
 
+// n readings of sd s and a common error u: the mean is known to sqrt(s^2 / n + u^2).
+TEST(BenchReadings, AreCountedBesideWhatTheyHaveInCommon) {
+  ResultObservable observable;
+  observable.measured_sd = 3;
+  observable.systematic_uncertainty = 2;
+  observable.measured_uncertainty = std::sqrt(9. / 12 + 4);
+  EXPECT_EQ(bench_readings(observable), 12);
+}
+
 TEST(Candidates, OneMeanThatIsTwoSigmaOffHasADevianceOfFour) {
   const double two_sided = std::erfc(2 / std::sqrt(2.));
   EXPECT_NEAR(candidate_of("model", joint_with(two_sided, 1, .5)).means, 4, 1e-6);

@@ -138,6 +138,8 @@ TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
   const StudyExport tapped = exported(study, ExportTarget::liggghts);
   EXPECT_THAT(names_of(tapped), Not(Contains("fill.lig")));
   EXPECT_THAT(file_text(tapped, "README.txt"), HasSubstr("without a deck: fill."));
+  study.experiments[dem::Experiment::fill].protocol = dem::FillProtocol{.pour_kg_s = .05};
+  EXPECT_THAT(names_of(exported(study, ExportTarget::liggghts)), Not(Contains("fill.lig")));
 }
 
 /// Nuts on steel, with a tube and an incline of acrylic.
@@ -254,6 +256,24 @@ TEST(ExportStudy, SharedDampingIsRefusedForClumpsAndPassesForSpheres) {
   }
   study.model.grain = dem::sphere_shape(.01);
   EXPECT_THAT(exported(study, ExportTarget::liggghts, false).files, Not(IsEmpty()));
+}
+
+TEST(ExportStudy, EdemIsToldItsOwnNameOfTheRollingModel) {
+  using dem::RollingModel;
+  for (const auto& [model, name] : {std::pair(RollingModel::constant_torque, "Standard"),
+                                    {RollingModel::relative_constant_torque, "RVD"},
+                                    {RollingModel::elastic_plastic, "Type C"}}) {
+    const StudyExport made = exported(hazelnuts(model), ExportTarget::edem, false);
+    EXPECT_THAT(file_text(made, "values.txt"), HasSubstr(std::string(name) + " Rolling Friction."));
+    const bool is_damped = model == RollingModel::elastic_plastic;
+    for (const char* file : {"values.txt", "values.csv"}) {
+      EXPECT_EQ(file_text(made, file).find("Rolling Viscous Damping Ratio") != std::string::npos,
+                is_damped)
+          << file << ' ' << name;
+    }
+    EXPECT_THAT(file_text(made, "values.csv"),
+                HasSubstr("grain with wall,Coefficient of Rolling Friction,"));
+  }
 }
 
 TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {

@@ -126,6 +126,18 @@ TEST(ReadingCorrelation, AReadingAloneIsTheSameWithAndWithoutDerivatives) {
   EXPECT_NEAR(with.values[0], .7 / std::sqrt(.3 * .3 + .11), 1e-15);
 }
 
+TEST(Misfit, WhatReadingsHaveInCommonIsPartOfTheirMeansUncertainty) {
+  Problem problem = full_problem(false);
+  const Misfit before = misfit_of(problem, false);
+  problem.observables[0].systematic_sd = 3 * before.measured_uncertainty(0);
+  const Misfit after = misfit_of(problem, false);
+  EXPECT_NEAR(after.measured_uncertainty(0) / before.measured_uncertainty(0), std::sqrt(10), 1e-9);
+  EXPECT_EQ(before.systematic_variance(0), 0);
+  EXPECT_NEAR(1 / after.weight(0) - 1 / before.weight(0), after.systematic_variance(0),
+              1e-9 / after.weight(0));
+  EXPECT_EQ(after.weight(1), before.weight(1));
+}
+
 TEST(Misfit, AReadingOfOneGrainScattersMoreThanTheMeanOfTen) {
   Problem problem = full_problem(false);
   problem.observables[0].sd.reset();

@@ -56,6 +56,20 @@ TEST(Narrowing, GoesFromNoneToThatOfAnExactSimulation) {
   }
 }
 
+TEST(Narrowing, MoreReadingsDoNotLowerWhatTheyHaveInCommon) {
+  Problem problem = fake::problem();
+  const fake::Runs runs = runs_of_round(problem);
+  const auto before = narrowing_of(solve(problem, runs), kHour_s);
+  for (Observable& observable : problem.observables) {
+    observable.systematic_sd = 20 * standard_uncertainty(observable);
+  }
+  const auto after = narrowing_of(solve(problem, runs), kHour_s);
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_LT(before[j].readings, .9) << j;
+    EXPECT_GT(after[j].readings, .98) << j;
+  }
+}
+
 TEST(Narrowing, ForeseesWhatMoreReadingsDo) {
   Problem problem = fake::problem();
   const fake::Runs runs = runs_of_round(problem);

@@ -118,6 +118,17 @@ TEST(Foresight, AnEffectIsTheChangeFromBoundToBoundOverItsUncertainty) {
   EXPECT_THAT(foresight.prospects()[1].effects, Each(Lt(.3)));
 }
 
+TEST(Foresight, WhatReadingsHaveInCommonIsNotLoweredByMoreOfThem) {
+  Problem problem = problem_with({"first"});
+  problem.experiments[0].systematic_fraction = .05;
+  // As much as a single reading scatters by: ten of them halve nothing.
+  const double u = .05 * (kBase + kSlope / 2) * std::sqrt(1 + 1 / 10.) / kSlope;
+  EXPECT_NEAR(foresight_of(problem).with({0}).widths[0], 2 * 1.96 / std::sqrt(12 + 1 / (u * u)),
+              .05);
+  EXPECT_GT(foresight_of(problem, 1000).with({0}).widths[0],
+            .9 * foresight_of(problem).with({0}).widths[0]);
+}
+
 TEST(Foresight, WhatGivesNoReadingOfMostMaterialsTellsLittle) {
   const Foresight foresight = foresight_of(problem_with({"first", "jams"}));
   EXPECT_GT(foresight.prospects()[1].failed_runs, 15);
@@ -184,7 +195,7 @@ TEST_F(OfferedStudyTest, LeavesOutWhatWouldTakeLongerThanAllOfItMayAndSaysSo) {
   EXPECT_THAT(made.notes.front(), HasSubstr("give --minutes"));
   EXPECT_EQ(made.problem.observables.size(), 2U) << "what is measured stays";
   const OfferedStudy all = offered_study(study, grain, plan_budget(1e6), every_experiment());
-  EXPECT_THAT(all.notes, IsEmpty());
+  EXPECT_THAT(all.notes, ElementsAre(HasSubstr("fill: how fast it was poured is not said")));
 }
 
 TEST_F(OfferedStudyTest, LinesForTheStudyFileAreReadAsTheExperimentThatWasPlanned) {

@@ -53,8 +53,9 @@ stiffness_factor = 0.5
                      .reason = "ends early"}};
     record.study = dem::read_study(folder_.path() / "study.toml", settings);
     record.sheets = read_sheets(record.study, NoRows::refused);
-    record.study = as_measured(record.study, record.pictures, record.sheets, record.films);
     record.grain = dem::build_grain(record.study.grain);
+    record.study =
+        as_measured(record.study, record.grain.shape, record.pictures, record.sheets, record.films);
     record.settings = settings;
     record.method = "joint";
     return record;

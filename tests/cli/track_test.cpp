@@ -76,7 +76,7 @@ TEST_F(TrackCommand, FilmsOfDropsBecomeATableThatTheBenchReads) {
   const Finished done = run({"drop", "a.mp4", "b.mp4", "--csv", "drops.csv", "--json", "t.json"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, AllOf(HasSubstr("mean of 2 first bounces: 0.5"), HasSubstr("a.mp4")));
-  EXPECT_THAT(text("drops.csv"), StartsWith("sample,bounce,drop_mm,rebound_mm,"));
+  EXPECT_THAT(text("drops.csv"), StartsWith("sample,bounce,drop_mm,rebound_mm,in_air,"));
 
   const json films = json::parse(text("t.json"));
   ASSERT_EQ(films.size(), 2U);

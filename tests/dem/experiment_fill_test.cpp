@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "dem/engine/unstable_run.h"
@@ -48,6 +50,27 @@ TEST(FilledTubes, FrictionMakesLooserPackings) {
   smooth.grain_grain = {.3, .05, .01};
   rough.grain_grain = {.3, .8, .3};
   EXPECT_LT(run_fill(rough, kTubeToFill, 1).value, run_fill(smooth, kTubeToFill, 1).value - 20);
+}
+
+// 2 kg/s: as long as the tube's 1.4 kg and what is heaped over its rim take.
+TEST(FilledTubes, PouredSlowlyTheyTakeTheirTimeAndLieDenser) {
+  FillProtocol slow = kTubeToFill;
+  slow.pour_kg_s = 2;
+  const auto pouring_s = [](const FillProtocol& tube, Repeat& repeat) {
+    double longest_s = 0;
+    repeat = run_fill(balls_to_fill(), tube, 1, [&](double, const Simulation& simulation) {
+      longest_s = std::max(longest_s, simulation.time_s());
+      return true;
+    });
+    return longest_s;
+  };
+  Repeat fast_fill, slow_fill;
+  const double fast_s = pouring_s(kTubeToFill, fast_fill);
+  const double slow_s = pouring_s(slow, slow_fill);
+  const double heaped_s = 1e-3 * slow_fill.readings.at("mass_g") / *slow.pour_kg_s;
+  EXPECT_LT(fast_s, heaped_s + .3);
+  EXPECT_GT(slow_s, heaped_s);
+  EXPECT_GT(slow_fill.value, fast_fill.value);
 }
 
 TEST(FilledTubes, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
@@ -114,6 +137,12 @@ TEST(FilledTube, TellsEveryErrorAtOnce) {
               }),
               AllOf(HasSubstr("fill.taps is 0"), HasSubstr("fill.tap_m is 0.2"),
                     HasSubstr("at most the tube's height, 0.15")));
+  EXPECT_THAT(error_of([] {
+                FillProtocol slow = kTubeToFill;
+                slow.pour_kg_s = 1e-6;
+                run_fill(balls_to_fill(), slow, 1);
+              }),
+              AllOf(HasSubstr("fill.pour_kg_s is 1e-06. Rule: 0.02"), HasSubstr("in 60 s")));
   EXPECT_THAT(
       error_of([] { run_fill(balls_to_fill(), {.tube_diameter_m = 9, .tube_height_m = 9}, 1); }),
       HasSubstr("Rule: at most 100000. Fix: a smaller tube"));
