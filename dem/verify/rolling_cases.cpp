@@ -72,6 +72,39 @@ void incline_then_flat(Trial& trial, RollingModel model) {
   }
 }
 
+/// Down an incline, round its foot and along a flat, as at a bench: with d = R tan(tilt / 2), from
+/// where the ball touches both planes, L = r^2 (S - d) (sin(tilt) - mu_r cos(tilt)) / mu_r + d. At
+/// the foot it loses what points into the flat, and keeps
+/// r = (5 cos(tilt) + 2) / 7 - 5/7 mu_r sin(tilt) of its speed, by its angular momentum about the
+/// point at which it strikes the flat (calibrate/THEORY.md, "The foot of the incline"). Not for the
+/// elastic-plastic model, whose damper takes more than that where the ball strikes: it stops 2 to
+/// 5 % short.
+void rolls_round_foot(Trial& trial, RollingModel model) {
+  constexpr double kTilt = 20 * kDegree;
+  constexpr double kLength = .15;
+  constexpr double kTolerance = .001;
+  for (const double friction : {.02, .05, .1}) {
+    SimulationSetup setup = ball_scene(
+        {.restitution = .05, .sliding_friction = 1, .rolling_friction = friction}, model);
+    setup.walls = {tilted_plane(kTilt), tilted_plane(0)};
+    setup.gravity = {0, 0, -kStandardGravity_m_s2};
+    Simulation simulation = trial.simulate(setup, 1);
+    Grain ball = resting_sphere(setup, kTilt);
+    ball.position -= kLength * downhill(kTilt);
+    simulation.add(ball);
+    do {
+      simulation.advance(10);
+    } while (simulation.grain(0).position.x() < 0 || speed_of(simulation, 0) > 1e-3);
+    const double foot = kBallRadius_m * std::tan(kTilt / 2);
+    const double kept = (5 * std::cos(kTilt) + 2) / 7 - 5. / 7 * friction * std::sin(kTilt);
+    const double expected =
+        kept * kept * (kLength - foot) * (std::sin(kTilt) - friction * std::cos(kTilt)) / friction +
+        foot;
+    trial.expect(fmt::format("rest on the flat at mu_r {:.2f}, m", friction), expected,
+                 simulation.grain(0).position.x(), kTolerance * expected);
+  }
+}
+
 /// A ball that is set down on an incline stays if tan(tilt) < mu_r, and else rolls off with
 /// 5/7 g (sin(tilt) - mu_r cos(tilt)).
 void holds_on_incline(Trial& trial, RollingModel model) {
@@ -122,6 +155,9 @@ std::vector<VerifyCase> rolling_cases() {
     };
     add("decay on a plane", decays_on_plane);
     add("incline, then flat", incline_then_flat);
+    if (each.model != RollingModel::elastic_plastic) {
+      add("incline, foot and flat", rolls_round_foot);
+    }
     add("set down on an incline", holds_on_incline);
     add("comes to rest", comes_to_rest);
   }
