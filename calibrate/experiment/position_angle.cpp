@@ -12,8 +12,6 @@
 namespace repose::calibrate {
 namespace {
 
-double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
-
 vision::Outline outline_of(const dem::HeapEnvelope& envelope) {
   vision::Outline outline{.along = {}, .height = envelope.height_m};
   for (std::size_t k = 0; k < envelope.height_m.size(); ++k) {
@@ -35,9 +33,9 @@ PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
     const vision::OutlineAngle view = vision::measure_outline(outline_of(envelope), options);
     const auto angle_rad = view.angle_rad();
     if (!angle_rad) continue;
-    angles.push_back(degrees(*angle_rad));
+    angles.push_back(*angle_rad * 180 / std::numbers::pi);
     for (const vision::NamedAngle& other : view.definitions) {
-      others[other.name].push_back(degrees(other.angle_rad));
+      others[other.name].push_back(other.angle_rad * 180 / std::numbers::pi);
     }
     if (&envelope == &envelopes.front()) first_view_deg = angles.back();
     double foot = 0;

@@ -9,15 +9,15 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kRadius_m = 5e-3;
+constexpr double kRestingRadius_m = 5e-3;
 
 /// A soft ball that lies on a plate and spins.
 Simulation spinning_ball(RollingModel rolling, const Vector& spin) {
   Model model = test::soft_bench();
-  model.grain = sphere_shape(kRadius_m);
+  model.grain = sphere_shape(kRestingRadius_m);
   model.rolling = rolling;
   Simulation simulation(model_setup(model, model.grain, {study_wall(Plane{})}, .1, kBulkFraction));
-  simulation.add({.position = {0, 0, kRadius_m}, .spin = spin});
+  simulation.add({.position = {0, 0, kRestingRadius_m}, .spin = spin});
   return simulation;
 }
 

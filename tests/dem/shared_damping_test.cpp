@@ -13,7 +13,7 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kSpeed = 1;
+constexpr double kImpactSpeed = 1;
 
 SimulationSetup wood_scene(const ClumpShape& shape, double restitution, DampingModel damping,
                            double sliding_friction = 0) {
@@ -28,11 +28,11 @@ SimulationSetup wood_scene(const ClumpShape& shape, double restitution, DampingM
 double rebound_of_block(double restitution, DampingModel damping, double step, double late) {
   SimulationSetup setup = wood_scene(block_shape({.02, .02, .01}, .005), restitution, damping);
   setup.walls = {tilted_plane(0)};
-  setup.timestep_s = accurate_timestep_s(setup, kSpeed, step);
+  setup.timestep_s = accurate_timestep_s(setup, kImpactSpeed, step);
   Simulation simulation(setup);
-  simulation.add(
-      {.position = {0, 0, .01 + late * setup.timestep_s * kSpeed}, .velocity = {0, 0, -kSpeed}});
-  return collide(simulation, Vector::UnitZ(), .005).after.velocity.z() / kSpeed;
+  simulation.add({.position = {0, 0, .01 + late * setup.timestep_s * kImpactSpeed},
+                  .velocity = {0, 0, -kImpactSpeed}});
+  return collide(simulation, Vector::UnitZ(), .005).after.velocity.z() / kImpactSpeed;
 }
 
 // As exact as one contact is at the steps of all experiments.
@@ -74,10 +74,10 @@ Wall groove() {
 double rebound_in_groove(const std::vector<Wall>& walls, DampingModel damping) {
   SimulationSetup setup = wood_scene(dumbbell(), .4, damping);
   setup.walls = walls;
-  setup.timestep_s = .5 * accurate_timestep_s(setup, kSpeed);
+  setup.timestep_s = .5 * accurate_timestep_s(setup, kImpactSpeed);
   Simulation simulation(setup);
-  simulation.add({.position = {0, 0, .005 * std::sqrt(2.0)}, .velocity = {0, 0, -kSpeed}});
-  return collide(simulation, Vector::UnitZ(), .005).after.velocity.z() / kSpeed;
+  simulation.add({.position = {0, 0, .005 * std::sqrt(2.0)}, .velocity = {0, 0, -kImpactSpeed}});
+  return collide(simulation, Vector::UnitZ(), .005).after.velocity.z() / kImpactSpeed;
 }
 
 // Each flank of the groove takes its half of the impact, as if the other were not there.
@@ -94,9 +94,9 @@ TEST(SharedDamping, ContactsAcrossEachOtherDoNotShare) {
 Vector velocity_of_ball(const Wall& wall, DampingModel damping) {
   SimulationSetup setup = wood_scene(sphere_shape(.005), .4, damping, .4);
   setup.walls = {wall};
-  setup.timestep_s = accurate_timestep_s(setup, kSpeed);
+  setup.timestep_s = accurate_timestep_s(setup, kImpactSpeed);
   Simulation simulation(setup);
-  simulation.add({.position = {1e-5, 0, .00708}, .velocity = {0, 0, -kSpeed}});
+  simulation.add({.position = {1e-5, 0, .00708}, .velocity = {0, 0, -kImpactSpeed}});
   while (simulation.contacts().size() < 2) simulation.advance(1);
   simulation.advance(5);
   EXPECT_GE(simulation.contacts().size(), 2U);
@@ -128,13 +128,13 @@ TEST(SharedDamping, NoImpactMakesEnergyOrPulls) {
       SimulationSetup setup =
           wood_scene(block_shape({.02, .015, .01}, .005), .3, DampingModel::shared, .4);
       if (!on_block) setup.walls = {tilted_plane(0)};
-      setup.timestep_s = accurate_timestep_s(setup, 2 * kSpeed);
+      setup.timestep_s = accurate_timestep_s(setup, 2 * kImpactSpeed);
       Simulation simulation(setup);
       const Vector turn(std::sin(k), std::sin(2.1 * k), std::sin(3.3 * k));
       Grain block;
       block.position.z() = .03;
       block.orientation = Eigen::AngleAxisd(.7 * k, turn.normalized());
-      block.velocity = {.5, 0, -kSpeed};
+      block.velocity = {.5, 0, -kImpactSpeed};
       block.spin = 10 * turn;
       simulation.add(block);
       if (on_block) simulation.add({.position = {0, 0, -.028}});
@@ -148,7 +148,7 @@ TEST(SharedDamping, NoImpactMakesEnergyOrPulls) {
         least = std::min(least, energy);
         if (!on_block) pull = std::min(pull, simulation.force_n(0).z());
       }
-      EXPECT_LT(least, .95 * simulation.mass_kg(0) * kSpeed * kSpeed) << "they struck";
+      EXPECT_LT(least, .95 * simulation.mass_kg(0) * kImpactSpeed * kImpactSpeed) << "they struck";
       EXPECT_EQ(pull, 0);
     }
   }
