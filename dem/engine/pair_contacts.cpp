@@ -128,9 +128,8 @@ double add_pair_contacts(const TouchingChunk& chunk, const Sides<PlacedSphere>& 
 
 double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t number,
                        std::span<PairLoad> loads) {
-  thread_local ContactWork<PlacedSphere> work = {.motions = std::vector<PairMotion>(kPairsTogether),
-                                                 .energies = {},
-                                                 .fours = {}};
+  thread_local ContactWork<PlacedSphere> work = {
+      .motions = std::vector<PairMotion>(kPairsTogether), .energies = {}, .fours = {}};
   const std::size_t first = number * kPairsTogether;
   const NearGrains& last = list.grains[first + loads.size() - 1];
   TouchingChunk& chunk = list.touching[number];

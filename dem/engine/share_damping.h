@@ -11,10 +11,10 @@
 /// energy U,
 ///   D_i = c sqrt(S_i m* U_i / sum U_j),
 /// c sqrt(S m* / N) for N equal ones. Together they are D = b sqrt(m*) F / sqrt(2 U), F and U the
-/// sums, b = c sqrt(6/5), which restores the same whatever F(d) is (dem/THEORY.md, "Several contacts
-/// at once"; Feng 2026, arXiv:2604.02533; for the cause Kodam et al. 2009, Chemical Engineering
-/// Science 64, 3466). Of a contact in another direction U_j cos^2 counts. Proved by SharedDamping.*
-/// and, in `repose verify`, "spheres one after another".
+/// sums, b = c sqrt(6/5), which restores the same whatever F(d) is (dem/THEORY.md, "Several
+/// contacts at once"; Feng 2026, arXiv:2604.02533; for the cause Kodam et al. 2009, Chemical
+/// Engineering Science 64, 3466). Of a contact in another direction U_j cos^2 counts. Proved by
+/// SharedDamping.* and, in `repose verify`, "spheres one after another".
 namespace repose::dem {
 
 /// Adds the contact in a lane.

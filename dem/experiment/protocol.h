@@ -33,11 +33,11 @@ struct DropProtocol {
 /// "half_mm_slip_deg" (the plate's angle once the body has slipped half a millimetre; what others
 /// report) and "begin_deg" (where the turning began). Throws NoReading for a body that tips or
 /// rolls, creeps from where the turning began, or holds up to 89 degrees. Restitution does not
-/// matter: plates of more than .5 are taken to have .5, or bodies would rattle. There is no chance in it: the seed changes nothing.
-/// Nor would chance be of use: as long as the body slides, its angle is that of friction whatever
-/// its pose, and with the row across the slope ellipsoids roll over their ends once
-/// tan(angle) = (a^2 - b^2) / 2ab (half-axes a > b: 14 degrees for a hazelnut), before they slide.
-/// The scatter of a bench is that of its surfaces.
+/// matter: plates of more than .5 are taken to have .5, or bodies would rattle. There is no chance
+/// in it: the seed changes nothing. Nor would chance be of use: as long as the body slides, its
+/// angle is that of friction whatever its pose, and with the row across the slope ellipsoids roll
+/// over their ends once tan(angle) = (a^2 - b^2) / 2ab (half-axes a > b: 14 degrees for a
+/// hazelnut), before they slide. The scatter of a bench is that of its surfaces.
 struct TiltProtocol {
   int bonded = 2;
   double rate_deg_s = 2;
@@ -52,7 +52,8 @@ struct TiltProtocol {
 /// Value: how far along the flat its centroid lies from the foot once it is at rest, mm. A grain
 /// that stays on the incline is released again, up to ten times, as at a bench; then it has a value
 /// below 0: less its distance up the incline. Readings: "lateral_mm" (aside), "stopped_on_incline"
-/// (0 or 1), "releases", "hop_mm" (how high its lowest point rose above the flat), "time_s". Throws NoReading for a grain that does not stop.
+/// (0 or 1), "releases", "hop_mm" (how high its lowest point rose above the flat), "time_s". Throws
+/// NoReading for a grain that does not stop.
 struct RollProtocol {
   double incline_deg = 20;
   double release_m = .15;        ///< from the foot of the incline, along it

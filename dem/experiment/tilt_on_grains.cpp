@@ -121,8 +121,7 @@ class TiltRun {
         throw NoReading(fmt::format(
             "{}: the grains do not come to rest on the level plate in {:g} s. Fix: more rolling "
             "friction between particles, which is {:g}, or less restitution, which is {:g}.",
-            tilting_.name, kLongestBedSettling_s, between_.rolling_friction,
-            between_.restitution));
+            tilting_.name, kLongestBedSettling_s, between_.rolling_friction, between_.restitution));
       }
       run_.advance(steps);
     }

@@ -107,8 +107,8 @@ std::string experiment_names();
 
 std::string name_of(Experiment experiment);
 
-/// What is wrong with a protocol, a line each as run_drop() and the others say it, with the lines of
-/// the study file added: nobody has to guess that a size was never given, or what it is called
+/// What is wrong with a protocol, a line each as run_drop() and the others say it, with the lines
+/// of the study file added: nobody has to guess that a size was never given, or what it is called
 /// there.
 std::string with_study_keys(const std::string& errors, const Protocol& protocol);
 

@@ -364,8 +364,9 @@ TEST_F(StudyFile, NumbersOfSettingsNeedNoDigitBeforeOrAfterTheirPoint) {
 }
 
 TEST_F(StudyFile, ATiltBeginsBelowWhereItEnds) {
-  EXPECT_THAT(errors(kStudy, {"experiment.tilt.start_deg = 89"}),
-              HasSubstr("experiment.tilt.start_deg = 89. Rule: a number of at least 0 and below 89"));
+  EXPECT_THAT(
+      errors(kStudy, {"experiment.tilt.start_deg = 89"}),
+      HasSubstr("experiment.tilt.start_deg = 89. Rule: a number of at least 0 and below 89"));
 }
 
 TEST_F(StudyFile, ErrorsOfSettingsAreCalledBySetting) {
