@@ -55,8 +55,9 @@ struct Experiment {
 /// The spheres that stand for a grain.
 struct GrainSpheres {
   int count = 1;
-  int most = 1;           ///< that can follow its shape closer; `count`: none can
-  std::string no_closer;  ///< why none can: "one sphere is exactly its shape"
+  int most = 1;                ///< that can follow its shape closer; `count`: none can
+  std::string no_closer;       ///< why none can: "one sphere is exactly its shape"
+  bool share_damping = false;  ///< contacts of one pair of bodies
 };
 
 /// One number measured on the bench: the mean of n readings.

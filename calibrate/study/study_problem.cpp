@@ -159,6 +159,7 @@ class Maker {
     made_.problem.settings.seed = study_.seed;
     made_.problem.parameters = open_parameters(study_);
     made_.problem.spheres = spheres_of(study_.grain, grain_.shape);
+    made_.problem.spheres.share_damping = study_.model.damping == dem::DampingModel::shared;
     if (made_.problem.parameters.empty()) {
       throw std::invalid_argument(
           fmt::format("{}: every coefficient has a value, so there is nothing to fit. Fix: give "

@@ -224,9 +224,11 @@ InputWords words_of(AssumedInput input, const Problem& problem, double value) {
                              "coefficients are good only with this clump of {}",
                              study),
       .other = fmt::format("with {:.0f} spheres", value),
-      .fix = fmt::format("unless the study has it, damping = \"shared\" in [contact], with which "
-                         "impacts depend less on the spheres that touch; or spheres = {:.0f}; and "
-                         "calibrate again",
+      .fix = fmt::format("{}spheres = {:.0f}, and calibrate again",
+                         problem.spheres.share_damping
+                             ? ""
+                             : "damping = \"shared\" in [contact], with which impacts depend less "
+                               "on the spheres that touch; or ",
                          value),
       .too_dear = "what its number of spheres does to its readings: grains of more",
       .by_hand = "simulate it at these coefficients with more spheres"};

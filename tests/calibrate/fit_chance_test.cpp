@@ -39,7 +39,7 @@ Run dropped(const Job& job, double scatter_mm = 0) {
   return {job, {{"value", rise}, {"lowest_point_rise_mm", rise - .3}}, {}};
 }
 
-Runs runs_of(const Problem& problem, double scatter_mm = 0) {
+Runs drops_of(const Problem& problem, double scatter_mm = 0) {
   Runs runs;
   for (const Job& job : propose(problem, {})) runs.push_back(dropped(job, scatter_mm));
   for (const Job& job : verification_jobs(problem, {.9}, 6, 0)) {
@@ -50,8 +50,8 @@ Runs runs_of(const Problem& problem, double scatter_mm = 0) {
 
 TEST(Chance, HasNoPartInRunsThatOtherSeedsRepeat) {
   const Problem problem = ball_drop();
-  EXPECT_FALSE(has_chance(problem.experiments[0], runs_of(problem)));
-  EXPECT_TRUE(has_chance(problem.experiments[0], runs_of(problem, kTwentieth)));
+  EXPECT_FALSE(has_chance(problem.experiments[0], drops_of(problem)));
+  EXPECT_TRUE(has_chance(problem.experiments[0], drops_of(problem, kTwentieth)));
   Experiment tilt = problem.experiments[0];
   tilt.is_stochastic = false;
   EXPECT_FALSE(has_chance(tilt, {}));
@@ -59,14 +59,14 @@ TEST(Chance, HasNoPartInRunsThatOtherSeedsRepeat) {
 
 TEST(Chance, OneRepeatThatDiffersInAnyReadingIsEnough) {
   const Problem problem = ball_drop();
-  Runs runs = runs_of(problem);
+  Runs runs = drops_of(problem);
   const auto repeat = [&]() -> OneRun& {
     return *std::find_if(runs.begin(), runs.end(),
                          [](const OneRun& run) { return run.job.seed > 1'000'000'003; });
   };
   repeat().readings["lowest_point_rise_mm"] += 1e-6;
   EXPECT_TRUE(has_chance(problem.experiments[0], runs));
-  runs = runs_of(problem);
+  runs = drops_of(problem);
   repeat().readings.clear();
   repeat().failure = "it never rose";
   EXPECT_TRUE(has_chance(problem.experiments[0], runs));
@@ -74,26 +74,26 @@ TEST(Chance, OneRepeatThatDiffersInAnyReadingIsEnough) {
 
 TEST(Chance, IsThereUntilRepeatsOfDifferentReadingsShowThatItIsNot) {
   const Problem problem = ball_drop();
-  Runs once = runs_of(problem);
+  Runs once = drops_of(problem);
   const auto same_place = [](const OneRun& a, const OneRun& b) {
     return a.job.values == b.job.values;
   };
   once.erase(std::unique(once.begin(), once.end(), same_place), once.end());
   EXPECT_TRUE(has_chance(problem.experiments[0], once));
-  Runs all_the_same = runs_of(problem);
+  Runs all_the_same = drops_of(problem);
   for (OneRun& run : all_the_same) run.readings = {{"value", 0}, {"lowest_point_rise_mm", 0}};
   EXPECT_TRUE(has_chance(problem.experiments[0], all_the_same)) << "as of grains that never leave";
 }
 
 TEST(Chance, WithoutItRepeatsTellNoMoreThanTheFirst) {
   const Problem problem = ball_drop();
-  const Runs runs = runs_of(problem);
+  const Runs runs = drops_of(problem);
   const TrainingSet sure = training_set_of(problem, problem.experiments[0], "value", runs);
   std::vector<Point> places = sure.places;
   std::sort(places.begin(), places.end());
   EXPECT_EQ(std::unique(places.begin(), places.end()), places.end());
   EXPECT_EQ(readings_among(problem.experiments[0], "value", runs), static_cast<int>(runs.size()));
-  const Runs others = runs_of(problem, kTwentieth);
+  const Runs others = drops_of(problem, kTwentieth);
   EXPECT_THAT(training_set_of(problem, problem.experiments[0], "value", others).places,
               SizeIs(others.size()));
 }
@@ -101,7 +101,7 @@ TEST(Chance, WithoutItRepeatsTellNoMoreThanTheFirst) {
 /// Restitution of a ball: e = sqrt(h / H), and Student's interval of the bench's mean alone.
 TEST(Chance, ABallsRestitutionIsAsUncertainAsItsReboundsAndNoMore) {
   const Problem problem = ball_drop();
-  const JointFit fit = fit_jointly(problem, runs_of(problem));
+  const JointFit fit = fit_jointly(problem, drops_of(problem));
   const double half_mm = 2.093024 * 8 / std::sqrt(20);
   EXPECT_NEAR(fit.parameters[0].value, std::sqrt(405 / kFall_mm), 2e-4);
   EXPECT_NEAR(fit.parameters[0].interval.low, std::sqrt((405 - half_mm) / kFall_mm), 2e-4);
@@ -118,7 +118,7 @@ TEST(Chance, WithoutItReadingsOfOneExperimentAreTakenForIndependent) {
   Problem problem = ball_drop();
   problem.observables.push_back(
       {"drop.lowest_point_rise_mm", "drop", "lowest_point_rise_mm", "mm", 409, 8, 20, {}});
-  const JointFit fit = fit_jointly(problem, runs_of(problem));
+  const JointFit fit = fit_jointly(problem, drops_of(problem));
   EXPECT_EQ(fit.reading_correlation[0][1], 0);
   // Their best compromise is 2.15 mm off both means, each known within 1.91 mm (Student's share).
   const double u = 8 / std::sqrt(20) * 2.093024 / 1.959964;
