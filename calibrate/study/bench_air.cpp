@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/air_drag.h"
 #include "base/error_list.h"
 #include "base/units.h"
 #include "calibrate/statistics/summary.h"

@@ -1,8 +1,11 @@
 #pragma once
 
-#include "base/air_drag.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/study/study.h"
+
+namespace repose::base {
+struct FallingGrain;
+}
 
 /// Grains are dropped in air, and simulated without it.
 namespace repose::calibrate {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/air_drag.h"
 #include "calibrate/study/study_record.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"

@@ -25,7 +25,7 @@ Left left_of(const std::string& text, const std::vector<std::string>& readings =
   Left left;
   Table table = parse_table("a.csv", text);
   base::ErrorList errors;
-  left.other = take_other_rows(table, readings, errors);
+  left.other = take_other_rows(table, readings, Unlabelled::refused, errors);
   for (const TableRow& row : table.rows) left.lines.push_back(row.line);
   left.error = error_of([&] { errors.throw_if_any(); });
   return left;

@@ -96,7 +96,7 @@ TEST_F(CalibrateFilms, OfDropsGiveTheRestitutionThatTheyWereDrawnWith) {
 
 TEST_F(CalibrateFilms, ThatGiveNoReadingAreNamedAndLeftOut) {
   draw("drops/a.mp4", .6);
-  draw("drops/b.mp4", .6);
+  draw("drops/b.mp4", .605);
   draw("drops/slow.mp4", .6, 30);
   draw_end("drops/end.mp4");
   folder_.write("drops/note.mp4", std::string("hello"));

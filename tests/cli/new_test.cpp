@@ -58,10 +58,10 @@ TEST_F(NewCommand, TheStudyRunsOnceItsSheetsAreFilledIn) {
   EXPECT_EQ(empty.exit_code, 2);
   EXPECT_THAT(lines_in(empty.err), AllOf(SizeIs(4), Each(HasSubstr("no readings yet: fill in"))));
 
-  folder_.write("soybean/tilts.csv", std::string("angle_deg\n18,5\n19,1\n"));
+  folder_.write("soybean/tilts.csv", std::string("angle_deg\n18.5;1\n19.1;2\n"));
   const Finished wrong = run_repose(folder_, {"simulate", "tilt", "soybean.toml"});
   EXPECT_THAT(wrong.err, HasSubstr("soybean/tilts.csv:2: the row has 2 cells"));
-  folder_.write("soybean/tilts.csv", std::string("angle_deg\n18.5\n19.1\n"));
+  folder_.write("soybean/tilts.csv", std::string("angle_deg\n18,5\n19,1\n"));
   const Finished done = run_repose(folder_, {"simulate", "tilt", "soybean.toml"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("measured 18.800"));

@@ -60,12 +60,13 @@ TEST_F(ReportCommand, FoldersWithoutAStudyAreRefused) {
 }
 
 TEST_F(ReportCommand, DamagedResultsLeaveTheEarlierPage) {
-  folder_.write("study/report.html", std::string("earlier"));
+  const std::string earlier = "<meta name=\"generator\" content=\"repose 0.1.0\">";
+  folder_.write("study/report.html", earlier);
   folder_.write("study/result.json", std::string("{\"method\""));
   const Finished done = run({"study"});
   EXPECT_EQ(done.exit_code, 2);
   EXPECT_THAT(done.err, HasSubstr("result.json: is not a result"));
-  EXPECT_EQ(text("study/report.html"), "earlier");
+  EXPECT_EQ(text("study/report.html"), earlier);
 }
 
 TEST_F(ReportCommand, PlacesThatCannotBeWrittenAreSaidFirst) {

@@ -11,7 +11,7 @@ namespace repose::dem {
 namespace {
 
 constexpr HeapProtocol kSmallTube{
-    .tube_diameter_m = .07, .tube_height_m = .1, .lift_speed_m_s = .1, .plate_m = .3};
+    .tube_diameter_m = .07, .tube_height_m = .1, .lift_speed_m_s = .1, .plate_m = .3, .grains = {}};
 
 Model with_part(Model model, WallPart part, const PairCoefficients& with_grain) {
   model.parts[part] = {.material = model.wall_material, .with_grain = with_grain};

@@ -56,7 +56,7 @@ TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {
 TEST(ExperimentTable, ErrorsNameTheKeyOfTheStudyAndWhetherItIsTheDefault) {
   Model model = test::sphere_bench();
   model.grain = sphere_shape(60e-3);
-  const HeapProtocol heap{.tube_height_m = .11};
+  const HeapProtocol heap{.tube_height_m = .11, .grains = {}};
   const std::string errors = error_of([&] { run_heap(model, heap, 1); });
   const std::string named = with_study_keys(errors, heap);
   EXPECT_THAT(named, HasSubstr("heap.tube_diameter_m is 0.1. Rule: wider than a grain is long, "

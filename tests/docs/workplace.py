@@ -14,6 +14,18 @@ PHOTOGRAPHS = {"heap_01.jpg": "heap_01.jpg", "heap_02.jpg": "heap_02.jpg",
 
 DROPS = "drop_mm,rebound_mm\n500,9.1\n500,9.6\n500,9.4\n"
 
+# The same plane on two days, one of which reads 2 degrees less.
+TWO_DAYS = """mu_s,mu_r,Day,angle_deg
+.1,.01,Mon,18.2
+.3,.05,Mon,28.1
+.2,.03,Mon,23.1
+.2,.03,Mon,22.8
+.1,.05,Tue,19.9
+.3,.01,Tue,22.3
+.2,.03,Tue,21.1
+.2,.03,Tue,20.7
+"""
+
 # Angles of a plane with some scatter over two factors, five levels each in part.
 RUNS = """mu_s,mu_r,angle_deg
 .1,.01,18.1
@@ -242,6 +254,7 @@ def prepare(folder, root, repose):
     (folder / "tilt_01.avi").write_bytes(tilted_plate_avi())
     (folder / "drops.csv").write_text(DROPS, encoding="utf-8")
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
+    (folder / "two_days.csv").write_text(TWO_DAYS, encoding="utf-8")
     for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):
         subprocess.run([repose, "calibrate", name, "--out", out], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)

@@ -72,7 +72,8 @@ measured = { mean = 25, sd = 1, n = 5 }
 }
 # Keys that a result need not have.
 OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions", "candidates", "held_out",
-            "stiffness_checks", "stiffer_coefficients", "shape_check", "narrowing"}
+            "stiffness_checks", "stiffer_coefficients", "shape_check", "narrowing", "heap_definition",
+            "systematic_uncertainty"}
 
 
 def undescribed(schema, place="schema"):

@@ -42,13 +42,13 @@ bool fits_better(const TimedDrop& one, const TimedDrop& other) {
 }
 
 /// Whether flights are as good parabolas in the first one.
-bool fits_as_well(const TimedDrop& one, const TimedDrop& other) {
+bool fits_as_well(const TimedDrop& mended, const TimedDrop& known) {
   constexpr double kAsMuch = .98, kNoMore = 1.02;
-  const auto& fit = other.candidates.front().fit;
-  if (one.candidates.empty() || !one.candidates.front().fit) return false;
+  const auto& fit = known.candidates.front().fit;
+  if (mended.candidates.empty() || !mended.candidates.front().fit) return false;
   if (!fit) return true;
-  const DropCandidate& ours = one.candidates.front();
-  return ours.impacts.size() >= other.candidates.front().impacts.size() &&
+  const DropCandidate& ours = mended.candidates.front();
+  return ours.impacts.size() >= known.candidates.front().impacts.size() &&
          ours.flown() >= kAsMuch * fit->sightings() &&
          ours.fit->noise_px() <= kNoMore * fit->noise_px();
 }
@@ -205,19 +205,19 @@ TimedDrop timed_drop(FilmGrains film) {
   best.candidates = candidates_in(best.film);
   const std::vector<std::vector<double>> others = best.film.other_times_s;
   for (const std::vector<double>& times_s : others) {
-    TimedDrop other = with_times(best.film, times_s);
-    if (!fits_better(other, best)) continue;
-    best = std::move(other);
+    TimedDrop mended = with_times(best.film, times_s);
+    if (!fits_better(mended, best)) continue;
+    best = std::move(mended);
     best.has_own_times = true;
   }
   if (best.candidates.empty()) return best;
   const SkippedFrames skipped = skipped_frames(best.film, *best.candidates.front().path);
   if (skipped.count > 0) {
-    TimedDrop other = with_times(best.film, skipped.times_s);
-    if (fits_as_well(other, best)) {
-      other.has_own_times = best.has_own_times;
-      other.skipped_frames = skipped.count;
-      best = std::move(other);
+    TimedDrop mended = with_times(best.film, skipped.times_s);
+    if (fits_as_well(mended, best)) {
+      mended.has_own_times = best.has_own_times;
+      mended.skipped_frames = skipped.count;
+      best = std::move(mended);
     }
   }
   const DropCandidate& grain = best.candidates.front();

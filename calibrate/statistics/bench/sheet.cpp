@@ -105,7 +105,7 @@ Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
   Table table = read_table(file, NoRows::allowed);
   const std::vector<std::string> names = column_names(test);
   const std::vector<std::string> optional = optional_column_names(test);
-  OtherRows other = take_other_rows(table, names, errors);
+  OtherRows other = take_other_rows(table, names, Unlabelled::refused, errors);
   Sheet sheet{
       .readings = {}, .left_out = std::move(other.left_out), .notes = std::move(other.notes)};
   for (const std::string& column : table.columns) {

@@ -260,9 +260,8 @@ void check_names(const Table& table, const std::string& response,
 
 TableOfRuns runs_in(Table table, const RunColumns& columns) {
   base::ErrorList errors;
-  // Factors are no help there: a design's runs in the centre are at the mean of them all.
   const Names response = {columns.response};
-  OtherRows other = take_other_rows(table, response, errors);
+  OtherRows other = take_other_rows(table, response, Unlabelled::noted, errors);
   ColumnSorter sorted(table, columns, errors);
   const Names& names = sorted.factors();
   check_names(table, columns.response, names, columns.codings, errors);

@@ -297,14 +297,14 @@ class Footer {
   std::span<const std::size_t> readings_;
 };
 
-void find_unlabelled(const Table& table, std::span<const std::size_t> readings, OtherRows& other,
-                     base::ErrorList& errors) {
+void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
+                     Unlabelled unlabelled, OtherRows& other, base::ErrorList& errors) {
   constexpr std::size_t kMostRows = 8, kFewestReadings = 2;
   constexpr double kUnlikely = .01;
   if (readings.empty() || table.rows.size() <= kFewestReadings) return;
   const Footer footer(table, readings);
   const std::size_t most = std::min(kMostRows, table.rows.size() - kFewestReadings);
-  for (std::size_t count = most; count > 0; --count) {
+  for (std::size_t count = unlabelled == Unlabelled::refused ? most : 0; count > 0; --count) {
     const auto chance = footer.chance_of_last(count);
     if (!chance || *chance >= kUnlikely) continue;
     const int first = table.rows[table.rows.size() - count].line;
@@ -328,12 +328,12 @@ void find_unlabelled(const Table& table, std::span<const std::size_t> readings, 
 }  // namespace
 
 OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
-                          base::ErrorList& errors) {
+                          Unlabelled unlabelled, base::ErrorList& errors) {
   OtherRows other;
   const std::vector<std::size_t> places = places_of(table, readings);
   take_units(table, places, other, errors);
   take_labelled(table, other);
-  find_unlabelled(table, places, other, errors);
+  find_unlabelled(table, places, unlabelled, other, errors);
   return other;
 }
 

@@ -17,6 +17,13 @@ struct OtherRows {
   std::vector<std::string> notes;  ///< what a person should look at, a sentence each
 };
 
+/// What becomes of rows at the end that look like statistics and have no label.
+enum class Unlabelled {
+  refused,
+  noted,  ///< of runs, which have settings beside the reading: those in the centre are near the
+          ///< mean
+};
+
 /// Takes these rows out of the table:
 ///   - the first one, where it holds units ("deg", "[mm]") in place of numbers;
 ///   - those labelled with a word for a statistic: "mean", "SD", "Standardabweichung".
@@ -24,13 +31,14 @@ struct OtherRows {
 /// Rows at the table's end without such a label, whose numbers are mean, standard deviation and so
 /// on of the rows above, are errors where chance gives such readings in less than 1 of 100 tables:
 /// by Student's distribution of a further reading (Hahn, Meeker 1991, Statistical Intervals, sec.
-/// 4.7), times the step of the last digit. A last row that equals the mean and could be chance is
-/// in the notes. Proved by OtherRows.* in tests/calibrate/other_rows_test.cpp.
+/// 4.7), times the step of the last digit. A last row that equals the mean and could be chance, or
+/// is not to be refused, is in the notes. Proved by OtherRows.* in
+/// tests/calibrate/other_rows_test.cpp.
 ///
 /// @param readings  columns with the numbers that were read; those that the table lacks are passed
 ///                  over
 /// @param errors    are added to, each "NAME:LINE: ... Fix: ..."
 OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
-                          base::ErrorList& errors);
+                          Unlabelled unlabelled, base::ErrorList& errors);
 
 }  // namespace repose::calibrate
