@@ -78,6 +78,7 @@ struct Observable {
   /// readings do not lower it.
   double systematic_sd = 0;
   std::string systematic = {};
+  bool has_own_trials = false;  ///< on the bench: its chance is that of no other reading
   /// A difference between bench and simulation up to this does not matter; see tolerance_of().
   std::optional<double> tolerance = {};
   /// What a bench can read. A simulated reading may lie outside, as a grain's that stays on the

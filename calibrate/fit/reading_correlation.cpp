@@ -72,6 +72,10 @@ std::vector<std::vector<double>> reading_correlation_of(const Problem& problem,
     double variances = 0;
     for (std::size_t a = 0; a < own.size(); ++a) {
       for (std::size_t b = a + 1; b < own.size(); ++b) {
+        if (problem.observables[own[a]].has_own_trials ||
+            problem.observables[own[b]].has_own_trials) {
+          continue;
+        }
         const auto found = correlation_of(errors[own[a]], errors[own[b]]);
         if (!found) continue;
         const double left = 1 - found->value * found->value;

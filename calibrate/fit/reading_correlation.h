@@ -14,7 +14,8 @@ std::vector<std::vector<std::size_t>> by_experiment(const Problem& problem);
 /// How chance moves observables together: correlation of the surrogates' leave-one-out errors over
 /// the runs that have both readings, shrunk towards none as Schaefer and Strimmer (2005), Stat.
 /// Appl. Genet. Mol. Biol. 4, 32 do, since the runs are few. 1 on the diagonal, 0 between
-/// experiments and where there is no chance. Proved by ReadingCorrelation.* in tests/calibrate.
+/// experiments, where there is no chance, and of what the bench reads in trials of its own. Proved
+/// by ReadingCorrelation.* in tests/calibrate.
 std::vector<std::vector<double>> reading_correlation_of(const Problem& problem,
                                                         const std::vector<Surrogate>& surrogates);
 

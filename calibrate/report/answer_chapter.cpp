@@ -125,7 +125,8 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
   chapter.blocks.push_back(Paragraph{
-      "These coefficients are valid only with their clump, contact model, stiffness and time step, "
+      "These coefficients are valid only with their clump, contact model, damping, stiffness and "
+      "time step, "
       "which are listed under “Provenance”. In another program the same number may have a "
       "different "
       "meaning."});

@@ -136,10 +136,8 @@ dem::Range measurable_range(const dem::Study& study, const dem::ClumpShape& grai
   return range;
 }
 
-bool shares_systematic(const dem::ExperimentEntry& entry, const std::string& reading) {
-  return std::ranges::any_of(entry.readings, [&](const dem::Reading& known) {
-    return known.name == reading && known.shares_systematic;
-  });
+const dem::Reading& reading_named(const dem::ExperimentEntry& entry, const std::string& name) {
+  return *std::ranges::find(entry.readings, name, &dem::Reading::name);
 }
 
 /// No experiment has an error of its own kind and one of its readings.
@@ -231,7 +229,9 @@ class Maker {
       observable.tolerance = reading.tolerance;
       observable.systematic_sd = reading.systematic.sd;
       observable.systematic = reading.systematic.note;
-      if (shares_systematic(entry, reading.name)) observable = with(systematic, observable);
+      const dem::Reading& known = reading_named(entry, reading.name);
+      observable.has_own_trials = known.has_own_trials;
+      if (known.shares_systematic) observable = with(systematic, observable);
       add(observable, entry, reading.name);
     }
   }

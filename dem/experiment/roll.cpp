@@ -73,7 +73,7 @@ std::string unrest(const Model& model, const Grain& grain) {
   }
   const std::string rolls = fmt::format("it rolls at {:.2g} m/s. Fix: ", along.norm());
   if (model.rolling == RollingModel::none) {
-    return rolls + "a rolling_model other than none, which lets grains roll on for ever";
+    return rolls + "a rolling_model other than none, under which grains never stop rolling";
   }
   return rolls + fmt::format("more rolling friction between particle and wall, which is {:g}",
                              wall.rolling_friction);

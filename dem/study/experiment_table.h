@@ -24,6 +24,9 @@ struct Reading {
   bool is_measurable = false;
   std::string_view needs = "";     ///< the key of the protocol without which there is none
   bool shares_systematic = false;  ///< has the experiment's SystematicFraction, too
+  /// The bench reads it in trials of its own: by chance it differs from its mean alone, and not
+  /// together with the value.
+  bool has_own_trials = false;
 };
 
 /// By how much all readings of a bench may differ from the simulation for a reason that is known,

@@ -106,6 +106,15 @@ TEST(ReadingCorrelation, IsSeenInTheRunsAndOnlyWithinAnExperiment) {
   EXPECT_LT(std::abs(apart.reading_correlation()[3][4]), .3);
 }
 
+TEST(ReadingCorrelation, IsNoneOfAReadingThatTheBenchReadsInTrialsOfItsOwn) {
+  Problem problem = with_radius(full_problem(false));
+  problem.settings.budget_s = 3000;
+  problem.observables[4].has_own_trials = true;
+  const Misfit misfit(problem, in_order(problem, heaps_of_one_volume(problem)), {}, false);
+  EXPECT_EQ(misfit.reading_correlation()[3][4], 0);
+  EXPECT_EQ(misfit.reading_correlation()[4][3], 0);
+}
+
 TEST(ReadingCorrelation, WhatTwoReadingsShareCountsOnce) {
   // Both 2 sigma off: alike in sign and all but one reading, that is no more than one of them off.
   const std::vector<CorrelatedPart> parts = {{2, 1, 0, 10, {}, {}}, {2, 1, 0, 10, {}, {}}};

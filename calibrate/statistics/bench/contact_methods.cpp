@@ -81,7 +81,14 @@ std::optional<std::string> drop_error(ReadingValues v) {
 }
 
 std::vector<std::string> remarks_on_air(std::span<const ReadingValues> readings) {
-  if (!is_in_air(readings.front())) return {"The heights are free of the air's drag (in_air = 0)."};
+  const auto in_air = std::ranges::count_if(readings, is_in_air);
+  if (in_air == 0) return {"The heights are free of the air's drag (in_air = 0)."};
+  if (in_air < std::ssize(readings)) {
+    return {
+        fmt::format("{} of {} heights were read in air, the others are free of its drag "
+                    "(in_air = 0).",
+                    in_air, readings.size())};
+  }
   const double as_read = mean_of(readings, restitution_as_read);
   const auto grain = grain_in_air(readings.front());
   if (grain) {
