@@ -43,6 +43,16 @@ TEST(OtherRows, LabelledStatisticsAreTakenOutInManyLanguages) {
   }
 }
 
+TEST(OtherRows, BelowAMeanStandNoReadings) {
+  const Left counted = left_of("sample,angle_deg\na,22.1\nb,22.9\nMittel,22.5\ns:,0.57\nn,2\n");
+  EXPECT_EQ(counted.lines, (std::vector{2, 3}));
+  EXPECT_EQ(counted.other.left_out.size(), 3U);
+  EXPECT_THAT(counted.error, IsEmpty());
+  EXPECT_THAT(left_of("sample,angle_deg\na,22.1\nb,22.9\nmean,22.5\nrest,23.1\n").error,
+              AllOf(HasSubstr("a.csv:5: stands below a row labelled"), HasSubstr("Fix: move it")));
+  EXPECT_EQ(left_of("sample,angle_deg\nn,22.1\ns,22.9\nk,23.4\n").lines.size(), 3U);
+}
+
 TEST(OtherRows, NamesOfLevelsAreNoStatistics) {
   EXPECT_EQ(left_of("level,angle_deg\nmin,22.1\nmax,22.9\nmin,23.4\nmax,24.6\n").lines.size(), 4U);
   EXPECT_EQ(left_of("sample,angle_deg\nmeander,22.1\nsdk,22.9\nmean 2,23.4\n").lines.size(), 3U);

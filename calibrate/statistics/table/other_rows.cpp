@@ -34,9 +34,10 @@ std::string plain_word(std::string_view cell) {
 /// found by their numbers.
 bool is_statistic(std::string_view cell) {
   constexpr std::string_view kWords =
-      " mean average avg median sd stdev stddev stdv std sdev standarddeviation stdeviation se sem "
+      " mean means average avg median sd stdev stddev stdv std sdev standarddeviation stdeviation "
+      "se sem "
       "stderr standarderror variance var cv cov rsd coefficientofvariation min minimum max maximum "
-      "sum total count range ci confidenceinterval mittelwert mittel mw durchschnitt "
+      "sum total count range ci confidenceinterval mittelwert mittel mittelw mw durchschnitt "
       "standardabweichung stabw stdabw standardabw varianz summe gesamt anzahl spannweite "
       "standardfehler variationskoeffizient moyenne moy médiane écarttype Écarttype ecarttype "
       "somme "
@@ -119,16 +120,33 @@ bool is_label(const Table& table, std::size_t place, const std::string& cell) {
                        [&](const TableRow& row) { return row.cells[place] == cell; }) == 1;
 }
 
-void take_labelled(Table& table, OtherRows& other) {
+/// How many readings, or their scatter: a name of a sample where nothing says that the samples
+/// ended.
+bool is_short_label(const std::string& cell) {
+  const std::string word = plain_word(cell);
+  return word == "n" || word == "s" || word == "u" || word == "k";
+}
+
+/// Rows labelled as a statistic. Below the first of them no readings are looked for.
+void take_labelled(Table& table, OtherRows& other, base::ErrorList& errors) {
   const Table whole = table;
+  bool any = false;
   std::erase_if(table.rows, [&](const TableRow& row) {
     for (std::size_t place = 0; place < row.cells.size(); ++place) {
-      if (!is_label(whole, place, row.cells[place])) continue;
+      const std::string& cell = row.cells[place];
+      if (!is_label(whole, place, cell) && !(any && is_short_label(cell))) continue;
+      any = true;
       other.left_out.push_back(
-          {fmt::format("line {}", row.line), fmt::format("labelled \"{}\"", row.cells[place])});
+          {fmt::format("line {}", row.line), fmt::format("labelled \"{}\"", cell)});
       return true;
     }
-    return false;
+    if (any) {
+      errors.add(
+          fmt::format("{}:{}: stands below a row labelled as a statistic. Rule: readings "
+                      "stand above their mean. Fix: move it up if it is one, or delete it.",
+                      table.name, row.line));
+    }
+    return any;
   });
 }
 
@@ -332,7 +350,7 @@ OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
   OtherRows other;
   const std::vector<std::size_t> places = places_of(table, readings);
   take_units(table, places, other, errors);
-  take_labelled(table, other);
+  take_labelled(table, other, errors);
   find_unlabelled(table, places, unlabelled, other, errors);
   return other;
 }

@@ -26,7 +26,8 @@ enum class Unlabelled {
 
 /// Takes these rows out of the table:
 ///   - the first one, where it holds units ("deg", "[mm]") in place of numbers;
-///   - those labelled with a word for a statistic: "mean", "SD", "Standardabweichung".
+///   - those labelled with a word for a statistic: "mean", "SD", "Standardabweichung". Others below
+///     the first of these are errors, but for "n" and the like, which are taken out too.
 ///
 /// Rows at the table's end without such a label, whose numbers are mean, standard deviation and so
 /// on of the rows above, are errors where chance gives such readings in less than 1 of 100 tables:
