@@ -15,8 +15,8 @@ double shear_modulus_pa(const dem::Material& material) {
 
 /// What EDEM calls the rolling model, and what its coefficient multiplies.
 struct EdemRolling {
-  const char* name;
-  const char* meaning;
+  const char* name = "";
+  const char* meaning = "";
   bool has_damping_ratio = false;
 };
 

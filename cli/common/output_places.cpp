@@ -59,14 +59,13 @@ std::string error_of_earlier(const OutputPlace& place) {
                : fmt::format("already exists, and is not a picture written by repose. {}", kFix);
   }
   if (place.mark.empty()) return {};
-  // A file that cannot be read is not ours either.
-  std::string content;
+  const std::string other =
+      fmt::format("already exists, and is not what this option writes. {}", kFix);
   try {
-    content = base::read_whole_file(place.file);
+    return base::read_whole_file(place.file).find(place.mark) == std::string::npos ? other : "";
   } catch (const std::invalid_argument&) {
+    return other;  // what cannot be read is not ours either
   }
-  if (content.find(place.mark) != std::string::npos) return {};
-  return fmt::format("already exists, and is not what this option writes. {}", kFix);
 }
 
 bool same_file(const fs::path& a, const fs::path& b) { return identity(a) == identity(b); }
