@@ -91,7 +91,7 @@ TEST(Roll, TheLongAxisLiesAcrossTheSlopeButForTheTurn) {
 TEST(Roll, AGrainThatDoesNotStopIsNoReadingAndSaysWhatWouldStopIt) {
   struct Case {
     PairCoefficients grain_wall;
-    const char* says;
+    const char* says = "";
   };
   for (const Case& one :
        {Case{{1, .39, .04}, "less restitution between particle and wall, which is 1"},
