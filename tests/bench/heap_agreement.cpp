@@ -36,7 +36,8 @@ struct Heap {
 Heap heap_of(const std::vector<dem::HeapEnvelope>& envelopes) {
   constexpr double kMm = 1e3;
   const calibrate::PositionAngle angle = calibrate::position_angle(envelopes);
-  return {angle.angle_deg, kMm * dem::height_m(envelopes), kMm * angle.base_radius_m};
+  return {angle.angle_deg.value(), kMm * dem::height_m(envelopes),
+          kMm * angle.base_radius_m.value()};
 }
 
 /// LIGGGHTS takes no others for seeds.

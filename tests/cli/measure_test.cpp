@@ -257,7 +257,8 @@ TEST_F(Measure, ACopyInAnotherFormatIsNoSecondHeap) {
   number(height, 4), number(1, 2), number(24, 2), number(0, 4), number(size, 4);
   number(2835, 4), number(2835, 4), number(0, 4), number(0, 4);
   for (std::uint32_t row = height; row-- > 0;) {
-    bitmap.append(heap.bgr.begin() + 3 * width * row, heap.bgr.begin() + 3 * width * (row + 1));
+    const auto begin = heap.bgr.begin() + std::ptrdiff_t{3} * width * row;
+    bitmap.append(begin, begin + std::ptrdiff_t{3} * width);
   }
   folder_.write("b.bmp", bitmap);
   EXPECT_THAT(run({"a.png", "b.bmp"}).err, HasSubstr("b.bmp: the same picture as a.png"));

@@ -141,16 +141,18 @@ TEST_F(OutputsOf, FilesOfOthersStay) {
 
 TEST_F(OutputsOf, ItsOwnFilesAreReplaced) {
   folder_.write("heap.png.repose.toml", std::string("pitch_deg = 0\n"));
-  for (const std::string words :
-       {"measure heap.png --json a.json --csv a.csv --report a.html --summary s.json",
-        "compare heap.png heap.png --json c.json --overlay c.png",
-        "bench sliding angles.csv --json b.json",
-        "regress runs.csv --response angle_deg --json r.json",
-        "design sweep --factor a=0:1 --out d.csv", "board --out board.pdf", "board --out board.png",
-        "shape --size-mm 3,3,3 --out clump.json --json shape.json --mesh m.stl",
-        "shape --size-mm 3,3,3 --mesh m.glb",
-        "simulate drop study.toml --set contact.particle_wall.restitution=0.3 --set "
-        "contact.particle_wall.sliding_friction=0.3 --json drop.json"}) {
+  const std::string restitution = "--set contact.particle_wall.restitution=0.3 ";
+  const std::string friction = "--set contact.particle_wall.sliding_friction=0.3";
+  for (const std::string& words :
+       Words{"measure heap.png --json a.json --csv a.csv --report a.html --summary s.json",
+             "compare heap.png heap.png --json c.json --overlay c.png",
+             "bench sliding angles.csv --json b.json",
+             "regress runs.csv --response angle_deg --json r.json",
+             "design sweep --factor a=0:1 --out d.csv", "board --out board.pdf",
+             "board --out board.png",
+             "shape --size-mm 3,3,3 --out clump.json --json shape.json --mesh m.stl",
+             "shape --size-mm 3,3,3 --mesh m.glb",
+             "simulate drop study.toml --json drop.json " + restitution + friction}) {
     for (int k = 0; k < 2; ++k) {
       const Finished done = shell("repose " + words);
       EXPECT_EQ(done.exit_code, 0) << words << done.err;
