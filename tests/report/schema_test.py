@@ -41,8 +41,9 @@ measured = { mean = 25, sd = 1, n = 5 }
 rate_deg_s = 10
 measured = { values = [20.1, 21.3, 20.7, 19.8] }
 """,
-    # The published method needs all six coefficients and all four experiments.
-    "paper": BALL
+    # The published method needs all six coefficients and all four experiments; balls, or fewer
+    # grains, would lie in a layer, which has no angle.
+    "paper": BALL.replace("[20, 20, 20]", "[24, 16, 15]").replace("spheres = 1", "spheres = 3")
     + """
 [contact.particle_wall]
 restitution = { min = 0.2, max = 0.9 }
@@ -50,8 +51,8 @@ sliding_friction = { min = 0.1, max = 0.8 }
 rolling_friction = { min = 0.01, max = 0.2 }
 [contact.particle_particle]
 restitution = { min = 0.05, max = 0.9 }
-sliding_friction = { min = 0.05, max = 0.8 }
-rolling_friction = { min = 0.01, max = 0.3 }
+sliding_friction = { min = 0.4, max = 0.8 }
+rolling_friction = { min = 0.1, max = 0.4 }
 [experiment.drop]
 height_mm = 100
 grains = 1
@@ -62,11 +63,11 @@ measured = { values = [20.1, 21.3, 20.7, 19.8] }
 [experiment.roll]
 measured = { mean = 320, sd = 30, n = 10 }
 [experiment.heap]
-tube_diameter_mm = 70
-tube_height_mm = 120
-lift_speed_mm_s = 200
-plate_mm = 200
-grains = 16
+tube_diameter_mm = 100
+tube_height_mm = 600
+lift_speed_mm_s = 400
+plate_mm = 400
+grains = 220
 measured = { mean = 25, sd = 1, n = 5 }
 """,
 }
