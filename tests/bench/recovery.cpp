@@ -48,6 +48,12 @@ void add_recovery(CLI::App& bench) {
                  "a study file: measure and calibrate with real simulations of it");
   app.add_option("--experiments", plan->experiments, "with --simulated: make only these")
       ->delimiter(',');
+  app.add_option("--set", plan->settings, "with --simulated: KEY=VALUE of the study");
+  app.add_option("--bench", plan->bench_settings,
+                 "with --simulated: KEY=VALUE that the real grains have and the fit does not know");
+  app.add_option("--readings", plan->readings,
+                 "with --simulated: of each experiment; widths are held against those foreseen")
+      ->check(CLI::Range(2, 1000));
   app.add_option("--out", plan->folder, "keeps the runs of --simulated");
   app.add_flag("--verbose", plan->verbose, "every parameter of every material");
   app.callback([plan] {

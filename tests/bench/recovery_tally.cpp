@@ -1,19 +1,24 @@
 #include "tests/bench/recovery_tally.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "calibrate/result/result.h"
 #include "tests/bench/median.h"
 
 namespace repose::bench {
 namespace {
 
+using calibrate::AgreementVerdict;
 using calibrate::FittedParameter;
 using calibrate::Parameter;
 using calibrate::Verdict;
+
+constexpr double kLevel = .05;
 
 bool holds(const FittedParameter& fitted, double truth) {
   return truth >= fitted.interval.low && truth <= fitted.interval.high;
@@ -44,9 +49,7 @@ void RecoveryTally::add(const calibrate::JointFit& fit, const std::vector<double
     Row& row = rows_[j];
     row.held += is_held;
     row.held_determined += is_held && is_determined;
-    row.determined += is_determined;
-    row.one_sided += fitted.verdict == Verdict::one_sided;
-    row.undetermined += fitted.verdict == Verdict::undetermined;
+    ++row.verdicts[fitted.verdict];
     row.widths.push_back((fitted.interval.high - fitted.interval.low) /
                          (parameters_[j].max - parameters_[j].min));
     if (verbose) {
@@ -59,24 +62,75 @@ void RecoveryTally::add(const calibrate::JointFit& fit, const std::vector<double
   std::fflush(stdout);
 }
 
+void RecoveryTally::add(const calibrate::StudyOutcome& outcome, const std::vector<double>& truth,
+                        bool verbose) {
+  add(outcome.fit, truth, verbose);
+  ++agreements_[outcome.best.verdict];
+  for (const calibrate::Prediction& prediction : outcome.predictions) {
+    HeldOut& held_out = held_out_[prediction.name];
+    ++held_out.predictions;
+    held_out.held += prediction.chance >= kLevel;
+    ++held_out.verdicts[prediction.verdict];
+    if (verbose) {
+      fmt::print("    {:<44} measured {:.4g} predicted {:.4g} [{:.4g}, {:.4g}] chance {:.3f}\n",
+                 prediction.name, prediction.measured, prediction.predicted,
+                 prediction.interval.low, prediction.interval.high, prediction.chance);
+    }
+  }
+}
+
+void RecoveryTally::print_verdicts() const {
+  const auto print = [](const std::map<AgreementVerdict, int>& verdicts) {
+    for (const auto& [verdict, name] : calibrate::kAgreementNames) {
+      const auto found = verdicts.find(verdict);
+      fmt::print(" {} {}", name, found == verdicts.end() ? 0 : found->second);
+    }
+    fmt::print("\n");
+  };
+  if (!agreements_.empty()) {
+    fmt::print("bench and simulation:");
+    print(agreements_);
+  }
+  for (const auto& [name, held_out] : held_out_) {
+    fmt::print("{} held out: within chance {} of {},", name, held_out.held, held_out.predictions);
+    print(held_out.verdicts);
+  }
+}
+
 void RecoveryTally::print() const {
-  fmt::print("{:<44} {:>6} {:>6} {:>6} {:>7} {:>11} {:>7}\n", "parameter", "determ", "1-side",
-             "undet", "held %", "determ held", "width %");
+  fmt::print("{:<44}", "parameter");
+  for (const auto& [verdict, name] : calibrate::kVerdictNames) fmt::print(" {:>12}", name);
+  fmt::print(" {:>7} {:>11} {:>7} {:>10} {:>9}\n", "held %", "determ held", "width %", "foreseen %",
+             "log ratio");
   int held = 0;
   int determined = 0;
   int held_determined = 0;
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     const Row& row = rows_[j];
-    fmt::print("{:<44} {:>6} {:>6} {:>6} {:>7.1f} {:>11} {:>7.1f}\n", parameters_[j].name,
-               row.determined, row.one_sided, row.undetermined, 100. * row.held / materials_,
-               fmt::format("{}/{}", row.held_determined, row.determined), 100 * median(row.widths));
+    const auto count = [&](Verdict verdict) {
+      const auto found = row.verdicts.find(verdict);
+      return found == row.verdicts.end() ? 0 : found->second;
+    };
+    const int own = count(Verdict::determined);
+    fmt::print("{:<44}", parameters_[j].name);
+    for (const auto& [verdict, name] : calibrate::kVerdictNames) {
+      fmt::print(" {:>12}", count(verdict));
+    }
+    fmt::print(" {:>7.1f} {:>11} {:>7.1f}", 100. * row.held / materials_,
+               fmt::format("{}/{}", row.held_determined, own), 100 * median(row.widths));
+    if (!foreseen_.empty()) {
+      fmt::print(" {:>10.1f} {:>9.2f}", 100 * foreseen_[j],
+                 std::log(median(row.widths) / foreseen_[j]));
+    }
+    fmt::print("\n");
     held += row.held;
-    determined += row.determined;
+    determined += own;
     held_determined += row.held_determined;
   }
   fmt::print("intervals that hold the truth: all {:.1f} %, of determined ones {:.1f} %\n",
              100. * held / (materials_ * static_cast<double>(rows_.size())),
              determined > 0 ? 100. * held_determined / determined : 0);
+  print_verdicts();
 }
 
 }  // namespace repose::bench

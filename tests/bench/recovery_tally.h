@@ -1,11 +1,14 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "calibrate/fit/agreement.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/problem.h"
 #include "calibrate/fit/random.h"
+#include "calibrate/study/study_run.h"
 
 namespace repose::bench {
 
@@ -19,22 +22,34 @@ class RecoveryTally {
  public:
   explicit RecoveryTally(std::vector<calibrate::Parameter> parameters);
 
+  /// Widths that were foreseen, as parts of the bounds' distance.
+  void foresee(std::vector<double> widths) { foreseen_ = std::move(widths); }
   /// `verbose`: says every parameter.
   void add(const calibrate::JointFit& fit, const std::vector<double>& truth, bool verbose);
+  /// The same, with the verdicts on bench and simulation, and what was held out.
+  void add(const calibrate::StudyOutcome& outcome, const std::vector<double>& truth, bool verbose);
   void print() const;
 
  private:
   struct Row {
-    int determined = 0;
-    int one_sided = 0;
-    int undetermined = 0;
+    std::map<calibrate::Verdict, int> verdicts;
     int held = 0;             ///< truths inside the interval
     int held_determined = 0;  ///< of the determined ones
     std::vector<double> widths;
   };
+  struct HeldOut {
+    std::map<calibrate::AgreementVerdict, int> verdicts;
+    int held = 0;  ///< differences that are no more than chance makes in 5 % of cases
+    int predictions = 0;
+  };
+
+  void print_verdicts() const;
 
   std::vector<calibrate::Parameter> parameters_;
   std::vector<Row> rows_;
+  std::vector<double> foreseen_;
+  std::map<calibrate::AgreementVerdict, int> agreements_;
+  std::map<std::string, HeldOut> held_out_;
   int materials_ = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -9,7 +11,10 @@
 
 #include <fmt/core.h>
 
+#include "calibrate/fit/first_round.h"
 #include "calibrate/fit/random.h"
+#include "calibrate/plan/foresight.h"
+#include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_run.h"
 #include "calibrate/study/thread_executor.h"
 #include "dem/study/grain_source.h"
@@ -23,7 +28,9 @@ constexpr double kReading_deg = .5, kReadingFraction = .03;
 constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
 
 /// The study, less the experiments that are not made.
-dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::string>& settings) {
+dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::string>& more) {
+  std::vector<std::string> settings = plan.settings;
+  settings.insert(settings.end(), more.begin(), more.end());
   dem::Study study = dem::read_study(plan.study, settings);
   if (plan.experiments.empty()) return study;
   std::erase_if(study.experiments, [&](const auto& described) {
@@ -32,9 +39,10 @@ dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::strin
   return study;
 }
 
-/// Settings that make the study a bench: single readings of single grains, as stiff as they are.
-std::vector<std::string> bench_settings(const dem::Study& study) {
-  std::vector<std::string> settings;
+/// Settings that make the study a bench: single readings of single grains, as stiff as they are,
+/// and what the study does not know of.
+std::vector<std::string> bench_settings(const SimulatedRecovery& plan, const dem::Study& study) {
+  std::vector<std::string> settings = plan.bench_settings;
   for (const auto& [experiment, described] : study.experiments) {
     const std::string name = dem::name_of(experiment);
     if (described.stiffness_factor != 1) {
@@ -50,28 +58,56 @@ std::vector<std::string> bench_settings(const dem::Study& study) {
 }
 
 /// With something measured everywhere, a study says what is sought.
-std::vector<calibrate::Parameter> sought_in(dem::Study study, const dem::ClumpFile& grain,
-                                            const calibrate::Budget& budget) {
+calibrate::Problem problem_in(dem::Study study, const dem::ClumpFile& grain,
+                              const calibrate::Budget& budget) {
   for (auto& [experiment, described] : study.experiments) described.measured.mean = 1;
-  return calibrate::problem_of(study, grain, budget).problem.parameters;
+  return calibrate::problem_of(study, grain, budget).problem;
+}
+
+/// A study, its grain, and where its runs are kept.
+struct Calibrated {
+  const dem::Study& study;
+  const dem::ClumpFile& grain;
+  const calibrate::RunFolder& folder;
+};
+
+int cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
+
+/// The widths of intervals that `repose plan` foresees with so many readings of each experiment, as
+/// parts of the bounds' distance: what is known before anything is measured.
+std::vector<double> foreseen_widths(const Calibrated& with, calibrate::Problem problem,
+                                    int readings) {
+  calibrate::StudySimulator simulator(with.study, with.grain, problem.parameters);
+  simulator.store_in(with.folder);
+  calibrate::ThreadExecutor executor(simulator, cores());
+  const std::atomic<bool> never = false;
+  const calibrate::StudyContext context{simulator, with.folder, executor, never};
+  calibrate::JobRunner runner(problem, context);
+  const std::vector<calibrate::Run> runs = runner.get("plan", first_round(problem)).value();
+  problem.observables.clear();
+  const calibrate::Foresight foresight(problem, runs, readings);
+  std::vector<std::size_t> all(foresight.prospects().size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return foresight.with(all).widths;
 }
 
 class Material {
  public:
   /// `bench`: the study as it is measured, see bench_settings.
-  Material(const dem::Study& study, const dem::Study& bench, const dem::ClumpFile& grain,
-           const calibrate::RunFolder& folder, const std::vector<calibrate::Parameter>& sought,
-           std::vector<double> truth, std::uint64_t number)
-      : study_(study),
-        grain_(grain),
-        folder_(folder),
-        simulator_(study, grain, sought),
-        bench_(bench, grain, sought),
+  Material(const Calibrated& with, const Calibrated& bench, std::optional<int> count,
+           const std::vector<calibrate::Parameter>& sought, std::vector<double> truth,
+           std::uint64_t number)
+      : study_(with.study),
+        grain_(with.grain),
+        folder_(with.folder),
+        simulator_(with.study, with.grain, sought),
+        bench_(bench.study, bench.grain, sought),
+        count_(count),
         truth_(std::move(truth)),
         number_(number),
         random_(number) {
     simulator_.store_in(folder_);
-    bench_.store_in(folder_);
+    bench_.store_in(bench.folder);
   }
 
   calibrate::StudyOutcome calibrated(const calibrate::Budget& budget) {
@@ -79,8 +115,7 @@ class Material {
       described.measured.values = readings(dem::entry_of(experiment));
     }
     const calibrate::Problem problem = calibrate::problem_of(study_, grain_, budget).problem;
-    calibrate::ThreadExecutor executor(simulator_,
-                                       static_cast<int>(std::thread::hardware_concurrency()));
+    calibrate::ThreadExecutor executor(simulator_, cores());
     return calibrate::run_study(problem, budget, {simulator_, folder_, executor, never_}).value();
   }
 
@@ -88,7 +123,8 @@ class Material {
   /// What a bench would read, less the readings that failed.
   std::vector<double> readings(const dem::ExperimentEntry& experiment) {
     std::vector<double> values;
-    const int wanted = experiment.readings_per_run == nullptr ? kReadings : kSingleReadings;
+    const int wanted =
+        count_.value_or(experiment.readings_per_run == nullptr ? kReadings : kSingleReadings);
     for (int i = 0; i < wanted; ++i) {
       const calibrate::Run run =
           simulated({std::string(experiment.name), truth_,
@@ -111,6 +147,7 @@ class Material {
   const dem::ClumpFile& grain_;
   const calibrate::RunFolder& folder_;
   calibrate::StudySimulator simulator_, bench_;
+  std::optional<int> count_;  ///< readings of each experiment
   std::vector<double> truth_;
   std::uint64_t number_;
   calibrate::Random random_;
@@ -121,21 +158,25 @@ class Material {
 
 void recover_simulated(const SimulatedRecovery& plan) {
   const dem::Study study = read_plan(plan, {});
-  const dem::Study bench = read_plan(plan, bench_settings(study));
+  const dem::Study bench = read_plan(plan, bench_settings(plan, study));
   const dem::ClumpFile grain = dem::build_grain(study.grain);
+  const dem::ClumpFile bench_grain = dem::build_grain(bench.grain);
   calibrate::Budget budget = calibrate::budget_named("quick");
   budget.settings.budget_s = plan.budget_s;
   budget.family_sets = 0;
-  const std::vector<calibrate::Parameter> parameters = sought_in(study, grain, budget);
+  const calibrate::Problem problem = problem_in(study, grain, budget);
   const calibrate::RunFolder folder(plan.folder);
-  RecoveryTally tally(parameters);
+  const Calibrated calibrated{study, grain, folder};
+  const Calibrated measured{bench, bench_grain, folder};
+  RecoveryTally tally(problem.parameters);
+  if (plan.readings) tally.foresee(foreseen_widths(calibrated, problem, *plan.readings));
   calibrate::Random random(plan.seed);
   for (int m = 0; m < plan.materials; ++m) {
-    const std::vector<double> truth = made_up_material(parameters, random);
-    Material material(study, bench, grain, folder, parameters, truth,
+    const std::vector<double> truth = made_up_material(problem.parameters, random);
+    Material material(calibrated, measured, plan.readings, problem.parameters, truth,
                       plan.seed + static_cast<std::uint64_t>(m));
     try {
-      tally.add(material.calibrated(budget).fit, truth, plan.verbose);
+      tally.add(material.calibrated(budget), truth, plan.verbose);
     } catch (const std::invalid_argument& refused) {
       fmt::print("material {} cannot be measured: {}\n", m, refused.what());
     }
