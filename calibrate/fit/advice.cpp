@@ -87,7 +87,8 @@ void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& 
     of_ten.noise2 +=
         slope * slope * w.variance + std::pow(surrogate.reading_sd(w.mean), 2) / kReadings;
     if (reading == "value") {
-      of_ten.noise2 += std::pow(experiment.systematic_fraction * of_ten.readings.back(), 2);
+      of_ten.noise2 += std::pow(experiment.systematic_fraction * of_ten.readings.back(), 2) +
+                       std::pow(experiment.systematic_sd, 2);
     }
   }
   of_ten.noise2 /= static_cast<double>(solution_.sets.points.size());

@@ -136,6 +136,12 @@ void check_observable(const Problem& problem, const Observable& observable, Erro
         "the difference that does not matter to you, or leave it out",
         name, *observable.tolerance));
   }
+  if (!(observable.systematic_sd >= 0 && std::isfinite(observable.systematic_sd))) {
+    errors.push_back(fmt::format(
+        "{}: what its readings share has the standard uncertainty {}. Rule: a number of 0 or more. "
+        "Fix: correct it (bias_sd), or leave it out",
+        name, observable.systematic_sd));
+  }
   check_scatter(observable, errors);
 }
 

@@ -50,6 +50,17 @@ struct Experiment {
   /// Of a bench's "value": standard uncertainty as a fraction of it that all readings have in
   /// common. Observables have it in their systematic_sd.
   double systematic_fraction = 0;
+  /// Beside it, what the study states that they share, in its unit.
+  double systematic_sd = 0;
+  /// By what fraction of their mean single readings of a bench scatter where nobody measured it.
+  double usual_scatter = .05;
+};
+
+/// A part of the uncertainty of a measured mean that all its readings have in common.
+struct SystematicPart {
+  std::string name;       ///< "bias_sd", "air_drag"
+  double sd = 0;          ///< standard uncertainty, in the unit of the readings
+  std::string note = {};  ///< what it is, and what would lower it; to follow the observable's name
 };
 
 /// The spheres that stand for a grain.
@@ -74,10 +85,10 @@ struct Observable {
   std::optional<double> assumed_sd_fraction;
   /// Standard uncertainty of what was added to the mean, beside that of the readings.
   double shift_sd = 0;
-  /// Standard uncertainty that all readings have in common, and what it is of, "" for none: more
-  /// readings do not lower it.
+  /// Standard uncertainty that all readings have in common: more readings do not lower it.
   double systematic_sd = 0;
-  std::string systematic = {};
+  /// What that is made of, in quadrature.
+  std::vector<SystematicPart> systematic = {};
   bool has_own_trials = false;  ///< on the bench: its chance is that of no other reading
   /// A difference between bench and simulation up to this does not matter; see tolerance_of().
   std::optional<double> tolerance = {};

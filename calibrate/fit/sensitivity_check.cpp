@@ -101,7 +101,7 @@ double half_width_95(const Asked& asked) {
   const Observable& observable = asked.observable;
   return base::student_t_quantile(kInterval, observable.sd ? observable.n - 1 : kKnown) *
          (asked.fit != nullptr ? asked.fit->observables[asked.number].measured_uncertainty
-                               : standard_uncertainty(observable));
+                               : with_systematic(observable, standard_uncertainty(observable)));
 }
 
 void judge(const UncertainMean& change, double level, SensitivityCheck& check) {

@@ -51,8 +51,11 @@ void warn_of_reach(const Problem& problem, const Solution& solution, std::size_t
 }
 
 void warn_of_systematic(const Observable& observable, std::vector<std::string>& warnings) {
-  if (observable.systematic.empty()) return;
-  warnings.push_back(fmt::format("{}: {}", observable.name, observable.systematic));
+  for (const SystematicPart& part : observable.systematic) {
+    if (!part.note.empty()) {
+      warnings.push_back(fmt::format("{}: {}", observable.name, part.note));
+    }
+  }
 }
 
 void warn_of_scatter(const Observable& observable, const FittedObservable& fitted,

@@ -10,7 +10,6 @@
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/surrogate.h"
 #include "calibrate/fit/training_set.h"
-#include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate {
 namespace {
@@ -46,11 +45,11 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
 
 /// Standard uncertainty of the mean of so many readings where w is expected, in the reading's unit.
 double uncertainty_of_mean(const Surrogate& surrogate, double w, int readings,
-                           double systematic_fraction) {
+                           const Experiment& experiment) {
   const double mean = std::abs(surrogate.warp().expected(w));
-  const double by_scatter = std::max(kAssumedSdFraction * mean, surrogate.reading_sd(w)) /
+  const double by_scatter = std::max(experiment.usual_scatter * mean, surrogate.reading_sd(w)) /
                             std::sqrt(static_cast<double>(readings));
-  return std::hypot(by_scatter, systematic_fraction * mean);
+  return std::hypot(by_scatter, experiment.systematic_fraction * mean, experiment.systematic_sd);
 }
 
 /// From one bound to the other, over the uncertainty of bench and surrogate.
@@ -103,8 +102,7 @@ void Foresight::learn(const Problem& problem, const std::vector<Run>& runs,
   std::vector<std::vector<double>> effects(problem.parameters.size());
   for (std::size_t k = 0; k < materials_.size(); ++k) {
     const Expectation w = surrogate.at(materials_[k], true);
-    const double u =
-        uncertainty_of_mean(surrogate, w.mean, readings, experiment.systematic_fraction);
+    const double u = uncertainty_of_mean(surrogate, w.mean, readings, experiment);
     const double u_w = u / surrogate.warp().slope(w.mean);
     const Eigen::Map<const Eigen::VectorXd> gradient(w.mean_gradient.data(), dimensions);
     if (!risk.any() || risk.at(materials_[k]).fraction < kMostFail) {

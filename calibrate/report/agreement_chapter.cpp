@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -7,16 +8,21 @@
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 #include "calibrate/result/agreement_text.h"
+#include "calibrate/result/bench_errors_text.h"
 #include "calibrate/result/candidates.h"
 
 namespace repose::calibrate::report {
 namespace {
 
-/// Of a scatter that was assumed as if it were known; else of as many readings as there were.
+/// Of a scatter that was assumed as if it were known; else of as many readings as there were. What
+/// they share is known as well as it is stated.
 double bench_half_width(const ResultObservable& observable) {
   const double uncertainty = observable.measured_uncertainty;
   if (observable.sd_assumed) return half_width_95(uncertainty);
-  return half_width_95(uncertainty, bench_readings(observable) - 1);
+  const double shared = observable.systematic_uncertainty;
+  const double by_scatter = std::sqrt(std::max(0., uncertainty * uncertainty - shared * shared));
+  return std::hypot(half_width_95(by_scatter, bench_readings(observable) - 1),
+                    half_width_95(shared));
 }
 
 Table agreement_table(const JointResult& joint) {
@@ -115,13 +121,16 @@ Table scatter_table(const JointResult& joint) {
                                    {.name = "bench", .unit = {}},
                                    {.name = "bench value is", .unit = {}},
                                    {.name = "predicted by the simulation", .unit = {}},
-                                   {.name = "one simulated run", .unit = {}}},
+                                   {.name = "one simulated run", .unit = {}},
+                                   {.name = "shared by all readings", .unit = {}}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
+    const std::string shared = systematic_text(observable);
     table.data.add({axis_of_observable(observable.name, observable.unit),
                     cell(observable.measured_sd),
                     cell(std::string(observable.sd_assumed ? "assumed" : "measured")),
-                    cell(observable.predicted_sd), cell(observable.simulated_sd)});
+                    cell(observable.predicted_sd), cell(observable.simulated_sd),
+                    shared.empty() ? "–" : shared});
   }
   return table;
 }

@@ -4,6 +4,7 @@
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/result/bench_errors_text.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -35,6 +36,12 @@ std::string verdicts_text(const JointResult& joint) {
   return text;
 }
 
+/// "determined if single readings of roll scatter by 35 %".
+std::string conditional_verdict(const JointResult& joint, const ResultParameter& parameter) {
+  const std::string condition = condition_text(joint, parameter);
+  return name_of(parameter.verdict) + (condition.empty() ? "" : ' ' + condition);
+}
+
 Table coefficients_table(const JointResult& joint) {
   Table table{.name = "coefficients",
               .title = "Contact coefficients with 95 % intervals",
@@ -50,7 +57,7 @@ Table coefficients_table(const JointResult& joint) {
   for (const ResultParameter& parameter : joint.parameters) {
     table.data.add({label_of(parameter.name), cell(parameter.value), cell(parameter.interval.low),
                     cell(parameter.interval.high), cell(parameter.bounds.low),
-                    cell(parameter.bounds.high), name_of(parameter.verdict)});
+                    cell(parameter.bounds.high), conditional_verdict(joint, parameter)});
   }
   return table;
 }
@@ -140,6 +147,7 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
                    lines_of(joint.additions)});
     }
   }
+  add_assumed_scatter(joint, chapter.blocks);
   add_narrowing(joint, chapter);
   return chapter;
 }

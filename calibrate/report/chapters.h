@@ -11,6 +11,8 @@ namespace repose::calibrate::report {
 
 /// Coefficients, intervals, verdicts, and both heaps.
 Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures);
+/// What coefficients would be if readings scattered otherwise than was assumed.
+void add_assumed_scatter(const JointResult& joint, std::vector<Block>& blocks);
 /// What was done on the bench and simulated.
 Chapter protocol_chapter(const ReportedStudy& study);
 /// What bench and simulation gave.

@@ -113,7 +113,9 @@ std::vector<MeasuredNumber> measured_of(const StudyRecord& record) {
                          .unit = observable.unit,
                          .measured = observable.mean,
                          .uncertainty = std::nullopt});
-      if (observable.sd) numbers.back().uncertainty = standard_uncertainty(observable);
+      if (observable.sd) {
+        numbers.back().uncertainty = with_systematic(observable, standard_uncertainty(observable));
+      }
     }
   } catch (const std::invalid_argument&) {
     // A page about the runs is worth having without it.

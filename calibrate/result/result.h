@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "calibrate/fit/assumed_scatter.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
@@ -89,6 +90,7 @@ struct ResultParameter : FittedParameter {
 struct ResultObservable : FittedObservable {
   Agreement verification;    ///< in simulations with fresh seeds; its name and measured are these
   SurrogateCheck surrogate;  ///< what had been expected of them; its name likewise
+  NamedValues systematic = {};  ///< what systematic_uncertainty is made of, in quadrature
 };
 
 /// How many readings the bench made, where their scatter was measured.
@@ -135,6 +137,9 @@ struct JointResult {
   std::vector<SensitivityCheck> stiffness_checks;  ///< of softened experiments; or none
   std::vector<MovedCoefficient> stiffer_coefficients;
   std::optional<ShapeCheck> shape_check;  ///< earlier versions made none
+  /// What coefficients would be with other scatters than those assumed; empty: none was assumed, or
+  /// an earlier version's.
+  AssumedScatters assumed_scatters = {};
   double chi2 = 0;
   std::vector<std::vector<double>> correlation;
   std::vector<std::vector<double>> reading_correlation;

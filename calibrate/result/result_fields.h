@@ -136,6 +136,9 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   if (io.has("systematic_uncertainty", observable.systematic_uncertainty > 0)) {
     io("systematic_uncertainty", observable.systematic_uncertainty);
   }
+  if (io.has("systematic", !observable.systematic.empty())) {
+    io("systematic", observable.systematic);
+  }
   io("simulated", observable.simulated);
   io("simulated_uncertainty", observable.simulated_uncertainty);
   io("simulated_sd", observable.simulated_sd);
@@ -199,6 +202,26 @@ void fields(Io& io, Held<Io, MovedCoefficient>& coefficient) {
   io("value", coefficient.value);
   io("interval", coefficient.interval);
   io("verdict", coefficient.verdict);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, AssumedScatter>& assumed) {
+  io("observable", assumed.observable);
+  io("sd_fraction", assumed.fraction);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, ScatterDependence>& coefficient) {
+  io("name", coefficient.name);
+  io("rests_on", coefficient.rests_on);
+  io("half", coefficient.half);
+  io("twice", coefficient.twice);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, AssumedScatters>& assumed) {
+  io("readings", assumed.readings);
+  io("coefficients", assumed.coefficients);
 }
 
 template <typename Io>
@@ -314,6 +337,9 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   }
   if (io.has("shape_check", joint.shape_check.has_value())) {
     io("shape_check", joint.shape_check);
+  }
+  if (io.has("assumed_scatter", !joint.assumed_scatters.readings.empty())) {
+    io("assumed_scatter", joint.assumed_scatters);
   }
   io("chi2", joint.chi2);
   io("correlation", joint.correlation);

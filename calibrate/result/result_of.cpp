@@ -34,11 +34,14 @@ std::vector<ResultParameter> parameters_of(const Problem& problem, const JointFi
   return parameters;
 }
 
-std::vector<ResultObservable> observables_of(const StudyOutcome& outcome) {
+std::vector<ResultObservable> observables_of(const Problem& problem, const StudyOutcome& outcome) {
   std::vector<ResultObservable> observables;
   for (std::size_t k = 0; k < outcome.fit.observables.size(); ++k) {
     observables.push_back(
         {outcome.fit.observables[k], outcome.best.observables[k], outcome.surrogates[k]});
+    for (const SystematicPart& part : problem.observables[k].systematic) {
+      observables.back().systematic.emplace_back(part.name, part.sd);
+    }
   }
   return observables;
 }
@@ -166,13 +169,14 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
                       const StudyOutcome& outcome) {
   const JointFit& fit = outcome.fit;
   JointResult joint{.parameters = parameters_of(problem.problem, fit),
-                    .observables = observables_of(outcome),
+                    .observables = observables_of(problem.problem, outcome),
                     .verdict = outcome.best.verdict,
                     .agreement = agreement_of(outcome),
                     .held_out = outcome.predictions,
                     .stiffness_checks = outcome.stiffness.readings,
                     .stiffer_coefficients = outcome.stiffness.coefficients,
                     .shape_check = outcome.shape,
+                    .assumed_scatters = outcome.assumed_scatters,
                     .chi2 = fit.chi2,
                     .correlation = fit.correlation,
                     .reading_correlation = fit.reading_correlation,

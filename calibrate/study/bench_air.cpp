@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -57,7 +59,8 @@ class Evacuation {
   dem::Systematic systematic(double read_mm) const {
     const double rise = rise_mm(read_mm);
     const double sd = base::drag_uncertainty(grain_) * std::abs(rise - read_mm);
-    return {.sd = sd,
+    return {.name = kAirPart,
+            .sd = sd,
             .note = fmt::format(
                 "the drag of the air is taken out: {:.4g} mm read in air count as {:.4g} mm, ± "
                 "{:.2g} mm (standard uncertainty), as of a grain of {:.3g} mm, {:g} kg/m3 and "
@@ -66,14 +69,20 @@ class Evacuation {
                 grain_.sphericity)};
   }
 
+  /// What was known of the heights as they were read goes with the slope, as their scatter does.
+  void add_to(std::vector<dem::Systematic>& parts, double read_mm) const {
+    for (dem::Systematic& part : parts) part.sd *= slope(read_mm);
+    parts.push_back(systematic(read_mm));
+  }
+
   void take_out(dem::Measured& measured) {
     if (measured.mean) {
       check(*measured.mean);
-      measured.systematic = systematic(*measured.mean);
+      add_to(measured.systematic, *measured.mean);
       if (measured.sd) *measured.sd *= slope(*measured.mean);
       *measured.mean = rise_mm(*measured.mean);
     } else if (!measured.values.empty()) {
-      measured.systematic = systematic(summarise(measured.values).mean);
+      add_to(measured.systematic, summarise(measured.values).mean);
       for (double& value : measured.values) {
         check(value);
         value = rise_mm(value);
@@ -81,7 +90,7 @@ class Evacuation {
     }
     for (dem::MeasuredReading& reading : measured.also) {
       check(reading.mean);
-      reading.systematic = systematic(reading.mean);
+      add_to(reading.systematic, reading.mean);
       if (reading.sd) *reading.sd *= slope(reading.mean);
       reading.mean = rise_mm(reading.mean);
     }

@@ -10,6 +10,9 @@ struct FallingGrain;
 /// Grains are dropped in air, and simulated without it.
 namespace repose::calibrate {
 
+/// Name of the part of a height's uncertainty that the correction for the drag of the air brings.
+inline constexpr const char* kAirPart = "air_drag";
+
 /// A grain as the air meets it: the sphericity is that of the ellipsoid with the same moments of
 /// inertia, whose half-axes are a^2 = 5/2 (k_y^2 + k_z^2 - k_x^2), k^2 the moments by the mass, and
 /// whose surface is 4 pi ((a^p b^p + a^p c^p + b^p c^p) / 3)^(1/p), p = 1.6075, within 1.1 %

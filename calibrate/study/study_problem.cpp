@@ -99,28 +99,35 @@ std::vector<Parameter> open_parameters(const dem::Study& study) {
 
 /// Few readings may lie nearer to each other than any of them is known: they scatter by as much at
 /// least. What is assumed of the scatter is that of the grains, and leaves it out.
-void count_uncertainty(double of_each, Observable& observable) {
+void count_uncertainty(double of_each, double usual_scatter, Observable& observable) {
   if (observable.sd) observable.sd = std::max(*observable.sd, of_each);
   if (observable.sd || !(of_each > 0) || observable.mean == 0) return;
-  observable.assumed_sd_fraction =
-      std::hypot(kAssumedSdFraction, of_each / std::abs(observable.mean));
+  observable.assumed_sd_fraction = std::hypot(usual_scatter, of_each / std::abs(observable.mean));
+}
+
+void share(SystematicPart part, Observable& observable) {
+  observable.systematic_sd = std::hypot(observable.systematic_sd, part.sd);
+  observable.systematic.push_back(std::move(part));
+}
+
+void share(const std::vector<dem::Systematic>& parts, Observable& observable) {
+  for (const dem::Systematic& part : parts) share({part.name, part.sd, part.note}, observable);
 }
 
 /// Mean, scatter and number of what was measured; the mean is none when nothing was.
-Observable observable_of(const dem::Measured& measured) {
+Observable observable_of(const dem::Measured& measured, double usual_scatter) {
   Observable observable;
   observable.n = measured.count.value_or(1);
   observable.sd = measured.sd;
   observable.tolerance = measured.tolerance;
   observable.mean = measured.mean.value_or(0);
-  observable.systematic_sd = measured.systematic.sd;
-  observable.systematic = measured.systematic.note;
+  share(measured.systematic, observable);
   if (measured.values.empty()) return observable;
   const calibrate::Summary repeats = calibrate::summarise(measured.values);
   observable.mean = repeats.mean;
   observable.sd = repeats.sd;
   observable.n = repeats.n;
-  count_uncertainty(measured.value_uncertainty.value_or(0), observable);
+  count_uncertainty(measured.value_uncertainty.value_or(0), usual_scatter, observable);
   return observable;
 }
 
@@ -140,12 +147,20 @@ const dem::Reading& reading_named(const dem::ExperimentEntry& entry, const std::
   return *std::ranges::find(entry.readings, name, &dem::Reading::name);
 }
 
-/// No experiment has an error of its own kind and one of its readings.
 Observable with(const dem::SystematicFraction& systematic, Observable observable) {
   if (!(systematic.sd > 0)) return observable;
-  observable.systematic_sd = systematic.sd * std::abs(observable.mean);
-  observable.systematic = systematic.note;
+  share({.name = std::string(systematic.name),
+         .sd = systematic.sd * std::abs(observable.mean),
+         .note = std::string(systematic.note)},
+        observable);
   return observable;
+}
+
+/// What the study states of readings that it need not have yet.
+double stated_sd(const std::vector<dem::Systematic>& parts) {
+  double sd = 0;
+  for (const dem::Systematic& part : parts) sd = std::hypot(sd, part.sd);
+  return sd;
 }
 
 class Maker {
@@ -218,17 +233,19 @@ class Maker {
          .scatter_within = entry.is_pictured ? kOneViewScatter : "",
          .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor,
          .spheres_share = spheres_share(study_, grain_.shape, entry),
-         .systematic_fraction = systematic.sd});
+         .systematic_fraction = systematic.sd,
+         .systematic_sd = stated_sd(measured.systematic),
+         .usual_scatter = entry.usual_scatter});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
-    if (is_measured) add(with(systematic, observable_of(measured)), entry, "value");
+    if (is_measured)
+      add(with(systematic, observable_of(measured, entry.usual_scatter)), entry, "value");
     for (const dem::MeasuredReading& reading : measured.also) {
       Observable observable;
       observable.mean = reading.mean;
       observable.sd = reading.sd;
       observable.n = reading.count.value_or(1);
       observable.tolerance = reading.tolerance;
-      observable.systematic_sd = reading.systematic.sd;
-      observable.systematic = reading.systematic.note;
+      share(reading.systematic, observable);
       const dem::Reading& known = reading_named(entry, reading.name);
       observable.has_own_trials = known.has_own_trials;
       if (known.shares_systematic) observable = with(systematic, observable);
@@ -290,7 +307,7 @@ class Maker {
     observable.most = readable.to;
     if (!observable.sd || observable.n < 2) {
       observable.sd.reset();
-      observable.assumed_sd_fraction = observable.assumed_sd_fraction.value_or(kAssumedSdFraction);
+      observable.assumed_sd_fraction = observable.assumed_sd_fraction.value_or(entry.usual_scatter);
     }
     into_->push_back(std::move(observable));
   }
@@ -312,6 +329,47 @@ bool is_definition_assumed(const dem::ExperimentEntry& entry,
   return entry.is_pictured && described.definition.empty() && is_told && !is_ours;
 }
 
+namespace {
+
+/// None known; what is stated of readings that share more than they are is a slip of the unit.
+double stated_bias(const std::vector<dem::Systematic>& parts) {
+  const auto stated = std::ranges::find(parts, dem::kBiasKey, &dem::Systematic::name);
+  return stated == parts.end() ? 0 : stated->sd;
+}
+
+std::string too_large_bias(const dem::Study& study, const std::string& where, double bias,
+                           double most, std::string_view unit) {
+  return fmt::format(
+      "{}: {}.{} = {:.4g} {}. Rule: a standard uncertainty that all readings share, no larger than "
+      "they are themselves: {:.4g} {} at most. Fix: give it in the unit of the readings; of a "
+      "ruler, a protractor or a board at most a few percent of them.",
+      study.file.string(), where, dem::kBiasKey, bias, unit, most, unit);
+}
+
+/// Readings near 0 may be as uncertain as a hundredth of what there is to read.
+void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
+                const dem::Measured& measured, const dem::Range& range,
+                std::vector<std::string>& errors) {
+  constexpr double kLeastOfRange = .01;
+  const std::string where = fmt::format("[experiment.{}]", entry.name);
+  double largest = kLeastOfRange * (range.to - range.from);
+  for (const double value : measured.values) largest = std::max(largest, std::abs(value));
+  if (measured.mean) largest = std::max(largest, std::abs(*measured.mean));
+  const bool is_measured = measured.mean || !measured.values.empty();
+  const double most = is_measured ? largest : range.to;
+  if (const double bias = stated_bias(measured.systematic); bias > most) {
+    errors.push_back(too_large_bias(study, where + " measured", bias, most, entry.unit));
+  }
+  for (const dem::MeasuredReading& reading : measured.also) {
+    const double bias = stated_bias(reading.systematic);
+    if (bias <= std::abs(reading.mean)) continue;
+    errors.push_back(too_large_bias(study, where + " also_measured." + reading.name, bias,
+                                    std::abs(reading.mean), unit_of(entry, reading.name)));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> impossible_readings(const dem::Study& study,
                                              const dem::ClumpShape& grain) {
   std::vector<std::string> errors;
@@ -320,6 +378,7 @@ std::vector<std::string> impossible_readings(const dem::Study& study,
     const dem::Range range = measurable_range(study, grain, entry);
     std::vector<double> readings = described.measured.values;
     if (described.measured.mean) readings.push_back(*described.measured.mean);
+    check_bias(study, entry, described.measured, range, errors);
     const auto impossible = std::find_if(readings.begin(), readings.end(),
                                          [&](double value) { return !range.contains(value); });
     if (impossible == readings.end()) continue;

@@ -23,11 +23,6 @@ struct Budget {
 /// "quick", "standard" or "paper". Throws std::invalid_argument for another name.
 Budget budget_named(const std::string& name);
 
-/// A scatter nobody measured: single readings are taken to scatter by this fraction of their mean,
-/// or by what chance does in the simulation where that is more (Misfit::measured_uncertainty). It
-/// is said in JointFit::warnings.
-inline constexpr double kAssumedSdFraction = .05;
-
 /// The bench's angle is given as a number, and not by which definition it was measured. Pictures,
 /// films and sheets are measured by ours.
 bool is_definition_assumed(const dem::ExperimentEntry& entry,
@@ -45,7 +40,10 @@ struct StudyProblem {
 /// tests/calibrate.
 std::vector<std::string> impossible_readings(const dem::Study& study, const dem::ClumpShape& grain);
 
-/// Unknowns are the coefficients with bounds; observables what each experiment measured. Pictures
+/// Unknowns are the coefficients with bounds; observables what each experiment measured. Where
+/// nobody measured how its readings scatter, the usual scatter of the experiment is assumed, or
+/// what chance does in the simulation where that is more (Misfit::measured_uncertainty), which is
+/// said in JointFit::warnings. Pictures
 /// must have been measured before: `measured.values` then holds their angles.
 /// @throws std::invalid_argument  nothing is to be found, nothing was measured, or the problem is
 /// not sound: every error.

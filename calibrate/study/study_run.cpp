@@ -353,6 +353,7 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
     if (!try_family(problem, budget, runner, tried, outcome)) return std::nullopt;
     if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
     judge_family(problem, outcome);
+    outcome.assumed_scatters = assumed_scatters(problem, outcome.runs, outcome.fit);
     if (!predict(problem, runner, outcome)) return std::nullopt;
     if (!stiffen(problem, budget, runner, outcome)) return std::nullopt;
     if (!refine(problem, budget, context.simulator, runner, outcome)) return std::nullopt;

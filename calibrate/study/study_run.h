@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/fit/assumed_scatter.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
@@ -48,6 +49,7 @@ struct StudyOutcome {
   std::vector<SurrogateCheck> surrogates;  ///< what was expected of that check before
   std::vector<CheckedSet> family;          ///< those simulated that still fit
   std::vector<Prediction> predictions;     ///< of what was held out
+  AssumedScatters assumed_scatters;        ///< of readings whose scatter nobody measured
   Sensitivity stiffness;                   ///< stiffer grains, in softened experiments
   ShapeCheck shape;                        ///< grains of more spheres
   std::vector<Run> runs;                   ///< those that the fit was made from

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "calibrate/result/agreement_text.h"
+#include "calibrate/result/bench_errors_text.h"
 #include "cli/common/page.h"
 
 namespace repose::cli {
@@ -36,6 +38,11 @@ Table parameters_table(const calibrate::JointResult& joint) {
                    fmt::format("{} … {}", four_digits(parameter.interval.low),
                                four_digits(parameter.interval.high)),
                    name_of(parameter.verdict)});
+    const std::string condition = condition_text(joint, parameter);
+    if (!condition.empty()) {
+      table.add_note(
+          kBelow, fmt::format("{} {}, which was assumed", name_of(parameter.verdict), condition));
+    }
   }
   return table;
 }
@@ -62,6 +69,45 @@ Table observables_table(const calibrate::JointResult& joint) {
          name_of(checked.verdict)});
   }
   return table;
+}
+
+/// What of a mean's uncertainty is not by chance.
+void add_systematic(const calibrate::JointResult& joint, Page& page) {
+  for (const calibrate::ResultObservable& observable : joint.observables) {
+    const std::string shared = systematic_text(observable);
+    if (shared.empty()) continue;
+    page.add(fmt::format("({}: its readings share {})", observable.name, shared));
+  }
+}
+
+/// What the coefficients would be if readings scattered otherwise than was assumed.
+void add_assumed_scatter(const calibrate::JointResult& joint, Page& page) {
+  if (joint.assumed_scatters.readings.empty()) return;
+  Table table({{.heading = "coefficient"},
+               {.heading = "scatter"},
+               {.heading = "95 % interval"},
+               {.heading = "verdict"}});
+  for (const calibrate::ScatterDependence& one : joint.assumed_scatters.coefficients) {
+    for (const auto& [scatter, moved] :
+         {std::pair("half", &one.half), std::pair("twice", &one.twice)}) {
+      table.add_row({short_name(one.name), scatter,
+                     fmt::format("{} … {}", four_digits(moved->interval.low),
+                                 four_digits(moved->interval.high)),
+                     name_of(moved->verdict)});
+    }
+  }
+  std::string readings;
+  for (const calibrate::AssumedScatter& one : joint.assumed_scatters.readings) {
+    readings += fmt::format("{}{} {:.2g} %", readings.empty() ? "" : ", ", one.observable,
+                            100 * one.fraction);
+  }
+  page.add_gap();
+  page.add(table);
+  page.add(
+      fmt::format("(fitted again with half and twice the scatter of single readings that was "
+                  "assumed, as nobody "
+                  "measured it: {})",
+                  readings));
 }
 
 /// The verdict, and of each experiment that is not decided what would decide it.
@@ -264,7 +310,9 @@ std::string joint_table(const calibrate::JointResult& joint,
   page.add_gap();
   page.add(observables_table(joint));
   page.add("(± is the standard uncertainty of the mean; simulated with fresh seeds)");
+  add_systematic(joint, page);
   add_agreement(joint, page);
+  add_assumed_scatter(joint, page);
   add_predictions(joint, page);
   add_stiffness(joint, page);
   add_shape(joint, page);

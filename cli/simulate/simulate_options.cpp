@@ -131,7 +131,10 @@ std::optional<double> mean_without_air(SimulatePlan& plan) {
   try {
     const dem::Measured measured =
         dem::measured_in(calibrate::without_air(plan.study, plan.grain.shape), plan.experiment);
-    if (measured.systematic.note.empty()) return std::nullopt;
+    const auto is_of_air = [](const dem::Systematic& part) {
+      return part.name == calibrate::kAirPart;
+    };
+    if (std::ranges::none_of(measured.systematic, is_of_air)) return std::nullopt;
     return measured.mean ? measured.mean : calibrate::summarise(measured.values).mean;
   } catch (const std::invalid_argument& error) {
     add_lines(error.what(), plan.notes);

@@ -50,6 +50,7 @@ ExperimentEntry drop_entry() {
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<DropProtocol>(protocol).grains; },
           .softening_effect = "rebounds less than one with the real stiffness",
+          .usual_scatter = .2,
           .usual = DropProtocol{},
           .keys = keys_of_drop,
           .run =

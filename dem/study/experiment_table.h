@@ -32,6 +32,7 @@ struct Reading {
 /// By how much all readings of a bench may differ from the simulation for a reason that is known,
 /// and that more of them do not help against.
 struct SystematicFraction {
+  std::string_view name = "";  ///< as results call it: "pouring_rate"
   double sd = 0;               ///< standard uncertainty as a fraction of the reading
   std::string_view note = "";  ///< the reason, and what would help
 };
@@ -79,6 +80,9 @@ struct ExperimentEntry {
   /// What softened grains do to its value, to follow "a drop with stiffness_factor = 0.1"; empty:
   /// nothing that would matter.
   std::string_view softening_effect = "";
+  /// By what fraction of their mean single readings of a bench usually scatter: assumed where
+  /// nobody measured it. docs/study-file.md says what it is from.
+  double usual_scatter = .05;
 
   Protocol usual;  ///< with the usual values of all keys
   std::vector<ProtocolKey> (*keys)(Protocol& protocol) = nullptr;

@@ -27,7 +27,8 @@ std::vector<ProtocolKey> keys_of_fill(Protocol& protocol) {
 /// known, anything from 0 to that is as likely, 3.5 % from 0 in the root mean square.
 SystematicFraction systematic_of_fill(const Protocol& protocol) {
   if (std::get<FillProtocol>(protocol).pour_kg_s) return {};
-  return {.sd = .035,
+  return {.name = "pouring_rate",
+          .sd = .035,
           .note =
               "how fast it was poured is not said, and the simulation pours as fast as grains "
               "fall, which is up to 6 % looser: 3.5 % are added to the uncertainty of the "
@@ -70,6 +71,7 @@ ExperimentEntry fill_entry() {
           .is_bulk = true,
           .is_usual = false,
           .systematic = systematic_of_fill,
+          .usual_scatter = .02,
           .usual = FillProtocol{},
           .keys = keys_of_fill,
           .run =

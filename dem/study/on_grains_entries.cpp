@@ -79,6 +79,7 @@ ExperimentEntry drop_on_grains_entry() {
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainDropProtocol>(protocol).grains; },
           .softening_effect = "rebounds less than one with the real stiffness",
+          .usual_scatter = .45,
           .usual = GrainDropProtocol{},
           .keys = drop_keys,
           .run =
@@ -109,6 +110,7 @@ ExperimentEntry tilt_on_grains_entry() {
           .is_usual = false,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainTiltProtocol>(protocol).places; },
+          .usual_scatter = .2,
           .usual = GrainTiltProtocol{},
           .keys = tilt_keys,
           .run =
@@ -142,6 +144,7 @@ ExperimentEntry roll_on_grains_entry() {
           .is_usual = false,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainRollProtocol>(protocol).places; },
+          .usual_scatter = .25,
           .usual = GrainRollProtocol{},
           .keys = roll_keys,
           .run =

@@ -42,6 +42,13 @@ std::optional<double> read_tolerance(Section& measured) {
   return measured.number("tolerance", above(0, 1e6), "tolerance = 2");
 }
 
+/// What all readings share: the error of a ruler, the zero of a protractor, a density.
+std::vector<Systematic> read_bias(Section& measured) {
+  const auto sd = measured.number(kBiasKey, from_to(0, 1e6), "bias_sd = 0.3");
+  if (!sd || *sd == 0) return {};
+  return {{.name = kBiasKey, .sd = *sd}};
+}
+
 /// Files, folders and patterns beside the study file.
 std::vector<std::filesystem::path> files_named(Section& measured, const std::string& key,
                                                const std::string& example,
@@ -87,6 +94,7 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
     result.count = static_cast<int>(*n);
   }
   result.tolerance = read_tolerance(measured);
+  result.systematic = read_bias(measured);
   for (const char* key : {"sd", "n"}) {
     if (!measured.has(key) || measured.has("mean")) continue;
     measured.wrong(*measured.value(key), "sd and n belong to a mean", "add mean or take it out");
@@ -137,7 +145,8 @@ void read_also(Section& experiment, const ExperimentEntry& entry, Measured& meas
                          .mean = reading.needed_number("mean", kAny, "mean = 120"),
                          .sd = reading.number("sd", from_to(0, 1e6), "sd = 4"),
                          .count = {},
-                         .tolerance = read_tolerance(reading)};
+                         .tolerance = read_tolerance(reading),
+                         .systematic = read_bias(reading)};
     if (const auto n = reading.integer("n", 1, 1'000'000, "n = 10")) {
       read.count = static_cast<int>(*n);
     }

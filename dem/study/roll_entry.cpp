@@ -45,6 +45,7 @@ ExperimentEntry roll_entry() {
                 .value = "stopped_mm",
                 .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},
       .is_filmed = true,
+      .usual_scatter = .35,
       .usual = RollProtocol{},
       .keys = keys_of_roll,
       .run =

@@ -36,9 +36,13 @@ struct CoefficientSet {
 
 /// An error that all readings of an experiment have in common, so that more of them do not help.
 struct Systematic {
-  double sd = 0;     ///< standard uncertainty, in the unit of the readings
-  std::string note;  ///< what it is of; empty: there is none
+  std::string name;       ///< "bias_sd", as results call it
+  double sd = 0;          ///< standard uncertainty, in the unit of the readings
+  std::string note = {};  ///< what it is of, and what would help; empty: the study states it
 };
+
+/// The key of a measured table for what its readings share, and the name of that part.
+inline constexpr const char* kBiasKey = "bias_sd";
 
 /// Another reading of an experiment than its own number, measured on the bench: its mean.
 struct MeasuredReading {
@@ -47,7 +51,7 @@ struct MeasuredReading {
   std::optional<double> sd;
   std::optional<int> count;
   std::optional<double> tolerance;  ///< as Measured::tolerance
-  Systematic systematic = {};
+  std::vector<Systematic> systematic = {};
 };
 
 /// What was measured on the bench: readings, or their mean and scatter, or a sheet of readings, or
@@ -68,7 +72,7 @@ struct Measured {
   std::optional<double> value_uncertainty;
   /// Of drops: heights were read in air, not corrected for its drag, as films' are.
   bool in_air = true;
-  Systematic systematic = {};  ///< of values and mean
+  std::vector<Systematic> systematic = {};  ///< of values and mean
   std::vector<MeasuredReading> also;
 };
 

@@ -38,6 +38,7 @@ ExperimentEntry tilt_entry() {
           .is_filmed = true,
           // A hand or a worn motor does not keep it, and the angle hardly depends on it.
           .filmed_settings = {{"rate_deg_s", "rate_deg_s", .2}},
+          .usual_scatter = .1,
           .usual = TiltProtocol{},
           .keys = keys_of_tilt,
           .run =

@@ -51,8 +51,9 @@ TEST_F(BenchAir, HeightsAreThoseOfAFallWithoutAir) {
   const double expected = 100 * std::expm1(2 * k * .025) / -std::expm1(-2 * k * .1);
   EXPECT_NEAR(*corrected.mean, expected, .15 * (expected - 25));
   EXPECT_GT(*corrected.sd, 1);
-  EXPECT_NEAR(corrected.systematic.sd, .07 * (*corrected.mean - 25), 1e-9);
-  EXPECT_THAT(corrected.systematic.note,
+  ASSERT_EQ(corrected.systematic.size(), 1U);
+  EXPECT_NEAR(corrected.systematic[0].sd, .07 * (*corrected.mean - 25), 1e-9);
+  EXPECT_THAT(corrected.systematic[0].note,
               AllOf(HasSubstr("25 mm read in air count as"), HasSubstr("in_air = false")));
   const dem::Measured single = drops(study("{ values = [25, 25] }"));
   EXPECT_NEAR(single.values.at(1), *corrected.mean, 1e-12);
@@ -61,7 +62,7 @@ TEST_F(BenchAir, HeightsAreThoseOfAFallWithoutAir) {
 TEST_F(BenchAir, WhatIsFreeOfItIsLeftAlone) {
   const dem::Measured told = drops(study("{ mean = 25, sd = 1, n = 5, in_air = false }"));
   EXPECT_EQ(told.mean, 25);
-  EXPECT_THAT(told.systematic.note, IsEmpty());
+  EXPECT_THAT(told.systematic, IsEmpty());
   folder_.write("drops.csv", std::string("drop_mm,rebound_mm,in_air\n100,25,0\n100,26,0\n"));
   EXPECT_THAT(drops(study("{ readings = \"drops.csv\" }")).values, ::testing::ElementsAre(25, 26));
   folder_.write("a.mp4", std::string("not looked at here"));
@@ -94,9 +95,21 @@ TEST_F(BenchAir, IsSaidAndCountsInTheUncertaintyOfTheMean) {
   const Observable drop = problem_of(without_air(read, grain.shape), grain, budget_named("quick"))
                               .problem.observables.at(0);
   EXPECT_GT(drop.systematic_sd, 0);
-  EXPECT_THAT(drop.systematic, HasSubstr("the drag of the air is taken out"));
+  EXPECT_THAT(drop.systematic.at(0).note, HasSubstr("the drag of the air is taken out"));
   EXPECT_NEAR(with_systematic(drop, standard_uncertainty(drop)),
               std::hypot(*drop.sd / std::sqrt(5), drop.systematic_sd), 1e-12);
+}
+
+// d rise / d read by hand: a ruler's error is raised with the heights that were read on it.
+TEST_F(BenchAir, WhatReadingsShareIsRaisedWithThem) {
+  const dem::Measured low = drops(study("{ mean = 24.9, bias_sd = 0.4 }"));
+  const dem::Measured high = drops(study("{ mean = 25.1, bias_sd = 0.4 }"));
+  const double slope = (*high.mean - *low.mean) / .2;
+  ASSERT_EQ(low.systematic.size(), 2U);
+  EXPECT_EQ(low.systematic[0].name, "bias_sd");
+  EXPECT_EQ(low.systematic[1].name, "air_drag");
+  EXPECT_GT(slope, 1.001);
+  EXPECT_NEAR(low.systematic[0].sd, .4 * slope, 1e-3);
 }
 
 TEST_F(BenchAir, OnlyDropsMayBeFreeOfIt) {

@@ -57,6 +57,7 @@ FittedObservable drop() {
           .measured_sd = 1,
           .sd_assumed = false,
           .measured_uncertainty = .5,
+          .systematic_uncertainty = .28,
           .simulated = 25.1,
           .simulated_uncertainty = .2,
           .simulated_sd = .4,
@@ -137,7 +138,21 @@ ResultObservable drop_result() {
            .uncertainty = .2,
            .simulated = 25.4,
            .chance = .4,
-           .misses = false}};
+           .misses = false},
+          {{"bias_sd", .25}, {"air_drag", .125}}};
+}
+
+/// The sliding friction is told by rolls whose scatter nobody measured.
+AssumedScatters assumed_rolls() {
+  return {.readings = {{.observable = "roll", .fraction = .35}},
+          .coefficients = {{.name = kRestitution,
+                            .rests_on = {},
+                            .half = {kRestitution, .4, {.35, .45}, Verdict::determined},
+                            .twice = {kRestitution, .4, {.35, .45}, Verdict::determined}},
+                           {.name = kSliding,
+                            .rests_on = {"roll"},
+                            .half = {kSliding, .3, {.2, .5}, Verdict::determined},
+                            .twice = {kSliding, .3, {.1, .9}, Verdict::undetermined}}}};
 }
 
 Prediction held_out_roll() {
@@ -217,6 +232,7 @@ StudyResult joint_result() {
           {{"particle_wall.restitution", .42, {.39, .46}, Verdict::determined},
            {"particle_wall.rolling_friction", .3, {0, 1}, Verdict::undetermined}},
       .shape_check = finer_drop(),
+      .assumed_scatters = assumed_rolls(),
       .chi2 = .5,
       .correlation = {{1, .25}, {.25, 1}},
       .reading_correlation = {{1}},

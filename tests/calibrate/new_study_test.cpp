@@ -154,7 +154,9 @@ TEST_F(NewStudyTest, AFillWithoutItsRateHasASystematicUncertainty) {
   const std::vector<Observable> unknown = fill_with({});
   ASSERT_EQ(unknown.size(), 2U);
   EXPECT_NEAR(unknown[0].systematic_sd, .035 * 1500, 1e-9);
-  EXPECT_THAT(unknown[0].systematic, HasSubstr("Fix: pour_g_s in [experiment.fill]"));
+  ASSERT_EQ(unknown[0].systematic.size(), 1U);
+  EXPECT_EQ(unknown[0].systematic[0].name, "pouring_rate");
+  EXPECT_THAT(unknown[0].systematic[0].note, HasSubstr("Fix: pour_g_s in [experiment.fill]"));
   EXPECT_EQ(unknown[1].systematic_sd, 0) << "it is struck level at the same height";
   EXPECT_EQ(fill_with({"experiment.fill.pour_g_s = 60"})[0].systematic_sd, 0);
 }

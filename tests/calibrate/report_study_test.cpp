@@ -97,6 +97,21 @@ TEST_F(StudyReport, BeginsWithTheAnswer) {
             "\"sliding friction, particle–wall\",0.3,0.1,0.8,0.1,0.8,undetermined\n");
 }
 
+TEST_F(StudyReport, SaysWhatAVerdictTakesForGrantedAndWhatItWouldBe) {
+  joint_in(result_).parameters[1].verdict = Verdict::one_sided;
+  const Report report = study_report(result_);
+  EXPECT_THAT(table_in(report, "coefficients.csv"),
+              HasSubstr("one-sided if single readings of roll scatter by 35 %"));
+  EXPECT_THAT(
+      table_in(report, "assumed_scatter.csv"),
+      AllOf(HasSubstr("half,0.3,0.2,0.5,determined"), HasSubstr("twice,0.3,0.1,0.9,undetermined")));
+  EXPECT_THAT(page_of(report), HasSubstr("the fit assumes: roll 35 %"));
+  EXPECT_THAT(table_in(report, "reading_scatter.csv"),
+              HasSubstr("± 0.28 mm (bias_sd 0.25, air_drag 0.12)"));
+  joint_in(result_).assumed_scatters = {};
+  EXPECT_THAT(page_of(study_report(result_)), Not(HasSubstr("assumed scatter decides")));
+}
+
 TEST_F(StudyReport, ShowsWhatMoreSpheresChange) {
   const Report report = study_report(result_);
   EXPECT_THAT(page_of(report),
@@ -140,10 +155,10 @@ TEST_F(StudyReport, ShowsEachCurveOnceTheMostTellingBeforeTheAppendix) {
 TEST_F(StudyReport, PlusMinusIsTheHalfWidthOfThe95PercentInterval) {
   const Report report = study_report(result_);
   EXPECT_THAT(page_of(report), Not(HasSubstr("± sd")));
-  // Four readings of sd 1: 3.18 times .5, by Student. Three checks: 4.30 times .3. The fit: 1.96
-  // times .2.
+  // Six readings of sd 1: 2.57 times .414, by Student, and 1.96 times the .28 that they share.
+  // Three checks: 4.30 times .3. The fit: 1.96 times .2.
   EXPECT_THAT(table_in(report, "agreement.csv"),
-              HasSubstr("rebound height [mm],25,1.59122,25.1,0.391993,25.4,1.2908,"));
+              HasSubstr("rebound height [mm],25,1.19795,25.1,0.391993,25.4,1.2908,"));
 }
 
 TEST_F(StudyReport, ShowsNothingThatNoBenchCanRead) {

@@ -179,7 +179,8 @@ TEST_F(StudyRun, ALayerIsAFailedRunOfTheFit) {
 TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));
-  EXPECT_EQ(made.problem.observables[0].assumed_sd_fraction, kAssumedSdFraction);
+  EXPECT_EQ(made.problem.observables[0].assumed_sd_fraction,
+            dem::entry_of(dem::Experiment::drop).usual_scatter);
 }
 
 TEST_F(StudyRun, ADropIsTheMeanOfItsGrains) {

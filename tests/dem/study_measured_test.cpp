@@ -37,6 +37,21 @@ TEST_F(StudyFile, SaysHowFarBenchAndSimulationMayBeApart) {
   EXPECT_EQ(measured_in(study, Experiment::heap).also.front().tolerance, 3);
 }
 
+TEST_F(StudyFile, SaysWhatAllReadingsShare) {
+  const std::string tilt = kStudy + "[experiment.tilt]\nmeasured = { values = [9, 10], bias_sd = ";
+  const Measured measured = measured_in(read(tilt + "0.3 }\n"), Experiment::tilt);
+  ASSERT_EQ(measured.systematic.size(), 1U);
+  EXPECT_EQ(measured.systematic[0].name, "bias_sd");
+  EXPECT_EQ(measured.systematic[0].sd, .3);
+  EXPECT_TRUE(measured_in(read(tilt + "0 }\n"), Experiment::tilt).systematic.empty());
+  EXPECT_THAT(errors(tilt + "-1 }\n"), HasSubstr("experiment.tilt.measured.bias_sd = -1"));
+  EXPECT_THAT(errors(tilt + "nan }\n"), HasSubstr("experiment.tilt.measured.bias_sd = nan"));
+  const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
+  const Study study = read(heap + "height_mm = { mean = 40, bias_sd = 0.5 }\n");
+  ASSERT_EQ(measured_in(study, Experiment::heap).also.front().systematic.size(), 1U);
+  EXPECT_EQ(measured_in(study, Experiment::heap).also.front().systematic[0].sd, .5);
+}
+
 TEST_F(StudyFile, SaysByWhichDefinitionAHeapWasMeasured) {
   const std::string heap = kStudy + "[experiment.heap]\n";
   const auto definition = [](const Study& study) {
