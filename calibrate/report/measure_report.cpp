@@ -48,32 +48,53 @@ std::string remarks_of(const MeasuredPhotograph& picture) {
   return shortened(text, 1000);
 }
 
-calibrate::PictureMean mean_of(const std::vector<MeasuredPhotograph>& pictures) {
-  std::vector<calibrate::PictureAngle> angles;
+calibrate::PictureSet set_of(const std::vector<MeasuredPhotograph>& pictures) {
+  std::vector<calibrate::SetPicture> set;
   for (const MeasuredPhotograph& picture : pictures) {
     if (!picture.error.empty()) continue;
-    angles.push_back({picture.angle.status, picture.angle.angle_rad});
+    set.push_back(calibrate::set_picture_of(picture.angle, {}, picture.heap));
   }
-  return calibrate::mean_of_pictures(angles);
+  return calibrate::set_of_pictures(set);
 }
 
-std::string mean_text(const std::vector<MeasuredPhotograph>& pictures,
-                      const calibrate::PictureMean& counting) {
-  const auto& mean = counting.angle_deg;
-  const auto left_out = static_cast<long>(pictures.size()) - (mean ? mean->n : 0);
-  std::string text;
-  if (!mean) {
-    text = "No picture gave a usable number.";
-  } else if (!mean->mean_uncertainty) {
-    text = fmt::format("Angle of repose {}°, from a single picture.", shown(mean->mean, 2));
-  } else {
-    text = fmt::format(
-        "Mean angle of repose {}°, 95 % interval {}° to {}° (standard deviation {}°, {} pictures).",
-        shown(mean->mean, 2), shown(mean->mean - *mean->mean_uncertainty, 2),
-        shown(mean->mean + *mean->mean_uncertainty, 2), shown(mean->sd, 2), mean->n);
+std::string mean_text(const calibrate::Summary& mean, const char* what) {
+  if (!mean.mean_uncertainty) {
+    return fmt::format("{} {}°, from a single one.", what, shown(mean.mean, 2));
   }
-  if (counting.flagged > 0) text += fmt::format(" Flagged: {} of these.", counting.flagged);
+  return fmt::format("{} {}°, 95 % interval {}° to {}° (standard deviation {}°, n = {}).", what,
+                     shown(mean.mean, 2), shown(mean.mean - *mean.mean_uncertainty, 2),
+                     shown(mean.mean + *mean.mean_uncertainty, 2), shown(mean.sd, 2), mean.n);
+}
+
+std::string answer_text(const std::vector<MeasuredPhotograph>& pictures,
+                        const calibrate::PictureSet& set) {
+  const auto outliers =
+      std::ranges::count(set.outliers, false, &calibrate::OutlyingPicture::is_counted);
+  const auto left_out = static_cast<long>(pictures.size()) - set.pictures - outliers;
+  std::string text = set.heaps_deg ? mean_text(*set.heaps_deg, "Mean angle of repose")
+                                   : "No picture gave a usable number.";
+  if (set.within_sd_deg) {
+    text += fmt::format(
+        " These are {} pictures of {} heaps, and n counts heaps; pictures of one heap have a "
+        "standard deviation of {}°.",
+        set.pictures, set.heaps_deg->n, shown(*set.within_sd_deg, 2));
+  }
+  if (set.ok_deg && set.flagged > 0) text += ' ' + mean_text(*set.ok_deg, "Of those that are ok");
+  if (outliers > 0) {
+    text += fmt::format(
+        " Left out of the mean: {} flagged and an outlier among the others, named "
+        "below.",
+        outliers);
+    text += ' ' + mean_text(*set.all_deg, "With what was left out:");
+  }
+  if (set.flagged > 0) text += fmt::format(" Flagged: {} of these.", set.flagged);
   if (left_out > 0) text += fmt::format(" Excluded: {} refused or unreadable.", left_out);
+  if (set.pictures > 1) {
+    text += fmt::format(
+        " All share ± {}° by the camera's pitch and distance, which more pictures "
+        "do not lower.",
+        shown(set.camera_deg, 2));
+  }
   return text;
 }
 
@@ -176,7 +197,7 @@ PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAn
 }
 
 Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
-  const calibrate::PictureMean mean = mean_of(pictures);
+  const calibrate::PictureSet set = set_of(pictures);
   Document document{
       .title = fmt::format("{} picture{}", pictures.size(), pictures.size() == 1 ? "" : "s"),
       .kind = "Angles of repose",
@@ -184,8 +205,8 @@ Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
       .chapters = {},
       .program = base::kProgram};
   Chapter answer{.id = "answer", .title = "The answer", .blocks = {}};
-  answer.blocks.push_back(Paragraph{mean_text(pictures, mean)});
-  Chart chart = angles_chart(pictures, mean.angle_deg);
+  answer.blocks.push_back(Paragraph{answer_text(pictures, set)});
+  Chart chart = angles_chart(pictures, set.heaps_deg);
   if (!chart.data.rows.empty()) answer.blocks.push_back(ChartRow{{std::move(chart)}});
   answer.blocks.push_back(pictures_table(pictures));
   document.chapters.push_back(std::move(answer));

@@ -28,6 +28,7 @@ struct MeasuredPhotograph {
   std::string error;          ///< why it was not read; empty: it was
   vision::ReposeAngle angle;  ///< or the refusal
   PageJpeg overlay;           ///< without bytes: not shown
+  std::string heap = {};      ///< as calibrate::SetPicture::heap
 };
 
 /// A page about a batch of pictures, as `repose measure` measured them: the mean of those that

@@ -119,7 +119,9 @@ std::string measured_text(const StudyRecord& record, const dem::ExperimentEntry&
   const std::size_t pictures = entry.is_pictured ? record.pictures.size() : 0;
   if (pictures > 0) {
     const char* kind = measured.videos.empty() ? "photograph" : "film";
-    return fmt::format("{} {}{} of heaps", pictures, kind, pictures == 1 ? "" : "s");
+    const std::string heaps =
+        measured.within_heaps ? fmt::format("{} heaps", measured.values.size()) : "heaps";
+    return fmt::format("{} {}{} of {}", pictures, kind, pictures == 1 ? "" : "s", heaps);
   }
   if (!measured.videos.empty()) return films_text(record, entry.name);
   if (!measured.values.empty()) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/distributions.h"
+#include "calibrate/statistics/summary.h"
 #include "calibrate/study/bench_setting.h"
 
 namespace repose::calibrate {
@@ -33,6 +34,21 @@ std::string other_setting(const dem::ExperimentEntry& entry, const dem::Protocol
   return {};
 }
 
+void share_length_error(double error, dem::StudyExperiment& described) {
+  constexpr double kWorthSaying = 1e-9;
+  if (std::abs(error) < kWorthSaying) return;
+  const dem::ExperimentEntry& entry = dem::entry_of(described.protocol);
+  const double sd = std::abs(error * summarise(described.measured.values).mean);
+  described.measured.systematic.push_back(
+      {.name = "film",
+       .sd = sd,
+       .note = fmt::format(
+           "its films show a length that the study states {:+.2g} % off: by as much all that is "
+           "read off them may be off, ± {:.2g} {} (standard uncertainty), which more films do not "
+           "lower. Fix: state what was set, or check the frame rate",
+           100 * error, sd, entry.unit)});
+}
+
 }  // namespace
 
 void read_row(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
@@ -46,6 +62,11 @@ void read_row(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
   const FilmNumber& reading = row.at(std::string(entry.sheet.value));
   film.value = reading.value;
   film.uncertainty = reading.uncertainty;
+  for (const auto& [column, key] : entry.sheet.protocol) {
+    if (!column.ends_with("_mm")) continue;
+    film.length_error =
+        row.at(std::string(column)).value / protocol_value(entry, protocol, key) - 1;
+  }
 }
 
 dem::Study with_films(dem::Study study, const std::vector<FilmReading>& films) {
@@ -53,14 +74,17 @@ dem::Study with_films(dem::Study study, const std::vector<FilmReading>& films) {
     const std::string name = dem::name_of(experiment);
     dem::Measured& measured = described.measured;
     double squares = 0;
+    double length_errors = 0;
     for (const FilmReading& film : films) {
       if (film.experiment != name || !film.value) continue;
       measured.values.push_back(*film.value);
       squares += film.uncertainty * film.uncertainty;
+      length_errors += film.length_error;
     }
     if (measured.videos.empty() || measured.values.empty()) continue;
     const auto count = static_cast<double>(measured.values.size());
     measured.value_uncertainty = std::sqrt(squares / count) / base::kNormal95;
+    share_length_error(length_errors / count, described);
   }
   return study;
 }

@@ -20,6 +20,9 @@ struct FilmReading {
   std::optional<double> value;  ///< in the unit of the experiment; none: it does not count
   double uncertainty = 0;       ///< half-width of its 95 % interval
   std::string reason;           ///< why there is no value, or why a person should look at it
+  /// Of a length that the study states and the film shows, as the fall of a drop: seen less stated,
+  /// by stated.
+  double length_error = 0;
 };
 
 /// A number read off a film, with the half-width of its 95 % interval.
@@ -34,7 +37,10 @@ struct FilmNumber {
 void read_row(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
               const std::map<std::string, FilmNumber>& row, FilmReading& film);
 
-/// The study with the films' readings as its measured values: each film is a repeat.
+/// The study with the films' readings as its measured values: each film is a repeat. What they
+/// share is told by the lengths that they show and the study states: their mean error, of frame
+/// rate, lens or scale, is one of the readings too, and is a standard uncertainty as it is not
+/// corrected (JCGM 100:2008, GUM, F.2.4.5). Proved by BenchFilms.WhatFilmsShare*.
 dem::Study with_films(dem::Study study, const std::vector<FilmReading>& films);
 
 }  // namespace repose::calibrate

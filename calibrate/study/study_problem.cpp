@@ -211,6 +211,7 @@ class Maker {
     const dem::SystematicFraction systematic = entry.systematic == nullptr
                                                    ? dem::SystematicFraction{}
                                                    : entry.systematic(described->second.protocol);
+    note_pictures_of_heaps(measured);
     note_unknown_camera(described->second);
     note_unknown_definition(entry, described->second);
     const bool is_measured = measured.mean || !measured.values.empty();
@@ -251,6 +252,16 @@ class Maker {
       if (known.shares_systematic) observable = with(systematic, observable);
       add(observable, entry, reading.name);
     }
+  }
+
+  void note_pictures_of_heaps(const dem::Measured& measured) {
+    if (!measured.within_heaps) return;
+    const auto& [pictures, sd] = *measured.within_heaps;
+    made_.notes.push_back(fmt::format(
+        "[experiment.heap] has {} pictures of {} heaps, and each heap counts once, with the mean "
+        "of its pictures. Pictures of one heap scatter by {:.2g} deg (standard deviation), which "
+        "says nothing about how heaps differ",
+        pictures, measured.values.size(), sd));
   }
 
   void note_unknown_camera(const dem::StudyExperiment& described) {

@@ -10,7 +10,6 @@
 #include "base/fingerprint.h"
 #include "base/version.h"
 #include "base/whole_file.h"
-#include "calibrate/experiment/picture_angles.h"
 #include "calibrate/study/bench_air.h"
 #include "calibrate/study/study_folder.h"
 
@@ -32,6 +31,9 @@ Json pictures_json(const std::vector<PictureReading>& pictures) {
     json.push_back({{"file", picture.file.string()},
                     {"status", picture.status},
                     {"angle_deg", picture.angle_deg ? Json(*picture.angle_deg) : Json(nullptr)},
+                    {"own_deg", picture.own_deg},
+                    {"camera_deg", picture.camera_deg},
+                    {"heap", picture.heap},
                     {"reason", picture.reason}});
   }
   return json;
@@ -44,7 +46,10 @@ std::vector<PictureReading> pictures_in(const Json& json) {
     pictures.push_back({.file = picture.at("file").get<std::string>(),
                         .status = picture.at("status"),
                         .angle_deg = angle.is_null() ? std::nullopt : std::optional<double>(angle),
-                        .reason = picture.at("reason")});
+                        .reason = picture.at("reason"),
+                        .own_deg = picture.value("own_deg", 0.),  // earlier versions had none
+                        .camera_deg = picture.value("camera_deg", 0.),
+                        .heap = picture.value("heap", "")});
   }
   return pictures;
 }
@@ -84,6 +89,7 @@ Json films_json(const std::vector<FilmReading>& films) {
                     {"status", film.status},
                     {"value", film.value ? Json(*film.value) : Json(nullptr)},
                     {"uncertainty", film.uncertainty},
+                    {"length_error", film.length_error},
                     {"reason", film.reason}});
   }
   return json;
@@ -98,7 +104,8 @@ std::vector<FilmReading> films_in(const Json& json) {
                      .status = film.at("status"),
                      .value = value.is_null() ? std::nullopt : std::optional<double>(value),
                      .uncertainty = film.at("uncertainty"),
-                     .reason = film.at("reason")});
+                     .reason = film.at("reason"),
+                     .length_error = film.value("length_error", 0.)});
   }
   return films;
 }
@@ -154,13 +161,7 @@ dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
                        const std::vector<FilmReading>& films) {
   // Films see the drag and leave it out themselves.
   study = with_films(without_air(with_readings(std::move(study), sheets), grain), films);
-  const auto heap = study.experiments.find(dem::Experiment::heap);
-  if (heap == study.experiments.end()) return study;
-  for (const PictureReading& picture : pictures) {
-    if (!picture.angle_deg || !counts_in_mean(picture.status)) continue;
-    heap->second.measured.values.push_back(*picture.angle_deg);
-  }
-  return study;
+  return with_pictures(std::move(study), pictures);
 }
 
 namespace {

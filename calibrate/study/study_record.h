@@ -7,20 +7,13 @@
 #include <vector>
 
 #include "calibrate/study/bench_films.h"
+#include "calibrate/study/bench_pictures.h"
 #include "calibrate/study/bench_sheets.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {
-
-/// What a picture of a bench's heap gave.
-struct PictureReading {
-  std::filesystem::path file;
-  std::string status;  ///< "ok", "flagged" or "refused"; see counts_in_mean
-  std::optional<double> angle_deg;
-  std::string reason;  ///< why there is none
-};
 
 /// Which study it is, and how it is calibrated.
 struct StudyIdentity {

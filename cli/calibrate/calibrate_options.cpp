@@ -1,6 +1,7 @@
 #include "cli/calibrate/calibrate_options.h"
 
 #include <array>
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -58,8 +59,11 @@ calibrate::PictureReading reading_of(const std::filesystem::path& file,
                                     .status = name_of(angle.status),
                                     .angle_deg = {},
                                     .reason = angle.reason};
-  if (const auto angle_rad = vision::angle_by(angle, definition)) {
-    reading.angle_deg = to_degrees(*angle_rad);
+  const calibrate::SetPicture seen = calibrate::set_picture_of(angle, definition);
+  reading.own_deg = seen.own_deg;
+  reading.camera_deg = seen.camera_deg;
+  if (seen.angle_deg) {
+    reading.angle_deg = seen.angle_deg;
   } else if (angle.status != vision::MeasureStatus::refused) {
     reading.status = name_of(vision::MeasureStatus::refused);
     reading.reason = fmt::format(
@@ -84,6 +88,35 @@ std::vector<std::string> names_of(const std::vector<std::filesystem::path>& file
   return names;
 }
 
+/// The heap of each file that the study puts into a group, by identity().
+std::map<std::string, std::string> heaps_named(const dem::Measured& measured,
+                                               std::vector<std::string>& errors) {
+  std::map<std::string, std::string> heaps;
+  for (std::size_t k = 0; k < measured.picture_heaps.size(); ++k) {
+    const std::string& heap = measured.picture_heaps[k];
+    if (heap.empty()) continue;
+    for (const auto& file : list_pictures_and_films({measured.pictures[k].string()}).files) {
+      const auto [place, is_new] = heaps.try_emplace(identity(file).string(), heap);
+      if (is_new || place->second == heap) continue;
+      errors.push_back(fmt::format(
+          "{}: is of the heap \"{}\" and of \"{}\". Rule: a picture shows one heap. Fix: list it "
+          "in one group of pictures.",
+          file.string(), place->second, heap));
+    }
+  }
+  return heaps;
+}
+
+/// Pictures that are far from the others: each is named, whether it counts or not.
+void note_outliers(CalibratePlan& plan) {
+  const calibrate::PictureSet set = calibrate::set_of(plan.record.pictures);
+  for (const calibrate::OutlyingPicture& outlier : set.outliers) {
+    const calibrate::PictureReading& picture = plan.record.pictures[outlier.place];
+    plan.notes.push_back(
+        fmt::format("{}: {}", picture.file.string(), text_of(outlier, set, *picture.angle_deg)));
+  }
+}
+
 /// Photographs and films of the bench's heaps: each gives a reading, or it is said why it gives
 /// none.
 void measure_heaps(CalibratePlan& plan) {
@@ -97,6 +130,7 @@ void measure_heaps(CalibratePlan& plan) {
   plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
   plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
   bool any = false;
+  const std::map<std::string, std::string> heaps = heaps_named(measured, plan.errors);
   std::vector<calibrate::PictureReading> readings;
   std::vector<std::filesystem::path> files;
   std::vector<std::string> pixels;
@@ -104,6 +138,8 @@ void measure_heaps(CalibratePlan& plan) {
     attempt(plan.errors, [&] {
       std::string own_pixels;
       readings.push_back(reading_of(file, heap->second.definition, own_pixels));
+      const auto group = heaps.find(identity(file).string());
+      if (group != heaps.end()) readings.back().heap = group->second;
       files.push_back(file);
       pixels.push_back(std::move(own_pixels));
     });
@@ -118,6 +154,7 @@ void measure_heaps(CalibratePlan& plan) {
     if (readings[i].status != "ok") plan.notes.push_back(note_on(readings[i]));
     plan.record.pictures.push_back(std::move(readings[i]));
   }
+  note_outliers(plan);
   if (plan.errors.empty() && !any) {
     plan.errors.push_back(
         fmt::format("{}: none of the {} {} of the heap could be measured. Fix: check them with "

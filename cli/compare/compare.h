@@ -23,6 +23,7 @@ struct CompareArguments {
   std::vector<std::string> exclude_second;
   std::string overlay_file;
   std::string json_file;
+  bool groups_by_name = false;
 };
 
 /// Carries out `repose compare`.

@@ -163,6 +163,19 @@ void check_options_of_sets(const CompareArguments& arguments, ComparePlan& plan)
   }
 }
 
+/// Two pictures are two heaps, and simulated heaps have views that belong to them anyway.
+void read_grouping(const CompareArguments& arguments, ComparePlan& plan) {
+  plan.groups_by_name = arguments.groups_by_name;
+  if (!plan.groups_by_name) return;
+  const bool has_folder = std::ranges::any_of(plan.sources, [](const HeapSource& source) {
+    return !source.is_file && !source.pictures.empty();
+  });
+  if (has_folder || !plan.errors.empty()) return;
+  plan.errors.emplace_back(
+      "--group-by-name: there is no folder of photographs whose names could tell which are of one "
+      "heap. Fix: leave it out, or name a folder of photographs.");
+}
+
 }  // namespace
 
 ComparePlan plan_compare(const CompareArguments& arguments) {
@@ -181,6 +194,7 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
   read_ending({"--overlay", plan.overlay_file, plan.errors}, {".png", ".jpg", ".jpeg"});
   plan.json_file = arguments.json_file;
   if (!plan.is_pair()) check_options_of_sets(arguments, plan);
+  read_grouping(arguments, plan);
   std::vector<std::filesystem::path> inputs;
   for (const HeapSource& source : plan.sources) {
     inputs.insert(inputs.end(), source.pictures.begin(), source.pictures.end());

@@ -23,7 +23,8 @@ struct ComparePlan {
   vision::CompareOptions comparing;
   std::optional<double> grain_m;
   std::optional<calibrate::HeapCamera> camera;  ///< before simulated heaps; none: far away
-  int in_both = 0;  ///< heaps that are in both sets, found when they are read
+  bool groups_by_name = false;  ///< pictures that differ in a last number alone are of one heap
+  int in_both = 0;              ///< heaps that are in both sets, found when they are read
   std::string overlay_file;
   std::string json_file;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 
 #include "calibrate/experiment/heap_views.h"
 #include "cli/common/copies.h"
+#include "cli/common/heap_names.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
@@ -165,6 +167,41 @@ void drop_copies(ComparePlan& plan, Work& work) {
   }
 }
 
+/// Heaps that have one scale in all their pictures; none where they have several.
+std::optional<double> scale_of_both(const SeenHeap& one, const SeenHeap& other) {
+  constexpr double kAlike = 1e-3;
+  if (!one.m_per_px || !other.m_per_px) return std::nullopt;
+  return std::abs(*one.m_per_px / *other.m_per_px - 1) < kAlike ? one.m_per_px : std::nullopt;
+}
+
+/// Photographs of one heap become its views: a heap's angle is the mean of them.
+void group_by_name(ComparePlan& plan, Work& work) {
+  if (!plan.groups_by_name) return;
+  for (const std::size_t set : {0, 1}) {
+    HeapSource& source = plan.sources[set];
+    std::vector<std::filesystem::path> firsts;
+    std::vector<SeenHeap> heaps;
+    for (std::size_t i = 0; i < source.pictures.size(); ++i) {
+      const std::string name = heap_by_name(source.pictures[i]);
+      const auto same = std::ranges::find(firsts, name, heap_by_name);
+      SeenHeap& seen = work.sets[set][i];
+      if (same == firsts.end()) {
+        firsts.push_back(source.pictures[i]);
+        source.views.push_back({source.pictures[i]});
+        heaps.push_back(std::move(seen));
+        continue;
+      }
+      const auto heap = static_cast<std::size_t>(same - firsts.begin());
+      source.views[heap].push_back(source.pictures[i]);
+      heaps[heap].m_per_px = scale_of_both(heaps[heap], seen);
+      heaps[heap].views.push_back(std::move(seen.views.front()));
+    }
+    if (source.pictures.empty()) continue;
+    source.pictures = std::move(firsts);
+    work.sets[set] = std::move(heaps);
+  }
+}
+
 /// A set agrees with itself, whatever its grains are.
 void warn_of_both(const ComparePlan& plan, vision::SetComparison& comparison) {
   if (plan.in_both == 0) return;
@@ -205,6 +242,7 @@ ExitCode compare_sets(ComparePlan plan, const std::atomic<bool>& is_interrupted)
   if (!work.errors.empty()) return ExitCode::bad_input;
 
   drop_copies(plan, work);
+  group_by_name(plan, work);
   vision::SetComparison comparison =
       vision::compare_sets(work.sets[0], work.sets[1], plan.comparing.margin_rad);
   warn_of_both(plan, comparison);

@@ -13,6 +13,14 @@ struct HeapSource {
   std::string name;
   std::vector<std::filesystem::path> pictures;
   std::vector<std::filesystem::path> states;  ///< .vtp; never together with pictures
+  /// Of each of the `pictures`, once they stand for a heap with several, all that are of it.
+  std::vector<std::vector<std::filesystem::path>> views = {};
+
+  /// Files of the heap in that place.
+  std::vector<std::filesystem::path> files_of_heap(std::size_t heap) const {
+    if (!states.empty()) return {states[heap]};
+    return views.empty() ? std::vector{pictures[heap]} : views[heap];
+  }
 
   bool is_one_picture() const { return is_file && states.empty(); }
   bool is_file = true;  ///< not a folder

@@ -17,10 +17,12 @@ Json heaps_json(const HeapSource& source, const std::vector<vision::SeenHeap>& h
                 const vision::SetOfHeaps& set) {
   Json json = Json::array();
   for (std::size_t i = 0; i < heaps.size(); ++i) {
-    const auto& file = source.states.empty() ? source.pictures[i] : source.states[i];
+    Json files = Json::array();
+    for (const auto& file : source.files_of_heap(i)) files.push_back(file.string());
     Json statuses = Json::array();
     for (const vision::ReposeAngle& view : heaps[i].views) statuses.push_back(name_of(view.status));
-    json.push_back({{"file", file.string()},
+    json.push_back({{"file", files.front()},
+                    {"files", files},
                     {"angle_deg", degrees(set.angle_rad[i])},
                     {"pictures", std::move(statuses)}});
   }

@@ -71,9 +71,12 @@ std::string outlines_text(const ComparePlan& plan, const vision::SetComparison& 
 /// Each picture of a bench that gave no angle, and why.
 void add_refused(const HeapSource& source, const std::vector<vision::SeenHeap>& heaps, Page& page) {
   for (std::size_t i = 0; i < source.pictures.size(); ++i) {
-    const vision::ReposeAngle& view = heaps[i].views.front();
-    if (view.status != vision::MeasureStatus::refused) continue;
-    page.add("! ", fmt::format("{}: {}", source.pictures[i].string(), view.reason));
+    const std::vector<std::filesystem::path> files = source.files_of_heap(i);
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      const vision::ReposeAngle& view = heaps[i].views[k];
+      if (view.status != vision::MeasureStatus::refused) continue;
+      page.add("! ", fmt::format("{}: {}", files[k].string(), view.reason));
+    }
   }
 }
 
@@ -94,6 +97,14 @@ std::string distance_text(const std::optional<calibrate::HeapCamera>& camera) {
                      1000 * camera->height_m);
 }
 
+/// "a picture of each heap", "9 pictures of 3 heaps".
+std::string pictures_text(const HeapSource& source) {
+  std::size_t pictures = 0;
+  for (const auto& files : source.views) pictures += files.size();
+  if (pictures <= source.pictures.size()) return "a picture of each heap";
+  return fmt::format("{} pictures of {} heaps", pictures, source.pictures.size());
+}
+
 }  // namespace
 
 std::string sets_table(const ComparePlan& plan,
@@ -105,7 +116,7 @@ std::string sets_table(const ComparePlan& plan,
     const HeapSource& source = plan.sources[i];
     page.add(kMarks[i],
              source.states.empty()
-                 ? fmt::format("{}: a picture of each heap", source.name)
+                 ? fmt::format("{}: {}", source.name, pictures_text(source))
                  : fmt::format("{}: simulated heaps, {} views of each{}", source.name,
                                heaps[i].front().views.size(), distance_text(plan.camera)));
   }

@@ -8,6 +8,7 @@
 
 #include "calibrate/report/measure_report.h"
 #include "cli/common/copies.h"
+#include "cli/common/heap_names.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
@@ -69,7 +70,8 @@ std::string report_page(const std::vector<MeasuredPicture>& pictures) {
     shown.push_back({.file = picture.file,
                      .error = picture.outcome == Outcome::measured ? "" : picture.error,
                      .angle = picture.angle,
-                     .overlay = picture.overlay});
+                     .overlay = picture.overlay,
+                     .heap = picture.heap});
   }
   return calibrate::report::measure_report(shown).html;
 }
@@ -117,6 +119,10 @@ ExitCode run_measure(const MeasureArguments& arguments) {
     return ExitCode::interrupted;
   }
   name_copies(pictures);
+  if (arguments.groups_by_name) {
+    for (MeasuredPicture& picture : pictures) picture.heap = heap_by_name(picture.file);
+  }
+  name_outliers(pictures);
   Outputs outputs = results_of(pictures, arguments);
   outputs.write_files();
   print_errors(pictures);

@@ -30,6 +30,7 @@ struct MeasureArguments {
   std::string summary_file;
   std::string report_file;
   bool shows_definitions = false;
+  bool groups_by_name = false;
   bool saves_hints = false;
 };
 

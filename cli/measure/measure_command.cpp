@@ -50,50 +50,56 @@ also gives the camera's pitch. Hints are in the pixels of the picture as it is,
 overlays show the corrected one.
 
 Uncertainties are half-widths of 95 % intervals. The mean of several pictures
-includes all that could be measured. A flagged picture counts, but has a warning
-to check; a refused one has a reason instead of an angle.
+includes all that could be measured, but for flagged ones that are outliers
+among them; the mean of those that are ok stands beside it. A flagged picture
+counts, but has a warning to check; a refused one has a reason instead of an
+angle. Photographs of one heap from several sides are one heap: with
+--group-by-name those whose names differ in a last number after _ or - alone
+count once, with their mean.
 )";
 
 }  // namespace
 
 Command measure_command() {
   const auto given = std::make_shared<MeasureArguments>();
-  return {.name = "measure",
-          .summary = "Measure heaps in pictures and films",
-          .options =
-              {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
-                &given->pictures, true},
-               {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
-               {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
-               {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
-               {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
-               {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
-               {"--keep", "X,Y", "Point on the heap; repeatable", &given->keep},
-               {"--drop", "X,Y", "Point off the heap; repeatable", &given->drop},
-               {"--mask", "FILE", "Picture with the heap light, rest dark", &given->mask_file},
-               {"--save-hints", "", "Save these hints beside each picture", &given->saves_hints},
-               {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)", &given->pitch_deg},
-               {"--camera-file", "FILE.toml", "Camera whose lens distortion to correct",
-                &given->scale.camera_file},
-               {"--board", "", "Find the board of repose board: sizes in mm",
-                &given->scale.finds_board},
-               {"--square-mm", "MM", "Side of a printed square (24)", &given->scale.square_mm},
-               {"--board-behind", "MM", "How far behind the heap's middle it is (0)",
-                &given->scale.board_behind_mm},
-               {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale.scale},
-               {"--overlay", "FOLDER", "Folder for pictures with the measurement",
-                &given->overlay_folder},
-               {"--json", "FILE|-", "Full results, for programs", &given->json_file},
-               {"--csv", "FILE|-", "One row per picture or frame", &given->csv_file},
-               {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
-               {"--report", "FILE.html", "Report as a web page", &given->report_file},
-               {"--fps", "N", "Folders are films, their pictures the frames", &given->fps},
-               {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
-               {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
-               {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
-          .notes = kMeasureNotes,
-          .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
-          .run = [given] { return run_measure(*given); }};
+  return {
+      .name = "measure",
+      .summary = "Measure heaps in pictures and films",
+      .options =
+          {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
+            &given->pictures, true},
+           {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
+           {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
+           {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
+           {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
+           {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
+           {"--keep", "X,Y", "Point on the heap; repeatable", &given->keep},
+           {"--drop", "X,Y", "Point off the heap; repeatable", &given->drop},
+           {"--mask", "FILE", "Picture with the heap light, rest dark", &given->mask_file},
+           {"--save-hints", "", "Save these hints beside each picture", &given->saves_hints},
+           {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)", &given->pitch_deg},
+           {"--camera-file", "FILE.toml", "Camera whose lens distortion to correct",
+            &given->scale.camera_file},
+           {"--board", "", "Find the board of repose board: sizes in mm",
+            &given->scale.finds_board},
+           {"--square-mm", "MM", "Side of a printed square (24)", &given->scale.square_mm},
+           {"--board-behind", "MM", "How far behind the heap's middle it is (0)",
+            &given->scale.board_behind_mm},
+           {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale.scale},
+           {"--overlay", "FOLDER", "Folder for pictures with the measurement",
+            &given->overlay_folder},
+           {"--json", "FILE|-", "Full results, for programs", &given->json_file},
+           {"--csv", "FILE|-", "One row per picture or frame", &given->csv_file},
+           {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
+           {"--report", "FILE.html", "Report as a web page", &given->report_file},
+           {"--group-by-name", "", "a_1.jpg and a_2.jpg are of one heap", &given->groups_by_name},
+           {"--fps", "N", "Folders are films, their pictures the frames", &given->fps},
+           {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
+           {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
+           {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
+      .notes = kMeasureNotes,
+      .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
+      .run = [given] { return run_measure(*given); }};
 }
 
 }  // namespace repose::cli

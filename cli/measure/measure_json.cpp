@@ -153,9 +153,11 @@ Json picture_json(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Json json{{"file", picture.file},
             {"copy_of", picture.copy_of.empty() ? Json() : Json(picture.copy_of)},
+            {"heap", picture.heap.empty() ? Json() : Json(picture.heap)},
             {"status", name_of(angle.status)},
             {"angle_deg", degrees(angle.angle_rad)},
             {"uncertainty_deg", degrees(angle.uncertainty_rad)},
+            {"camera_uncertainty_deg", degrees(angle.camera_uncertainty_rad)},
             {"left", flank_json(angle.left)},
             {"right", flank_json(angle.right)},
             {"ground_tilt_deg", degrees(angle.ground_tilt_rad)},

@@ -37,6 +37,7 @@ struct MeasuredPicture {
   vision::HeapSizes sizes;
   std::optional<vision::Proposal> proposal;  ///< what would help, when it is refused
   std::string pixels;         ///< a fingerprint of the picture's; empty: not read, or a film
+  std::string heap;           ///< pictures of one name are of one heap; empty: of its own
   std::string copy_of;        ///< an earlier file that shows the same; empty: it is no copy
   std::string overlay_error;  ///< why there is no overlay
   calibrate::report::PageJpeg overlay;  ///< where the plan keeps them

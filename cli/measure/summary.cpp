@@ -1,6 +1,8 @@
 #include "cli/measure/summary.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,15 +14,71 @@ namespace {
 /// More digits than any camera resolves, without the noise of the conversion.
 double rounded(double angle_deg) { return std::round(angle_deg * 1e6) / 1e6; }
 
-std::string remarks_on(const Summary& summary) {
+std::string mean_text(const calibrate::Summary& mean) {
+  const auto& [n, middle, sd, uncertainty] = mean;
+  if (!sd || !uncertainty) return fmt::format("{:.2f}° n = 1, which has no scatter", middle);
+  return fmt::format(
+      "{:.2f}° sd {:.2f}° n = {}, 95 % interval of the mean {:.2f} … {:.2f}° (Student)", middle,
+      *sd, n, middle - *uncertainty, middle + *uncertainty);
+}
+
+/// Beside the first, which says what these are.
+std::string other_text(const char* what, const calibrate::Summary& mean) {
+  const auto& [n, middle, sd, uncertainty] = mean;
+  if (!sd || !uncertainty) return fmt::format("\n{}: {:.2f}° n = 1", what, middle);
+  return fmt::format("\n{}: {:.2f}° sd {:.2f}° n = {}, 95 % {:.2f} … {:.2f}°", what, middle, *sd, n,
+                     middle - *uncertainty, middle + *uncertainty);
+}
+
+/// Whether one of them has other pictures in it than the other.
+bool is_other(const std::optional<calibrate::Summary>& one,
+              const std::optional<calibrate::Summary>& other) {
+  return one && (!other || one->n != other->n || one->mean != other->mean);
+}
+
+/// The same mean without what a reader may not want in it, and with what was left out.
+std::string other_means(const calibrate::PictureSet& set) {
   std::string text;
-  if (summary.pictures.flagged > 0) {
-    text += fmt::format("\n{} of these flagged: look at them", summary.pictures.flagged);
+  if (set.flagged > 0 && !set.ok_deg) {
+    text += "\nno picture is ok: all in the mean are flagged";
+  } else if (is_other(set.ok_deg, set.heaps_deg)) {
+    text += other_text("of those that are ok", *set.ok_deg);
   }
+  if (is_other(set.all_deg, set.heaps_deg)) {
+    text += other_text("of all that could be measured", *set.all_deg);
+  }
+  return text;
+}
+
+std::string heaps_text(const calibrate::PictureSet& set) {
+  std::string text;
+  if (set.within_sd_deg && set.heaps_deg) {
+    text += fmt::format(
+        "\n{} pictures of {} heaps, n counts heaps; those of one heap scatter by sd {:.2f}°",
+        set.pictures, set.heaps_deg->n, *set.within_sd_deg);
+  }
+  if (set.heaps_deg && set.heaps_deg->n > 1 && set.camera_deg >= .005) {
+    text +=
+        fmt::format("\nall share ± {:.2f}° by the camera's pitch, which more pictures do not lower",
+                    set.camera_deg);
+  }
+  return text;
+}
+
+std::string remarks_on(const Summary& summary) {
+  const calibrate::PictureSet& set = summary.pictures;
+  std::string text;
+  if (set.flagged > 0) text += fmt::format("\n{} of these flagged: look at them", set.flagged);
   std::vector<std::string> left_out;
-  if (summary.pictures.refused > 0) {
-    left_out.push_back(fmt::format("{} refused", summary.pictures.refused));
+  for (const NamedOutlier& outlier : summary.outliers) {
+    const std::string what = fmt::format("{} {:.2f}°", outlier.file, outlier.angle_deg);
+    if (outlier.is_counted) {
+      text += fmt::format("\nan outlier, counted: {}", what);
+    } else {
+      left_out.push_back("the outlier " + what);
+    }
   }
+  if (set.refused > 0) left_out.push_back(fmt::format("{} refused", set.refused));
   if (summary.copies > 0) {
     left_out.push_back(
         fmt::format("{} {} of others", summary.copies, summary.copies == 1 ? "copy" : "copies"));
@@ -36,7 +94,8 @@ std::string remarks_on(const Summary& summary) {
 
 Summary summarise(const std::vector<MeasuredPicture>& pictures) {
   Summary summary;
-  std::vector<calibrate::PictureAngle> angles;
+  std::vector<calibrate::SetPicture> set;
+  std::vector<const MeasuredPicture*> from;
   for (const MeasuredPicture& picture : pictures) {
     if (is_of_series(picture)) continue;
     if (!picture.copy_of.empty()) {
@@ -44,45 +103,82 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
       continue;
     }
     if (picture.outcome == Outcome::measured) {
-      angles.push_back({picture.angle.status, picture.angle.angle_rad});
+      set.push_back(calibrate::set_picture_of(picture.angle, {}, picture.heap));
+      from.push_back(&picture);
     } else {
       ++summary.not_read;
     }
   }
-  summary.pictures = calibrate::mean_of_pictures(angles);
+  summary.pictures = calibrate::set_of_pictures(set);
+  for (const calibrate::OutlyingPicture& outlier : summary.pictures.outliers) {
+    summary.outliers.push_back({.file = from[outlier.place]->file,
+                                .angle_deg = *set[outlier.place].angle_deg,
+                                .score = outlier.score,
+                                .is_counted = outlier.is_counted});
+  }
   return summary;
 }
 
-std::string summary_text(const Summary& summary) {
-  const std::string remarks = remarks_on(summary);
-  if (!summary.pictures.angle_deg) return "no mean: no picture could be measured" + remarks;
-  const auto& [n, mean, sd, uncertainty] = *summary.pictures.angle_deg;
-  if (!sd || !uncertainty) {
-    return fmt::format("mean {:.2f}° n = 1, which has no scatter{}", mean, remarks);
+void name_outliers(std::vector<MeasuredPicture>& pictures) {
+  const Summary summary = summarise(pictures);
+  for (std::size_t k = 0; k < summary.outliers.size(); ++k) {
+    const auto named = std::ranges::find_if(pictures, [&](const MeasuredPicture& picture) {
+      return picture.file == summary.outliers[k].file && !is_of_series(picture);
+    });
+    named->angle.warnings.push_back(
+        {"outlier",
+         text_of(summary.pictures.outliers[k], summary.pictures, summary.outliers[k].angle_deg)});
   }
-  return fmt::format(
-      "mean {:.2f}° sd {:.2f}° n = {}, 95 % interval of the mean {:.2f} … {:.2f}° "
-      "(Student){}",
-      mean, *sd, n, mean - *uncertainty, mean + *uncertainty, remarks);
 }
 
-std::string summary_json(const Summary& summary) {
+std::string summary_text(const Summary& summary) {
+  const calibrate::PictureSet& set = summary.pictures;
+  const std::string remarks = heaps_text(set) + remarks_on(summary) + other_means(set);
+  if (!set.heaps_deg) return "no mean: no picture could be measured" + remarks;
+  return "mean " + mean_text(*set.heaps_deg) + remarks;
+}
+
+namespace {
+
+nlohmann::ordered_json mean_json(const std::optional<calibrate::Summary>& of) {
   nlohmann::ordered_json json{
       {"n", 0}, {"mean_deg", nullptr}, {"sd_deg", nullptr}, {"interval_deg", nullptr}};
-  if (summary.pictures.angle_deg) {
-    const auto& [n, mean, sd, uncertainty] = *summary.pictures.angle_deg;
-    json["n"] = n;
-    json["mean_deg"] = rounded(mean);
-    if (sd) json["sd_deg"] = rounded(*sd);
-    if (uncertainty) {
-      json["interval_deg"] = {rounded(mean - *uncertainty), rounded(mean + *uncertainty)};
-    }
+  if (!of) return json;
+  const auto& [n, mean, sd, uncertainty] = *of;
+  json["n"] = n;
+  json["mean_deg"] = rounded(mean);
+  if (sd) json["sd_deg"] = rounded(*sd);
+  if (uncertainty) {
+    json["interval_deg"] = {rounded(mean - *uncertainty), rounded(mean + *uncertainty)};
   }
-  json["flagged"] = summary.pictures.flagged;
-  json["refused"] = summary.pictures.refused;
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const Summary& summary) {
+  const calibrate::PictureSet& set = summary.pictures;
+  nlohmann::ordered_json json = mean_json(set.heaps_deg);
+  json["pictures"] = set.pictures;
+  json["within_heaps_sd_deg"] = nullptr;
+  if (set.within_sd_deg) json["within_heaps_sd_deg"] = rounded(*set.within_sd_deg);
+  json["camera_deg"] = nullptr;
+  if (set.heaps_deg) json["camera_deg"] = rounded(set.camera_deg);
+  json["ok"] = mean_json(set.ok_deg);
+  json["all"] = mean_json(set.all_deg);
+  json["outliers"] = nlohmann::ordered_json::array();
+  for (const NamedOutlier& outlier : summary.outliers) {
+    json["outliers"].push_back({{"file", outlier.file},
+                                {"angle_deg", rounded(outlier.angle_deg)},
+                                {"score", outlier.score},
+                                {"counted", outlier.is_counted}});
+  }
+  json["flagged"] = set.flagged;
+  json["refused"] = set.refused;
   json["not_read"] = summary.not_read;
   json["copies"] = summary.copies;
-  return json.dump(2) + '\n';
+  // File names need not be UTF-8, JSON must be.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace repose::cli

@@ -3,19 +3,32 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/experiment/picture_angles.h"
+#include "calibrate/experiment/picture_set.h"
 #include "cli/measure/measure_batch.h"
 
 namespace repose::cli {
 
+/// A picture of the set that is far from the others.
+struct NamedOutlier {
+  std::string file;
+  double angle_deg = 0;
+  double score = 0;
+  bool is_counted = false;
+};
+
 /// Pictures and films taken as repeats of one experiment: of a film its heap at rest alone.
 struct Summary {
-  calibrate::PictureMean pictures;
+  calibrate::PictureSet pictures;
+  std::vector<NamedOutlier> outliers;
   int not_read = 0;
   int copies = 0;  ///< of pictures that are counted
 };
 
 Summary summarise(const std::vector<MeasuredPicture>& pictures);
+
+/// Warns of each picture that is an outlier among them (calibrate::set_of_pictures), with the code
+/// `outlier`.
+void name_outliers(std::vector<MeasuredPicture>& pictures);
 
 /// "mean 23.38° sd 0.72° n = 10, ..." and what was flagged or left out.
 std::string summary_text(const Summary& summary);

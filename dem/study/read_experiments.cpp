@@ -63,6 +63,59 @@ std::vector<std::filesystem::path> files_named(Section& measured, const std::str
   return found;
 }
 
+/// { heap = "a", files = ["a1.jpg", "a2.jpg"] }: pictures of one heap.
+void read_pictures_of_heap(const Section& measured, const ConfigValue& item,
+                           const NamedFiles& files, Measured& result) {
+  Section group(&item, measured.full("pictures"), item.place, measured.errors());
+  const auto heap = group.text("heap", "heap = \"a\"");
+  const std::string example = "files = [\"a1.jpg\", \"a2.jpg\"]";
+  if (!group.has("heap")) group.missing("heap", "a name for the heap", "heap = \"a\"");
+  if (!group.has("files")) group.missing("files", "its pictures", example);
+  const bool is_named = heap && !heap->empty();
+  if (heap && !is_named) {
+    group.wrong(*group.value("heap"), "a name for the heap", "for example heap = \"a\"");
+  }
+  if (is_named && std::ranges::find(result.picture_heaps, *heap) != result.picture_heaps.end()) {
+    group.wrong(*group.value("heap"), "each heap once", "list all of its files together");
+  }
+  for (std::filesystem::path& path : files_named(group, "files", example, files)) {
+    result.pictures.push_back(std::move(path));
+    result.picture_heaps.push_back(heap.value_or(""));
+  }
+  group.refuse_others();
+}
+
+/// pictures = ["photos"], of a heap each, or groups of several of one heap, or both.
+void read_pictures(Section& measured, const NamedFiles& files, Measured& result) {
+  const std::string key = "pictures";
+  const ConfigValue* list = measured.value(key);
+  const auto is_group = [](const ConfigValue& item) {
+    return item.kind == ConfigValue::Kind::table;
+  };
+  if (list == nullptr || std::ranges::none_of(list->items, is_group)) {
+    result.pictures = files_named(measured, key, "pictures = [\"photos\"]", files);
+    return;
+  }
+  if (list->kind != ConfigValue::Kind::array) {
+    measured.wrong(*list, "a list in brackets",
+                   "for example pictures = [{ heap = \"a\", files = [\"a1.jpg\"] }]");
+    return;
+  }
+  for (const ConfigValue& item : list->items) {
+    if (is_group(item)) {
+      read_pictures_of_heap(measured, item, files, result);
+    } else if (item.kind != ConfigValue::Kind::text) {
+      measured.wrong(*list, "texts in quotes and groups { heap, files }",
+                     "for example pictures = [\"b.jpg\", { heap = \"a\", files = [\"a1.jpg\"] }]");
+    } else {
+      const std::filesystem::path path = files.folder / item.text;
+      result.pictures.push_back(
+          base::is_pattern(path) ? path : file_named(measured, item, item.text, files));
+      result.picture_heaps.emplace_back();
+    }
+  }
+}
+
 /// "drop, roll": experiments for which `is` holds.
 std::string names_of_those(bool ExperimentEntry::*is) {
   std::string names;
@@ -102,7 +155,7 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
   if (const auto name = measured.text("readings", "readings = \"drops.csv\"")) {
     result.sheet = file_named(measured, *measured.value("readings"), *name, files);
   }
-  result.pictures = files_named(measured, "pictures", "pictures = [\"photos\"]", files);
+  read_pictures(measured, files, result);
   check_medium(measured, "pictures", &ExperimentEntry::is_pictured, entry,
                "only this is measured in pictures");
   result.videos = files_named(measured, "videos", "videos = [\"drops/*.mp4\"]", files);

@@ -66,10 +66,15 @@ struct Measured {
   std::optional<double> tolerance;
   std::optional<std::filesystem::path> sheet;   ///< a table with the columns of its BenchSheet
   std::vector<std::filesystem::path> pictures;  ///< files, folders and patterns ("heaps/*.jpg")
-  std::vector<std::filesystem::path> videos;    ///< the same
+  /// Of each of the `pictures` entries the heap that all its files are of; empty: of a heap each.
+  std::vector<std::string> picture_heaps;
+  std::vector<std::filesystem::path> videos;  ///< the same
   /// Standard uncertainty of a single one of the `values`, where it is known: they scatter by as
   /// much at least.
   std::optional<double> value_uncertainty;
+  /// Of pictures with several of one heap, once they are measured: how many they are, and by what
+  /// standard deviation those of one heap scatter.
+  std::optional<std::pair<int, double>> within_heaps;
   /// Of drops: heights were read in air, not corrected for its drag, as films' are.
   bool in_air = true;
   std::vector<Systematic> systematic = {};  ///< of values and mean

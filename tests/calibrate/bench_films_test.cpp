@@ -76,6 +76,23 @@ TEST(BenchFilms, ThatAgreeByChanceAreNoSurerThanEachIs) {
   EXPECT_NEAR(*drop.sd, 1, 1e-9);
 }
 
+// All see the fall by .8 % too long: so may the rebounds be, however many there are.
+TEST(BenchFilms, WhatFilmsShareIsToldByTheFallThatTheyShow) {
+  const std::vector<FilmReading> films = {reading_of(100.9, 30, .1), reading_of(100.7, 36, .1),
+                                          reading_of(100.8, 42, .1)};
+  const Observable drop = drop_after(films);
+  ASSERT_EQ(drop.systematic.size(), 1U);
+  EXPECT_EQ(drop.systematic[0].name, "film");
+  EXPECT_NEAR(drop.systematic_sd, .008 * 36, 1e-9);
+  EXPECT_THAT(drop.systematic[0].note, HasSubstr("+0.8 % off"));
+  std::vector<FilmReading> many;
+  for (int k = 0; k < 100; ++k) many.insert(many.end(), films.begin(), films.end());
+  EXPECT_NEAR(drop_after(many).systematic_sd, .008 * 36, 1e-9);
+  EXPECT_NEAR(drop_after({reading_of(100.9, 30, .1), reading_of(99.1, 36, .1)}).systematic_sd, 0,
+              1e-9)
+      << "that is chance";
+}
+
 TEST(BenchFilms, OneAloneAddsItsIntervalToTheScatterThatIsAssumed) {
   const Observable drop = drop_after({reading_of(100, 40, base::kNormal95 * 2)});
   EXPECT_FALSE(drop.sd);

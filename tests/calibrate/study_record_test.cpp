@@ -1,5 +1,6 @@
 #include "calibrate/study/study_record.h"
 
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -88,6 +89,34 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
   EXPECT_EQ(read.films[0].value, 88.5);
   EXPECT_EQ(read.films[0].uncertainty, 3.5);
   EXPECT_EQ(problem_of(read.study, read.grain, read.budget).problem.observables.size(), 3U);
+}
+
+TEST_F(StudyRecordTest, PicturesOfOneHeapCountOnceAndShareTheirCamera) {
+  StudyRecord written = record();
+  const auto picture = [](const char* name, const char* heap, double angle_deg) {
+    return PictureReading{.file = name,
+                          .status = "ok",
+                          .angle_deg = angle_deg,
+                          .reason = {},
+                          .own_deg = 1.96,
+                          .camera_deg = .98,
+                          .heap = heap};
+  };
+  written.pictures = {picture("a1", "a", 23), picture("a2", "a", 25), picture("b1", "", 26)};
+  write_study_record(saved(), written);
+  const StudyRecord read = read_study_record(saved());
+  const dem::Measured heap = dem::measured_in(read.study, dem::Experiment::heap);
+  EXPECT_THAT(heap.values, ElementsAre(24, 26));
+  ASSERT_THAT(heap.systematic, SizeIs(1));
+  EXPECT_EQ(heap.systematic[0].name, "camera");
+  EXPECT_NEAR(heap.systematic[0].sd, .5, 1e-3);
+  EXPECT_NEAR(*heap.value_uncertainty, std::sqrt((1 + .5) / 2), 1e-3);
+  const StudyProblem made = problem_of(read.study, read.grain, read.budget);
+  EXPECT_THAT(made.notes, ::testing::Contains(HasSubstr("3 pictures of 2 heaps")));
+  const Observable& angle = made.problem.observables.back();
+  EXPECT_EQ(angle.n, 2);
+  EXPECT_NEAR(with_systematic(angle, standard_uncertainty(angle)),
+              std::hypot(std::sqrt(2) / std::sqrt(2), .5), 1e-3);
 }
 
 TEST_F(StudyRecordTest, OtherFoldersAreRefused) {

@@ -82,6 +82,23 @@ TEST_F(CompareOfSets, JsonHoldsEveryHeap) {
   EXPECT_EQ(sets["warnings"][0]["code"], "one_heap");
 }
 
+TEST_F(CompareOfSets, PicturesThatDifferInANumberAreOfOneHeapWhenAsked) {
+  std::filesystem::create_directories(path("grouped"));
+  std::filesystem::copy(path("flat/1.png"), path("grouped/a_1.png"));
+  std::filesystem::copy(path("flat/2.png"), path("grouped/a_2.png"));
+  std::filesystem::copy(path("flat/3.png"), path("grouped/b_1.png"));
+  const json sets = result({"grouped", "steep", "--group-by-name"});
+  EXPECT_EQ(sets["sets"][0]["n"], 2);
+  EXPECT_EQ(sets["sets"][0]["heaps"][0]["files"], json({"grouped/a_1.png", "grouped/a_2.png"}));
+  EXPECT_EQ(sets["sets"][0]["heaps"][0]["pictures"].size(), 2U);
+  EXPECT_EQ(sets["sets"][1]["n"], 3) << "these have no _ or -";
+  EXPECT_EQ(result({"grouped", "steep"})["sets"][0]["n"], 3);
+  EXPECT_THAT(run({"grouped", "steep", "--group-by-name"}).out, HasSubstr("3 pictures of 2 heaps"));
+  const Finished pair = run({"flat/1.png", "steep/1.png", "--group-by-name"});
+  EXPECT_EQ(pair.exit_code, 2);
+  EXPECT_THAT(pair.err, HasSubstr("there is no folder of photographs"));
+}
+
 TEST_F(CompareOfSets, ASimulatedSetIsSeenFromAllAround) {
   folder_.write("study.toml", kComparedStudy);
   ASSERT_EQ(run_repose(folder_, {"simulate", "heap", "study.toml", "--repeats", "2", "--views", "2",

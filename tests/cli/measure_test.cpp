@@ -242,6 +242,65 @@ TEST_F(Measure, SeveralPicturesHaveAMeanOfThoseThatAreOk) {
   EXPECT_TRUE(all[2]["copy_of"].is_null());
 }
 
+TEST_F(Measure, PicturesThatDifferInANumberAreOfOneHeapWhenAsked) {
+  const auto draw = [&](const char* name, double angle_rad) {
+    HeapScene scene;
+    scene.width = 600;
+    scene.height = 400;
+    scene.form.left_rad = scene.form.right_rad = angle_rad;
+    vision::write_picture(folder_.path() / name, draw_heap(scene).picture);
+  };
+  draw("a_1.png", .38);
+  draw("a_2.png", .4);
+  draw("b-1.png", .42);
+  const std::vector<std::string> pictures = {"a_1.png", "a_2.png", "b-1.png"};
+  std::vector<std::string> grouped = pictures;
+  grouped.insert(grouped.end(),
+                 {"--group-by-name", "--summary", "mean.json", "--json", "all.json"});
+  const Finished result = run(grouped);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("3 pictures of 2 heaps, n counts heaps"));
+  const json summary = json::parse(text("mean.json"));
+  EXPECT_EQ(summary["n"], 2);
+  EXPECT_EQ(summary["pictures"], 3);
+  EXPECT_TRUE(summary["within_heaps_sd_deg"].is_number());
+  const json all = json::parse(text("all.json"));
+  EXPECT_EQ(all[0]["heap"], "a");
+  EXPECT_EQ(all[1]["heap"], "a");
+  EXPECT_EQ(all[2]["heap"], "b");
+  EXPECT_GT(all[0]["camera_uncertainty_deg"], 0);
+  EXPECT_LT(all[0]["camera_uncertainty_deg"], all[0]["uncertainty_deg"]);
+  EXPECT_THAT(run(pictures).out, AllOf(HasSubstr("n = 3"), Not(HasSubstr("n counts heaps"))));
+}
+
+TEST_F(Measure, AnOutlierIsNamedInEveryOutput) {
+  const auto draw = [&](const char* name, double angle_rad) {
+    HeapScene scene;
+    scene.width = 600;
+    scene.height = 400;
+    scene.form.left_rad = scene.form.right_rad = angle_rad;
+    vision::write_picture(folder_.path() / name, draw_heap(scene).picture);
+  };
+  draw("a.png", .37);
+  draw("b.png", .38);
+  draw("c.png", .39);
+  draw("other.png", .8);
+  const Finished result = run({"a.png", "b.png", "c.png", "other.png", "--summary", "mean.json",
+                               "--json", "all.json", "--report", "page.html"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("is an outlier: the median"), HasSubstr("other.png")));
+  const json summary = json::parse(text("mean.json"));
+  ASSERT_EQ(summary["outliers"].size(), 1U);
+  EXPECT_EQ(summary["outliers"][0]["file"], "other.png");
+  EXPECT_GT(summary["outliers"][0]["score"], 3.5);
+  const bool is_counted = summary["outliers"][0]["counted"];
+  EXPECT_EQ(is_counted, json::parse(text("all.json"))[3]["status"] == "ok");
+  EXPECT_EQ(summary["n"], is_counted ? 4 : 3);
+  EXPECT_EQ(summary["all"]["n"], 4);
+  EXPECT_EQ(json::parse(text("all.json"))[3]["warnings"].back()["code"], "outlier");
+  EXPECT_THAT(text("page.html"), HasSubstr("is an outlier: the median"));
+}
+
 TEST_F(Measure, ACopyInAnotherFormatIsNoSecondHeap) {
   draw_heap_to("a.png");
   const vision::Picture heap = vision::read_picture(folder_.path() / "a.png");

@@ -52,6 +52,27 @@ TEST_F(StudyFile, SaysWhatAllReadingsShare) {
   EXPECT_EQ(measured_in(study, Experiment::heap).also.front().systematic[0].sd, .5);
 }
 
+TEST_F(StudyFile, GroupsPicturesOfOneHeap) {
+  const std::string heap = kStudy + "[experiment.heap]\nmeasured = { pictures = ";
+  const Measured measured = measured_in(
+      read(heap + R"([{ heap = "a", files = ["a*.jpg", "x*.jpg"] }, "b*.jpg"] })" + "\n"),
+      Experiment::heap);
+  ASSERT_EQ(measured.pictures.size(), 3U);
+  EXPECT_EQ(measured.pictures[1].filename(), "x*.jpg");
+  EXPECT_THAT(measured.picture_heaps, ::testing::ElementsAre("a", "a", ""));
+  EXPECT_TRUE(measured_in(read(heap + "[\"b*.jpg\"] }\n"), Experiment::heap).picture_heaps.empty());
+  EXPECT_THAT(
+      errors(heap +
+             R"([{ heap = "a", files = ["a*.jpg"] }, { heap = "a", files = ["b*.jpg"] }] })"),
+      HasSubstr("each heap once"));
+  EXPECT_THAT(errors(heap + R"([{ heap = "a" }] })"), HasSubstr("files is missing"));
+  EXPECT_THAT(errors(heap + R"([{ files = ["a*.jpg"] }] })"), HasSubstr("heap is missing"));
+  EXPECT_THAT(errors(heap + R"([{ heap = "a", files = ["a*.jpg"], n = 3 }] })"),
+              HasSubstr("no such key"));
+  EXPECT_THAT(errors(heap + R"([{ heap = "a", files = ["a*.jpg"] }, 3] })"),
+              HasSubstr("texts in quotes and groups"));
+}
+
 TEST_F(StudyFile, SaysByWhichDefinitionAHeapWasMeasured) {
   const std::string heap = kStudy + "[experiment.heap]\n";
   const auto definition = [](const Study& study) {

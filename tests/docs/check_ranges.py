@@ -18,7 +18,7 @@ NUMBER = re.compile(r"(?<![\w.])-?\d[\d,]*(?:\.\d+)?(?:e\d+)?")
 WRONG = "-1e30"
 # Two ranges, an implausible and an impossible one, told in a section of their own; and what stands within
 # a table in braces.
-ELSEWHERE = {"density_kg_m3", "young_modulus_pa", "tolerance"}
+ELSEWHERE = {"density_kg_m3", "young_modulus_pa", "tolerance", "bias_sd"}
 # Any one of those that have the keys of a heading.
 SECTION_OF = {"experiment": "experiment.heap"}
 ENDLESS = 1e15  # a limit that no one meets

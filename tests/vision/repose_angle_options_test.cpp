@@ -187,6 +187,9 @@ TEST(MeasureReposeAngle, ThePitchsIntervalAllowsForANearCamera) {
   ASSERT_GT(std::abs(rise), 0.02);
   EXPECT_GT(*pitched.uncertainty_rad, 1.01 * *level.uncertainty_rad);
   EXPECT_NEAR(*pitched.uncertainty_rad, widened(*level.angle_rad, *level.uncertainty_rad), 1e-5);
+  EXPECT_NEAR(std::hypot(*pitched.own_uncertainty_rad, *pitched.camera_uncertainty_rad),
+              *pitched.uncertainty_rad, 1e-12);
+  EXPECT_NEAR(*pitched.own_uncertainty_rad, *level.own_uncertainty_rad, 1e-12);
   EXPECT_NEAR(*pitched.left.uncertainty_rad,
               widened(*level.left.angle_rad, *level.left.uncertainty_rad), 1e-5);
 }
@@ -198,6 +201,10 @@ TEST(MeasureReposeAngle, AnUntoldPitchsIntervalAllowsForACameraLevelledByEye) {
   EXPECT_NEAR(*untold.uncertainty_rad - *told.uncertainty_rad,
               assumed_pitch_error(*told.angle_rad, 2 * kDegree), 1e-6);
   EXPECT_NEAR(*untold.angle_rad, *told.angle_rad, 1e-9);
+  EXPECT_NEAR(*untold.camera_uncertainty_rad, assumed_pitch_error(*told.angle_rad, 2 * kDegree),
+              1e-6);
+  EXPECT_NEAR(*untold.own_uncertainty_rad + *untold.camera_uncertainty_rad, *untold.uncertainty_rad,
+              1e-12);
 }
 
 /// A dark cone before a pale backdrop, seen by a far camera that looks down.

@@ -74,13 +74,18 @@ class PitchCorrection {
   double angle_rad(double apparent_rad) const {
     return without_pitch(apparent_rad, pitch_rad_.value_or(0));
   }
-  /// With what the camera's unknown distance or pitch adds to the half-width. An untold pitch
-  /// always lowers the angle: that is no chance, so it is not added in quadrature.
-  double half_width_rad(double apparent_rad, double own_rad) const {
-    if (!pitch_rad_) return own_rad + assumed_pitch_error(apparent_rad, assumed_rad_);
+  /// What the camera's unknown distance or pitch may change, half-width.
+  double camera_rad(double apparent_rad) const {
+    if (!pitch_rad_) return assumed_pitch_error(apparent_rad, assumed_rad_);
     const double distance_rad =
         below_axis_rad_ ? 0 : far_camera_error(apparent_rad, *pitch_rad_, crest_rise_);
-    return std::hypot(own_rad, distance_rad, pitch_error_rad(apparent_rad));
+    return std::hypot(distance_rad, pitch_error_rad(apparent_rad));
+  }
+  /// With that. An untold pitch always lowers the angle: that is no chance, so it is not added in
+  /// quadrature.
+  double half_width_rad(double apparent_rad, double own_rad) const {
+    const double camera = camera_rad(apparent_rad);
+    return pitch_rad_ ? std::hypot(own_rad, camera) : own_rad + camera;
   }
 
  private:
@@ -175,6 +180,8 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   if (best.has_flank()) {
     result.angle_rad = correction.angle_rad(best.angle_rad());
     result.uncertainty_rad = correction.half_width_rad(best.angle_rad(), u.mean_rad);
+    result.own_uncertainty_rad = u.mean_rad;
+    result.camera_uncertainty_rad = correction.camera_rad(best.angle_rad());
   }
   result.ground_tilt_rad = best.body.ground.tilt_rad();
   const GroundFrame ground(best.body.ground);

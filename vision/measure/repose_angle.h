@@ -111,6 +111,10 @@ struct ReposeAngle {
   bool outline_holds = false;       ///< when refused: only a flank's angle is, not the outline
   std::optional<double> angle_rad;  ///< mean of the sides that exist
   std::optional<double> uncertainty_rad;
+  /// Parts of that, half-widths too: what is this picture's own, and what the camera's pitch and
+  /// distance add, which all pictures taken alike have in common.
+  std::optional<double> own_uncertainty_rad;
+  std::optional<double> camera_uncertainty_rad;
   Flank left;
   Flank right;
   std::optional<double>

@@ -38,6 +38,8 @@ void refuse(ReposeAngle& result, std::string reason) {
   result.reason = std::move(reason);
   result.angle_rad.reset();
   result.uncertainty_rad.reset();
+  result.own_uncertainty_rad.reset();
+  result.camera_uncertainty_rad.reset();
   for (Flank* flank : {&result.left, &result.right}) {
     flank->angle_rad.reset();
     flank->uncertainty_rad.reset();
