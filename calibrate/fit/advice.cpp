@@ -182,7 +182,7 @@ std::string Advisor::more_runs_advice(std::size_t parameter) const {
   return "simulate more: " + worth_of("means known exactly", exact_[parameter]);
 }
 
-Advice Advisor::advice(std::size_t parameter) const {
+Advice Advisor::advice(std::size_t parameter, bool is_bounded) const {
   Advice advice = addition_advice(parameter);
   std::vector<std::string> parts = {unmeasured_advice(parameter), more_readings_advice(parameter),
                                     unmade_advice(parameter), advice.text,
@@ -190,9 +190,11 @@ Advice Advisor::advice(std::size_t parameter) const {
   std::erase(parts, "");
   advice.text = fmt::format("{}", fmt::join(parts, "; or "));
   if (parts.empty()) {
-    advice.text =
-        "not identifiable from these experiments: fix it to a literature value, which will hardly "
-        "affect them";
+    advice.text = is_bounded
+                      ? "these experiments hardly narrow it further: use the interval, or say in "
+                        "the study with useful_half_width what half-width is narrow enough"
+                      : "not identifiable from these experiments: fix it to a literature value, "
+                        "which will hardly affect them";
   }
   return advice;
 }

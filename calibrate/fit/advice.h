@@ -22,7 +22,8 @@ class Advisor {
   Advisor(const Problem& problem, const std::vector<Run>& runs, const Solution& solution,
           std::vector<double> exact);
 
-  Advice advice(std::size_t parameter) const;
+  /// `is_bounded`: it is known to an interval inside its bounds.
+  Advice advice(std::size_t parameter, bool is_bounded) const;
 
  private:
   /// What a bench could measure: what it would read at every plausible set, and how well.

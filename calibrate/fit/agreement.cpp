@@ -14,7 +14,7 @@ constexpr double kPower = .8;      // four of five
 constexpr double kMostRuns = 1e5;  // more is never
 constexpr double kSmallestChance = 1e-300;
 constexpr double kAngle_deg = 2;
-constexpr double kFraction = .05;
+constexpr double kFraction = .1;  // of a reading, and of the range that it may have
 
 double normal_quantile(double probability) { return base::student_t_quantile(probability, kKnown); }
 
@@ -45,37 +45,63 @@ double detectable_difference(const UncertainMean& difference, double level) {
          difference.uncertainty;
 }
 
-std::optional<int> runs_to_decide(const UncertainMean& difference, double measured_uncertainty,
-                                  int runs, double tolerance, double level) {
-  const double measured2 = measured_uncertainty * measured_uncertainty;
-  const double run2 = (difference.uncertainty * difference.uncertainty - measured2) * runs;
+namespace {
+
+/// How large the variance of a difference may be so that four of five checks decide.
+double deciding_variance(const UncertainMean& difference, double tolerance, double level) {
   const double off = std::abs(difference.value);
   const bool may_agree = off < tolerance;
   const double room = may_agree ? tolerance - off : off;
   const double needed = normal_quantile(may_agree ? kOneSided : 1 - level / 2);
   const double allowed = room / (needed + normal_quantile(kPower));
-  const double left2 = allowed * allowed - measured2;
-  if (!(left2 > 0) || !(run2 > 0) || run2 / left2 > kMostRuns) return std::nullopt;
-  return std::max(static_cast<int>(std::ceil(run2 / left2)), runs + 1);
+  return allowed * allowed;
 }
 
-double joint_chance(const std::vector<ExperimentChance>& experiments) {
-  double sum = 0;
+/// How many of what has this variance each bring their mean's to `allowed`; more than there are.
+std::optional<int> number_for(double variance, double allowed, int now) {
+  if (!(allowed > 0) || !(variance > 0) || variance / allowed > kMostRuns) return std::nullopt;
+  return std::max(static_cast<int>(std::ceil(variance / allowed)), now + 1);
+}
+
+}  // namespace
+
+std::optional<int> runs_to_decide(const UncertainMean& difference, double measured_uncertainty,
+                                  int runs, double tolerance, double level) {
+  const double measured2 = measured_uncertainty * measured_uncertainty;
+  const double run2 = (difference.uncertainty * difference.uncertainty - measured2) * runs;
+  return number_for(run2, deciding_variance(difference, tolerance, level) - measured2, runs);
+}
+
+std::optional<int> readings_to_decide(const UncertainMean& difference, double by_scatter,
+                                      int readings, double tolerance, double level) {
+  const double scatter2 = by_scatter * by_scatter;
+  const double rest2 = difference.uncertainty * difference.uncertainty - scatter2;
+  return number_for(scatter2 * readings,
+                    deciding_variance(difference, tolerance, level) - std::max(rest2, 0.),
+                    readings);
+}
+
+double joint_chance(const std::vector<ExperimentChance>& experiments,
+                    const std::optional<ScaledChiSquare>& sum) {
+  double squares = 0;
   int readings = 0;
   for (const ExperimentChance& one : experiments) {
-    sum += base::chi_square_exceeded(std::max(one.chance, kSmallestChance), one.readings);
+    squares += base::chi_square_exceeded(std::max(one.chance, kSmallestChance), one.readings);
     readings += one.readings;
   }
-  return base::chi_square_above(sum, readings);
+  if (!sum) return base::chi_square_above(squares, readings);
+  return base::chi_square_above(squares / sum->scale, sum->df);
 }
 
-double tolerance_of(const Observable& observable, double measured_uncertainty) {
-  if (observable.tolerance) return *observable.tolerance;
-  if (observable.unit == "deg") return kAngle_deg;
-  const double fraction = kFraction * std::abs(observable.mean);
-  if (!observable.sd) return fraction;  // a scatter that is only assumed allows nothing
-  return std::max(fraction,
-                  base::student_t_quantile(.975, observable.n - 1) * measured_uncertainty);
+Margin margin_of(const Observable& observable, const std::optional<Interval>& possible) {
+  if (observable.tolerance) return {*observable.tolerance, MarginSource::study};
+  Margin least{kFraction * std::abs(observable.mean), MarginSource::reading};
+  const auto consider = [&](double value, MarginSource source) {
+    if (value < least.value) least = {value, source};
+  };
+  if (possible) consider(kFraction * (possible->high - possible->low), MarginSource::range);
+  if (observable.unit == "deg") consider(kAngle_deg, MarginSource::angle);
+  return least;
 }
 
 }  // namespace repose::calibrate

@@ -19,6 +19,12 @@ struct UncertainMean {
   double df = 0;           ///< degrees of freedom of the uncertainty; infinite: known
 };
 
+/// How a sum of squares is distributed: `scale` times a chi-square of `df`.
+struct ScaledChiSquare {
+  double scale = 1;
+  double df = 0;
+};
+
 /// That chance alone makes one experiment differ so much, in all of its readings together.
 struct ExperimentChance {
   double chance = 1;
@@ -47,12 +53,30 @@ std::optional<int> runs_to_decide(const UncertainMean& difference, double measur
 /// The probability that chance alone makes independent experiments differ as much as all of them
 /// together do: Lancaster (1961), Aust. J. Stat. 3, 20. Each chance is turned into the chi-square
 /// that has it, of as many degrees of freedom as it has readings, whatever distribution it came
-/// from; their sum is a chi-square, too.
-double joint_chance(const std::vector<ExperimentChance>& experiments);
+/// from; their sum is a chi-square, too, or distributed as `sum` says.
+double joint_chance(const std::vector<ExperimentChance>& experiments,
+                    const std::optional<ScaledChiSquare>& sum = {});
 
-/// What the study states; else 2 for an angle in degrees, and for others 5 % of the measured value
-/// or the half-width of its mean's 95 % interval, where the scatter was measured, whichever is
-/// larger.
-double tolerance_of(const Observable& observable, double measured_uncertainty);
+/// How many readings of the bench would decide likewise, of whose mean `by_scatter` is the standard
+/// uncertainty by the scatter of `readings`. None: no number does, as the rest leaves too much
+/// open.
+std::optional<int> readings_to_decide(const UncertainMean& difference, double by_scatter,
+                                      int readings, double tolerance, double level);
+
+/// Where a margin comes from: stated in the study, or a part of the reading or of the range that
+/// the bounds allow, or that of angles.
+enum class MarginSource { study, reading, range, angle };
+
+/// What a difference of bench and simulation may be without mattering. It is fixed beforehand: how
+/// sure the bench is plays no part in it.
+struct Margin {
+  double value = 0;
+  MarginSource source = MarginSource::reading;
+};
+
+/// What the study states; else the least of 10 % of the measured value, 10 % of the range of what
+/// the bounds of the coefficients make `possible`, where that is known, and 2 degrees for angles.
+/// Agreement within more of the range would say next to nothing of the coefficients.
+Margin margin_of(const Observable& observable, const std::optional<Interval>& possible);
 
 }  // namespace repose::calibrate

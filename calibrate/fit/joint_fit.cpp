@@ -20,12 +20,22 @@ namespace {
 
 constexpr double kReaches = .01;  // of the box, from a bound
 constexpr double kNearlyAll = .9;
+constexpr double kNarrow = .25;  // of the value: a half-width that leaves one
 
-Verdict verdict_of(const Profile& profile) {
+/// Neither end at a bound.
+bool is_narrow(const Parameter& parameter, const FittedParameter& fitted) {
+  const double half = (fitted.interval.high - fitted.interval.low) / 2;
+  return half <= kNarrow * std::abs(fitted.value) ||
+         half <= parameter.useful_half_width.value_or(0);
+}
+
+Verdict verdict_of(const Parameter& parameter, const Profile& profile,
+                   const FittedParameter& fitted) {
   const bool low = profile.low <= kReaches;
   const bool high = profile.high >= 1 - kReaches;
   if ((low && high) || profile.high - profile.low > kNearlyAll) return Verdict::undetermined;
-  return low || high ? Verdict::one_sided : Verdict::determined;
+  if (low || high) return Verdict::one_sided;
+  return is_narrow(parameter, fitted) ? Verdict::determined : Verdict::bounded;
 }
 
 FittedParameter parameter_of(const Problem& problem, const Solution& solution, std::size_t j) {
@@ -38,7 +48,7 @@ FittedParameter parameter_of(const Problem& problem, const Solution& solution, s
   fitted.name = parameter.name;
   fitted.value = value_at(solution.best.point[j]);
   fitted.interval = {value_at(profile.low), value_at(profile.high)};
-  fitted.verdict = verdict_of(profile);
+  fitted.verdict = verdict_of(parameter, profile, fitted);
   for (const Minimum& minimum : profile.minima) {
     fitted.profile.push_back(
         {value_at(minimum.point[j]), std::max(0., minimum.chi2 - solution.best.chi2)});
@@ -70,7 +80,7 @@ void add_lines(const Problem& problem, const std::vector<std::string>& experimen
 void advise(const Problem& problem, const Advisor& advisor, JointFit& fit) {
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
     if (fit.parameters[j].verdict == Verdict::determined) continue;
-    const Advice advice = advisor.advice(j);
+    const Advice advice = advisor.advice(j, fit.parameters[j].verdict == Verdict::bounded);
     fit.parameters[j].advice = advice.text;
     add_lines(problem, advice.experiments, fit.additions);
   }
@@ -167,6 +177,7 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   const Solution solution = solve(problem, sorted);
   JointFit fit;
   fit.chi2 = solution.best.chi2;
+  fit.freedom = solution.misfit.freedom(solution.best.point);
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     fit.parameters.push_back(parameter_of(problem, solution, j));
   }
@@ -184,6 +195,7 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   }
   fit.correlation = correlation_of(solution.sets.points);
   fit.reading_correlation = solution.misfit.reading_correlation();
+  fit.bench_correlation = solution.misfit.bench_correlation();
   for (const Minimum& member : equivalence_family(solution)) {
     fit.equivalence_family.push_back(
         {to_values(problem, member.point), std::max(0., member.chi2 - solution.best.chi2)});

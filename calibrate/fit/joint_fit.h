@@ -5,13 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/fit/freedom.h"
 #include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
 
-/// determined: the interval ends inside both bounds. one_sided: it reaches one of them.
-/// undetermined: it reaches both, or covers nearly all between them.
-enum class Verdict { determined, one_sided, undetermined };
+/// determined: the interval ends inside both bounds, and is narrow: its half-width is at most 25 %
+/// of the value or what the study calls useful. bounded: it ends inside both bounds and is wider:
+/// known to an interval, not to a value. one_sided: it reaches one of them. undetermined: it
+/// reaches both, or covers nearly all between them.
+enum class Verdict { determined, bounded, one_sided, undetermined };
 
 struct Interval {
   double low = 0;
@@ -125,8 +128,9 @@ struct JointFit {
   std::vector<std::vector<double>> correlation;  ///< of the parameters, near the best fit
   /// Of the observables, from run to run of one experiment (reading_correlation.h).
   std::vector<std::vector<double>> reading_correlation;
-  std::vector<ParameterSet> equivalence_family;  ///< the best fit not included
-  std::vector<PredictedSet> asked;               ///< in the order of the question
+  std::vector<std::vector<double>> bench_correlation;  ///< of their measured means
+  std::vector<ParameterSet> equivalence_family;        ///< the best fit not included
+  std::vector<PredictedSet> asked;                     ///< in the order of the question
   /// Drawn from the plausible sets, as probable as the data leave them; for predictions.
   std::vector<std::vector<double>> drawn;
   std::vector<StudyAddition> additions;      ///< each once
@@ -136,6 +140,7 @@ struct JointFit {
   std::vector<RoundSummary> rounds;  ///< of the runs that propose() asked for
   std::vector<std::string> warnings;
   double chi2 = 0;  ///< sum of the squared difference_sigma, of priors too
+  Freedom freedom;
 };
 
 /// Fits all parameters to all observables at once, from runs that are done.

@@ -34,6 +34,14 @@ double uncertainty_of_mean(const Observable& observable, double scatter_by_chanc
   return std::max(known, scatter_by_chance / std::sqrt(static_cast<double>(observable.n)));
 }
 
+/// The part of the variance of the bench's single readings that differences from run to run make
+/// up: what they share with other readings. Views of one heap, and an eye that reads, are of each.
+double explained_fraction(const Surrogate& surrogate, double w, double bench_variance) {
+  const double run_sd = surrogate.warp().scatter(w);
+  const double simulated = surrogate.training_set().readings_per_run * run_sd * run_sd;
+  return std::min(1., simulated / bench_variance);
+}
+
 std::string too_few(const Observable& observable, std::size_t readings,
                     const std::vector<Run>& runs) {
   int attempts = 0;
@@ -58,6 +66,12 @@ std::string too_few(const Observable& observable, std::size_t readings,
 
 }  // namespace
 
+double robust_slope(double residual) {
+  if (std::abs(residual) < 1e-9) return 1;
+  const double fraction = std::expm1(residual * residual / (kRobust * kRobust));
+  return robust_residual(kRobust * std::sqrt(fraction)).second;
+}
+
 double few_readings_factor(const Observable& observable) {
   if (!observable.sd) return 1;
   return base::student_t_quantile(.975, observable.n - 1) / base::kNormal95;
@@ -67,6 +81,7 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
                const std::optional<Misfit>& before, bool thorough)
     : parameters_(problem.parameters), robust_(problem.settings.robust) {
   std::string errors;
+  std::vector<double> explained;  // parts of the variances of measured means
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     const Observable& observable = problem.observables[i];
     const TrainingSet training_set = training_set_of(
@@ -83,6 +98,9 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     const double w = warp.of_expected(observable.mean);
     const double by_scatter = uncertainty_of_mean(observable, surrogates_.back().reading_sd(w));
     measured_.push_back(with_systematic(observable, by_scatter));
+    explained.push_back(
+        explained_fraction(surrogates_.back(), w, observable.n * by_scatter * by_scatter) *
+        std::pow(by_scatter / measured_.back(), 2));
     const double sd =
         std::hypot(with_systematic(observable, few_readings_factor(observable) * by_scatter),
                    observable.shift_sd);
@@ -90,9 +108,17 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
         {w, sd / warp.slope(w), std::pow(observable.systematic_sd / warp.slope(w), 2)});
   }
   if (!errors.empty()) throw std::invalid_argument(errors);
-  correlation_ = reading_correlation_of(problem, surrogates_);
+  correlation_.expected = reading_correlation_of(problem, surrogates_);
+  correlation_.measured = correlation_.expected;
+  for (std::size_t i = 0; i < explained.size(); ++i) {
+    for (std::size_t k = 0; k < explained.size(); ++k) {
+      if (i != k) correlation_.measured[i][k] *= std::sqrt(explained[i] * explained[k]);
+    }
+  }
   for (const std::vector<std::size_t>& observables : by_experiment(problem)) {
-    together_.push_back({observables, part_of(correlation_, observables)});
+    together_.push_back({observables,
+                         {.measured = part_of(correlation_.measured, observables),
+                          .expected = part_of(correlation_.expected, observables)}});
   }
   for (const Observable& observable : problem.observables) counts_.push_back(observable.n);
   for (const Experiment& experiment : measured_experiments(problem)) {
@@ -129,23 +155,34 @@ double Misfit::chi2(const Point& point) const {
   return sum;
 }
 
-void Misfit::add_together(const Together& together, const Point& point, bool with_jacobian,
-                          Residuals& all) const {
-  const auto& [observables, correlation] = together;
-  const std::size_t penalties = all.values.size() - surrogates_.size() - parameters_.size();
+std::vector<CorrelatedPart> Misfit::parts_of(const Together& together, const Point& point,
+                                             bool with_jacobian) const {
   std::vector<CorrelatedPart> parts;
-  parts.reserve(observables.size());
-  for (const std::size_t i : observables) {
+  parts.reserve(together.observables.size());
+  for (const std::size_t i : together.observables) {
     const Expectation w = surrogates_[i].at(point, with_jacobian);
     const Target& target = targets_[i];
     parts.push_back({w.mean - target.value, target.sd, w.variance, counts_[i], w.mean_gradient,
                      w.variance_gradient});
-    const double sigma2 = target.sd * target.sd + w.variance;
-    const double distrust = std::sqrt(w.variance / sigma2);
-    all.values[penalties + i] = kDistrust * distrust;
+  }
+  return parts;
+}
+
+void Misfit::add_together(const Together& together, const Point& point, bool with_jacobian,
+                          Residuals& all) const {
+  const auto& [observables, correlation] = together;
+  const std::size_t penalties = all.values.size() - surrogates_.size() - parameters_.size();
+  const std::vector<CorrelatedPart> parts = parts_of(together, point, with_jacobian);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const CorrelatedPart& part = parts[k];
+    const double own2 = part.measured_sd * part.measured_sd;
+    const double sigma2 = own2 + part.variance;
+    const double distrust = std::sqrt(part.variance / sigma2);
+    const std::size_t row = penalties + observables[k];
+    all.values[row] = kDistrust * distrust;
     for (std::size_t j = 0; with_jacobian && distrust > 0 && j < point.size(); ++j) {
-      all.jacobian[penalties + i][j] = kDistrust * target.sd * target.sd * w.variance_gradient[j] /
-                                       (2 * distrust * sigma2 * sigma2);
+      all.jacobian[row][j] =
+          kDistrust * own2 * part.variance_gradient[j] / (2 * distrust * sigma2 * sigma2);
     }
   }
   const Residuals independent = made_independent(parts, correlation, with_jacobian);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calibrate/fit/failure_risk.h"
+#include "calibrate/fit/freedom.h"
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/problem.h"
 #include "calibrate/fit/residuals.h"
@@ -36,8 +37,15 @@ class Misfit {
   /// measured is taken to be no less than what chance does to single readings in the simulation
   /// there (Experiment::readings_per_run): a bench has the same chance, and more.
   double measured_uncertainty(std::size_t observable) const { return measured_[observable]; }
-  /// Of the observables, in what chance does to them together.
-  const std::vector<std::vector<double>>& reading_correlation() const { return correlation_; }
+  /// Of the observables, in what chance does to them together from run to run.
+  const std::vector<std::vector<double>>& reading_correlation() const {
+    return correlation_.expected;
+  }
+  /// And in what it does to the means of the bench: that of runs, as far as the simulation explains
+  /// how they scatter.
+  const std::vector<std::vector<double>>& bench_correlation() const {
+    return correlation_.measured;
+  }
   /// 1 over the variance of the measured mean, in the units of the observable's surrogate.
   double weight(std::size_t observable) const;
   /// The part of that variance which more readings do not lower.
@@ -46,6 +54,8 @@ class Misfit {
   }
   /// What a search minimises: those of chi2(), and small ones that choose among equals.
   Residuals residuals(const Point& point, bool with_jacobian) const;
+  /// Of the fit that has its minimum there (freedom.cpp).
+  Freedom freedom(const Point& best) const;
 
  private:
   /// An observable in the units of its surrogate.
@@ -57,8 +67,12 @@ class Misfit {
   /// The observables of one experiment.
   struct Together {
     std::vector<std::size_t> observables;
-    std::vector<std::vector<double>> correlation;
+    PartCorrelation correlation;
   };
+  std::vector<CorrelatedPart> parts_of(const Together& together, const Point& point,
+                                       bool with_jacobian) const;
+  struct Linearised;
+  Linearised linearised(const Point& best, const std::vector<bool>& is_free) const;
   /// Their residuals, made independent of each other.
   void add_together(const Together& together, const Point& point, bool with_jacobian,
                     Residuals& all) const;
@@ -69,11 +83,15 @@ class Misfit {
   std::vector<Target> targets_;
   std::vector<double> measured_;  ///< standard uncertainties
   std::vector<int> counts_;       ///< readings of the bench
-  std::vector<std::vector<double>> correlation_;
+  PartCorrelation correlation_;
   std::vector<Together> together_;
   std::vector<FailureRisk> risks_;
   bool robust_ = false;
 };
+
+/// The slope of a residual that a robust loss has made of a difference, with that difference: below
+/// 1, it counts less.
+double robust_slope(double residual);
 
 /// The share by which an uncertainty is widened because the sd is from few readings: Student's t of
 /// n - 1 degrees of freedom over the normal's 1.96, at 95 %. 1 for an assumed sd.

@@ -7,6 +7,7 @@
 
 #include "base/distributions.h"
 #include "calibrate/fit/check_sample.h"
+#include "calibrate/fit/sequence.h"
 #include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
 
@@ -25,6 +26,34 @@ Job job_of(const Problem& problem, const Experiment& experiment, const std::vect
            std::size_t number) {
   return job_at(problem, experiment, to_unit(problem, values),
                 problem.settings.seed + kFirstPredictionSeed + number);
+}
+
+/// All over the bounds of what the experiment depends on; `first`: the number of the first job.
+std::vector<Job> range_jobs(const Problem& problem, const Experiment& experiment,
+                            std::size_t first) {
+  std::vector<Job> jobs;
+  for (std::size_t k = 0; k < kRangeRuns; ++k) {
+    const Point own = sequence_point(k, experiment.parameters.size());
+    Point point(problem.parameters.size(), .5);
+    for (std::size_t j = 0; j < own.size(); ++j) point[experiment.parameters[j]] = own[j];
+    jobs.push_back(job_at(problem, experiment, point,
+                          problem.settings.seed + kFirstPredictionSeed + first + k));
+  }
+  return jobs;
+}
+
+std::size_t drawn_jobs(const Experiment& experiment, const JointFit& fit) {
+  return fit.drawn.size() * static_cast<std::size_t>(repeats_of(experiment));
+}
+
+/// None: the run was not made, or gave none.
+std::optional<double> reading_of_job(const std::vector<Run>& runs, const Job& job,
+                                     const std::string& reading) {
+  const auto run = std::ranges::find(runs, job, &Run::job);
+  if (run == runs.end() || !run->failure.empty()) return std::nullopt;
+  const auto found = run->readings.find(reading);
+  if (found == run->readings.end() || !std::isfinite(found->second)) return std::nullopt;
+  return found->second;
 }
 
 /// Means at the sets that gave a reading, and what runs at one set scatter by.
@@ -60,11 +89,9 @@ SetMeans means_of(const Problem& problem, const JointFit& fit, const Observable&
     std::vector<double> readings;
     for (int k = 0; k < repeats_of(experiment); ++k, ++number) {
       const Job job = job_of(problem, experiment, values, number);
-      const auto run = std::ranges::find(runs, job, &Run::job);
-      if (run == runs.end()) continue;
-      const auto found = run->readings.find(observable.reading);
-      if (run->failure.empty() && found != run->readings.end() && std::isfinite(found->second)) {
-        readings.push_back(found->second);
+      if (std::ranges::find(runs, job, &Run::job) == runs.end()) continue;
+      if (const auto reading = reading_of_job(runs, job, observable.reading)) {
+        readings.push_back(*reading);
       } else {
         ++sets.failed;
       }
@@ -114,6 +141,29 @@ void judge(const Problem& problem, const Observable& observable, double sets_df,
   } else if (prediction.chance < kLevel / static_cast<double>(problem.held_out.size())) {
     prediction.verdict = AgreementVerdict::disagrees;
   }
+  if (prediction.verdict != AgreementVerdict::cannot_tell) return;
+  const double by_scatter2 =
+      std::pow(prediction.measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2);
+  prediction.readings_to_decide = readings_to_decide(
+      difference, std::sqrt(std::max(by_scatter2, 0.)), observable.n, prediction.tolerance,
+      kLevel / static_cast<double>(problem.held_out.size()));
+}
+
+/// Of the runs all over the bounds and of the drawn sets, as far as a bench can read it.
+std::optional<Interval> possible_of(const Problem& problem, const JointFit& fit,
+                                    const Observable& observable, const std::vector<Run>& runs,
+                                    const SetMeans& sets) {
+  const Experiment& experiment = experiment_named(problem, observable.experiment);
+  std::vector<double> readings = sets.means;
+  for (const Job& job : range_jobs(problem, experiment, drawn_jobs(experiment, fit))) {
+    if (const auto reading = reading_of_job(runs, job, observable.reading)) {
+      readings.push_back(*reading);
+    }
+  }
+  if (readings.empty()) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(readings);
+  return Interval{std::clamp(low, observable.least, observable.most),
+                  std::clamp(high, observable.least, observable.most)};
 }
 
 Prediction prediction_of(const Problem& problem, const JointFit& fit, const Observable& observable,
@@ -134,7 +184,10 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
                         .tolerance = kNone,
                         .sets = static_cast<int>(sets.means.size()),
                         .failed_runs = sets.failed};
-  prediction.tolerance = tolerance_of(observable, prediction.measured_uncertainty);
+  prediction.possible = possible_of(problem, fit, observable, runs, sets);
+  const Margin margin = margin_of(observable, prediction.possible);
+  prediction.tolerance = margin.value;
+  prediction.tolerance_from = margin.source;
   if (sets.means.size() < kFewestSets) {
     // Where the bench has a reading, coefficients that never give one are wrong.
     if (sets.means.empty()) prediction.verdict = AgreementVerdict::disagrees;
@@ -149,7 +202,6 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
   prediction.uncertainty = std::sqrt(by_coefficients + between / count);
   prediction.measured_uncertainty =
       measured_uncertainty_of(problem, observable, prediction.run_sd, runs);
-  prediction.tolerance = tolerance_of(observable, prediction.measured_uncertainty);
   const double half = base::student_t_quantile(.975, count - 1) * prediction.uncertainty;
   prediction.interval = {std::max(prediction.predicted - half, observable.least),
                          std::min(prediction.predicted + half, observable.most)};
@@ -168,6 +220,8 @@ std::vector<Job> prediction_jobs(const Problem& problem, const JointFit& fit) {
         jobs.push_back(job_of(problem, experiment, values, number));
       }
     }
+    const std::vector<Job> range = range_jobs(problem, experiment, number);
+    jobs.insert(jobs.end(), range.begin(), range.end());
   }
   return jobs;
 }
@@ -184,7 +238,7 @@ std::vector<Experiment> held_out_experiments(const Problem& problem) {
 }
 
 int prediction_runs(const Experiment& experiment) {
-  return static_cast<int>(kDrawnSets) * repeats_of(experiment);
+  return static_cast<int>(kDrawnSets) * repeats_of(experiment) + static_cast<int>(kRangeRuns);
 }
 
 std::vector<Prediction> predictions_of(const Problem& problem, const JointFit& fit,

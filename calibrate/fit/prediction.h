@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
+
+/// Runs all over the bounds, one each, which tell what readings these allow.
+inline constexpr std::size_t kRangeRuns = 8;
 
 /// Runs of a stochastic experiment at each of the drawn sets.
 inline constexpr int kPredictionRepeats = 2;
@@ -27,13 +31,19 @@ struct Prediction {
   double difference_sigma = 0;
   double chance = 0;     ///< that prediction and measurement differ so much by chance
   double tolerance = 0;  ///< what does not matter
-  int sets = 0;          ///< with a reading
+  std::optional<MarginSource> tolerance_from = {};  ///< earlier versions did not say
+  /// Of readings that the bounds of the coefficients allow, as far as runs all over them tell.
+  std::optional<Interval> possible = {};  ///< earlier versions did not ask
+  /// Of the bench, that would decide; none: it is decided, or no number does.
+  std::optional<int> readings_to_decide = {};
+  int sets = 0;  ///< with a reading
   int failed_runs = 0;
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
 };
 
-/// Simulations of all experiments that are held out, at each of the fit's drawn sets, with seeds
-/// that nothing else uses, as stiff as the study. None where nothing is held out.
+/// Simulations of all experiments that are held out, at each of the fit's drawn sets and all over
+/// the bounds, with seeds that nothing else uses, as stiff as the study. None where nothing is held
+/// out.
 std::vector<Job> prediction_jobs(const Problem& problem, const JointFit& fit);
 
 /// The experiments that readings are held out of, and how many runs predict those of one.

@@ -26,6 +26,13 @@ void check_parameter(const Parameter& parameter, ErrorList& errors) {
                     "give the one value as known",
                     name, parameter.min, parameter.max));
   }
+  if (parameter.useful_half_width &&
+      (!std::isfinite(*parameter.useful_half_width) || *parameter.useful_half_width <= 0)) {
+    errors.push_back(fmt::format(
+        "{}: useful_half_width = {} must be a number above 0. Fix: leave it out, or give half the "
+        "width of an interval that is narrow enough",
+        name, *parameter.useful_half_width));
+  }
   if (!parameter.prior) return;
   const Prior& prior = *parameter.prior;
   if (!std::isfinite(prior.mean) || !std::isfinite(prior.sd) || prior.sd <= 0) {

@@ -17,6 +17,9 @@ struct Prior {
   double sd = 0;
 };
 
+/// What bounds are: nothing like it lies outside, or no more than a range to search.
+enum class BoundsOrigin { known, convenience };
+
 /// A coefficient that is sought between two bounds.
 struct Parameter {
   std::string name;  ///< "contact.particle_wall.restitution"
@@ -25,6 +28,9 @@ struct Parameter {
   std::optional<Prior> prior;
   /// Experiments that tell it from the others, made or not: what is advised where it stays open.
   std::vector<std::string> told_by = {};
+  /// A 95 % interval of this half-width makes it determined, whatever its value.
+  std::optional<double> useful_half_width = {};
+  std::optional<BoundsOrigin> bounds_are = {};  ///< none: not said
 };
 
 /// What can be simulated. One without an observable is never run, but may be advised.
@@ -90,7 +96,7 @@ struct Observable {
   /// What that is made of, in quadrature.
   std::vector<SystematicPart> systematic = {};
   bool has_own_trials = false;  ///< on the bench: its chance is that of no other reading
-  /// A difference between bench and simulation up to this does not matter; see tolerance_of().
+  /// A difference between bench and simulation up to this does not matter; see margin_of().
   std::optional<double> tolerance = {};
   /// What a bench can read. A simulated reading may lie outside, as a grain's that stays on the
   /// incline; what the simulation reaches is told within.

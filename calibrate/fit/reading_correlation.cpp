@@ -9,41 +9,63 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr std::size_t kFewestPairs = 5;  // runs with both readings
+constexpr int kFewestDegrees = 4;        // of freedom that a correlation is seen with
 constexpr double kMostCorrelated = .95;  // of a correlation: two readings are never quite one
 
-using Errors = std::map<std::size_t, double>;  // by run
-
-Errors errors_of(const Surrogate& surrogate) {
-  Errors errors;
-  const TrainingSet& training_set = surrogate.training_set();
-  const std::vector<double> standardised = surrogate.standardised_errors();
-  if (!training_set.is_stochastic || training_set.runs.size() != standardised.size()) return errors;
-  for (std::size_t k = 0; k < standardised.size(); ++k) {
-    errors[training_set.runs[k]] = standardised[k];
-  }
-  return errors;
-}
-
-/// Around zero, which is what errors are expected to be.
-struct Correlation {
-  double value = 0;
-  std::size_t runs = 0;
+/// Two readings of the same runs.
+struct Pairs {
+  std::vector<double> one;
+  std::vector<double> other;
 };
 
-std::optional<Correlation> correlation_of(const Errors& one, const Errors& other) {
-  double aa = 0, bb = 0, ab = 0;
-  std::size_t runs = 0;
-  for (const auto& [run, error] : one) {
-    const auto found = other.find(run);
-    if (found == other.end()) continue;
-    aa += error * error;
-    bb += found->second * found->second;
-    ab += error * found->second;
-    ++runs;
+/// At each place that has runs with both readings.
+std::vector<Pairs> repeats_of(const Surrogate& one, const Surrogate& other) {
+  const TrainingSet& of_one = one.training_set();
+  const TrainingSet& of_other = other.training_set();
+  std::vector<Pairs> repeats;
+  if (!of_one.is_stochastic) return repeats;
+  std::map<std::size_t, double> others;  // by run
+  for (std::size_t k = 0; k < of_other.runs.size(); ++k) {
+    others[of_other.runs[k]] = other.warp().warped(of_other.readings[k]);
   }
-  if (runs < kFewestPairs || !(aa * bb > 0)) return std::nullopt;
-  return Correlation{std::clamp(ab / std::sqrt(aa * bb), -1., 1.), runs};
+  std::map<Point, Pairs> by_place;
+  for (std::size_t k = 0; k < of_one.runs.size(); ++k) {
+    const auto found = others.find(of_one.runs[k]);
+    if (found == others.end()) continue;
+    Pairs& here = by_place[of_one.places[k]];
+    here.one.push_back(one.warp().warped(of_one.readings[k]));
+    here.other.push_back(found->second);
+  }
+  for (auto& [place, pairs] : by_place) repeats.push_back(std::move(pairs));
+  return repeats;
+}
+
+double average_of_repeats(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+struct Correlation {
+  double value = 0;
+  int df = 0;
+};
+
+std::optional<Correlation> correlation_of(const Surrogate& one, const Surrogate& other) {
+  double aa = 0, bb = 0, ab = 0;
+  int df = 0;
+  for (const Pairs& pairs : repeats_of(one, other)) {
+    const double mean_a = average_of_repeats(pairs.one), mean_b = average_of_repeats(pairs.other);
+    for (std::size_t k = 0; k < pairs.one.size(); ++k) {
+      const double a = pairs.one[k] - mean_a, b = pairs.other[k] - mean_b;
+      aa += a * a;
+      bb += b * b;
+      ab += a * b;
+    }
+    df += static_cast<int>(pairs.one.size()) - 1;
+  }
+  if (df < kFewestDegrees || !(aa * bb > 0)) return std::nullopt;
+  return Correlation{std::clamp(ab / std::sqrt(aa * bb), -1., 1.), df};
 }
 
 }  // namespace
@@ -65,8 +87,6 @@ std::vector<std::vector<double>> reading_correlation_of(const Problem& problem,
   const std::size_t count = surrogates.size();
   std::vector<std::vector<double>> all(count, std::vector<double>(count, 0));
   for (std::size_t i = 0; i < count; ++i) all[i][i] = 1;
-  std::vector<Errors> errors;
-  for (const Surrogate& surrogate : surrogates) errors.push_back(errors_of(surrogate));
   for (const std::vector<std::size_t>& own : by_experiment(problem)) {
     double squares = 0;
     double variances = 0;
@@ -76,11 +96,11 @@ std::vector<std::vector<double>> reading_correlation_of(const Problem& problem,
             problem.observables[own[b]].has_own_trials) {
           continue;
         }
-        const auto found = correlation_of(errors[own[a]], errors[own[b]]);
+        const auto found = correlation_of(surrogates[own[a]], surrogates[own[b]]);
         if (!found) continue;
         const double left = 1 - found->value * found->value;
         squares += found->value * found->value;
-        variances += left * left / static_cast<double>(found->runs - 1);
+        variances += left * left / found->df;
         all[own[a]][own[b]] = found->value;
       }
     }

@@ -14,25 +14,19 @@ using Vector = Eigen::VectorXd;
 
 Eigen::Index index(std::size_t place) { return static_cast<Eigen::Index>(place); }
 
-double covariance_of(const CorrelatedPart& one, const CorrelatedPart& other) {
-  return shared_readings(one.readings, other.readings) * one.measured_sd * other.measured_sd +
-         std::sqrt(one.variance * other.variance);
-}
-
-Matrix covariance_of(const std::vector<CorrelatedPart>& parts,
-                     const std::vector<std::vector<double>>& correlation) {
+Matrix covariance_of(const std::vector<CorrelatedPart>& parts, const PartCorrelation& correlation) {
   Matrix covariance(index(parts.size()), index(parts.size()));
   for (std::size_t a = 0; a < parts.size(); ++a) {
     for (std::size_t b = 0; b < parts.size(); ++b) {
-      covariance(index(a), index(b)) = correlation[a][b] * covariance_of(parts[a], parts[b]);
+      covariance(index(a), index(b)) = covariance_of(parts, correlation, a, b);
     }
   }
   return covariance;
 }
 
 /// Of the covariance, with one coordinate.
-Matrix slope_of(const std::vector<CorrelatedPart>& parts,
-                const std::vector<std::vector<double>>& correlation, std::size_t coordinate) {
+Matrix slope_of(const std::vector<CorrelatedPart>& parts, const PartCorrelation& correlation,
+                std::size_t coordinate) {
   Matrix slope = Matrix::Zero(index(parts.size()), index(parts.size()));
   const auto sd_slope = [&](const CorrelatedPart& part) {
     return part.variance > 0 ? part.variance_gradient[coordinate] / (2 * std::sqrt(part.variance))
@@ -41,8 +35,8 @@ Matrix slope_of(const std::vector<CorrelatedPart>& parts,
   for (std::size_t a = 0; a < parts.size(); ++a) {
     for (std::size_t b = 0; b < parts.size(); ++b) {
       slope(index(a), index(b)) =
-          correlation[a][b] * (sd_slope(parts[a]) * std::sqrt(parts[b].variance) +
-                               std::sqrt(parts[a].variance) * sd_slope(parts[b]));
+          correlation.expected[a][b] * (sd_slope(parts[a]) * std::sqrt(parts[b].variance) +
+                                        std::sqrt(parts[a].variance) * sd_slope(parts[b]));
     }
   }
   return slope;
@@ -56,6 +50,15 @@ Matrix half(const Matrix& matrix) {
 }
 
 }  // namespace
+
+double covariance_of(const std::vector<CorrelatedPart>& parts, const PartCorrelation& correlation,
+                     std::size_t one, std::size_t other) {
+  const CorrelatedPart& a = parts[one];
+  const CorrelatedPart& b = parts[other];
+  return correlation.measured[one][other] * shared_readings(a.readings, b.readings) *
+             a.measured_sd * b.measured_sd +
+         correlation.expected[one][other] * std::sqrt(a.variance * b.variance);
+}
 
 double shared_readings(int one, int other) {
   return std::sqrt(static_cast<double>(std::min(one, other)) / std::max(one, other));
@@ -72,12 +75,11 @@ std::vector<std::vector<double>> part_of(const std::vector<std::vector<double>>&
 }
 
 Residuals made_independent(const std::vector<CorrelatedPart>& parts,
-                           const std::vector<std::vector<double>>& correlation,
-                           bool with_jacobian) {
+                           const PartCorrelation& correlation, bool with_jacobian) {
   // What a search asks for most often, without a matrix.
   if (parts.size() == 1 && !with_jacobian) {
     const CorrelatedPart& alone = parts.front();
-    return {{alone.difference / std::sqrt(covariance_of(alone, alone))}, {}};
+    return {{alone.difference / std::sqrt(covariance_of(parts, correlation, 0, 0))}, {}};
   }
   const Eigen::LLT<Matrix> root(covariance_of(parts, correlation));
   const auto lower = root.matrixL();

@@ -23,13 +23,24 @@ struct CorrelatedPart {
   Point variance_gradient;
 };
 
+/// How the errors of such differences vary together, of each pair; 1 on the diagonals.
+struct PartCorrelation {
+  std::vector<std::vector<double>> measured;  ///< of the measured means
+  std::vector<std::vector<double>> expected;  ///< of what is expected
+};
+
 /// L^-1 r for the differences r and the covariance L L^T = V of their errors: independent, of
 /// variance 1, and their squares sum up to r^T V^-1 r.
 ///
-/// V_ij = rho_ij (sqrt(m / M) s_i s_j + sqrt(v_i v_j)): m of the M readings of a bench are taken to
-/// be of the same grains or heaps, m and M being the smaller and the larger of both counts.
+/// V_ij = rho_m,ij sqrt(m / M) s_i s_j + rho_e,ij sqrt(v_i v_j): m of the M readings of a bench are
+/// taken to be of the same grains or heaps, m and M being the smaller and the larger of both
+/// counts.
 Residuals made_independent(const std::vector<CorrelatedPart>& parts,
-                           const std::vector<std::vector<double>>& correlation, bool with_jacobian);
+                           const PartCorrelation& correlation, bool with_jacobian);
+
+/// V of two of them.
+double covariance_of(const std::vector<CorrelatedPart>& parts, const PartCorrelation& correlation,
+                     std::size_t one, std::size_t other);
 
 /// How much two means have in common of which one has more readings.
 double shared_readings(int one, int other);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include <Eigen/Cholesky>
 #include <fmt/core.h>
 
 #include "calibrate/fit/check_sample.h"
@@ -30,20 +31,149 @@ int repeats_of(const Experiment& experiment, double dearest_s, int repeats) {
   return affordable < most ? std::max(static_cast<int>(affordable), repeats) : most;
 }
 
+/// Both means of all observables, and how their differences vary.
+class Differences {
+ public:
+  Differences(const Problem& problem, const std::vector<UncertainMean>& simulated,
+              const std::vector<double>& measured_uncertainty, const JointFit* fit,
+              const Freedom* made_by);
+
+  /// As if the bench's mean had no part in what was simulated: what equivalence is judged by.
+  UncertainMean whole(std::size_t i) const { return difference_of(simulated_[i], measured_[i]); }
+  /// As it is by chance, the fit having followed a part of the bench's.
+  UncertainMean left(std::size_t i) const;
+  /// The part of a true difference that the fit does not follow.
+  double seen(std::size_t i) const { return kept_(place(i), place(i)); }
+  /// Probability that all of these differ so much by chance.
+  double chance(const std::vector<std::size_t>& there) const;
+
+ private:
+  static Eigen::Index place(std::size_t i) { return static_cast<Eigen::Index>(i); }
+  ExperimentChance chance_of_experiment(const std::vector<std::size_t>& there) const;
+
+  const Problem& problem_;
+  std::vector<UncertainMean> simulated_;
+  std::vector<UncertainMean> measured_;
+  Eigen::MatrixXd bench_;   ///< covariance of the measured means
+  Eigen::MatrixXd runs_;    ///< of the simulated ones
+  Eigen::MatrixXd kept_;    ///< I - H
+  Eigen::MatrixXd unsure_;  ///< of the differences by what the fit did not know
+};
+
+Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows, std::size_t size) {
+  const auto count = static_cast<Eigen::Index>(size);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    matrix.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::RowVectorXd>(rows[i].data(), count);
+  }
+  return matrix;
+}
+
+Differences::Differences(const Problem& problem, const std::vector<UncertainMean>& simulated,
+                         const std::vector<double>& measured_uncertainty, const JointFit* fit,
+                         const Freedom* made_by)
+    : problem_(problem), simulated_(simulated) {
+  const std::size_t count = problem.observables.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Observable& one = problem.observables[i];
+    measured_.push_back({one.mean, measured_uncertainty[i], one.sd ? one.n - 1 : kInfinite});
+  }
+  bench_ = Eigen::MatrixXd::Zero(place(count), place(count));
+  runs_ = bench_;
+  for (const std::vector<std::size_t>& own : by_experiment(problem)) {
+    for (const std::size_t i : own) {
+      for (const std::size_t k : own) {
+        const bool is_none = i != k && fit == nullptr;
+        const double in_runs = i == k ? 1 : is_none ? 0 : fit->reading_correlation[i][k];
+        const double on_bench = i == k ? 1 : is_none ? 0 : fit->bench_correlation[i][k];
+        runs_(place(i), place(k)) = in_runs * simulated[i].uncertainty * simulated[k].uncertainty;
+        bench_(place(i), place(k)) =
+            on_bench * shared_readings(problem.observables[i].n, problem.observables[k].n) *
+            measured_uncertainty[i] * measured_uncertainty[k];
+      }
+    }
+  }
+  const bool is_fitted = made_by != nullptr && !made_by->followed.empty();
+  kept_ = Eigen::MatrixXd::Identity(place(count), place(count));
+  if (is_fitted) kept_ -= matrix_of(made_by->followed, count);
+  unsure_ = matrix_of(is_fitted ? made_by->unsure : std::vector<std::vector<double>>{}, count);
+}
+
+UncertainMean Differences::left(std::size_t i) const {
+  const double bench2 = (kept_.row(place(i)) * bench_ * kept_.row(place(i)).transpose())(0);
+  double spread = 0;
+  double own = 0;
+  for (std::size_t k = 0; k < measured_.size(); ++k) {
+    const double part = kept_(place(i), place(k)) * measured_[k].uncertainty;
+    own += part * part;
+    spread += std::pow(part, 4) / measured_[k].df;
+  }
+  const double unsure2 = unsure_(place(i), place(i));
+  const double bench_df = spread > 0 ? own * own / spread : kInfinite;
+  // What the fit did not know counts as known itself: it adds to the variance alone.
+  const UncertainMean bench{measured_[i].value, std::sqrt(bench2 + unsure2),
+                            bench2 > 0 ? bench_df * std::pow(1 + unsure2 / bench2, 2) : kInfinite};
+  return difference_of(simulated_[i], bench);
+}
+
+ExperimentChance Differences::chance_of_experiment(const std::vector<std::size_t>& there) const {
+  if (there.size() == 1) return {chance_of(whole(there.front())), 1};
+  const Eigen::Index count = place(there.size());
+  Eigen::VectorXd differences(count);
+  MeanCovariance runs{Eigen::MatrixXd(count, count), kInfinite};
+  MeanCovariance bench = runs;
+  for (Eigen::Index a = 0; a < count; ++a) {
+    const std::size_t i = there[static_cast<std::size_t>(a)];
+    differences(a) = simulated_[i].value - measured_[i].value;
+    if (simulated_[i].uncertainty > 0) runs.df = std::min(runs.df, simulated_[i].df);
+    bench.df = std::min(bench.df, measured_[i].df);
+    for (Eigen::Index b = 0; b < count; ++b) {
+      const Eigen::Index k = place(there[static_cast<std::size_t>(b)]);
+      runs.matrix(a, b) = runs_(place(i), k);
+      bench.matrix(a, b) = bench_(place(i), k);
+    }
+  }
+  return {chance_of(differences, runs, bench), static_cast<int>(count)};
+}
+
+double Differences::chance(const std::vector<std::size_t>& there) const {
+  if (there.empty()) return kNone;
+  std::vector<ExperimentChance> experiments;
+  for (std::vector<std::size_t> own : by_experiment(problem_)) {
+    std::erase_if(own, [&](std::size_t i) { return std::ranges::find(there, i) == there.end(); });
+    if (!own.empty()) experiments.push_back(chance_of_experiment(own));
+  }
+  std::vector<Eigen::Index> places;
+  for (const std::size_t i : there) places.push_back(place(i));
+  const Eigen::MatrixXd assumed = (bench_ + runs_)(places, places);
+  const Eigen::MatrixXd real =
+      Eigen::MatrixXd(kept_ * bench_ * kept_.transpose() + unsure_)(places, places) +
+      Eigen::MatrixXd(runs_(places, places));
+  const Eigen::MatrixXd ratio = assumed.llt().solve(real);
+  const double mean = ratio.trace();
+  const double half_variance = (ratio * ratio).trace();
+  return joint_chance(experiments, ScaledChiSquare{.scale = half_variance / mean,
+                                                   .df = mean * mean / half_variance});
+}
+
 /// Everything about one observable but whether it disagrees: that depends on the others, too.
 Agreement compared(const Observable& observable, const CheckSample& sample,
-                   const UncertainMean& simulated, double measured_uncertainty, double level) {
-  const double measured_df = observable.sd ? observable.n - 1 : kInfinite;
-  const UncertainMean difference =
-      difference_of(simulated, {observable.mean, measured_uncertainty, measured_df});
+                   const Differences& differences, std::size_t i, double level,
+                   const UncertainMean& simulated, double measured_uncertainty,
+                   const std::optional<Interval>& possible) {
+  constexpr double kFollowed = .05;  // of a true difference, that is left: it cannot be seen
+  const UncertainMean whole = differences.whole(i);
+  const Margin margin = margin_of(observable, possible);
   Agreement agreement{.observable = observable.name,
                       .measured = observable.mean,
                       .measured_uncertainty = measured_uncertainty,
                       .simulated = simulated.value,
                       .simulated_uncertainty = simulated.uncertainty,
-                      .difference_sigma = difference.value / difference.uncertainty,
+                      .difference_sigma = whole.value / whole.uncertainty,
                       .chance = kNone,
-                      .tolerance = tolerance_of(observable, measured_uncertainty),
+                      .tolerance = margin.value,
+                      .tolerance_from = margin.source,
                       .difference = {kNone, kNone},
                       .detectable = kNone,
                       .runs_to_decide = {},
@@ -51,15 +181,22 @@ Agreement compared(const Observable& observable, const CheckSample& sample,
                       .runs = sample.count(),
                       .failed_runs = sample.failed};
   if (!std::isfinite(agreement.difference_sigma)) return agreement;
-  agreement.chance = chance_of(difference);
-  agreement.difference = not_ruled_out(difference);
-  agreement.detectable = detectable_difference(difference, level);
+  const UncertainMean left = differences.left(i);
+  agreement.chance = chance_of(left);
+  agreement.difference = not_ruled_out(whole);
+  if (differences.seen(i) > kFollowed) {
+    agreement.detectable = detectable_difference(left, level) / differences.seen(i);
+  }
   const bool is_within = agreement.difference.low >= -agreement.tolerance &&
                          agreement.difference.high <= agreement.tolerance;
   // A set that gives no reading now and then is not what the bench has.
   if (is_within && sample.failed == 0) agreement.verdict = AgreementVerdict::agrees;
   agreement.runs_to_decide =
-      runs_to_decide(difference, measured_uncertainty, sample.count(), agreement.tolerance, level);
+      runs_to_decide(whole, measured_uncertainty, sample.count(), agreement.tolerance, level);
+  const double by_scatter2 =
+      std::pow(measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2);
+  agreement.readings_to_decide = readings_to_decide(whole, std::sqrt(std::max(by_scatter2, 0.)),
+                                                    observable.n, agreement.tolerance, level);
   return agreement;
 }
 
@@ -76,7 +213,9 @@ void find_disagreement(Verification& verification, double level) {
     if ((is_open && is_found) || gives_nothing(agreement)) {
       agreement.verdict = AgreementVerdict::disagrees;
     }
-    if (agreement.verdict != AgreementVerdict::cannot_tell) agreement.runs_to_decide.reset();
+    if (agreement.verdict == AgreementVerdict::cannot_tell) continue;
+    agreement.runs_to_decide.reset();
+    agreement.readings_to_decide.reset();
   }
 }
 
@@ -91,51 +230,6 @@ AgreementVerdict verdict_of(const Verification& verification) {
   return is_seen || std::any_of(all.begin(), all.end(), gives_nothing)
              ? AgreementVerdict::disagrees
              : AgreementVerdict::cannot_tell;
-}
-
-/// The readings of one experiment together; those that no run has left out.
-std::optional<ExperimentChance> chance_together(const Problem& problem,
-                                                const std::vector<std::size_t>& own,
-                                                const std::vector<Agreement>& observables,
-                                                const std::vector<UncertainMean>& simulated,
-                                                const JointFit* fit) {
-  std::vector<std::size_t> there;
-  for (const std::size_t i : own) {
-    if (std::isfinite(observables[i].chance)) there.push_back(i);
-  }
-  if (there.empty()) return std::nullopt;
-  if (there.size() == 1) return ExperimentChance{observables[there.front()].chance, 1};
-  const auto count = static_cast<Eigen::Index>(there.size());
-  Eigen::VectorXd differences(count);
-  MeanCovariance runs{Eigen::MatrixXd(count, count), kInfinite};
-  MeanCovariance bench = runs;
-  for (Eigen::Index a = 0; a < count; ++a) {
-    const std::size_t i = there[static_cast<std::size_t>(a)];
-    const Observable& one = problem.observables[i];
-    differences(a) = observables[i].simulated - observables[i].measured;
-    if (simulated[i].uncertainty > 0) runs.df = std::min(runs.df, simulated[i].df);
-    if (one.sd) bench.df = std::min<double>(bench.df, one.n - 1);
-    for (Eigen::Index b = 0; b < count; ++b) {
-      const std::size_t k = there[static_cast<std::size_t>(b)];
-      const double alike = i == k ? 1 : fit == nullptr ? 0 : fit->reading_correlation[i][k];
-      runs.matrix(a, b) = alike * simulated[i].uncertainty * simulated[k].uncertainty;
-      bench.matrix(a, b) = alike * shared_readings(one.n, problem.observables[k].n) *
-                           observables[i].measured_uncertainty *
-                           observables[k].measured_uncertainty;
-    }
-  }
-  return ExperimentChance{chance_of(differences, runs, bench), static_cast<int>(count)};
-}
-
-/// Of the experiments with a reading.
-double joint_chance_of(const Problem& problem, const std::vector<Agreement>& observables,
-                       const std::vector<UncertainMean>& simulated, const JointFit* fit) {
-  std::vector<ExperimentChance> experiments;
-  for (const std::vector<std::size_t>& own : by_experiment(problem)) {
-    const auto chance = chance_together(problem, own, observables, simulated, fit);
-    if (chance) experiments.push_back(*chance);
-  }
-  return experiments.empty() ? kNone : joint_chance(experiments);
 }
 
 }  // namespace
@@ -167,23 +261,34 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
 }
 
 Verification verify(const Problem& problem, const std::vector<double>& values,
-                    const std::vector<Run>& runs, const JointFit* fit) {
+                    const std::vector<Run>& runs, const JointFit* fit, const Freedom* made_by) {
   require_sound(problem);
   Verification verification{.values = values, .observables = {}};
-  const double level = kLevel / static_cast<double>(problem.observables.size());
+  const std::size_t count = problem.observables.size();
+  const double level = kLevel / static_cast<double>(count);
+  std::vector<CheckSample> samples;
   std::vector<UncertainMean> simulated;
-  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+  std::vector<double> measured_uncertainty;
+  for (std::size_t i = 0; i < count; ++i) {
     const Observable& observable = problem.observables[i];
     const bool is_stochastic = experiment_named(problem, observable.experiment).is_stochastic;
-    const CheckSample sample = check_sample(problem, values, observable, runs);
-    simulated.push_back(mean_of(sample, is_stochastic, fit, i));
-    verification.observables.push_back(
-        compared(observable, sample, simulated.back(),
-                 fit != nullptr ? fit->observables[i].measured_uncertainty
-                                : with_systematic(observable, standard_uncertainty(observable)),
-                 level));
+    samples.push_back(check_sample(problem, values, observable, runs));
+    simulated.push_back(mean_of(samples.back(), is_stochastic, fit, i));
+    measured_uncertainty.push_back(
+        fit != nullptr ? fit->observables[i].measured_uncertainty
+                       : with_systematic(observable, standard_uncertainty(observable)));
   }
-  verification.chance = joint_chance_of(problem, verification.observables, simulated, fit);
+  const Differences differences(problem, simulated, measured_uncertainty, fit, made_by);
+  std::vector<std::size_t> there;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::optional<Interval> possible;
+    if (fit != nullptr) possible = fit->observables[i].reachable;
+    verification.observables.push_back(compared(problem.observables[i], samples[i], differences, i,
+                                                level, simulated[i], measured_uncertainty[i],
+                                                possible));
+    if (std::isfinite(verification.observables[i].chance)) there.push_back(i);
+  }
+  verification.chance = differences.chance(there);
   find_disagreement(verification, level);
   verification.verdict = verdict_of(verification);
   return verification;

@@ -15,15 +15,20 @@ struct Agreement {
   std::string observable;
   double measured = 0;
   double measured_uncertainty = 0;
-  double simulated = 0;               ///< mean of the runs with a reading; NaN without any
-  double simulated_uncertainty = 0;   ///< of that mean; 0 for experiments without chance
-  double difference_sigma = 0;        ///< (simulated - measured) / both uncertainties; NaN likewise
-  double chance = 0;                  ///< that it is as large by chance; NaN likewise
-  double tolerance = 0;               ///< what does not matter
-  Interval difference;                ///< 90 %: what equivalence compares with the tolerance
-  double detectable = 0;              ///< true difference that is seen in four of five such checks
+  double simulated = 0;              ///< mean of the runs with a reading; NaN without any
+  double simulated_uncertainty = 0;  ///< of that mean; 0 for experiments without chance
+  double difference_sigma = 0;       ///< (simulated - measured) / both uncertainties; NaN likewise
+  /// That it is as large by chance, of which a fit to the same mean follows a part; NaN likewise.
+  double chance = 0;
+  double tolerance = 0;                             ///< what does not matter
+  std::optional<MarginSource> tolerance_from = {};  ///< earlier versions did not say
+  Interval difference;  ///< 90 %: what equivalence compares with the tolerance
+  /// True difference that is seen in four of five such checks; NaN where the fit follows it.
+  double detectable = 0;
   std::optional<int> runs_to_decide;  ///< none: it is decided, or no number of runs does
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
+  /// Of the bench; likewise, as if nothing but these became more.
+  std::optional<int> readings_to_decide = {};
   int runs = 0;  ///< with a reading
   int failed_runs = 0;
 };
@@ -46,9 +51,12 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
 
 /// Compares the runs of verification_jobs(), among any others, with what was measured. `fit`, where
 /// there is one, tells how much single runs scatter better than a handful of repeats does: the
-/// larger of both counts; and what the scatter of the measurement was taken to be. Formulae and
-/// reasons: THEORY.md, "Verification". Proved by Verification.* and Agreement.* in tests/calibrate.
+/// larger of both counts; and what the scatter of the measurement was taken to be. `made_by`: the
+/// freedom of the fit whose best set this is, made before these runs; what it could follow of the
+/// bench's chance is no agreement. Formulae and reasons: THEORY.md, "Verification". Proved by
+/// Verification.* and Agreement.* in tests/calibrate.
 Verification verify(const Problem& problem, const std::vector<double>& values,
-                    const std::vector<Run>& runs, const JointFit* fit = nullptr);
+                    const std::vector<Run>& runs, const JointFit* fit = nullptr,
+                    const Freedom* made_by = nullptr);
 
 }  // namespace repose::calibrate

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "base/distributions.h"
+#include "calibrate/fit/check_sample.h"
 #include "calibrate/fit/narrowing.h"
 #include "calibrate/fit/reach.h"
 
@@ -95,7 +96,9 @@ void warn_of_likeness(const Observable& observable, const FittedObservable& fitt
 /// Says so when an interval is not from the measurements.
 void warn_of_prior(const Parameter& parameter, const FittedParameter& fitted,
                    std::vector<std::string>& warnings) {
-  if (!parameter.prior || fitted.verdict != Verdict::determined) return;
+  const bool is_inside =
+      fitted.verdict == Verdict::determined || fitted.verdict == Verdict::bounded;
+  if (!parameter.prior || !is_inside) return;
   const double known = 2 * std::sqrt(kChi2Limit) * parameter.prior->sd;
   if (fitted.interval.high - fitted.interval.low < kHardlyNarrower * known) return;
   warnings.push_back(fmt::format(
@@ -141,8 +144,14 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
     warn_of_prior(problem.parameters[j], fit.parameters[j], warnings);
   }
-  if (solution.best.chi2 > kChi2Limit) {
-    std::string text = "no parameter set fits all measurements at once:";
+  // Below one degree of freedom there is next to nothing to test: the limit stays that of one.
+  const double of_chi2 = std::max(fit.freedom.of_chi2, 1.);
+  const double chance = base::chi_square_above(fit.chi2, of_chi2);
+  if (chance < kLevel) {
+    std::string text = fmt::format(
+        "no parameter set fits all measurements at once (chi-square {:.3g} of {:.2g} degrees of "
+        "freedom, by chance in {:.2g} % of cases):",
+        fit.chi2, of_chi2, 100 * chance);
     for (const FittedObservable& fitted : fit.observables) {
       text += fmt::format(" {} {:+.1f} sigma,", fitted.name, fitted.difference_sigma);
     }

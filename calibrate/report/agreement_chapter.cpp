@@ -72,22 +72,27 @@ Table verdicts_table(const JointResult& joint) {
                                    {.name = "simulated − measured", .unit = {}},
                                    {.name = "90 % from", .unit = {}},
                                    {.name = "90 % to", .unit = {}},
-                                   {.name = "tolerance", .unit = {}},
+                                   {.name = "margin", .unit = {}},
+                                   {.name = "margin is", .unit = {}},
                                    {.name = "p", .unit = "%", .decimals = 2},
                                    {.name = "detectable difference", .unit = {}},
                                    {.name = "runs", .unit = {}, .decimals = 0},
                                    {.name = "runs to decide", .unit = {}, .decimals = 0},
+                                   {.name = "readings to decide", .unit = {}, .decimals = 0},
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
     const Agreement& checked = observable.verification;
     std::optional<double> needed;
+    std::optional<double> readings;
     if (checked.runs_to_decide) needed = *checked.runs_to_decide;
+    if (checked.readings_to_decide) readings = *checked.readings_to_decide;
     table.data.add({axis_of_observable(observable.name, observable.unit),
                     cell(checked.simulated - observable.measured), cell(checked.difference.low),
                     cell(checked.difference.high), cell(checked.tolerance),
-                    cell(100 * checked.chance), cell(checked.detectable),
-                    static_cast<double>(checked.runs), cell(needed), name_of(checked.verdict)});
+                    cell(margin_text(checked.tolerance_from)), cell(100 * checked.chance),
+                    cell(checked.detectable), static_cast<double>(checked.runs), cell(needed),
+                    cell(readings), name_of(checked.verdict)});
   }
   return table;
 }
@@ -144,6 +149,11 @@ std::string rounds_text(const JointResult& joint) {
       joint.agreement.rounds == 1 ? "once" : fmt::format("in {} rounds", joint.agreement.rounds));
 }
 
+std::optional<double> possible_end(const Prediction& prediction, bool is_high) {
+  if (!prediction.possible) return std::nullopt;
+  return is_high ? prediction.possible->high : prediction.possible->low;
+}
+
 Table predictions_table(const JointResult& joint) {
   Table table{.name = "held_out",
               .title = "Held out: not fitted, but predicted from the fit",
@@ -155,7 +165,9 @@ Table predictions_table(const JointResult& joint) {
                                    {.name = "95 % to", .unit = {}},
                                    {.name = "difference / σ", .unit = {}, .decimals = 1},
                                    {.name = "p", .unit = "%", .decimals = 2},
-                                   {.name = "tolerance", .unit = {}},
+                                   {.name = "margin", .unit = {}},
+                                   {.name = "possible from", .unit = {}},
+                                   {.name = "to", .unit = {}},
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}}};
   for (const Prediction& prediction : joint.held_out) {
@@ -163,7 +175,8 @@ Table predictions_table(const JointResult& joint) {
                     cell(prediction.measured_uncertainty), cell(prediction.predicted),
                     cell(prediction.interval.low), cell(prediction.interval.high),
                     cell(prediction.difference_sigma), cell(100 * prediction.chance),
-                    cell(prediction.tolerance), name_of(prediction.verdict)});
+                    cell(prediction.tolerance), cell(possible_end(prediction, false)),
+                    cell(possible_end(prediction, true)), name_of(prediction.verdict)});
   }
   return table;
 }
@@ -171,11 +184,14 @@ Table predictions_table(const JointResult& joint) {
 void add_predictions(const JointResult& joint, Chapter& chapter) {
   if (joint.held_out.empty()) return;
   chapter.blocks.push_back(predictions_table(joint));
+  for (const Prediction& prediction : joint.held_out) {
+    chapter.blocks.push_back(Paragraph{prediction_text(prediction) + '.'});
+  }
   chapter.blocks.push_back(Paragraph{fmt::format(
       "These readings had no part in the fit. They were simulated at {} sets of coefficients drawn "
       "from those that the fit leaves plausible; the interval holds what these differ by, and "
       "chance. Cannot tell: the coefficients are not known well enough to predict this reading "
-      "within its tolerance.",
+      "within its margin.",
       kDrawnSets)});
 }
 
@@ -326,20 +342,26 @@ Chapter agreement_chapter(const JointResult& joint) {
   Chapter chapter{.id = "agreement", .title = "Bench and simulation", .blocks = {}};
   chapter.blocks.push_back(Paragraph{titled(joint.agreement.text) + '.'});
   chapter.blocks.push_back(Paragraph{rounds_text(joint)});
+  if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
+    chapter.blocks.push_back(Paragraph{titled(freedom) + '.'});
+  }
   chapter.blocks.push_back(agreement_table(joint));
   chapter.blocks.push_back(Paragraph{"σ is the standard uncertainty of the difference."});
   chapter.blocks.push_back(verdicts_table(joint));
   chapter.blocks.push_back(Paragraph{
       "p is the probability of so large a difference by chance. Agrees: two one-sided tests at 5 % "
-      "show that the difference is within the tolerance. The tolerance is stated in the study; by "
-      "default it is 2° for angles, and otherwise 5 % of the measured value or, if larger and the "
-      "scatter was measured, the half-width of the bench's 95 % interval. Disagrees: the "
+      "show that the difference is within the margin. It is stated in the study, or else the least "
+      "of 10 % of the measured value, 10 % of the range of readings that the bounds of the "
+      "coefficients allow, and 2° for angles; how sure the bench is plays no part in it. In p, "
+      "what "
+      "the fit could follow of the bench's chance is taken into account. Disagrees: the "
       "differences "
       "of all experiments together have a probability below 5 %, and so has this one by itself. "
       "Cannot tell: neither is shown. The detectable difference is the true difference that such a "
       "check detects in four of five cases. No number of runs to decide means that it is decided, "
       "or "
-      "that the bench readings are too uncertain for any number of runs to decide."});
+      "that the bench readings are too uncertain for any number of runs to decide; likewise for "
+      "readings."});
   add_predictions(joint, chapter);
   add_stiffness(joint, chapter);
   add_shape(joint, chapter);

@@ -4,6 +4,7 @@
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/result/agreement_text.h"
 #include "calibrate/result/bench_errors_text.h"
 
 namespace repose::calibrate::report {
@@ -22,6 +23,10 @@ std::string verdicts_text(const JointResult& joint) {
           ? fmt::format("All {} coefficients are determined by these measurements.", all)
           : fmt::format("{} of {} coefficients are determined by these measurements.", determined,
                         all);
+  if (const auto bounded = with(Verdict::bounded); bounded > 0) {
+    text += fmt::format(" {} {} bounded: known to an interval, not to a value; use the interval.",
+                        bounded, bounded == 1 ? "is" : "are");
+  }
   if (const auto one_sided = with(Verdict::one_sided); one_sided > 0) {
     text += fmt::format(" For {}, only one end of the interval is determined.", one_sided);
   }
@@ -129,6 +134,11 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   Chapter chapter{.id = "answer", .title = "The answer", .blocks = {}};
   chapter.blocks.push_back(Paragraph{verdicts_text(joint)});
   chapter.blocks.push_back(coefficients_table(joint));
+  for (const ResultParameter& parameter : joint.parameters) {
+    const std::string text = bounds_text(parameter);
+    if (text.empty()) continue;
+    chapter.blocks.push_back(Remark{titled(label_of(parameter.name)) + ": " + text + '.'});
+  }
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
   chapter.blocks.push_back(Paragraph{

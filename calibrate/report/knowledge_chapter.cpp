@@ -33,6 +33,8 @@ Chart profile_chart(const ResultParameter& parameter) {
   chart.y_range = {{-0.8, kShown}};
   chart.caption = parameter.verdict == Verdict::determined
                       ? "It rises above the limit on both sides: determined."
+                  : parameter.verdict == Verdict::bounded
+                      ? "It rises above the limit on both sides, far apart: bounded."
                   : parameter.verdict == Verdict::one_sided
                       ? "It rises above the limit on one side only: one-sided."
                       : "It stays below the limit nearly everywhere: undetermined.";

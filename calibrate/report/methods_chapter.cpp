@@ -134,19 +134,24 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}");
   methods.add(
       "where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
-      "is Student's quantile. Readings of one experiment enter with the covariance of the runs' "
-      "residuals (shrunk: Schäfer and Strimmer 2005). Intervals are 95 % profile-likelihood "
+      "is Student's quantile. Readings of one experiment enter with the covariance of runs with "
+      "other seeds at the same place, as far as these explain the bench's scatter (shrunk: Schäfer "
+      "and Strimmer 2005). Intervals are 95 % profile-likelihood "
       "intervals (Venzon and Moolgavkar 1988), the values xⱼ for which");
   methods.add_equation(
       "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
       "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84");
   methods.add(
-      "A coefficient is called determined when both ends of its interval lie inside the bounds, "
-      "one-sided when one does, undetermined otherwise. The best fit was simulated again with "
+      "A coefficient is called determined when both ends of its interval lie inside the bounds and "
+      "its half-width is at most 25 % of the value or what the study calls useful, bounded when "
+      "the "
+      "interval is wider, one-sided when one end lies inside, undetermined otherwise. The best fit "
+      "was simulated again with "
       "fresh "
       "seeds, and all of these runs entered the fit. Simulated and measured means were compared by "
       "Welch's t (several of one experiment by Hotelling's T²), over all experiments by the sum of "
-      "the chi-squares with the same probabilities (Lancaster 1961), and for equivalence by two "
+      "the chi-squares with the same probabilities (Lancaster 1961), whose distribution takes "
+      "account of what the fit could follow (Box 1954), and for equivalence by two "
       "one-sided tests at 5 % (Schuirmann 1987).");
 }
 

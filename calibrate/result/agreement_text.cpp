@@ -33,17 +33,20 @@ std::string percent(double chance) {
 
 /// What would decide it.
 std::string way_out(const Agreement& agreement) {
-  if (agreement.runs < 2 && !std::isfinite(agreement.detectable)) {
+  if (agreement.runs < 2 && !std::isfinite(agreement.difference.low)) {
     return "too few of its runs gave a reading";
   }
   if (agreement.runs_to_decide) {
     return fmt::format("about {} runs would decide, {} were made", *agreement.runs_to_decide,
                        agreement.runs);
   }
-  const bool is_off = std::abs(agreement.simulated - agreement.measured) >= agreement.tolerance;
-  return is_off
-             ? "more runs would not decide: take more bench readings"
-             : "more runs would hardly help: take more bench readings, or state a wider tolerance";
+  if (agreement.readings_to_decide) {
+    return fmt::format("more runs would not decide, about {} bench readings would",
+                       *agreement.readings_to_decide);
+  }
+  return "neither more runs nor more bench readings alone would decide: take more of both, or "
+         "state "
+         "a wider tolerance where that is what you need";
 }
 
 std::string disagreement(const Verification& verification) {
@@ -71,23 +74,104 @@ std::string disagreement(const Verification& verification) {
 
 std::string agreement_text(const Agreement& agreement, const std::string& unit) {
   const std::string in_unit = unit.empty() ? "" : ' ' + unit;
+  const std::string source = margin_text(agreement.tolerance_from);
+  const std::string from = source.empty() ? "" : fmt::format(" ({})", source);
   if (agreement.runs == 0) return "no run gave a reading";
   if (agreement.verdict == AgreementVerdict::agrees) {
-    return fmt::format("within {:.3g}{} of each other", agreement.tolerance, in_unit);
+    return fmt::format("within {:.3g}{} of each other{}", agreement.tolerance, in_unit, from);
   }
   if (agreement.verdict == AgreementVerdict::disagrees) {
     return fmt::format("so large a difference arises by chance in {} of cases",
                        percent(agreement.chance));
   }
-  if (!std::isfinite(agreement.detectable)) return way_out(agreement);
-  return fmt::format("detectable difference {:.3g}{}, tolerance {:.3g}{}; {}", agreement.detectable,
-                     in_unit, agreement.tolerance, in_unit, way_out(agreement));
+  const std::string margin = fmt::format("margin {:.3g}{}{}", agreement.tolerance, in_unit, from);
+  if (!std::isfinite(agreement.difference.low)) return margin + "; " + way_out(agreement);
+  if (!std::isfinite(agreement.detectable)) {
+    return fmt::format("the fit follows this reading, no difference could be seen; {}; {}", margin,
+                       way_out(agreement));
+  }
+  return fmt::format("detectable difference {:.3g}{}, {}; {}", agreement.detectable, in_unit,
+                     margin, way_out(agreement));
 }
 
-std::string agreement_text(const Verification& verification) {
+std::string bounds_text(const ResultParameter& parameter) {
+  if (parameter.verdict != Verdict::one_sided && parameter.verdict != Verdict::undetermined) {
+    return {};
+  }
+  const Interval& bounds = parameter.bounds;
+  const double middle = (bounds.low + bounds.high) / 2;
+  const bool is_high = parameter.interval.high - middle > middle - parameter.interval.low;
+  const std::string where =
+      parameter.verdict == Verdict::one_sided
+          ? fmt::format("its interval ends at the bound {:.4g}", is_high ? bounds.high : bounds.low)
+          : "its interval is about that of its bounds";
+  if (!parameter.bounds_are) {
+    return where +
+           ", and the study does not say whether its bounds are known or convenience (bounds = "
+           "...)";
+  }
+  return where + (*parameter.bounds_are == BoundsOrigin::known
+                      ? ", which is known beforehand by the study"
+                      : ", which the study calls convenience: beyond it values may fit as well");
+}
+
+std::string margin_text(const std::optional<MarginSource>& source) {
+  if (!source) return {};
+  switch (*source) {
+    case MarginSource::study:
+      return "stated in the study";
+    case MarginSource::reading:
+      return "10 % of the reading";
+    case MarginSource::range:
+      return "10 % of the range of readings that the bounds allow";
+    case MarginSource::angle:
+      break;
+  }
+  return "that of angles";
+}
+
+std::string prediction_text(const Prediction& prediction) {
+  const std::string unit = prediction.unit.empty() ? "" : ' ' + prediction.unit;
+  std::string text =
+      fmt::format("{}: predicted {:.3g} ± {:.2g}{} (95 %)", prediction.name, prediction.predicted,
+                  (prediction.interval.high - prediction.interval.low) / 2, unit);
+  if (prediction.possible) {
+    const Interval& possible = *prediction.possible;
+    text += fmt::format(", where {:.3g} to {:.3g} was possible within the bounds", possible.low,
+                        possible.high);
+    if (2 * prediction.tolerance >= possible.high - possible.low) {
+      text += ": no more than its margin allows, so that agreement would be no test";
+    }
+  }
+  text += fmt::format("; margin {:.3g}{}", prediction.tolerance, unit);
+  if (prediction.tolerance_from)
+    text += fmt::format(", {}", margin_text(prediction.tolerance_from));
+  if (prediction.readings_to_decide) {
+    text += fmt::format("; about {} bench readings would decide", *prediction.readings_to_decide);
+  }
+  return text;
+}
+
+std::string freedom_text(const JointResult& joint) {
+  if (!joint.degrees_of_freedom) return {};
+  return fmt::format(
+      "chi-square {:.3g} of {:.1f} degrees of freedom: readings less what the coefficients use up",
+      joint.chi2, *joint.degrees_of_freedom);
+}
+
+std::string agreement_text(const Verification& verification, double degrees) {
+  const bool is_tested = degrees >= 1;
   switch (verification.verdict) {
     case AgreementVerdict::agrees:
-      return "bench and simulation agree: every experiment is shown to be within its tolerance";
+      if (is_tested) {
+        return "bench and simulation agree: every experiment is shown to be within its margin";
+      }
+      return fmt::format(
+          "the bench is reproduced, not tested: every experiment is shown to be within its margin, "
+          "but the coefficients use up what these experiments tell ({:.1f} degrees of freedom are "
+          "left), so that a wrong model would be followed as well. A reading that is held out "
+          "would test it",
+          degrees);
     case AgreementVerdict::disagrees:
       return disagreement(verification);
     case AgreementVerdict::cannot_tell:
@@ -95,8 +179,13 @@ std::string agreement_text(const Verification& verification) {
   }
   return fmt::format(
       "it cannot be told whether bench and simulation agree: no difference is shown (as large ones "
-      "arise by chance in {} of cases), but neither is agreement within the tolerance for {}",
-      percent(verification.chance), names_of(with(verification, AgreementVerdict::cannot_tell)));
+      "arise by chance in {} of cases), but neither is agreement within the margin for {}{}",
+      percent(verification.chance), names_of(with(verification, AgreementVerdict::cannot_tell)),
+      is_tested ? ""
+                : fmt::format(". Nor would agreement be more than reproduced, not tested: the "
+                              "coefficients use up what these experiments tell ({:.1f} degrees of "
+                              "freedom are left)",
+                              degrees));
 }
 
 std::string shape_check_text(const ShapeCheck& shape) {

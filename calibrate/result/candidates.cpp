@@ -21,7 +21,10 @@ double deviance_of_means(const JointResult& joint) {
   }
   if (!std::isfinite(joint.agreement.chance)) return kUnbounded;
   const double chance = std::clamp(joint.agreement.chance, kLeastChance, 1.);
-  return base::chi_square_exceeded(chance, static_cast<double>(joint.observables.size()));
+  constexpr double kFewest = 1e-3;  // degrees of freedom: none, and next to nothing is lacking
+  const auto readings = static_cast<double>(joint.observables.size());
+  return base::chi_square_exceeded(chance,
+                                   std::max(joint.degrees_of_freedom.value_or(readings), kFewest));
 }
 
 /// Of two normal samples: likelihood ratio of equal variances against any (Bartlett 1937, Proc. R.

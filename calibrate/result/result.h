@@ -31,8 +31,9 @@ namespace repose::calibrate {
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
 /// What files and tables call verdicts.
-inline constexpr std::array<std::pair<Verdict, std::string_view>, 3> kVerdictNames = {
+inline constexpr std::array<std::pair<Verdict, std::string_view>, 4> kVerdictNames = {
     {{Verdict::determined, "determined"},
+     {Verdict::bounded, "bounded"},
      {Verdict::one_sided, "one-sided"},
      {Verdict::undetermined, "undetermined"}}};
 
@@ -44,6 +45,20 @@ inline constexpr std::array<std::pair<AgreementVerdict, std::string_view>, 3> kA
      {AgreementVerdict::cannot_tell, "cannot tell"}}};
 
 std::string name_of(AgreementVerdict verdict);
+
+inline constexpr std::array<std::pair<BoundsOrigin, std::string_view>, 2> kBoundsNames = {
+    {{BoundsOrigin::known, "known"}, {BoundsOrigin::convenience, "convenience"}}};
+
+std::string name_of(BoundsOrigin origin);
+
+/// Where margins come from.
+inline constexpr std::array<std::pair<MarginSource, std::string_view>, 4> kMarginNames = {
+    {{MarginSource::study, "study"},
+     {MarginSource::reading, "reading"},
+     {MarginSource::range, "range"},
+     {MarginSource::angle, "angle"}}};
+
+std::string name_of(MarginSource source);
 
 struct HeapDefinition;
 /// "whole_flank (least-squares line from toe to crest)", and whether that is assumed.
@@ -85,6 +100,8 @@ struct Provenance {
 struct ResultParameter : FittedParameter {
   Interval bounds;
   std::optional<Prior> known_before;
+  std::optional<double> useful_half_width = {};
+  std::optional<BoundsOrigin> bounds_are = {};  ///< none: the study does not say
 };
 
 struct ResultObservable : FittedObservable {
@@ -141,8 +158,10 @@ struct JointResult {
   /// an earlier version's.
   AssumedScatters assumed_scatters = {};
   double chi2 = 0;
+  std::optional<double> degrees_of_freedom;  ///< of the fit; earlier versions did not say
   std::vector<std::vector<double>> correlation;
   std::vector<std::vector<double>> reading_correlation;
+  std::vector<std::vector<double>> bench_correlation;  ///< earlier versions took it for the same
   std::vector<EquivalentSet> equivalence_family;
   std::vector<StudyAddition> additions;  ///< what the advice would have in the study file
   std::vector<Candidate> candidates;     ///< this one and those it was weighed against; or none

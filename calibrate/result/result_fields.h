@@ -14,6 +14,8 @@ inline constexpr bool kIsPair<ProfilePoint> = true;
 
 inline constexpr const auto& names_for(Verdict) { return kVerdictNames; }
 inline constexpr const auto& names_for(AgreementVerdict) { return kAgreementNames; }
+inline constexpr const auto& names_for(BoundsOrigin) { return kBoundsNames; }
+inline constexpr const auto& names_for(MarginSource) { return kMarginNames; }
 
 template <typename Io>
 void fields(Io& io, Held<Io, StudyIdentity>& study) {
@@ -91,6 +93,12 @@ void fields(Io& io, Held<Io, ResultParameter>& parameter) {
   if (io.has("known_before", parameter.known_before.has_value())) {
     io("known_before", parameter.known_before);
   }
+  if (io.has("useful_half_width", parameter.useful_half_width.has_value())) {
+    io("useful_half_width", parameter.useful_half_width);
+  }
+  if (io.has("bounds_are", parameter.bounds_are.has_value())) {
+    io("bounds_are", parameter.bounds_are);
+  }
   if (io.has("narrowing", parameter.narrowing.has_value())) io("narrowing", parameter.narrowing);
 }
 
@@ -102,9 +110,15 @@ void fields(Io& io, Held<Io, Agreement>& check) {
   io("difference_sigma", check.difference_sigma);
   io("p", check.chance);
   io("tolerance", check.tolerance);
+  if (io.has("tolerance_from", check.tolerance_from.has_value())) {
+    io("tolerance_from", check.tolerance_from);
+  }
   io("difference_90", check.difference);
   io("detectable", check.detectable);
   io("runs_to_decide", check.runs_to_decide);
+  if (io.has("readings_to_decide", check.tolerance_from.has_value())) {
+    io("readings_to_decide", check.readings_to_decide);
+  }
   io("runs", check.runs);
   io("failed_runs", check.failed_runs);
 }
@@ -169,6 +183,11 @@ void fields(Io& io, Held<Io, Prediction>& prediction) {
   io("difference_sigma", prediction.difference_sigma);
   io("p", prediction.chance);
   io("tolerance", prediction.tolerance);
+  if (io.has("tolerance_from", prediction.tolerance_from.has_value())) {
+    io("tolerance_from", prediction.tolerance_from);
+    io("readings_to_decide", prediction.readings_to_decide);
+  }
+  if (io.has("possible", prediction.possible.has_value())) io("possible", prediction.possible);
   io("sets", prediction.sets);
   io("failed_runs", prediction.failed_runs);
   io("verdict", prediction.verdict);
@@ -342,8 +361,14 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
     io("assumed_scatter", joint.assumed_scatters);
   }
   io("chi2", joint.chi2);
+  if (io.has("degrees_of_freedom", joint.degrees_of_freedom.has_value())) {
+    io("degrees_of_freedom", joint.degrees_of_freedom);
+  }
   io("correlation", joint.correlation);
   io("reading_correlation", joint.reading_correlation);
+  if (io.has("bench_correlation", !joint.bench_correlation.empty())) {
+    io("bench_correlation", joint.bench_correlation);
+  }
   io("equivalence_family", joint.equivalence_family);
   if (io.has("additions", !joint.additions.empty())) io("additions", joint.additions);
   if (io.has("candidates", !joint.candidates.empty())) io("candidates", joint.candidates);

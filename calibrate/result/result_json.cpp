@@ -109,6 +109,20 @@ std::string name_of(Verdict verdict) {
   return {};
 }
 
+std::string name_of(BoundsOrigin origin) {
+  for (const auto& [known, name] : kBoundsNames) {
+    if (known == origin) return std::string(name);
+  }
+  return {};
+}
+
+std::string name_of(MarginSource source) {
+  for (const auto& [known, name] : kMarginNames) {
+    if (known == source) return std::string(name);
+  }
+  return {};
+}
+
 StudyResult result_from_json(const std::string& json, const std::string& name) {
   std::string reason;
   try {

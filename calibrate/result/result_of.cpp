@@ -29,7 +29,11 @@ std::vector<ResultParameter> parameters_of(const Problem& problem, const JointFi
   std::vector<ResultParameter> parameters;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const Parameter& sought = problem.parameters[k];
-    parameters.push_back({fit.parameters[k], {sought.min, sought.max}, sought.prior});
+    parameters.push_back({fit.parameters[k],
+                          {sought.min, sought.max},
+                          sought.prior,
+                          sought.useful_half_width,
+                          sought.bounds_are});
   }
   return parameters;
 }
@@ -47,7 +51,7 @@ std::vector<ResultObservable> observables_of(const Problem& problem, const Study
 }
 
 OverallAgreement agreement_of(const StudyOutcome& outcome) {
-  return {.text = agreement_text(outcome.best),
+  return {.text = agreement_text(outcome.best, outcome.fit.freedom.degrees),
           .chance = outcome.best.chance,
           .rounds = outcome.check_rounds,
           .values = outcome.best.values};
@@ -178,8 +182,10 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
                     .shape_check = outcome.shape,
                     .assumed_scatters = outcome.assumed_scatters,
                     .chi2 = fit.chi2,
+                    .degrees_of_freedom = fit.freedom.degrees,
                     .correlation = fit.correlation,
                     .reading_correlation = fit.reading_correlation,
+                    .bench_correlation = fit.bench_correlation,
                     .equivalence_family = family_of(problem.problem, outcome),
                     .additions = outcome.fit.additions,
                     .candidates = {},

@@ -133,6 +133,9 @@ std::string contacts(const NewStudy& study) {
                        ? std::string("Bounds: wide enough for any dry grain; narrow them if you "
                                      "know better.")
                        : fmt::format("Bounds: {}.", study.grain.source));
+  text += toml_comment(
+      "Say in the braces what the bounds are: bounds = \"known\", where no such material lies "
+      "outside, or \"convenience\"; and with useful_half_width how narrow an interval you need.");
   text += "[contact]\nrolling_model = \"constant_torque\"  # EDEM's standard\n\n";
   text += contact_section(study, "particle_wall", study.grain.with_wall) + '\n';
   text += contact_section(study, "particle_particle", study.grain.with_grain);

@@ -89,6 +89,11 @@ std::vector<Parameter> open_parameters(const dem::Study& study) {
     if (named.coefficient.known_mean) {
       parameter.prior = Prior{*named.coefficient.known_mean, *named.coefficient.known_sd};
     }
+    parameter.useful_half_width = named.coefficient.useful_half_width;
+    if (named.coefficient.are_bounds_known) {
+      parameter.bounds_are =
+          *named.coefficient.are_bounds_known ? BoundsOrigin::known : BoundsOrigin::convenience;
+    }
     for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
       if (entry.tells == parameter.name) parameter.told_by.emplace_back(entry.name);
     }

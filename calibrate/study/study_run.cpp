@@ -131,7 +131,7 @@ class Check {
     std::vector<std::vector<double>> asked = {values_};
     asked.insert(asked.end(), tried.begin(), tried.end());
     outcome_.fit = fit_jointly(problem_, outcome_.runs, asked);
-    outcome_.best = verify(problem_, values_, outcome_.checks, &outcome_.fit);
+    outcome_.best = verify(problem_, values_, outcome_.checks, &outcome_.fit, &before_.freedom);
     return is_near(outcome_.fit, outcome_.fit.asked.front());
   }
 

@@ -11,8 +11,8 @@ constexpr const char* kCalibrateNotes = R"(
 STUDY is a study file in which contact coefficients have bounds instead of a
 value, as in restitution = { min = 0.1, max = 0.6 }, and experiments state what
 was measured. All unknowns are fitted to all measurements at once; each gets an
-interval and a verdict: determined, one-sided, or undetermined by these data.
-The best fit is then simulated with fresh seeds; these runs enter the fit too,
+interval and a verdict: determined, bounded, one-sided, or undetermined by these
+data. The best fit is then simulated with fresh seeds; these runs enter the fit too,
 and a verdict says whether bench and simulation agree: agrees, disagrees, or
 cannot tell.
 

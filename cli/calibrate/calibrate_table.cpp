@@ -148,6 +148,9 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
   }
   page.add_gap();
   page.add(table);
+  for (const calibrate::Prediction& prediction : joint.held_out) {
+    page.add(prediction_text(prediction) + '.');
+  }
   page.add(fmt::format(
       "(not fitted: predicted by simulations at {} sets of coefficients that the fit leaves "
       "plausible)",
@@ -258,6 +261,18 @@ void add_advice(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
+/// Verdicts that rest on a bound.
+void add_bounds(const calibrate::JointResult& joint, Page& page) {
+  bool is_first = true;
+  for (const calibrate::ResultParameter& parameter : joint.parameters) {
+    const std::string text = bounds_text(parameter);
+    if (text.empty()) continue;
+    if (is_first) page.add_gap();
+    is_first = false;
+    page.add(fmt::format("{}: {}.", short_name(parameter.name), text));
+  }
+}
+
 void add_additions(const calibrate::JointResult& joint, Page& page) {
   if (joint.additions.empty()) return;
   page.add_gap();
@@ -307,9 +322,13 @@ std::string joint_table(const calibrate::JointResult& joint,
                         const calibrate::Provenance& provenance, int columns) {
   Page page(std::min(columns, kWidestText));
   page.add(parameters_table(joint));
+  add_bounds(joint, page);
   page.add_gap();
   page.add(observables_table(joint));
   page.add("(± is the standard uncertainty of the mean; simulated with fresh seeds)");
+  if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
+    page.add(fmt::format("({})", freedom));
+  }
   add_systematic(joint, page);
   add_agreement(joint, page);
   add_assumed_scatter(joint, page);

@@ -31,6 +31,20 @@ void read_known(Section& bounds, Coefficient& coefficient) {
   }
 }
 
+/// Where the bounds come from: { min = 0, max = 0.8, bounds = "convenience" }.
+void read_origin(Section& bounds, Coefficient& coefficient) {
+  const std::string example = R"(bounds = "known" or bounds = "convenience")";
+  const auto given = bounds.text("bounds", example);
+  if (!given) return;
+  if (*given == "known" || *given == "convenience") {
+    coefficient.are_bounds_known = *given == "known";
+    return;
+  }
+  bounds.errors().add(
+      bounds.value("bounds")->place, fmt::format("{} = \"{}\"", bounds.full("bounds"), *given),
+      "\"known\", where no such material lies outside, or \"convenience\"", example);
+}
+
 void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
                  const std::string& example, Coefficient& coefficient) {
   coefficient.value = bounds.number("value", range, "value = 0.3");
@@ -42,6 +56,10 @@ void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
                         "both bounds, or a number", "for example " + example);
   }
   read_known(bounds, coefficient);
+  read_origin(bounds, coefficient);
+  constexpr double kMostWidth = 100;
+  coefficient.useful_half_width =
+      bounds.number("useful_half_width", above(0, kMostWidth), "useful_half_width = 0.05");
   bounds.refuse_others();
   if (!min || !max) return;
   coefficient.min = *min;

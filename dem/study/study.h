@@ -25,6 +25,11 @@ struct Coefficient {
   std::optional<double> known_mean;
   std::optional<double> known_sd;
 
+  /// A 95 % interval of this half-width is narrow enough for what it is needed for.
+  std::optional<double> useful_half_width = {};
+  /// The bounds are what is known, or no more than convenient to search; none: not said.
+  std::optional<bool> are_bounds_known = {};
+
   bool is_sought() const { return max > min; }
 };
 

@@ -117,6 +117,7 @@ TEST(Agreement, ReadingsOfOneHeapAreJudgedByWhatTheyShare) {
     for (FittedObservable& fitted : fit.observables) fitted.measured_uncertainty = 1;
     fit.surrogates.resize(2);
     fit.reading_correlation = {{1, correlation}, {correlation, 1}};
+    fit.bench_correlation = fit.reading_correlation;
     return verify(made.problem, {.5}, made.runs, &fit).chance;
   };
   EXPECT_NEAR(chance_with(0), std::exp(-8 / 2.), 1e-4);  // a chi-square of 2
@@ -146,16 +147,38 @@ TEST(Agreement, FewRunsCountAsStudentSays) {
   EXPECT_NEAR(difference_of({1, 3, 4}, {0, 3, 4}).df, 8, 1e-9) << "alike: both together";
 }
 
-TEST(Agreement, TolerancesAreTheStudysOrThoseOfTheUnit) {
+TEST(Agreement, MarginsAreFixedBeforehand) {
   Observable observable{"a", "drop", "value", "mm", 400, 1, 10, {}};
-  EXPECT_EQ(tolerance_of(observable, 1), 20);
-  EXPECT_NEAR(tolerance_of(observable, 100), 226.2, .1) << "the bench's own 95 % interval";
-  observable.sd = {};
-  EXPECT_EQ(tolerance_of(observable, 100), 20) << "an assumed scatter allows nothing";
+  const auto margin = [&](const std::optional<Interval>& possible) {
+    return margin_of(observable, possible);
+  };
+  EXPECT_EQ(margin({}).value, 40);
+  EXPECT_EQ(margin({}).source, MarginSource::reading);
+  observable.sd = 1000;  // a sloppier bench does not agree more easily
+  EXPECT_EQ(margin(Interval{0, 1000}).value, 40);
+  EXPECT_NEAR(margin(Interval{390, 410}).value, 2, 1e-12);
+  EXPECT_EQ(margin(Interval{390, 410}).source, MarginSource::range);
+  EXPECT_EQ(margin(Interval{400, 400}).value, 0) << "it tells nothing of the coefficients";
   observable.unit = "deg";
-  EXPECT_EQ(tolerance_of(observable, 100), 2);
+  EXPECT_EQ(margin({}).value, 2);
+  EXPECT_EQ(margin({}).source, MarginSource::angle);
   observable.tolerance = 3;
-  EXPECT_EQ(tolerance_of(observable, 1), 3);
+  EXPECT_EQ(margin(Interval{400, 400}).value, 3);
+  EXPECT_EQ(margin({}).source, MarginSource::study);
+}
+
+TEST(Agreement, ReadingsToDecideDecide) {
+  // A ball of 100 +- 60 mm, three readings, reproduced to the millimetre; margin 10 mm.
+  const auto after = [](int readings) {
+    return difference_of({101, .1, 40}, {100, 60 / std::sqrt(readings), readings - 1.});
+  };
+  EXPECT_GT(not_ruled_out(after(3)).high, 10);
+  const std::optional<int> needed = readings_to_decide(after(3), 60 / std::sqrt(3), 3, 10, .05);
+  ASSERT_TRUE(needed);
+  EXPECT_NEAR(*needed, std::pow(60 * (1.645 + .842) / 9, 2), 3);
+  EXPECT_LT(not_ruled_out(after(*needed)).high, 10);
+  EXPECT_FALSE(readings_to_decide(difference_of({101, 8, 40}, {100, 1, 9}), 1, 10, 10, .05))
+      << "the runs leave too much open";
 }
 
 TEST(Agreement, AToleranceMustBeAboveZero) {

@@ -268,6 +268,19 @@ TEST(JointFit, AnIntervalThatIsOnlyTheKnowledgeBeforehandIsCalledThat) {
   EXPECT_THAT(plate_fit(problem).warnings, Not(Contains(HasSubstr("that of the prior"))));
 }
 
+TEST(JointFit, AWideIntervalInsideItsBoundsIsBoundedNotDetermined) {
+  // 22 +- 10 degrees, five readings: Student's interval is +- 12 degrees.
+  Problem problem = plate(22, 10, 5);
+  const FittedParameter wide = plate_fit(problem).parameters[0];
+  EXPECT_EQ(wide.verdict, Verdict::bounded);
+  EXPECT_THAT(wide.advice, HasSubstr("more bench readings"));
+  problem.parameters[0].useful_half_width = .3;
+  EXPECT_EQ(plate_fit(problem).parameters[0].verdict, Verdict::determined);
+  EXPECT_EQ(plate_fit(plate(22, 3, 5)).parameters[0].verdict, Verdict::determined);
+  problem.parameters[0].useful_half_width = 0;
+  EXPECT_THROW(plate_fit(problem), std::invalid_argument);
+}
+
 TEST(JointFit, ARobustFitFollowsTheMajority) {
   Problem problem = plate(20, .9, 10);
   problem.observables.push_back(problem.observables[0]);

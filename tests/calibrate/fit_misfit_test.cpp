@@ -75,7 +75,8 @@ fake::Runs heaps_of_one_volume(const Problem& problem) {
 }
 
 TEST(Misfit, DerivativesOfReadingsThatVaryTogetherAreThoseOfTheirValues) {
-  const Problem problem = with_radius(full_problem(false));
+  Problem problem = with_radius(full_problem(false));
+  problem.settings.budget_s = 3000;
   const Misfit misfit(problem, in_order(problem, heaps_of_one_volume(problem)), {}, false);
   ASSERT_LT(misfit.reading_correlation()[3][4], -.4);
   const Point here = {.5, .3, .4, .6, .8, .7};
@@ -115,11 +116,42 @@ TEST(ReadingCorrelation, IsNoneOfAReadingThatTheBenchReadsInTrialsOfItsOwn) {
   EXPECT_EQ(misfit.reading_correlation()[4][3], 0);
 }
 
+TEST(ReadingCorrelation, WhatACurveDoesNotFollowIsNoChance) {
+  // Both readings follow the place in a way that no curve through so few runs does.
+  Problem problem = with_radius(full_problem(false));
+  problem.settings.budget_s = 3000;
+  fake::Runs runs = fake::run_all(first_round(problem));
+  for (auto& run : runs) {
+    if (run.job.experiment != "heap") continue;
+    const double wiggle = 8 * std::sin(97 * run.job.values[3] + 61 * run.job.values[4]);
+    run.readings["value"] += wiggle;
+    run.readings["base_radius_mm"] -= 2 * wiggle;
+  }
+  const Misfit misfit(problem, in_order(problem, runs), {}, false);
+  EXPECT_LT(std::abs(misfit.reading_correlation()[3][4]), .3);
+}
+
+TEST(ReadingCorrelation, ABenchSharesWhatTheSimulationExplains) {
+  Problem problem = with_radius(full_problem(false));
+  problem.settings.budget_s = 3000;
+  const auto bench_with = [&](double sd_deg) {
+    problem.observables[3].sd = sd_deg;
+    const Misfit misfit(problem, in_order(problem, heaps_of_one_volume(problem)), {}, false);
+    EXPECT_LT(misfit.reading_correlation()[3][4], -.6);
+    return misfit.bench_correlation()[3][4];
+  };
+  const double much = bench_with(20);
+  EXPECT_NEAR(bench_with(40) / much, .5, 1e-9);
+  EXPECT_LT(std::abs(much), .3) << "an eye that reads within 20 degrees hides it";
+  EXPECT_LT(bench_with(.01), 3 * much);
+}
+
 TEST(ReadingCorrelation, WhatTwoReadingsShareCountsOnce) {
   // Both 2 sigma off: alike in sign and all but one reading, that is no more than one of them off.
   const std::vector<CorrelatedPart> parts = {{2, 1, 0, 10, {}, {}}, {2, 1, 0, 10, {}, {}}};
   const auto chi2 = [&](double correlation) {
-    const Residuals r = made_independent(parts, {{1, correlation}, {correlation, 1}}, false);
+    const Residuals r =
+        made_independent(parts, {{{1, correlation}, {correlation, 1}}, {{1, 0}, {0, 1}}}, false);
     return r.values[0] * r.values[0] + r.values[1] * r.values[1];
   };
   EXPECT_NEAR(chi2(0), 8, 1e-9);
@@ -130,8 +162,8 @@ TEST(ReadingCorrelation, WhatTwoReadingsShareCountsOnce) {
 
 TEST(ReadingCorrelation, AReadingAloneIsTheSameWithAndWithoutDerivatives) {
   const std::vector<CorrelatedPart> alone = {{.7, .3, .11, 7, {.2}, {.05}}};
-  const Residuals with = made_independent(alone, {{1}}, true);
-  EXPECT_EQ(made_independent(alone, {{1}}, false).values, with.values);
+  const Residuals with = made_independent(alone, {{{1}}, {{1}}}, true);
+  EXPECT_EQ(made_independent(alone, {{{1}}, {{1}}}, false).values, with.values);
   EXPECT_NEAR(with.values[0], .7 / std::sqrt(.3 * .3 + .11), 1e-15);
 }
 

@@ -50,7 +50,7 @@ TEST(Prediction, JobsAreOfWhatIsHeldOutAloneWithSeedsOfTheirOwn) {
   const Problem problem = holding_out("heap");
   Random random(1);
   const std::vector<Job> jobs = prediction_jobs(problem, fit_of(kTruth, .02, random));
-  EXPECT_EQ(jobs.size(), kDrawnSets * kPredictionRepeats);
+  EXPECT_EQ(jobs.size(), kDrawnSets * kPredictionRepeats + kRangeRuns);
   std::set<std::uint64_t> taken;
   for (const Job& job : propose(problem, {})) taken.insert(job.seed);
   for (int set = 0; set < 12; ++set) {
@@ -99,7 +99,7 @@ TEST(Prediction, WhatTheCoefficientsLeaveOpenIsToldFromChance) {
 TEST(Prediction, WithoutChanceThereIsOneRunOfEachSet) {
   const Problem problem = holding_out("tilt");
   const JointFit fit = fit_with(std::vector<std::vector<double>>(kDrawnSets, kTruth));
-  EXPECT_EQ(prediction_jobs(problem, fit).size(), kDrawnSets);
+  EXPECT_EQ(prediction_jobs(problem, fit).size(), kDrawnSets + kRangeRuns);
   const Prediction prediction = predicted(problem, fit);
   EXPECT_EQ(prediction.uncertainty, 0);
   EXPECT_NEAR(prediction.predicted, fake::expected("tilt", "value", kTruth), 1e-9);
@@ -117,6 +117,24 @@ TEST(Prediction, TheRightCoefficientsAgreeAndOthersDisagree) {
       << "nobody knows";
 }
 
+TEST(Prediction, WhatTheBoundsAllowIsToldAndSetsTheMargin) {
+  const Problem problem = holding_out("tilt");
+  const JointFit fit = fit_with(std::vector<std::vector<double>>(kDrawnSets, kTruth));
+  const Prediction prediction = predicted(problem, fit);
+  ASSERT_TRUE(prediction.possible);
+  EXPECT_LT(prediction.possible->low, prediction.predicted - 5);
+  EXPECT_GT(prediction.possible->high, prediction.predicted + 5);
+  EXPECT_LE(prediction.tolerance, 2);
+  // A plate that slides at the same angle whatever its grains are.
+  fake::Runs alike;
+  for (const Job& job : prediction_jobs(problem, fit)) {
+    alike.push_back({job, {{"value", problem.held_out.front().mean}}, ""});
+  }
+  const Prediction insensitive = predictions_of(problem, fit, alike).front();
+  EXPECT_EQ(insensitive.tolerance_from, MarginSource::range);
+  EXPECT_NE(insensitive.verdict, AgreementVerdict::agrees);
+}
+
 TEST(Prediction, CoefficientsThatNeverGiveAReadingDisagree) {
   const Problem problem = holding_out("heap");
   Random random(7);
@@ -127,7 +145,8 @@ TEST(Prediction, CoefficientsThatNeverGiveAReadingDisagree) {
   }
   const Prediction never = predictions_of(problem, fit, runs).at(0);
   EXPECT_EQ(never.verdict, AgreementVerdict::disagrees);
-  EXPECT_EQ(never.failed_runs, static_cast<int>(runs.size()));
+  EXPECT_EQ(never.failed_runs, static_cast<int>(runs.size() - kRangeRuns));
+  EXPECT_FALSE(never.possible);
   EXPECT_TRUE(std::isnan(never.predicted));
   runs[0].readings = runs[2].readings = {{"value", 22}};
   runs[0].failure = runs[2].failure = "";

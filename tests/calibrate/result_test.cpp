@@ -126,7 +126,8 @@ TEST(Result, ErrorsSayWhatIsWrongAndWhere) {
       {"{}", "method: is missing"},
       {with(joint, "\"joint\"", "\"best\""), "method: \"best\" must be joint or paper"},
       {with(joint, "\"determined\"", "\"sure\""),
-       "parameters[0].verdict: \"sure\" must be one of determined, one-sided, undetermined"},
+       "parameters[0].verdict: \"sure\" must be one of determined, bounded, one-sided, "
+       "undetermined"},
       {with(joint, "\"value\": 0.4", "\"value\": \"0.4\""),
        "parameters[0].value: must be a number or null"},
       {with(joint, "\"first_seed\": 7", "\"first_seed\": 7.5"),
@@ -241,7 +242,9 @@ TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
   EXPECT_EQ(joint.observables[0].verification.tolerance, 2) << "an angle";
   EXPECT_EQ(joint.agreement.rounds, 1);
   EXPECT_EQ(joint.agreement.values[0], made.outcome.fit.parameters[0].value);
-  EXPECT_THAT(joint.agreement.text, HasSubstr("bench and simulation agree"));
+  EXPECT_THAT(joint.agreement.text, HasSubstr("reproduced, not tested"));
+  ASSERT_TRUE(joint.degrees_of_freedom);
+  EXPECT_LT(*joint.degrees_of_freedom, .7) << "one reading, a prior, one coefficient";
   EXPECT_EQ(joint.warnings[0], "a note");
   EXPECT_EQ(joint.warnings[1], "another note");
   EXPECT_EQ(joint.runs.size(), made.outcome.runs.size());
@@ -289,15 +292,39 @@ Verification disagreeing(const std::vector<int>& runs, double chance) {
 }
 
 TEST(AgreementText, SaysWhetherReadingsDifferOrAreMissing) {
-  EXPECT_EQ(agreement_text(disagreeing({0}, 1)),
+  EXPECT_EQ(agreement_text(disagreeing({0}, 1), 2),
             "bench and simulation disagree: no run gave a reading of test_1");
-  EXPECT_THAT(agreement_text(disagreeing({6}, .01)),
+  EXPECT_THAT(agreement_text(disagreeing({6}, .01), 2),
               AllOf(HasSubstr("by chance in 1 % of cases"), HasSubstr("it is test_1 that differs"),
                     Not(HasSubstr("no run"))));
   EXPECT_THAT(
-      agreement_text(disagreeing({0, 6}, .01)),
+      agreement_text(disagreeing({0, 6}, .01), 2),
       AllOf(HasSubstr("it is test_2 that differs"), HasSubstr("no run gave a reading of test_1")));
-  EXPECT_THAT(agreement_text(disagreeing({}, .01)), HasSubstr("no single experiment"));
+  EXPECT_THAT(agreement_text(disagreeing({}, .01), 2), HasSubstr("no single experiment"));
+}
+
+TEST(AgreementText, WhatTheCoefficientsUseUpIsReproducedNotTested) {
+  Verification check;
+  check.verdict = AgreementVerdict::agrees;
+  EXPECT_THAT(agreement_text(check, .4),
+              AllOf(HasSubstr("reproduced, not tested"), HasSubstr("0.4 degrees of freedom")));
+  EXPECT_THAT(agreement_text(check, 1), Not(HasSubstr("not tested")));
+  check.verdict = AgreementVerdict::cannot_tell;
+  EXPECT_THAT(agreement_text(check, 0), HasSubstr("reproduced, not tested"));
+}
+
+TEST(AgreementText, AVerdictThatRestsOnABoundSaysWhatTheBoundIs) {
+  ResultParameter parameter;
+  parameter.verdict = Verdict::one_sided;
+  parameter.bounds = {.1, .8};
+  parameter.interval = {.4, .8};
+  EXPECT_THAT(bounds_text(parameter), AllOf(HasSubstr("0.8"), HasSubstr("does not say")));
+  parameter.bounds_are = BoundsOrigin::known;
+  EXPECT_THAT(bounds_text(parameter), HasSubstr("known beforehand"));
+  parameter.bounds_are = BoundsOrigin::convenience;
+  EXPECT_THAT(bounds_text(parameter), HasSubstr("convenience"));
+  parameter.verdict = Verdict::bounded;
+  EXPECT_EQ(bounds_text(parameter), "");
 }
 
 }  // namespace

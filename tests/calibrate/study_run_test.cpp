@@ -324,6 +324,18 @@ TEST_F(StudyRun, ABallThatIsDroppedHasNoChanceAndIsGivenNone) {
               std::sqrt((25 + half_mm) / 100) - std::sqrt((25 - half_mm) / 100), .001);
 }
 
+TEST_F(StudyRun, ABenchThatCannotResolveItsMarginCannotTell) {
+  const auto outcome =
+      run("sloppy", 2, -1, {"experiment.drop.measured = { mean = 25, sd = 15, n = 3 }"});
+  ASSERT_TRUE(outcome);
+  const Agreement& drop = outcome->best.observables[0];
+  EXPECT_EQ(drop.verdict, AgreementVerdict::cannot_tell);
+  EXPECT_NEAR(drop.tolerance, 2.5, .01) << "a tenth of the reading, however sure it is";
+  ASSERT_TRUE(drop.readings_to_decide);
+  EXPECT_GT(*drop.readings_to_decide, 200);
+  EXPECT_LT(outcome->fit.freedom.degrees, .01);
+}
+
 TEST_F(StudyRun, SomethingMustBeLeftToFit) {
   const dem::Study study =
       read({"experiment.tilt.held_out = true", "experiment.drop.held_out = true"});

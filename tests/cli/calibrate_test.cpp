@@ -103,10 +103,13 @@ TEST_F(Calibrate, PredictsWhatIsHeldOut) {
   const json result = json::parse(text("result.json"));
   ASSERT_EQ(result["held_out"].size(), 1U);
   EXPECT_EQ(result["held_out"][0]["name"], "tilt");
+  EXPECT_EQ(result["held_out"][0]["possible"].size(), 2U);
+  EXPECT_THAT(done.out, HasSubstr("was possible within the bounds"));
   EXPECT_EQ(result["observables"].size(), 1U);
   const Finished dry = run({"study.toml", "--set", held_out, "--dry-run"});
   EXPECT_EQ(dry.exit_code, 0) << dry.err;
-  EXPECT_THAT(dry.out, HasSubstr("0 + 8")) << "nothing for the fit, eight predictions";
+  EXPECT_THAT(dry.out, HasSubstr("0 + 16"))
+      << "nothing for the fit, eight predictions, eight all over the bounds";
   EXPECT_EQ(run({"study.toml", "--set", "experiment.tilt.held_out = 1"}).exit_code, 2);
 }
 

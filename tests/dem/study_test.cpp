@@ -306,6 +306,24 @@ TEST_F(StudyFile, WhatIsSoughtMayHaveAValueForRunsBefore) {
   EXPECT_FALSE(study.particle_wall.sliding_friction.is_sought());
 }
 
+TEST_F(StudyFile, BoundsSayWhatTheyAreAndWhatWidthIsUseful) {
+  const std::string key = "contact.particle_wall.restitution = ";
+  const Coefficient unsaid =
+      read(kStudy, {key + "{ min = 0.1, max = 0.6 }"}).particle_wall.restitution;
+  EXPECT_FALSE(unsaid.are_bounds_known);
+  EXPECT_FALSE(unsaid.useful_half_width);
+  const Coefficient said =
+      read(kStudy, {key + "{ min = 0.1, max = 0.6, bounds = \"convenience\", useful_half_width = "
+                          "0.05 }"})
+          .particle_wall.restitution;
+  EXPECT_EQ(said.are_bounds_known, false);
+  EXPECT_EQ(said.useful_half_width, .05);
+  EXPECT_THAT(errors(kStudy, {key + "{ min = 0.1, max = 0.6, bounds = \"sure\" }"}),
+              AllOf(HasSubstr("bounds = \"sure\""), HasSubstr("\"known\"")));
+  EXPECT_THAT(errors(kStudy, {key + "{ min = 0.1, max = 0.6, useful_half_width = 0 }"}),
+              HasSubstr("useful_half_width = 0"));
+}
+
 TEST_F(StudyFile, BoundsThatMakeNoSenseAreRefused) {
   const std::string key = "contact.particle_wall.restitution = ";
   EXPECT_THAT(errors(kStudy, {key + "{ value = 0.8, min = 0.1, max = 0.6 }"}),
