@@ -9,7 +9,7 @@
 #   }
 #
 # which gives a file's bytes by its name as written above, relative to the folder of the
-# CMakeLists.txt, and throws std::out_of_range for a name that is not there. The bytes stay until the
+# CMakeLists.txt (of an absolute one, as of a file that is made, by its last part), and throws std::out_of_range for a name that is not there. The bytes stay until the
 # program ends and are followed by a NUL. A changed file is taken in by the next build.
 #
 # The assembler takes the bytes in: arrays of megabytes are slow to compile in C++.
@@ -22,6 +22,7 @@ function(repose_embed target namespace)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded/${stem}.cpp)
   list(JOIN ARGN "|" names)
   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE files)
+  list(TRANSFORM files REPLACE "^.+//" "/")  # absolute as they were
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -D OUTPUT=${output} -D NAMESPACE=${namespace}
       -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR} "-DNAMES=${names}"
@@ -41,11 +42,16 @@ function(repose_write_embedded)
   foreach(name IN LISTS names)
     set(symbol ${stem}_${number})
     # A changed file changes this source: caches of compiled objects do not look into .incbin.
-    file(SHA256 ${FOLDER}/${name} hash)
-    file(SIZE ${FOLDER}/${name} size)
+    set(file ${FOLDER}/${name})
+    if(IS_ABSOLUTE ${name})
+      set(file ${name})
+      get_filename_component(name ${name} NAME)
+    endif()
+    file(SHA256 ${file} hash)
+    file(SIZE ${file} size)
     string(APPEND symbols "// ${hash}
 __asm__(\".pushsection .rodata\\n\"
-        \"${symbol}: .incbin \\\"${FOLDER}/${name}\\\"\\n\"
+        \"${symbol}: .incbin \\\"${file}\\\"\\n\"
         \".byte 0\\n\"
         \".global ${symbol}\\n\"
         \".popsection\\n\");

@@ -1,5 +1,8 @@
 #include "calibrate/export/export.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 #include "base/error_list.h"
@@ -37,12 +40,28 @@ std::vector<std::string> warnings_of(const ExportFacts& facts) {
                                      value.name, value.value));
     } else {
       warnings.push_back(
-          fmt::format("{} = {:.4g} is {}: the measurements allow {:.3g} to {:.3g}. It is exported "
-                      "nevertheless.",
+          fmt::format("{} = {:.4g} is {}: the measurements allow {:.3g} to {:.3g}, each value only "
+                      "with those of its own set. It is exported nevertheless.",
                       value.name, value.value, value.verdict, value.low, value.high));
     }
   }
   return warnings;
+}
+
+/// With the values of the set that is asked for.
+std::vector<FittedValue> of_set(std::vector<FittedValue> fitted,
+                                const std::vector<std::vector<double>>& sets, std::size_t number) {
+  const std::size_t known = std::max<std::size_t>(1, sets.size());
+  if (number < 1 || number > known) {
+    throw std::invalid_argument(fmt::format(
+        "--set-number {}: {}. Fix: leave it out for set 1, the best one.", number,
+        known == 1
+            ? "this study has one set of coefficients"
+            : fmt::format("this study has {} equally good sets, from 1 to {}", known, known)));
+  }
+  if (sets.empty()) return fitted;
+  for (std::size_t k = 0; k < fitted.size(); ++k) fitted[k].value = sets[number - 1].at(k);
+  return fitted;
 }
 
 }  // namespace
@@ -74,14 +93,15 @@ std::string name_of(Fidelity fidelity) {
 }
 
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
-                         const std::vector<FittedValue>& fitted, const ExportRequest& request) {
-  const ExportFacts facts(study, grain, fitted, request.target);
+                         const std::vector<FittedValue>& fitted, const ExportRequest& request,
+                         const std::vector<std::vector<double>>& sets) {
+  const ExportFacts facts(study, grain, of_set(fitted, sets, request.set_number), request.target);
   StudyExport made{.conversions = conversions_of(facts, request.target)};
   base::ErrorList errors;
   for (const std::string& line : refusals(facts, request, made.conversions)) errors.add(line);
   errors.throw_if_any();
   made.files = files_for(request.target, facts, made.conversions);
-  made.files.push_back(readme_of(facts, request.target, made.conversions));
+  made.files.push_back(readme_of(facts, request, made.conversions, sets));
   made.warnings = warnings_of(facts);
   return made;
 }

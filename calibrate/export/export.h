@@ -41,6 +41,10 @@ struct FittedValue {
 /// The published method's are single points without intervals.
 std::vector<FittedValue> fitted_values(const StudyResult& result);
 
+/// The fitted values and the sets that fit as well, numbered from 1: the values of one belong
+/// together. Each in the order of fitted_values().
+std::vector<std::vector<double>> exported_sets(const StudyResult& result);
+
 /// How well the target's law stands for ours.
 enum class Fidelity {
   exact,        ///< the same equation
@@ -77,15 +81,20 @@ struct ExportRequest {
   ExportTarget target = ExportTarget::liggghts;
   /// Otherwise a coefficient whose conversion is approximate is refused.
   bool takes_approximate = false;
+  /// Of the equally good sets, the one whose values are exported; 1 is the best.
+  std::size_t set_number = 1;
 };
 
 /// Decks for the material, the contacts, the clump and each experiment of the study, and a
 /// README.txt that says what became of each coefficient.
-/// @param study  as simulated; coefficients that were sought are NaN in it, or have their value
-/// @throws std::invalid_argument  a coefficient without a value, or one that the target cannot have
-///   or has only approximately: all of them, a line each.
+/// @param study   as simulated; coefficients that were sought are NaN in it, or have their value
+/// @param fitted  names and intervals, and the values unless there are sets
+/// @param sets    of exported_sets(): request.set_number says which one; or none
+/// @throws std::invalid_argument  there is no set of that number; or a coefficient without a value,
+///   or one that the target cannot have or has only approximately: all of them, a line each.
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
-                         const std::vector<FittedValue>& fitted, const ExportRequest& request);
+                         const std::vector<FittedValue>& fitted, const ExportRequest& request,
+                         const std::vector<std::vector<double>>& sets = {});
 
 /// Writes each file whole or not at all, in place of those of an earlier export; makes the folder.
 /// @param is_ours  files of these names that are there are of an earlier version of repose

@@ -1,5 +1,8 @@
+#include <utility>
+
 #include "calibrate/export/export.h"
 #include "calibrate/result/result.h"
+#include "calibrate/result/summary_text.h"
 
 namespace repose::calibrate {
 
@@ -19,6 +22,19 @@ std::vector<FittedValue> fitted_values(const StudyResult& result) {
     values.push_back({.name = name, .value = value});
   }
   return values;
+}
+
+std::vector<std::vector<double>> exported_sets(const StudyResult& result) {
+  std::vector<std::vector<double>> sets;
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    for (EquivalentSet& set : good_sets(*joint)) sets.push_back(std::move(set.values));
+    return sets;
+  }
+  sets.emplace_back();
+  for (const auto& [name, value] : std::get<PublishedResult>(result.found).values) {
+    sets.back().push_back(value);
+  }
+  return sets;
 }
 
 }  // namespace repose::calibrate

@@ -85,11 +85,32 @@ void add_sizes(const ExportFacts& facts, ExportTarget target, DeckFields& fields
                            : "The grains of these decks all have the mean size.");
 }
 
+/// All of them, in our definitions.
+void add_sets(const ExportFacts& facts, const ExportRequest& request,
+              const std::vector<std::vector<double>>& sets, DeckFields& fields) {
+  if (sets.size() < 2) return;
+  DeckFields& all = fields.add_section("SETS");
+  all.set("WRITTEN", static_cast<int>(request.set_number));
+  all.set("COUNT", static_cast<int>(sets.size()));
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    DeckFields& one = all.add_section("SET");
+    one.set("NUMBER", static_cast<int>(k + 1));
+    for (std::size_t i = 0; i < sets[k].size(); ++i) {
+      DeckFields& value = one.add_section("OF_SET");
+      value.set("NAME", sanitized(facts.fitted().at(i).name));
+      value.set("VALUE", fmt::format("{:.4g}", sets[k][i]));
+    }
+  }
+}
+
 }  // namespace
 
-ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
-                       const std::vector<Conversion>& conversions) {
+ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
+                       const std::vector<Conversion>& conversions,
+                       const std::vector<std::vector<double>>& sets) {
+  const ExportTarget target = request.target;
   DeckFields fields = common_fields(facts);
+  add_sets(facts, request, sets, fields);
   fields.set("TARGET", program_of(target));
   fields.set("ROLLING_MODEL", dem::name_of(facts.study().model.rolling));
   fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));

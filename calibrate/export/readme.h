@@ -9,7 +9,9 @@ namespace repose::calibrate {
 
 /// README.txt of an export: how to run it, what became of each coefficient, what does not carry
 /// over.
-ExportedFile readme_of(const ExportFacts& facts, ExportTarget target,
-                       const std::vector<Conversion>& conversions);
+/// @param sets  those that fit as well as each other; of a single one nothing is said
+ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
+                       const std::vector<Conversion>& conversions,
+                       const std::vector<std::vector<double>>& sets);
 
 }  // namespace repose::calibrate

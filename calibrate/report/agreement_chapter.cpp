@@ -25,9 +25,52 @@ double bench_half_width(const ResultObservable& observable) {
                     half_width_95(shared));
 }
 
+/// The page's own: what was measured and simulated, how far apart they may be, and the verdict.
+Table brief_agreement_table(const JointResult& joint) {
+  Table table{.name = {},
+              .title =
+                  "Measured and simulated means; ± is the half-width of the measured mean’s "
+                  "95 % interval",
+              .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                                   {.name = "measured", .unit = {}},
+                                   {.name = "±", .unit = {}},
+                                   {.name = "simulated", .unit = {}},
+                                   {.name = "verdict", .unit = {}}},
+                       .rows = {}}};
+  for (const ResultObservable& observable : joint.observables) {
+    table.data.add({axis_of_observable(observable.name, observable.unit), cell(observable.measured),
+                    cell(bench_half_width(observable)), cell(observable.verification.simulated),
+                    name_of(observable.verification.verdict)});
+  }
+  return table;
+}
+
+Table brief_predictions_table(const JointResult& joint) {
+  Table table{.name = {},
+              .title =
+                  "Held out: not fitted, but predicted from the fit; ± is the half-width of "
+                  "the 95 % interval",
+              .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                                   {.name = "measured", .unit = {}},
+                                   {.name = "predicted", .unit = {}},
+                                   {.name = "±", .unit = {}},
+                                   {.name = "verdict", .unit = {}}},
+                       .rows = {}}};
+  for (const Prediction& prediction : joint.held_out) {
+    table.data.add({axis_of_observable(prediction.name, prediction.unit), cell(prediction.measured),
+                    cell(prediction.predicted),
+                    cell((prediction.interval.high - prediction.interval.low) / 2),
+                    name_of(prediction.verdict)});
+  }
+  return table;
+}
+
+/// Of all measured quantities, in full.
 Table agreement_table(const JointResult& joint) {
   Table table{.name = "agreement",
-              .title = "Measured and simulated means; ± is the half-width of the 95 % interval",
+              .title =
+                  "Measured, fitted and simulated means; ± is the half-width of the 95 % "
+                  "interval",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "measured", .unit = {}},
                                    {.name = "±", .unit = {}},
@@ -67,7 +110,7 @@ Table reach_table(const JointResult& joint) {
 
 Table verdicts_table(const JointResult& joint) {
   Table table{.name = "agreement_verdicts",
-              .title = "Do they agree?",
+              .title = "How it was decided whether they agree",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "simulated − measured", .unit = {}},
                                    {.name = "90 % from", .unit = {}},
@@ -156,7 +199,7 @@ std::optional<double> possible_end(const Prediction& prediction, bool is_high) {
 
 Table predictions_table(const JointResult& joint) {
   Table table{.name = "held_out",
-              .title = "Held out: not fitted, but predicted from the fit",
+              .title = "Predictions of what was held out, in full",
               .data = {.columns = {{.name = "measured quantity", .unit = {}},
                                    {.name = "measured", .unit = {}},
                                    {.name = "standard uncertainty", .unit = {}},
@@ -183,7 +226,7 @@ Table predictions_table(const JointResult& joint) {
 
 void add_predictions(const JointResult& joint, Chapter& chapter) {
   if (joint.held_out.empty()) return;
-  chapter.blocks.push_back(predictions_table(joint));
+  chapter.blocks.push_back(brief_predictions_table(joint));
   for (const Prediction& prediction : joint.held_out) {
     chapter.blocks.push_back(Paragraph{prediction_text(prediction) + '.'});
   }
@@ -205,6 +248,24 @@ struct SensitivityWords {
   std::string heading;       ///< its title,
   std::string use;           ///< and with what grains to use them
 };
+
+Table brief_sensitivity_table(const std::vector<SensitivityCheck>& readings,
+                              const SensitivityWords& words) {
+  Table table{.name = {},
+              .title = words.title + "; ± is the half-width of the 95 % interval",
+              .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                                   {.name = "change", .unit = {}},
+                                   {.name = "±", .unit = {}},
+                                   {.name = "limit", .unit = {}},
+                                   {.name = "verdict", .unit = {}}},
+                       .rows = {}}};
+  for (const SensitivityCheck& check : readings) {
+    table.data.add({axis_of_observable(check.name, check.unit), cell(check.change),
+                    cell((check.interval.high - check.interval.low) / 2), cell(check.limit),
+                    name_of(check.verdict)});
+  }
+  return table;
+}
 
 Table sensitivity_table(const std::vector<SensitivityCheck>& readings,
                         const SensitivityWords& words) {
@@ -248,7 +309,7 @@ void add_sensitivity(const std::vector<SensitivityCheck>& readings,
                      const std::vector<MovedCoefficient>& coefficients,
                      const SensitivityWords& words, Chapter& chapter) {
   if (readings.empty()) return;
-  chapter.blocks.push_back(sensitivity_table(readings, words));
+  chapter.blocks.push_back(brief_sensitivity_table(readings, words));
   chapter.blocks.push_back(Paragraph{fmt::format(
       "{} The limit is the half-width of the 95 % interval of the bench's mean. Agrees: the change "
       "is shown to be within it. Disagrees: it is more than chance makes, and the coefficients "
@@ -264,47 +325,48 @@ void add_sensitivity(const std::vector<SensitivityCheck>& readings,
                             words.use)});
 }
 
+SensitivityWords stiffness_words() {
+  return {.table = "stiffness_checks",
+          .title = "Stiffer grains at the same coefficients",
+          .input = {.name = "stiffness factor", .unit = {}},
+          .explanation =
+              "The grains of these experiments are softer than real ones, since softer "
+              "grains are simulated faster. Simulated again with stiffer ones, the "
+              "readings change by so much.",
+          .coefficients = "stiffer_coefficients",
+          .heading = "Coefficients for the stiffer grains",
+          .use =
+              "Use them with grains as stiff as those; with the study's softer grains use the "
+              "coefficients of the answer."};
+}
+
+SensitivityWords shape_words(const ShapeCheck& shape) {
+  return {.table = "shape_check",
+          .title = "More spheres at the same coefficients",
+          .input = {.name = "spheres", .unit = {}, .decimals = 0},
+          .explanation = fmt::format(
+              "The coefficients belong to a clump of this many spheres: {}. Simulated again with "
+              "more, which follow the surface closer{} and touch in more places at once, the "
+              "readings change by so much.",
+              shape.spheres,
+              shape.finer_volume_error
+                  ? fmt::format(" (volume error {:.1f} %)", 100 * *shape.finer_volume_error)
+                  : ""),
+          .coefficients = "finer_coefficients",
+          .heading = "Coefficients for more spheres",
+          .use =
+              "Use them with a grain of that many spheres; with the study's use the "
+              "coefficients of the answer."};
+}
+
 void add_stiffness(const JointResult& joint, Chapter& chapter) {
-  add_sensitivity(
-      joint.stiffness_checks, joint.stiffer_coefficients,
-      {.table = "stiffness_checks",
-       .title = "Stiffer grains at the same coefficients",
-       .input = {.name = "stiffness factor", .unit = {}},
-       .explanation =
-           "The grains of these experiments are softer than real ones, since softer "
-           "grains are simulated faster. Simulated again with stiffer ones, the readings "
-           "change by so much.",
-       .coefficients = "stiffer_coefficients",
-       .heading = "Coefficients for the stiffer grains",
-       .use = "Use them with grains as stiff as those; with the study's softer grains use the "
-              "coefficients of the answer."},
-      chapter);
+  add_sensitivity(joint.stiffness_checks, joint.stiffer_coefficients, stiffness_words(), chapter);
 }
 
 void add_shape(const JointResult& joint, Chapter& chapter) {
   if (!joint.shape_check) return;  // an earlier version's
   const ShapeCheck& shape = *joint.shape_check;
-  add_sensitivity(
-      shape.readings, shape.coefficients,
-      {.table = "shape_check",
-       .title = "More spheres at the same coefficients",
-       .input = {.name = "spheres", .unit = {}, .decimals = 0},
-       .explanation = fmt::format(
-           "The coefficients belong to a clump of this many spheres: {}. Simulated again with "
-           "more, "
-           "which follow the surface closer{} and touch in more places at once, the readings "
-           "change "
-           "by so much.",
-           shape.spheres,
-           shape.finer_volume_error
-               ? fmt::format(" (volume error {:.1f} %)", 100 * *shape.finer_volume_error)
-               : ""),
-       .coefficients = "finer_coefficients",
-       .heading = "Coefficients for more spheres",
-       .use =
-           "Use them with a grain of that many spheres; with the study's use the coefficients of "
-           "the answer."},
-      chapter);
+  add_sensitivity(shape.readings, shape.coefficients, shape_words(shape), chapter);
   const std::string open = shape_check_text(shape);
   if (!open.empty()) chapter.blocks.push_back(Paragraph{open});
 }
@@ -313,14 +375,14 @@ Table candidates_table(const JointResult& joint) {
   Table table{.name = "rolling_models",
               .title = "Rolling models fitted to the same readings",
               .data = {.columns = {{.name = "rolling model", .unit = {}},
-                                   {.name = "deviance of means", .unit = {}, .decimals = 1},
-                                   {.name = "deviance of scatter", .unit = {}, .decimals = 1},
+                                   {.name = "score of means", .unit = {}, .decimals = 1},
+                                   {.name = "score of scatter", .unit = {}, .decimals = 1},
                                    {.name = "sum", .unit = {}, .decimals = 1},
                                    {.name = "bench and simulation", .unit = {}}},
                        .rows = {}}};
   for (const Candidate& candidate : joint.candidates) {
     table.data.add({candidate.name, cell(candidate.means), cell(candidate.scatter),
-                    cell(deviance_of(candidate)), name_of(candidate.verdict)});
+                    cell(candidate_score(candidate)), name_of(candidate.verdict)});
   }
   return table;
 }
@@ -330,9 +392,11 @@ void add_candidates(const JointResult& joint, Chapter& chapter) {
   if (joint.candidates.size() < 2) return;
   chapter.blocks.push_back(candidates_table(joint));
   chapter.blocks.push_back(Paragraph{fmt::format(
-      "The study was also fitted with other rolling models. Of these, {}. The deviance is minus "
-      "twice the logarithm of how much less likely a model makes the readings than a simulation "
-      "that gives exactly their means and scatters no more than they do.",
+      "The study was also fitted with other rolling models. Of these, {}. The score is the "
+      "sum of two parts, and the lower the better: the χ² with the probability of all differences "
+      "of means together, and how much more single readings scatter than the bench’s, by the "
+      "likelihood ratio of equal variances. It ranks these models on these readings; it is no "
+      "probability that one of them is right.",
       candidates_text(joint.candidates))});
 }
 
@@ -340,11 +404,26 @@ void add_candidates(const JointResult& joint, Chapter& chapter) {
 
 Chapter agreement_chapter(const JointResult& joint) {
   Chapter chapter{.id = "agreement", .title = "Bench and simulation", .blocks = {}};
+  add_predictions(joint, chapter);
   chapter.blocks.push_back(Paragraph{titled(joint.agreement.text) + '.'});
+  chapter.blocks.push_back(brief_agreement_table(joint));
   chapter.blocks.push_back(Paragraph{rounds_text(joint)});
   if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
     chapter.blocks.push_back(Paragraph{titled(freedom) + '.'});
   }
+  chapter.blocks.push_back(Paragraph{
+      "Agrees: the difference is shown to be within the margin. Disagrees: it is more than "
+      "chance makes. Cannot tell: neither is shown. All numbers behind these verdicts are in the "
+      "appendix, under “Range, checks and scatter”."});
+  add_assumed_scatter(joint, chapter.blocks);
+  add_stiffness(joint, chapter);
+  add_shape(joint, chapter);
+  add_candidates(joint, chapter);
+  return chapter;
+}
+
+Chapter checks_chapter(const JointResult& joint) {
+  Chapter chapter{.id = "checks", .title = "Range, checks and scatter", .blocks = {}};
   chapter.blocks.push_back(agreement_table(joint));
   chapter.blocks.push_back(Paragraph{"σ is the standard uncertainty of the difference."});
   chapter.blocks.push_back(verdicts_table(joint));
@@ -362,15 +441,14 @@ Chapter agreement_chapter(const JointResult& joint) {
       "or "
       "that the bench readings are too uncertain for any number of runs to decide; likewise for "
       "readings."});
-  add_predictions(joint, chapter);
-  add_stiffness(joint, chapter);
-  add_shape(joint, chapter);
-  add_candidates(joint, chapter);
-  return chapter;
-}
-
-Chapter checks_chapter(const JointResult& joint) {
-  Chapter chapter{.id = "checks", .title = "Range, checks and scatter", .blocks = {}};
+  if (!joint.held_out.empty()) chapter.blocks.push_back(predictions_table(joint));
+  if (!joint.stiffness_checks.empty()) {
+    chapter.blocks.push_back(sensitivity_table(joint.stiffness_checks, stiffness_words()));
+  }
+  if (joint.shape_check && !joint.shape_check->readings.empty()) {
+    chapter.blocks.push_back(
+        sensitivity_table(joint.shape_check->readings, shape_words(*joint.shape_check)));
+  }
   chapter.blocks.push_back(reach_table(joint));
   chapter.blocks.push_back(surrogate_table(joint));
   chapter.blocks.push_back(scatter_table(joint));

@@ -1,45 +1,13 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 #include "calibrate/result/agreement_text.h"
 #include "calibrate/result/bench_errors_text.h"
+#include "calibrate/result/summary_text.h"
 
 namespace repose::calibrate::report {
 namespace {
-
-std::string verdicts_text(const JointResult& joint) {
-  const auto with = [&](Verdict verdict) {
-    return std::count_if(
-        joint.parameters.begin(), joint.parameters.end(),
-        [&](const ResultParameter& parameter) { return parameter.verdict == verdict; });
-  };
-  const auto determined = with(Verdict::determined);
-  const auto all = static_cast<long>(joint.parameters.size());
-  std::string text =
-      determined == all
-          ? fmt::format("All {} coefficients are determined by these measurements.", all)
-          : fmt::format("{} of {} coefficients are determined by these measurements.", determined,
-                        all);
-  if (const auto bounded = with(Verdict::bounded); bounded > 0) {
-    text += fmt::format(" {} {} bounded: known to an interval, not to a value; use the interval.",
-                        bounded, bounded == 1 ? "is" : "are");
-  }
-  if (const auto one_sided = with(Verdict::one_sided); one_sided > 0) {
-    text += fmt::format(" For {}, only one end of the interval is determined.", one_sided);
-  }
-  if (const auto open = with(Verdict::undetermined); open > 0) {
-    text +=
-        fmt::format(" {} cannot be determined: any value in the interval fits these data.", open);
-  }
-  text += fmt::format(" Simulated again with fresh seeds, {}.", joint.agreement.text);
-  if (joint.verdict == AgreementVerdict::disagrees) {
-    text += " Do not use these coefficients until you know why.";
-  }
-  return text;
-}
 
 /// "determined if single readings of roll scatter by 35 %".
 std::string conditional_verdict(const JointResult& joint, const ResultParameter& parameter) {
@@ -47,54 +15,55 @@ std::string conditional_verdict(const JointResult& joint, const ResultParameter&
   return name_of(parameter.verdict) + (condition.empty() ? "" : ' ' + condition);
 }
 
-Table coefficients_table(const JointResult& joint) {
-  Table table{.name = "coefficients",
-              .title = "Contact coefficients with 95 % intervals",
+constexpr std::size_t kLongestSentence = 2000;
+
+/// To be read on any screen and pasted into any document: short cells of plain text. Numbers of the
+/// same are in uncertainty_table().
+Table answer_table(const JointResult& joint) {
+  Table table{.name = {},
+              .title = has_open_coefficients(joint)
+                           ? "Coefficients one by one: an interval says nothing of which values "
+                             "go together"
+                           : "Contact coefficients",
               .data = {.columns = {{.name = "coefficient", .unit = {}},
                                    {.name = "value", .unit = {}, .decimals = 3},
-                                   {.name = "95 % from", .unit = {}, .decimals = 3},
-                                   {.name = "95 % to", .unit = {}, .decimals = 3},
-                                   {.name = "lower bound", .unit = {}},
-                                   {.name = "upper bound", .unit = {}},
+                                   {.name = "95 % interval", .unit = {}},
                                    {.name = "verdict", .unit = {}}},
-                       .rows = {}},
-              .strip = {{1, 2, 3, 4, 5}}};
-  for (const ResultParameter& parameter : joint.parameters) {
-    table.data.add({label_of(parameter.name), cell(parameter.value), cell(parameter.interval.low),
-                    cell(parameter.interval.high), cell(parameter.bounds.low),
-                    cell(parameter.bounds.high), conditional_verdict(joint, parameter)});
-  }
-  return table;
-}
-
-/// What computing and measuring more would do to the widths of the intervals.
-Table narrowing_table(const JointResult& joint) {
-  Table table{.name = "narrowing",
-              .title = "Width of the 95 % interval, now and foreseen",
-              .data = {.columns = {{.name = "coefficient", .unit = {}},
-                                   {.name = "now", .unit = {}, .decimals = 3},
-                                   {.name = "one more core hour", .unit = {}, .decimals = 3},
-                                   {.name = "exact simulation", .unit = {}, .decimals = 3},
-                                   {.name = "four times the readings", .unit = {}, .decimals = 3}},
                        .rows = {}}};
   for (const ResultParameter& parameter : joint.parameters) {
-    if (!parameter.narrowing) continue;
-    const double width = parameter.interval.high - parameter.interval.low;
-    table.data.add({label_of(parameter.name), cell(width), cell(width * parameter.narrowing->hour),
-                    cell(width * parameter.narrowing->exact),
-                    cell(width * parameter.narrowing->readings)});
+    table.data.add({label_of(parameter.name), cell(parameter.value),
+                    fmt::format("{} to {}", shown(parameter.interval.low, 3),
+                                shown(parameter.interval.high, 3)),
+                    conditional_verdict(joint, parameter)});
   }
   return table;
 }
 
-void add_narrowing(const JointResult& joint, Chapter& chapter) {
-  Table table = narrowing_table(joint);
-  if (table.data.rows.empty()) return;
-  chapter.blocks.push_back(Heading{"What would narrow the intervals"});
-  chapter.blocks.push_back(std::move(table));
-  chapter.blocks.push_back(Paragraph{
-      "Roughly foreseen from the fit. Where exact simulation would hardly narrow an interval, a "
-      "larger budget is no use: measure more, or another experiment."});
+Table sets_table(const JointResult& joint) {
+  Table table{.name = "equivalence_sets",
+              .title = "Equally good sets, the best one first",
+              .data = {.columns = {{.name = "set", .unit = {}, .decimals = 0}}, .rows = {}}};
+  for (const ResultParameter& parameter : joint.parameters) {
+    table.data.columns.push_back({.name = label_of(parameter.name), .unit = {}, .decimals = 3});
+  }
+  table.data.columns.push_back({.name = "χ² above the minimum", .unit = {}, .decimals = 2});
+  table.data.columns.push_back({.name = "simulated", .unit = {}});
+  double number = 0;
+  for (const EquivalentSet& set : good_sets(joint)) {
+    std::vector<Cell> row = {++number};
+    for (const double value : set.values) row.push_back(cell(value));
+    row.push_back(cell(set.chi2));
+    row.emplace_back(set.verdict ? name_of(*set.verdict) : std::string("not checked"));
+    table.data.add(std::move(row));
+  }
+  return table;
+}
+
+/// Where coefficients have no value of their own, what can be used in their place.
+void add_sets(const JointResult& joint, Chapter& chapter) {
+  if (joint.equivalence_family.empty()) return;
+  if (has_open_coefficients(joint)) chapter.blocks.push_back(Remark{kUseOneRow});
+  chapter.blocks.push_back(sets_table(joint));
 }
 
 /// Sentences of the advice, each once.
@@ -132,21 +101,24 @@ PictureRow heaps_side_by_side(const HeapPictures& pictures) {
 
 Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   Chapter chapter{.id = "answer", .title = "The answer", .blocks = {}};
-  chapter.blocks.push_back(Paragraph{verdicts_text(joint)});
-  chapter.blocks.push_back(coefficients_table(joint));
+  for (const std::string& sentence : summary_sentences(joint)) {
+    chapter.blocks.push_back(Paragraph{shortened(sentence, kLongestSentence)});
+  }
+  const bool sets_first = has_open_coefficients(joint);
+  if (sets_first) add_sets(joint, chapter);
+  chapter.blocks.push_back(answer_table(joint));
   for (const ResultParameter& parameter : joint.parameters) {
     const std::string text = bounds_text(parameter);
     if (text.empty()) continue;
     chapter.blocks.push_back(Remark{titled(label_of(parameter.name)) + ": " + text + '.'});
   }
+  if (!sets_first) add_sets(joint, chapter);
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
   chapter.blocks.push_back(Paragraph{
       "These coefficients are valid only with their clump, contact model, damping, stiffness and "
-      "time step, "
-      "which are listed under “Provenance”. In another program the same number may have a "
-      "different "
-      "meaning."});
+      "time step, which are listed under “Provenance”. In another program the same number may have "
+      "a different meaning."});
   const std::vector<std::string> advice = advice_of(joint);
   if (!advice.empty()) {
     chapter.blocks.push_back(Heading{"How to determine the others"});
@@ -157,8 +129,6 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
                    lines_of(joint.additions)});
     }
   }
-  add_assumed_scatter(joint, chapter.blocks);
-  add_narrowing(joint, chapter);
   return chapter;
 }
 

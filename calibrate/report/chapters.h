@@ -9,7 +9,7 @@
 /// The chapters of a study's report. One with nothing to show has no blocks.
 namespace repose::calibrate::report {
 
-/// Coefficients, intervals, verdicts, and both heaps.
+/// What was found in sentences, equally good sets, coefficients, and both heaps.
 Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures);
 /// What coefficients would be if readings scattered otherwise than was assumed.
 void add_assumed_scatter(const JointResult& joint, std::vector<Block>& blocks);
@@ -17,7 +17,7 @@ void add_assumed_scatter(const JointResult& joint, std::vector<Block>& blocks);
 Chapter protocol_chapter(const ReportedStudy& study);
 /// What bench and simulation gave.
 Chapter agreement_chapter(const JointResult& joint);
-/// How that was decided: what the fit had expected, and how readings scatter.
+/// How that was decided, in full: what the fit had expected, and how readings scatter.
 Chapter checks_chapter(const JointResult& joint);
 /// Along each coefficient the experiment that tells it best.
 Chapter telling_curves_chapter(const ReportedStudy& study, const JointResult& joint);
@@ -25,9 +25,7 @@ Chapter telling_curves_chapter(const ReportedStudy& study, const JointResult& jo
 Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint);
 /// Each observable over pairs of coefficients, with the line on which it has the measured value.
 Chapter surfaces_chapter(const ReportedStudy& study, const JointResult& joint);
-/// Equally good parameter sets.
-Chapter family_chapter(const JointResult& joint);
-/// Profile likelihoods, correlations.
+/// The coefficients in numbers, profile likelihoods, correlations, what would narrow them.
 Chapter knowledge_chapter(const JointResult& joint);
 /// Polynomials through the runs, with their analysis of variance.
 Chapter statistics_chapter(const JointResult& joint);

@@ -156,7 +156,7 @@ std::optional<HeapCamera> stated_camera(const ReportedStudy& study) {
 MeasuredHeap rendered(const HeapViewSession& session, int view) {
   render::Renderer renderer;
   TakenView taken = session.take(renderer, view);
-  return {.title = fmt::format("from {}°", 180 * view / session.views()),
+  return {.title = fmt::format("from {}° (rendering)", 180 * view / session.views()),
           .picture = std::move(taken.picture),
           .angle = std::move(taken.angle)};
 }
@@ -169,13 +169,14 @@ ShownPicture camera_look(const render::Scene& scene, const HeapCamera& camera,
   render::PhotoStyle style = render::photo_of_grains(grain_colour);
   style.passes = kPasses;
   render::Renderer renderer;
-  MeasuredHeap heap{.title = "as a camera sees it", .picture = {}, .angle = {}};
+  MeasuredHeap heap{.title = "as a camera sees it (rendering)", .picture = {}, .angle = {}};
   heap.picture = renderer.draw(scene, render::camera_on(stand, scene, kSize), kSize, style).picture;
   heap.angle = vision::measure_repose_angle(heap.picture);
-  if (heap.angle.angle_rad) return with_overlay(heap, kSize.width, "Simulated heap");
+  if (heap.angle.angle_rad) return with_overlay(heap, kSize.width, "Simulated heap,");
   return shown_picture(
-      heap.picture, kSize.width, "The simulated heap as a camera would see it",
-      "The heap simulated with the fitted coefficients, as a camera would see it.");
+      heap.picture, kSize.width, "Rendering of the simulated heap as a camera would see it",
+      "Rendering, not a photograph: the heap simulated with the fitted coefficients, as a camera "
+      "would see it.");
 }
 
 Table comparison_table(const vision::HeapComparison& comparison) {
@@ -284,7 +285,7 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
     for (int view = 0; view < session.views(); ++view) {
       MeasuredHeap heap = rendered(session, view);
       if (!compared && heap.angle.angle_rad) shown.best_render = shown.renders.size();
-      shown.renders.push_back(with_overlay(heap, kRenderSide_px, "Simulated heap"));
+      shown.renders.push_back(with_overlay(heap, kRenderSide_px, "Simulated heap,"));
       if (!compared && heap.angle.angle_rad) compared = std::move(heap);
     }
     constexpr HeapCamera kUsual{.distance_m = 1.5, .height_m = .038};
@@ -345,9 +346,10 @@ Chapter heap_chapter(const HeapPictures& pictures) {
     }
   }
   if (!pictures.renders.empty()) {
-    chapter.blocks.push_back(Heading{"The simulated heap from three sides"});
+    chapter.blocks.push_back(Heading{"Renderings of the simulated heap from three sides"});
     chapter.blocks.push_back(
-        Paragraph{"Of the last check's heaps, the one whose angle is nearest to the mean of all."});
+        Paragraph{"Drawn by the program, not photographed. Of the last check's heaps, the one "
+                  "whose angle is nearest to the mean of all."});
     chapter.blocks.push_back(PictureRow{pictures.renders});
   }
   if (pictures.outlines) add_comparison(pictures, chapter);

@@ -102,7 +102,7 @@ Chart heap_model(const render::Scene& scene) {
   constexpr std::size_t kFineHeap = 1000;
   Chart chart{.name = "heap",
               .kind = ChartKind::heap,
-              .title = "The simulated heap",
+              .title = "The simulated heap, drawn by the program",
               .caption = {},
               .x_title = "x [mm]",
               .y_title = "y [mm]",

@@ -7,6 +7,7 @@
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/result/summary_text.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -42,9 +43,10 @@ Chart profile_chart(const ResultParameter& parameter) {
 }
 
 Chart family_chart(const JointResult& joint) {
-  Chart chart = plane_chart("equivalence_family", "Where they lie between the bounds",
-                            {.name = "coefficient", .unit = {}},
-                            {.name = "position between the bounds, 0 … 1", .unit = {}});
+  Chart chart =
+      plane_chart("equivalence_family", "Where the equally good sets lie between the bounds",
+                  {.name = "coefficient", .unit = {}},
+                  {.name = "position between the bounds, 0 … 1", .unit = {}});
   chart.x_title = "";
   chart.y_range = {{-0.05, 1.05}};
   chart.caption =
@@ -56,34 +58,63 @@ Chart family_chart(const JointResult& joint) {
         chart, series, Look::line, label_of(parameter.name),
         cell((value - parameter.bounds.low) / (parameter.bounds.high - parameter.bounds.low)));
   };
-  for (std::size_t k = 0; k < joint.parameters.size(); ++k) {
-    add("best fit", k, joint.parameters[k].value);
-  }
   int number = 0;
-  for (const EquivalentSet& set : joint.equivalence_family) {
+  for (const EquivalentSet& set : good_sets(joint)) {
     const std::string series = fmt::format("set {}", ++number);
     for (std::size_t k = 0; k < set.values.size(); ++k) add(series, k, set.values[k]);
   }
   return chart;
 }
 
-Table family_table(const JointResult& joint) {
-  Table table{.name = "equivalence_sets", .title = {}, .data = {}};
-  table.data.columns = {{.name = "set", .unit = {}}};
+/// The answer in numbers, between the bounds.
+Table uncertainty_table(const JointResult& joint) {
+  Table table{.name = "coefficients",
+              .title = "Contact coefficients with 95 % intervals",
+              .data = {.columns = {{.name = "coefficient", .unit = {}},
+                                   {.name = "value", .unit = {}, .decimals = 3},
+                                   {.name = "95 % from", .unit = {}, .decimals = 3},
+                                   {.name = "95 % to", .unit = {}, .decimals = 3},
+                                   {.name = "lower bound", .unit = {}},
+                                   {.name = "upper bound", .unit = {}},
+                                   {.name = "verdict", .unit = {}}},
+                       .rows = {}},
+              .strip = {{1, 2, 3, 4, 5}}};
   for (const ResultParameter& parameter : joint.parameters) {
-    table.data.columns.push_back({.name = label_of(parameter.name), .unit = {}});
-  }
-  table.data.columns.push_back({.name = "χ² above the minimum", .unit = {}, .decimals = 2});
-  table.data.columns.push_back({.name = "simulated", .unit = {}});
-  int number = 0;
-  for (const EquivalentSet& set : joint.equivalence_family) {
-    std::vector<Cell> row = {fmt::format("{}", ++number)};
-    for (const double value : set.values) row.push_back(cell(value));
-    row.push_back(cell(set.chi2));
-    row.emplace_back(set.verdict ? name_of(*set.verdict) : std::string("not checked"));
-    table.data.add(std::move(row));
+    table.data.add({label_of(parameter.name), cell(parameter.value), cell(parameter.interval.low),
+                    cell(parameter.interval.high), cell(parameter.bounds.low),
+                    cell(parameter.bounds.high), name_of(parameter.verdict)});
   }
   return table;
+}
+
+/// What computing and measuring more would do to the widths of the intervals.
+Table narrowing_table(const JointResult& joint) {
+  Table table{.name = "narrowing",
+              .title = "Width of the 95 % interval, now and foreseen",
+              .data = {.columns = {{.name = "coefficient", .unit = {}},
+                                   {.name = "now", .unit = {}, .decimals = 3},
+                                   {.name = "one more core hour", .unit = {}, .decimals = 3},
+                                   {.name = "exact simulation", .unit = {}, .decimals = 3},
+                                   {.name = "four times the readings", .unit = {}, .decimals = 3}},
+                       .rows = {}}};
+  for (const ResultParameter& parameter : joint.parameters) {
+    if (!parameter.narrowing) continue;
+    const double width = parameter.interval.high - parameter.interval.low;
+    table.data.add({label_of(parameter.name), cell(width), cell(width * parameter.narrowing->hour),
+                    cell(width * parameter.narrowing->exact),
+                    cell(width * parameter.narrowing->readings)});
+  }
+  return table;
+}
+
+void add_narrowing(const JointResult& joint, Chapter& chapter) {
+  Table table = narrowing_table(joint);
+  if (table.data.rows.empty()) return;
+  chapter.blocks.push_back(Heading{"What would narrow the intervals"});
+  chapter.blocks.push_back(std::move(table));
+  chapter.blocks.push_back(Paragraph{
+      "Roughly foreseen from the fit. Where exact simulation would hardly narrow an interval, a "
+      "larger budget is no use: measure more, or another experiment."});
 }
 
 Table correlation_table(const JointResult& joint) {
@@ -105,16 +136,12 @@ Table correlation_table(const JointResult& joint) {
 
 }  // namespace
 
-Chapter family_chapter(const JointResult& joint) {
-  Chapter chapter{.id = "family", .title = "Equally good parameter sets", .blocks = {}};
-  if (joint.equivalence_family.empty()) return chapter;
-  chapter.blocks.push_back(ChartRow{{family_chart(joint)}});
-  chapter.blocks.push_back(family_table(joint));
-  return chapter;
-}
-
 Chapter knowledge_chapter(const JointResult& joint) {
   Chapter chapter{.id = "knowledge", .title = "Uncertainty", .blocks = {}};
+  chapter.blocks.push_back(uncertainty_table(joint));
+  if (!joint.equivalence_family.empty()) {
+    chapter.blocks.push_back(ChartRow{{family_chart(joint)}});
+  }
   ChartRow profiles;
   for (const ResultParameter& parameter : joint.parameters) {
     Chart chart = profile_chart(parameter);
@@ -132,6 +159,7 @@ Chapter knowledge_chapter(const JointResult& joint) {
     chapter.blocks.push_back(Heading{"Correlations"});
     chapter.blocks.push_back(correlation_table(joint));
   }
+  add_narrowing(joint, chapter);
   return chapter;
 }
 

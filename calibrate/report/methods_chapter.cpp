@@ -121,13 +121,35 @@ void add_angle(bool has_photographs, Methods& methods) {
                        "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})");
 }
 
+/// Where the simulations of the fit were made, round by round.
+std::string runs_text(const JointResult& joint) {
+  const auto all = static_cast<int>(joint.runs.size());
+  const std::string made = fmt::format("{} simulations entered the fit", all);
+  // Rounds count what was planned so far; the checks' runs follow.
+  if (joint.rounds.empty() || joint.rounds.back().jobs > all) return made + '.';
+  const int spread = joint.rounds.front().jobs;
+  const int placed = joint.rounds.back().jobs - spread;
+  const int checks = all - spread - placed;
+  std::string text = fmt::format("{}: {} were spread over the bounds", made, spread);
+  if (placed > 0) {
+    text += fmt::format(
+        "; {} more, in {} further round{}, were made at coefficients that those "
+        "before left plausible or little known",
+        placed, joint.rounds.size() - 1, joint.rounds.size() == 2 ? "" : "s");
+  }
+  if (checks > 0) {
+    text +=
+        fmt::format("; {} checked the best fits and equally good sets with fresh seeds", checks);
+  }
+  return text + '.';
+}
+
 void add_joint_fit(const JointResult& joint, Methods& methods) {
   methods.add(fmt::format(
-      "All {} coefficients were fitted to all {} measured means at once. {} simulations "
-      "were spread over the bounds; each measured quantity was described by a Gaussian "
-      "process with expectation fᵢ and variance vᵢ (Matérn 5/2, seed noise included), and "
-      "the coefficients x minimise",
-      joint.parameters.size(), joint.observables.size(), joint.runs.size()));
+      "All {} coefficients were fitted to all {} measured means at once. {} Each measured "
+      "quantity was described by a Gaussian process with expectation fᵢ and variance vᵢ (Matérn "
+      "5/2, seed noise included), and the coefficients x minimise",
+      joint.parameters.size(), joint.observables.size(), runs_text(joint)));
   methods.add_equation(
       "χ²(x) = Σᵢ (fᵢ(x) − mᵢ)² / (uᵢ² + vᵢ(x)),  uᵢ = (sᵢ/√nᵢ) · t(0.975; nᵢ−1)/1.960",
       "\\chi^2(x) = \\sum_i \\frac{(f_i(x)-m_i)^2}{u_i^2+v_i(x)}, \\quad "

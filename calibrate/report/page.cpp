@@ -1,6 +1,7 @@
 #include "calibrate/report/page.h"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -8,6 +9,7 @@
 #include <ctemplate/template_cache.h>
 #include <fmt/format.h>
 
+#include "base/base64.h"
 #include "base/text.h"
 #include "calibrate/report/tables.h"
 #include "calibrate/report/wording.h"
@@ -125,6 +127,12 @@ void fill(const CodeText& code, Dictionary& block) {
   into.SetValue("TEXT", code.text);
 }
 
+void add_link(const std::string& id, const std::string& title, Dictionary& menu) {
+  Dictionary& link = *menu.AddSectionDictionary("LINK");
+  link.SetValue("ID", id);
+  link.SetValue("TEXT", title);
+}
+
 ctemplate::TemplateString without_copy(std::string_view text) { return {text.data(), text.size()}; }
 
 }  // namespace
@@ -138,16 +146,16 @@ std::string html_of(const Document& document) {
     page.AddSectionDictionary("STATE")->SetValue("TEXT", document.state);
   }
   bool is_appendix = false;
+  Dictionary* appendix = nullptr;  // whose chapters have a menu of their own
   for (const Chapter& chapter : document.chapters) {
     const bool begins_appendix = chapter.is_appendix && !is_appendix;
     is_appendix = chapter.is_appendix;
-    Dictionary& link = *page.AddSectionDictionary("LINK");
-    link.SetValue("ID", chapter.id);
-    link.SetValue("TEXT", chapter.title);
     Dictionary& section = *page.AddSectionDictionary("CHAPTER");
-    for (Dictionary* part : {&link, &section}) {
-      if (begins_appendix) part->ShowSection("APPENDIX");
+    if (begins_appendix) {
+      add_link("appendix", "Appendix", page);
+      appendix = section.AddSectionDictionary("APPENDIX");
     }
+    add_link(chapter.id, chapter.title, is_appendix ? *appendix : page);
     section.SetValue("ID", chapter.id);
     section.SetValue("TITLE", chapter.title);
     for (const Block& block : chapter.blocks) {
@@ -159,9 +167,12 @@ std::string html_of(const Document& document) {
   page.SetValueWithoutCopy("DATA", without_copy(data));
   page.SetValueWithoutCopy("STYLE", without_copy(embedded_file("report/page/report.css")));
   page.SetValueWithoutCopy("SCRIPT", without_copy(embedded_file("report/page/report.js")));
-  page.SetValueWithoutCopy(
-      "PLOTLY",
-      without_copy(embedded_file("report/node_modules/plotly.js-dist-min/plotly.min.js")));
+  page.SetValueWithoutCopy("INFLATE", without_copy(embedded_file("report/page/inflate.js")));
+  // Its header has the time at which the program was built, and is not needed.
+  constexpr std::size_t kGzipHeader = 10;
+  const std::string_view plotly = embedded_file("plotly.min.js.gz").substr(kGzipHeader);
+  const std::string packed = base::base64_of(std::as_bytes(std::span(plotly)));
+  page.SetValueWithoutCopy("PLOTLY", without_copy(packed));
 
   ctemplate::TemplateCache templates;
   const std::string_view html = embedded_file("report/page/report.html");

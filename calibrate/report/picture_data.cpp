@@ -29,8 +29,8 @@ ShownPicture shown_picture(const vision::Picture& picture, int longest_side_px,
 }
 
 int longest_side_px(std::size_t pictures) {
-  // Some 120 kB a picture of 1000 px; together not much more than 2 MB.
-  constexpr double kLargest = 1000, kSmallest = 160, kFullSized = 14;
+  // Some 120 kB a picture of 1000 px; together not much more than 0.6 MB.
+  constexpr double kLargest = 1000, kSmallest = 160, kFullSized = 5;
   const double fraction = kFullSized / std::max(kFullSized, static_cast<double>(pictures));
   return static_cast<int>(std::max(kSmallest, kLargest * std::sqrt(fraction)));
 }

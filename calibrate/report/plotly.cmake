@@ -15,4 +15,11 @@ if(NOT found STREQUAL wanted OR NOT EXISTS ${modules}/plotly.js-dist-min/plotly.
     "Fix: run ./setup.sh, or with npm installed\n"
     "  npm ci --ignore-scripts --prefix ${CMAKE_CURRENT_SOURCE_DIR}/report")
 endif()
-set(REPOSE_PLOTLY report/node_modules/plotly.js-dist-min/plotly.min.js)
+# Packed: pages are sent by e-mail. page/inflate.js unpacks it.
+set(REPOSE_PLOTLY ${CMAKE_CURRENT_BINARY_DIR}/report/plotly.min.js.gz)
+set(plotly ${modules}/plotly.js-dist-min/plotly.min.js)
+if(${plotly} IS_NEWER_THAN ${REPOSE_PLOTLY})
+  file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/report)
+  file(ARCHIVE_CREATE OUTPUT ${REPOSE_PLOTLY} PATHS ${plotly}
+    FORMAT raw COMPRESSION GZip COMPRESSION_LEVEL 9)
+endif()

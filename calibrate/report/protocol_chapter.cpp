@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/angle_definition.h"
 #include "base/whole_file.h"
@@ -36,9 +37,29 @@ const dem::ConfigValue* within(const dem::ConfigValue* table, const std::string&
   return table == nullptr ? nullptr : table->find(key);
 }
 
-bool states(const dem::ConfigValue* table, const std::string& key) {
-  return within(table, key) != nullptr;
-}
+/// What a study says of the place of a value: that it is there, and that it is no guess.
+class Stated {
+ public:
+  Stated(const dem::ConfigValue* root, const std::vector<std::string>& assumed)
+      : table_(root), assumed_(&assumed) {}
+
+  Stated section(const std::string& key) const {
+    Stated inner(within(table_, key), *assumed_);
+    inner.path_ = path_ + key + '.';
+    return inner;
+  }
+  bool is_marked(const std::string& key) const {
+    return std::ranges::find(*assumed_, path_ + key) != assumed_->end();
+  }
+  bool operator()(const std::string& key) const {
+    return within(table_, key) != nullptr && !is_marked(key);
+  }
+
+ private:
+  const dem::ConfigValue* table_;
+  const std::vector<std::string>* assumed_;
+  std::string path_;
+};
 
 /// "tube_diameter_mm": "tube diameter", "mm".
 std::pair<std::string, std::string> name_and_unit(const std::string& key) {
@@ -76,28 +97,37 @@ std::string shape_text(const dem::GrainSource& grain) {
                      shown(kMm * sizes.width_m), shown(kMm * sizes.thickness_m));
 }
 
-void add_material(const dem::Material& material, Settings& settings) {
-  settings.add("Young's modulus", shown(material.young_modulus_pa) + " Pa", true);
-  settings.add("Poisson's ratio", shown(material.poisson_ratio), true);
+void add_material(const dem::Material& material, const Stated& stated, Settings& settings) {
+  settings.add("Young's modulus", shown(material.young_modulus_pa) + " Pa",
+               !stated.is_marked("young_modulus_pa"));
+  settings.add("Poisson's ratio", shown(material.poisson_ratio),
+               !stated.is_marked("poisson_ratio"));
 }
 
-void add_materials(const StudyRecord& record, const dem::ConfigValue& stated, Table& table) {
+void add_materials(const StudyRecord& record, const Stated& stated, Table& table) {
   const dem::Study& study = record.study;
-  const dem::ConfigValue* particle = within(&stated, "particle");
+  const Stated particle = stated.section("particle");
   Settings grain;
-  grain.add("shape:", shape_text(study.grain), true);
+  grain.add("shape:", shape_text(study.grain),
+            !(particle.is_marked("size_mm") || particle.is_marked("scan") ||
+              particle.is_marked("clump")));
   grain.add("spheres", fmt::format("{}", record.grain.shape.spheres.size()),
-            study.grain.clump || states(particle, "spheres") || states(particle, "volume_error"));
-  grain.add("density", shown(study.model.grain_material.density_kg_m3) + " kg/m³", true);
-  add_material(study.model.grain_material, grain);
+            study.grain.clump || particle("spheres") || particle("volume_error"));
+  grain.add("density", shown(study.model.grain_material.density_kg_m3) + " kg/m³",
+            !particle.is_marked("density_kg_m3"));
+  add_material(study.model.grain_material, particle, grain);
   grain.add_to(table, "grain: " + shortened(study.model.grain_material.name), "–");
-  const auto add_wall = [&table](const std::string& what, const dem::Material& material) {
+  const auto add_wall = [&table](const std::string& what, const dem::Material& material,
+                                 const Stated& section) {
     Settings wall;
-    add_material(material, wall);
+    add_material(material, section, wall);
     wall.add_to(table, what + ": " + shortened(material.name), "–");
   };
-  add_wall("wall", study.model.wall_material);
-  for (const auto& [part, surface] : study.model.parts) add_wall(name_of(part), surface.material);
+  const Stated wall = stated.section("wall");
+  add_wall("wall", study.model.wall_material, wall);
+  for (const auto& [part, surface] : study.model.parts) {
+    add_wall(name_of(part), surface.material, wall.section(name_of(part)));
+  }
 }
 
 std::string films_text(const StudyRecord& record, std::string_view experiment) {
@@ -135,7 +165,7 @@ std::string measured_text(const StudyRecord& record, const dem::ExperimentEntry&
 }
 
 void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry,
-                    const dem::ConfigValue* stated, Table& table) {
+                    const Stated& stated, Table& table) {
   const auto described = record.study.experiments.find(entry.experiment);
   if (described == record.study.experiments.end()) return;
   Settings settings;
@@ -145,14 +175,14 @@ void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry
     const auto [what, unit] = name_and_unit(key.name);
     settings.add(what,
                  value ? shown(value) + (unit.empty() ? "" : ' ' + unit) : std::string(key.absence),
-                 states(stated, key.name));
+                 stated(key.name));
   }
   settings.add("fraction of the real stiffness", shown(described->second.stiffness_factor),
-               states(stated, "stiffness_factor"));
+               stated("stiffness_factor"));
   if (entry.is_pictured) {
     const std::string& definition = described->second.definition;
     settings.add("definition of the angle:", std::string(base::definition_meant(definition)),
-                 !definition.empty());
+                 !definition.empty() && !stated.is_marked("definition"));
   }
   settings.add_to(table, std::string(entry.name),
                   measured_text(record, entry, described->second.measured));
@@ -190,7 +220,9 @@ void add_films(const StudyRecord& record, Chapter& chapter) {
 Chapter protocol_chapter(const ReportedStudy& study) {
   Chapter chapter{.id = "protocol", .title = "Grains and experiments", .blocks = {}};
   if (!study.record) return chapter;
-  const dem::ConfigValue stated = stated_in(study);
+  const dem::ConfigValue text = stated_in(study);
+  const std::vector<std::string>& assumed = study.record->study.assumed;
+  const Stated stated(&text, assumed);
   Table table{.name = "protocol",
               .title = {},
               .data = {.columns = {{.name = "item", .unit = {}},
@@ -199,13 +231,20 @@ Chapter protocol_chapter(const ReportedStudy& study) {
                                    {.name = "measured", .unit = {}}},
                        .rows = {}}};
   add_materials(*study.record, stated, table);
-  const dem::ConfigValue* experiments = within(&stated, "experiment");
+  const Stated experiments = stated.section("experiment");
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    add_experiment(*study.record, entry, within(experiments, std::string(entry.name)), table);
+    add_experiment(*study.record, entry, experiments.section(std::string(entry.name)), table);
   }
   chapter.blocks.push_back(std::move(table));
   add_films(*study.record, chapter);
-  chapter.blocks.push_back(Paragraph{"Each experiment was simulated as it was done on the bench."});
+  chapter.blocks.push_back(
+      Paragraph{"These are the settings of the simulations. What is assumed was not measured: the "
+                "study marks it, or does not state it. Where the bench was another, the "
+                "coefficients make up for the difference."});
+  if (!assumed.empty()) {
+    chapter.blocks.push_back(Paragraph{shortened(
+        fmt::format("Marked as assumed in the study: {}.", fmt::join(assumed, ", ")), 2000)});
+  }
   return chapter;
 }
 

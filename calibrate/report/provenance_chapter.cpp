@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
@@ -66,6 +67,9 @@ void add_model(const StudyResult& result, DataTable& data) {
     add(data, "definition of a heap's angle", text_of(*from.heap_definition));
     const std::string simulated = simulated_text(*from.heap_definition);
     if (!simulated.empty()) add(data, "mean angle of the heaps simulated last", simulated);
+  }
+  if (!from.assumed.empty()) {
+    add(data, "marked as assumed in the study", fmt::format("{}", fmt::join(from.assumed, ", ")));
   }
   add(data, "fraction of the real stiffness", by_experiment(from.stiffness_factor, ""));
   add(data, "shortest time step", by_experiment(from.shortest_timestep_s, " s"));

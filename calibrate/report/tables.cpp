@@ -70,6 +70,19 @@ const char* name_of(ChartKind kind) {
   return "heap";
 }
 
+/// Series, which stand in many rows one after the other: each with how often.
+Json repeated(const Json& values) {
+  Json runs = Json::array();
+  for (const Json& value : values) {
+    if (!runs.empty() && runs.back()[0] == value) {
+      runs.back()[1] = runs.back()[1].get<int>() + 1;
+    } else {
+      runs.push_back(Json::array({value, 1}));
+    }
+  }
+  return runs;
+}
+
 Json columns_json(const DataTable& table) {
   Json columns = Json::array();
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
@@ -77,6 +90,7 @@ Json columns_json(const DataTable& table) {
     for (const std::vector<Cell>& row : table.rows) {
       values.push_back(k < row.size() ? json_cell(row[k]) : Json(nullptr));
     }
+    if (k == 0) values = repeated(values);
     columns.push_back({{"name", table.columns[k].name},
                        {"unit", table.columns[k].unit},
                        {"values", std::move(values)}});

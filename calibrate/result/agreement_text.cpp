@@ -1,5 +1,7 @@
 #include "calibrate/result/agreement_text.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -29,6 +31,65 @@ std::string percent(double chance) {
   if (chance < 1e-4) return "less than 0.01 %";
   return chance < .1 ? fmt::format("{:.2g} %", 100 * chance)
                      : fmt::format("{:.0f} %", 100 * chance);
+}
+
+/// "three", or "13".
+std::string count_text(std::size_t count) {
+  constexpr std::array<const char*, 11> kWords = {"none", "one",   "two",   "three", "four", "five",
+                                                  "six",  "seven", "eight", "nine",  "ten"};
+  return count < kWords.size() ? kWords.at(count) : fmt::format("{}", count);
+}
+
+/// "three of four experiments agree (tilt, roll, heap)"; empty where none does.
+std::string agreeing_text(const Verification& verification) {
+  const std::vector<const Agreement*> agreeing = with(verification, AgreementVerdict::agrees);
+  const std::size_t all = verification.observables.size();
+  if (agreeing.empty()) return {};
+  const bool are_experiments = std::ranges::all_of(
+      verification.observables,
+      [](const Agreement& one) { return one.observable.find('.') == std::string::npos; });
+  return fmt::format("{} of {} {}{} {} ({})", count_text(agreeing.size()), count_text(all),
+                     are_experiments ? "experiment" : "measured quantit",
+                     are_experiments ? (all == 1 ? "" : "s") : (all == 1 ? "y" : "ies"),
+                     agreeing.size() == 1 ? "agrees" : "agree", names_of(agreeing));
+}
+
+/// Why neither agreement nor a difference is shown of one.
+std::string open_reason(const Agreement& agreement, bool is_one) {
+  if (agreement.runs < 2 && !std::isfinite(agreement.detectable)) {
+    return fmt::format("too few of {} runs gave a reading", is_one ? "its" : "their");
+  }
+  if (agreement.runs_to_decide) {
+    return fmt::format("{} {} simulated too few times", is_one ? "it" : "they",
+                       is_one ? "was" : "were");
+  }
+  return fmt::format("{0} readings scatter too much for {0} margin", is_one ? "its" : "their");
+}
+
+/// "the drop is inconclusive: its readings scatter too much for its margin", of all that are.
+std::string inconclusive_text(const Verification& verification) {
+  std::vector<const Agreement*> left = with(verification, AgreementVerdict::cannot_tell);
+  std::string text;
+  while (!left.empty()) {
+    const std::string reason = open_reason(*left.front(), true);
+    std::vector<const Agreement*> alike;
+    std::erase_if(left, [&](const Agreement* one) {
+      const bool is_alike = open_reason(*one, true) == reason;
+      if (is_alike) alike.push_back(one);
+      return is_alike;
+    });
+    const bool is_one = alike.size() == 1;
+    text +=
+        fmt::format("{}{}{} {} inconclusive: {}", text.empty() ? "" : "; ", is_one ? "the " : "",
+                    names_of(alike), is_one ? "is" : "are", open_reason(*alike.front(), is_one));
+  }
+  return text;
+}
+
+/// What agrees, before `rest`.
+std::string after_what_agrees(const Verification& verification, const std::string& rest) {
+  const std::string agreeing = agreeing_text(verification);
+  return agreeing.empty() ? rest : agreeing + "; " + rest;
 }
 
 /// What would decide it.
@@ -173,19 +234,20 @@ std::string agreement_text(const Verification& verification, double degrees) {
           "would test it",
           degrees);
     case AgreementVerdict::disagrees:
-      return disagreement(verification);
+      return after_what_agrees(verification, disagreement(verification));
     case AgreementVerdict::cannot_tell:
       break;
   }
-  return fmt::format(
-      "it cannot be told whether bench and simulation agree: no difference is shown (as large ones "
-      "arise by chance in {} of cases), but neither is agreement within the margin for {}{}",
-      percent(verification.chance), names_of(with(verification, AgreementVerdict::cannot_tell)),
-      is_tested ? ""
-                : fmt::format(". Nor would agreement be more than reproduced, not tested: the "
-                              "coefficients use up what these experiments tell ({:.1f} degrees of "
-                              "freedom are left)",
-                              degrees));
+  return after_what_agrees(
+      verification,
+      fmt::format("{}; no difference is shown (as large ones arise by chance in {} of cases){}",
+                  inconclusive_text(verification), percent(verification.chance),
+                  is_tested
+                      ? ""
+                      : fmt::format(". Nor would agreement be more than reproduced, not tested: the "
+                                    "coefficients use up what these experiments tell ({:.1f} "
+                                    "degrees of freedom are left)",
+                                    degrees)));
 }
 
 std::string shape_check_text(const ShapeCheck& shape) {

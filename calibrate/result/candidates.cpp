@@ -15,7 +15,7 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kLeastChance = 1e-300;
 
 /// Of the differences of all means: the chi-square that is exceeded with their joint probability.
-double deviance_of_means(const JointResult& joint) {
+double score_of_means(const JointResult& joint) {
   for (const ResultObservable& observable : joint.observables) {
     if (observable.verification.runs == 0) return kUnbounded;
   }
@@ -30,8 +30,8 @@ double deviance_of_means(const JointResult& joint) {
 /// Of two normal samples: likelihood ratio of equal variances against any (Bartlett 1937, Proc. R.
 /// Soc. Lond. A 160, 268, before his correction for few readings). A bench that scatters more has
 /// reasons of its own, of which the simulation knows nothing.
-double deviance_of_scatter(double bench_sd, double bench_df, double simulated_sd,
-                           double simulated_df) {
+double score_of_scatter(double bench_sd, double bench_df, double simulated_sd,
+                        double simulated_df) {
   if (!(bench_sd > 0) || simulated_sd <= bench_sd || bench_df < 1 || simulated_df < 1) return 0;
   const double bench = bench_sd * bench_sd;
   const double simulated = simulated_sd * simulated_sd;
@@ -40,13 +40,13 @@ double deviance_of_scatter(double bench_sd, double bench_df, double simulated_sd
   return df * std::log(pooled) - bench_df * std::log(bench) - simulated_df * std::log(simulated);
 }
 
-double deviance_of_scatters(const JointResult& joint) {
+double scores_of_scatter(const JointResult& joint) {
   double sum = 0;
   for (std::size_t k = 0; k < joint.observables.size(); ++k) {
     const ResultObservable& observable = joint.observables[k];
     if (observable.sd_assumed || k >= joint.surrogates.size()) continue;
-    sum += deviance_of_scatter(observable.measured_sd, bench_readings(observable) - 1,
-                               observable.predicted_sd, joint.surrogates[k].runs - 1);
+    sum += score_of_scatter(observable.measured_sd, bench_readings(observable) - 1,
+                            observable.predicted_sd, joint.surrogates[k].runs - 1);
   }
   return sum;
 }
@@ -61,8 +61,8 @@ int bench_readings(const ResultObservable& observable) {
 
 Candidate candidate_of(const std::string& name, const JointResult& joint) {
   Candidate candidate{.name = name,
-                      .means = deviance_of_means(joint),
-                      .scatter = deviance_of_scatters(joint),
+                      .means = score_of_means(joint),
+                      .scatter = scores_of_scatter(joint),
                       .verdict = joint.verdict,
                       .values = {}};
   for (const ResultParameter& parameter : joint.parameters) {
@@ -71,17 +71,17 @@ Candidate candidate_of(const std::string& name, const JointResult& joint) {
   return candidate;
 }
 
-double deviance_of(const Candidate& candidate) {
+double candidate_score(const Candidate& candidate) {
   const double sum = candidate.means + candidate.scatter;
   return std::isfinite(sum) ? sum : kUnbounded;
 }
 
 std::optional<std::size_t> preferred(const std::vector<Candidate>& candidates) {
-  const auto best = std::ranges::min_element(candidates, {}, deviance_of);
+  const auto best = std::ranges::min_element(candidates, {}, candidate_score);
   if (best == candidates.end()) return std::nullopt;
   for (auto other = candidates.begin(); other != candidates.end(); ++other) {
     // Also where neither is finite.
-    if (other != best && !(deviance_of(*other) - deviance_of(*best) >= kStrongEvidence)) {
+    if (other != best && !(candidate_score(*other) - candidate_score(*best) >= kStrongEvidence)) {
       return std::nullopt;
     }
   }
@@ -92,22 +92,22 @@ std::string candidates_text(const std::vector<Candidate>& candidates) {
   const auto place = preferred(candidates);
   if (!place) {
     return fmt::format(
-        "the bench readings do not tell which of them is right: the deviances differ by less than "
+        "the bench readings do not tell which of them is right: the scores differ by less than "
         "{:g}, or none of them gives all readings",
         kStrongEvidence);
   }
   const Candidate& best = candidates[*place];
   double next = kUnbounded;
   for (const Candidate& other : candidates) {
-    if (&other != &best) next = std::min(next, deviance_of(other));
+    if (&other != &best) next = std::min(next, candidate_score(other));
   }
   if (!std::isfinite(next)) {
     return fmt::format("{} is the only one that gives all readings", best.name);
   }
   return fmt::format(
-      "{} explains the bench readings best: its deviance is lower by {:.1f} or more ({:g} is "
-      "strong evidence)",
-      best.name, next - deviance_of(best), kStrongEvidence);
+      "{} explains the bench readings best: its score is lower by {:.1f} or more ({:g} is "
+      "taken for strong evidence)",
+      best.name, next - candidate_score(best), kStrongEvidence);
 }
 
 }  // namespace repose::calibrate

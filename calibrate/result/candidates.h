@@ -9,13 +9,15 @@
 /// Which of several ways to simulate the same bench explains its readings best: rolling models,
 /// each fitted by itself.
 ///
-/// Each is given a deviance: how much less likely it makes the readings than a simulation that
-/// gives exactly their means and scatters no more than they do. Candidates fit the same readings
-/// with as many coefficients, so that their deviances can be compared as they are. Formulae and
+/// Each is given a score of what speaks against it, the sum of two parts: what all means together
+/// lack, and how much more single readings scatter than the bench's. Candidates fit the same
+/// readings with as many coefficients, so that their scores can be compared as they are. It is not
+/// a likelihood, but a sum of two statistics that chi-squares are taken for. Formulae and
 /// reasons: calibrate/fit/THEORY.md, "Candidates". Proved by Candidates.* in tests/calibrate.
 namespace repose::calibrate {
 
-/// A difference of deviances from which on the evidence is strong: Kass and Raftery (1995), J. Am.
+/// A difference of scores from which on the evidence is taken for strong, as one of deviances
+/// would be: Kass and Raftery (1995), J. Am.
 /// Stat. Assoc. 90, 773.
 inline constexpr double kStrongEvidence = 6;
 
@@ -23,7 +25,7 @@ inline constexpr double kStrongEvidence = 6;
 Candidate candidate_of(const std::string& name, const JointResult& joint);
 
 /// Infinite where an experiment gives no reading at all.
-double deviance_of(const Candidate& candidate);
+double candidate_score(const Candidate& candidate);
 
 /// The place of the one that the evidence for is strong, against each of the others. None: it
 /// cannot be told.

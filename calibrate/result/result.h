@@ -95,6 +95,7 @@ struct Provenance {
   NamedValues stiffness_factor;                        ///< of each experiment
   NamedValues shortest_timestep_s;                     ///< of each experiment's runs
   std::optional<HeapDefinition> heap_definition = {};  ///< none: there is no heap
+  std::vector<std::string> assumed = {};  ///< values that the study marks as not measured
 };
 
 struct ResultParameter : FittedParameter {
@@ -130,8 +131,8 @@ struct EquivalentSet : ParameterSet {
 /// One of several ways to simulate the same bench, each fitted by itself (candidates.h).
 struct Candidate {
   std::string name;    ///< of its rolling model
-  double means = 0;    ///< deviance by the differences of means; not finite: a reading is missing
-  double scatter = 0;  ///< deviance by scatter that the bench does not have
+  double means = 0;    ///< score of the differences of means; not finite: a reading is missing
+  double scatter = 0;  ///< score of the scatter that the bench does not have
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
   NamedValues values;  ///< fitted coefficients
 };

@@ -66,6 +66,7 @@ void fields(Io& io, Held<Io, Provenance>& provenance) {
   if (io.has("heap_definition", provenance.heap_definition.has_value())) {
     io("heap_definition", provenance.heap_definition);
   }
+  if (io.has("assumed", !provenance.assumed.empty())) io("assumed", provenance.assumed);
 }
 
 template <typename Io>
@@ -273,8 +274,8 @@ void fields(Io& io, Held<Io, StudyAddition>& addition) {
 template <typename Io>
 void fields(Io& io, Held<Io, Candidate>& candidate) {
   io("name", candidate.name);
-  io("deviance_of_means", candidate.means);
-  io("deviance_of_scatter", candidate.scatter);
+  io("score_of_means", candidate.means);
+  io("score_of_scatter", candidate.scatter);
   io("verdict", candidate.verdict);
   io("values", candidate.values);
 }

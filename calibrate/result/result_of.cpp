@@ -148,7 +148,8 @@ Provenance provenance_of(const StudyRecord& record, const Problem& problem,
                     .size_sd_percent = size_sd_percent(study.model)},
           .stiffness_factor = stiffness,
           .shortest_timestep_s = shortest_timesteps(runs),
-          .heap_definition = heap_definition_of(record, problem, heap_angles_deg)};
+          .heap_definition = heap_definition_of(record, problem, heap_angles_deg),
+          .assumed = study.assumed};
 }
 
 PublishedVerification verification_of(const PublishedOutcome& outcome) {

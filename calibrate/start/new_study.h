@@ -23,6 +23,7 @@ struct NewStudy {
   bool has_own_density = false;
   double tube_diameter_mm = 0;  ///< inner
   double tube_height_mm = 0;
+  bool has_own_tube = false;
   std::vector<dem::Experiment> experiments;  ///< at least one
 };
 
@@ -40,6 +41,11 @@ std::vector<NewSheet> sheets_of(const NewStudy& study);
 
 /// "Soybeans on acrylic".
 std::string title_of(const NewStudy& study);
+
+bool makes_heaps(const NewStudy& study);
+
+/// Values of the study file that are assumed, as its list names them.
+std::vector<std::string> assumed_names(const NewStudy& study);
 
 /// The study file. It names sheets in `folder`, which lies beside it.
 std::string study_text(const NewStudy& study, const std::string& folder);

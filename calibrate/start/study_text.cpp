@@ -218,6 +218,35 @@ std::string title_of(const NewStudy& study) {
   return title;
 }
 
+bool makes_heaps(const NewStudy& study) {
+  return std::ranges::find(study.experiments, dem::Experiment::heap) != study.experiments.end();
+}
+
+std::vector<std::string> assumed_names(const NewStudy& study) {
+  std::vector<std::string> names;
+  if (!study.has_own_sizes) names.emplace_back("particle.size_mm");
+  if (!study.has_own_density) names.emplace_back("particle.density_kg_m3");
+  const auto add_material = [&names](const std::string& section) {
+    for (const char* key : {"young_modulus_pa", "poisson_ratio"}) {
+      names.push_back(fmt::format("{}.{}", section, key));
+    }
+  };
+  add_material("particle");
+  add_material("wall");
+  for (const auto& [part, plate] : study.parts) {
+    add_material("wall." + name_of(part));
+    for (const char* key : {"restitution", "sliding_friction", "rolling_friction"}) {
+      names.push_back(fmt::format("contact.particle_{}.{}", name_of(part), key));
+    }
+  }
+  if (!study.has_own_tube && makes_heaps(study)) {
+    for (const char* key : {"tube_diameter_mm", "tube_height_mm"}) {
+      names.push_back(fmt::format("experiment.heap.{}", key));
+    }
+  }
+  return names;
+}
+
 std::string study_text(const NewStudy& study, const std::string& folder) {
   std::string text = toml_comment(fmt::format(
       "{}: a study to calibrate. Lines that begin with # are comments; units are part of the "
@@ -227,7 +256,13 @@ std::string study_text(const NewStudy& study, const std::string& folder) {
   text += fmt::format("\n[study]\ntitle = \"{}\"\n", title_of(study));
   text +=
       "# author = \"your name\"\n# date = \"when\"\n# note = \"variety, moisture, who poured the "
-      "heaps\"\n\n";
+      "heaps\"\n";
+  text += toml_comment(
+      "Values below that nobody has measured yet; results say so. Take a name out of this list "
+      "when "
+      "its value is your own.");
+  text +=
+      fmt::format("assumed = [\n  \"{}\",\n]\n\n", fmt::join(assumed_names(study), "\",\n  \""));
   text += particle_section(study) + '\n' + wall_sections(study) + '\n' + contacts(study);
   for (const NewSheet& sheet : sheets_of(study)) {
     text += '\n' + experiment_section(dem::entry_of(sheet.experiment), study, folder, sheet.name);

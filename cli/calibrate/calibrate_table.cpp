@@ -7,9 +7,11 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "calibrate/result/agreement_text.h"
 #include "calibrate/result/bench_errors_text.h"
+#include "calibrate/result/summary_text.h"
 #include "cli/common/page.h"
 
 namespace repose::cli {
@@ -110,13 +112,17 @@ void add_assumed_scatter(const calibrate::JointResult& joint, Page& page) {
                   readings));
 }
 
-/// The verdict, and of each experiment that is not decided what would decide it.
+/// Of each experiment that does not agree what would decide it.
 void add_agreement(const calibrate::JointResult& joint, Page& page) {
   page.add_gap();
   page.add(fmt::format(
-      "Simulated again with fresh seeds ({}), {}.",
-      joint.agreement.rounds == 1 ? "1 round" : fmt::format("{} rounds", joint.agreement.rounds),
-      joint.agreement.text));
+      "Simulated with fresh seeds in {}:",
+      joint.agreement.rounds == 1 ? "1 round" : fmt::format("{} rounds", joint.agreement.rounds)));
+  page.add(observables_table(joint));
+  if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
+    page.add(fmt::format("({})", freedom));
+  }
+  page.add("(± is the standard uncertainty of the mean)");
   for (const calibrate::ResultObservable& observable : joint.observables) {
     if (observable.verification.verdict == calibrate::AgreementVerdict::agrees) continue;
     page.add(fmt::format("{}: {}.", observable.name,
@@ -233,20 +239,43 @@ void add_shape(const calibrate::JointResult& joint, Page& page) {
   page.add(open);
 }
 
-void add_family(const calibrate::JointResult& joint, Page& page) {
-  if (joint.equivalence_family.empty()) return;
-  std::vector<Column> columns(joint.parameters.size(), number_column(""));
-  columns.emplace_back();
+/// "μs wall" for "contact.particle_wall.sliding_friction", "e grain" between grains.
+std::string symbol_of(const std::string& coefficient) {
+  const std::string name = short_name(coefficient);
+  const std::size_t dot = name.find('.');
+  const std::string what = name.substr(dot + 1);
+  std::string with = name.substr(0, dot);
+  if (with == "particle_particle") with = "grain";
+  if (with.starts_with("particle_")) with.erase(0, std::string_view("particle_").size());
+  for (const auto& [known, symbol] :
+       {std::pair("restitution", "e"), {"sliding_friction", "μs"}, {"rolling_friction", "μr"}}) {
+    if (what == known) return fmt::format("{} {}", symbol, with);
+  }
+  return name;
+}
+
+/// Whole sets, where coefficients have no value of their own.
+void add_sets(const calibrate::JointResult& joint, Page& page) {
+  const std::vector<calibrate::EquivalentSet> sets = good_sets(joint);
+  if (sets.size() < 2 || !has_open_coefficients(joint)) return;
+  std::vector<Column> columns = {number_column("set")};
+  for (const calibrate::ResultParameter& parameter : joint.parameters) {
+    columns.push_back(number_column(symbol_of(parameter.name)));
+  }
+  columns.push_back({.heading = "simulated"});
   Table table(std::move(columns));
-  for (const calibrate::EquivalentSet& set : joint.equivalence_family) {
-    std::vector<std::string> cells;
-    for (const double value : set.values) cells.push_back(four_digits(value));
-    if (set.verdict) cells.push_back("simulated: " + name_of(*set.verdict));
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    std::vector<std::string> cells = {fmt::format("{}", k + 1)};
+    for (const double value : sets[k].values) cells.push_back(four_digits(value));
+    cells.push_back(sets[k].verdict ? name_of(*sets[k].verdict) : kNothing);
     table.add_row(std::move(cells));
   }
   page.add_gap();
-  page.add("Equally good parameter sets, in the order of the coefficients above:");
+  page.add(fmt::format("Equally good sets, the best one first. {}", calibrate::kUseOneRow));
   page.add(table);
+  page.add(
+      "(e restitution, μs sliding friction, μr rolling friction; of a grain with the wall, or with "
+      "another grain; repose export writes set 1, or another with --set-number)");
 }
 
 void add_advice(const calibrate::JointResult& joint, Page& page) {
@@ -297,6 +326,14 @@ void add_heap_definition(const calibrate::Provenance& provenance, Page& page) {
           : ""));
 }
 
+/// What the study itself marks as not measured.
+void add_assumed(const calibrate::Provenance& provenance, Page& page) {
+  if (provenance.assumed.empty()) return;
+  page.add_gap();
+  page.add(
+      fmt::format("Assumed in the study, not measured: {}.", fmt::join(provenance.assumed, ", ")));
+}
+
 std::string belongs_to_text(const calibrate::Provenance& of) {
   std::string stiffness;
   for (const auto& [experiment, factor] : of.stiffness_factor) {
@@ -321,24 +358,21 @@ std::string belongs_to_text(const calibrate::Provenance& of) {
 std::string joint_table(const calibrate::JointResult& joint,
                         const calibrate::Provenance& provenance, int columns) {
   Page page(std::min(columns, kWidestText));
+  for (const std::string& sentence : summary_sentences(joint)) page.add(sentence);
+  add_sets(joint, page);
+  page.add_gap();
   page.add(parameters_table(joint));
   add_bounds(joint, page);
-  page.add_gap();
-  page.add(observables_table(joint));
-  page.add("(± is the standard uncertainty of the mean; simulated with fresh seeds)");
-  if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
-    page.add(fmt::format("({})", freedom));
-  }
-  add_systematic(joint, page);
-  add_agreement(joint, page);
-  add_assumed_scatter(joint, page);
   add_predictions(joint, page);
+  add_agreement(joint, page);
+  add_systematic(joint, page);
+  add_assumed_scatter(joint, page);
   add_stiffness(joint, page);
   add_shape(joint, page);
-  add_family(joint, page);
   add_advice(joint, page);
   add_additions(joint, page);
   add_heap_definition(provenance, page);
+  add_assumed(provenance, page);
   page.add_gap();
   page.add(belongs_to_text(provenance));
   return page.text();

@@ -81,26 +81,27 @@ void check(const CalibrateArguments& arguments, std::vector<std::string>& errors
   }
 }
 
-std::string deviance(double value) {
+std::string score_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.1f}", value) : kNothing;
 }
 
 std::string page_of(const std::vector<calibrate::Candidate>& candidates, const fs::path& folder) {
   Page page(std::min(columns_of(stdout), kWidestText));
   Table table({{.heading = "rolling model"},
-               number_column("deviance: means"),
+               number_column("score: means"),
                number_column("scatter"),
                number_column("sum"),
                {.heading = "verdict"}});
   for (const calibrate::Candidate& candidate : candidates) {
-    table.add_row({candidate.name, deviance(candidate.means), deviance(candidate.scatter),
-                   deviance(deviance_of(candidate)), name_of(candidate.verdict)});
+    table.add_row({candidate.name, score_text(candidate.means), score_text(candidate.scatter),
+                   score_text(candidate_score(candidate)), name_of(candidate.verdict)});
   }
   page.add_gap();
   page.add(table);
   page.add(
-      "(how much worse than a simulation that gives the bench's means and scatters no more than "
-      "the bench)");
+      "(the lower the better; made of what the means of all experiments lack together, as a "
+      "chi-square, and of how much more single readings scatter than the bench's, as a likelihood "
+      "ratio)");
   page.add_gap();
   page.add(fmt::format("Of these rolling models, {}.", candidates_text(candidates)));
   page.add(fmt::format("Each has a folder of its own in {}.", folder.string()));

@@ -16,6 +16,7 @@
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/interrupt.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "cli/common/table.h"
@@ -34,7 +35,8 @@ struct ExportPlan {
   calibrate::ExportRequest request;
   fs::path out_folder;
   StudyExport made;
-  std::vector<std::string> errors;  ///< empty: it can be carried out
+  std::vector<std::vector<double>> sets;  ///< all that could be exported
+  std::vector<std::string> errors;        ///< empty: it can be carried out
 };
 
 std::string known_targets() {
@@ -45,7 +47,8 @@ std::string known_targets() {
   return names;
 }
 
-StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& request) {
+StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& request,
+                      std::vector<std::vector<double>>& sets) {
   const calibrate::StudyRecord record = calibrate::read_study_record(folder);
   const auto result = calibrate::read_result(folder);
   if (result && !is_same_study(result->provenance.study, identity_of(record))) {
@@ -61,8 +64,9 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
                     "the same repose calibrate command again; it resumes.",
                     folder.string()));
   }
+  sets = calibrate::exported_sets(*result);
   StudyExport made = calibrate::export_study(record.study, record.grain.shape,
-                                             calibrate::fitted_values(*result), request);
+                                             calibrate::fitted_values(*result), request, sets);
   const std::string shape = dem::warning_of_shape(record.grain);
   if (!shape.empty()) made.warnings.push_back(shape);
   return made;
@@ -83,11 +87,16 @@ ExportPlan plan_export(const ExportArguments& arguments) {
   check_output_places({json_place(arguments.json_file, "\"conversions\"")}, read, plan.errors);
   plan.request = {.target = target.value_or(calibrate::ExportTarget::liggghts),
                   .takes_approximate = arguments.takes_approximate || !target};
+  constexpr int kMostSets = 1000;
+  if (const auto number = read_whole_number({"--set-number", arguments.set_number, plan.errors}, 1,
+                                            kMostSets, "leave it out for the best set, number 1")) {
+    plan.request.set_number = static_cast<std::size_t>(*number);
+  }
   plan.out_folder = arguments.out_folder.empty()
                         ? fs::path(arguments.folder) / "export" / arguments.target
                         : fs::path(arguments.out_folder);
   try {
-    plan.made = export_of(arguments.folder, plan.request);
+    plan.made = export_of(arguments.folder, plan.request, plan.sets);
   } catch (const std::invalid_argument& error) {
     add_lines(error.what(), plan.errors);
   }
@@ -109,6 +118,9 @@ std::string export_json(const ExportPlan& plan) {
                                    {"theirs", conversion.theirs},
                                    {"limits", conversion.limits}});
   }
+  json["set_number"] = plan.request.set_number;
+  json["sets"] = Json::array();
+  for (const std::vector<double>& set : plan.sets) json["sets"].push_back(set);
   json["warnings"] = plan.made.warnings;
   constexpr int kIndent = 2;
   // Names of folders need not be UTF-8, JSON must be.
@@ -125,8 +137,12 @@ std::string export_table(const ExportPlan& plan, int columns) {
                    fmt::format("{:.4g}", conversion.exported), name_of(conversion.fidelity)});
   }
   return table.text(columns) +
-         fmt::format("\n{}: {} files.\nREADME.txt says what carries over and what does not.\n",
-                     base::printable(plan.out_folder.string()), plan.made.files.size());
+         fmt::format("\n{}: {} files{}.\nREADME.txt says what carries over and what does not.\n",
+                     base::printable(plan.out_folder.string()), plan.made.files.size(),
+                     plan.sets.size() < 2
+                         ? ""
+                         : fmt::format(", of set {} of {} that fit equally well; use one together",
+                                       plan.request.set_number, plan.sets.size()));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ struct ExportArguments {
   std::string folder;  ///< of the study
   std::string target;
   bool takes_approximate = false;
+  std::string set_number;
   std::string out_folder;
   std::string json_file;
 };

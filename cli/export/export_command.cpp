@@ -22,6 +22,10 @@ Rolling friction is defined differently in each. A coefficient with an exact or
 nearly exact counterpart is converted. If the law differs, the export is refused
 with the reason; --approximate writes the value that is equivalent on average.
 
+Where coefficients are not determined, several sets of them fit equally well. The
+best is written; --set-number 2 writes another. README.txt lists them all. Use
+the values of one set together.
+
 Example:
   repose export hazelnut --to yade --approximate
 )";
@@ -36,6 +40,8 @@ Command export_command() {
       .options = {{"folder", "FOLDER", "Folder of a finished study", &given->folder, true},
                   {"--to", "PROGRAM", "Program to export to", &given->target, true},
                   {"--approximate", "", "Allow approximate conversions", &given->takes_approximate},
+                  {"--set-number", "N", "Which of the equally good sets (1, the best)",
+                   &given->set_number},
                   {"--out", "FOLDER", "Output folder (FOLDER/export/PROGRAM)", &given->out_folder},
                   {"--json", "FILE|-", "Files and conversions, for programs", &given->json_file}},
       .notes = kExportNotes,

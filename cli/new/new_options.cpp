@@ -117,6 +117,7 @@ void read_tube(const NewArguments& arguments, NewPlan& plan) {
     }
     study.tube_diameter_mm = *diameter;
     study.tube_height_mm = *height;
+    study.has_own_tube = true;
   }
   constexpr double kFewestAcross = 3;  // fewer jam
   const double longest_mm = *std::max_element(study.sizes_mm.begin(), study.sizes_mm.end());

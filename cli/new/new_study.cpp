@@ -28,6 +28,10 @@ std::string assumptions_of(const calibrate::NewStudy& study) {
   if (!study.has_own_density) {
     text += fmt::format(" {:g} kg/m³ (--density-kg-m3),", study.density_kg_m3);
   }
+  if (!study.has_own_tube && makes_heaps(study)) {
+    text += fmt::format(" a tube of {:g} x {:g} mm (--tube-mm),", study.tube_diameter_mm,
+                        study.tube_height_mm);
+  }
   if (!study.parts.empty()) {
     std::vector<std::string> parts;
     for (const auto& [part, plate] : study.parts) parts.push_back(name_of(part));

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/closest_word.h"
 #include "base/fingerprint.h"
 #include "base/whole_file.h"
 #include "dem/study/experiment_table.h"
@@ -37,12 +38,45 @@ Section needed_section(Section& study, const std::string& key, const std::string
   return study.section(key);
 }
 
-void read_heading(Section section, StudyHeading& heading) {
+void read_heading(Section& section, StudyHeading& heading) {
   heading.title = section.text("title", "title = \"Soybeans on acrylic\"").value_or("");
   heading.author = section.text("author", "author = \"A. Smith\"").value_or("");
   heading.date = section.text("date", "date = \"23 November 2026\"").value_or("");
   heading.note = section.text("note", "note = \"harvest of 2024, 12 % moisture\"").value_or("");
-  section.refuse_others();
+}
+
+/// Every value of the study by its name, as in "particle.density_kg_m3".
+void add_names(const ConfigValue& table, const std::string& path, std::vector<std::string>& names) {
+  for (const ConfigValue& value : table.items) {
+    const std::string name = path.empty() ? value.name : path + '.' + value.name;
+    names.push_back(name);
+    if (value.kind == ConfigValue::Kind::table) add_names(value, name, names);
+  }
+}
+
+/// A name that stands for nothing would hide that a value is assumed.
+void read_assumed(Section& section, const ConfigValue& root, std::vector<std::string>& assumed) {
+  const std::string example = "assumed = [\"particle.density_kg_m3\"]";
+  const ConfigValue* list = section.value("assumed");
+  if (list != nullptr && list->kind == ConfigValue::Kind::array && list->items.empty()) return;
+  const auto listed = section.texts("assumed", example);
+  if (!listed) return;
+  std::vector<std::string> names;
+  add_names(root, "", names);
+  for (std::size_t k = 0; k < listed->size(); ++k) {
+    const std::string& name = (*listed)[k];
+    if (std::ranges::find(names, name) == names.end()) {
+      const std::string close = base::closest_word(name, names);
+      section.errors().add(
+          list->items[k].place,
+          fmt::format("{} names {}, which is not in this study", section.full("assumed"),
+                      list->items[k].shown),
+          "it lists values of this study that nobody has measured",
+          close.empty() ? "take it out" : fmt::format("write {}, or take it out", close));
+    } else if (std::ranges::find(assumed, name) == assumed.end()) {
+      assumed.push_back(name);
+    }
+  }
 }
 
 void read_simulation(Section simulation, Study& study) {
@@ -69,8 +103,11 @@ void read_simulation(Section simulation, Study& study) {
   simulation.refuse_others();
 }
 
-void read_sections(Section root, const NamedFiles& files, Study& study) {
-  read_heading(root.section("study"), study.heading);
+void read_sections(const ConfigValue& config, Section root, const NamedFiles& files, Study& study) {
+  Section about = root.section("study");
+  read_heading(about, study.heading);
+  read_assumed(about, config, study.assumed);
+  about.refuse_others();
   read_particle(needed_section(root, "particle", "a study has a particle",
                                "[particle] with size_mm = [22.5, 18.2, 17.5] (or scan, or clump), "
                                "density_kg_m3, young_modulus_pa and poisson_ratio"),
@@ -97,7 +134,7 @@ Study read_text(const fs::path& file, const std::string& text,
   errors.throw_if_any();  // with a file half read, every other key would be missing
   Study study;
   study.file = file;
-  read_sections({&config, {}, {.file = file.string()}, errors}, files, study);
+  read_sections(config, {&config, {}, {.file = file.string()}, errors}, files, study);
   errors.throw_if_any();
   return study;
 }

@@ -110,6 +110,8 @@ struct StudyHeading {
 struct Study {
   std::filesystem::path file;
   StudyHeading heading;
+  /// Values that the file states and that nobody has measured, by name: "particle.density_kg_m3".
+  std::vector<std::string> assumed;
   /// Fingerprint of the text, the settings, the scan or clump file and the sheets of readings: a
   /// UUID made from their bytes (RFC 4122, version 5). The same study, the same fingerprint.
   std::string hash;

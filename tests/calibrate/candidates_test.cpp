@@ -69,13 +69,13 @@ TEST(Candidates, OneWithoutAReadingIsNotPreferred) {
   JointResult joint = joint_with(1, 1, 1);
   joint.observables.front().verification.runs = 0;
   const Candidate silent = candidate_of("silent", joint);
-  EXPECT_TRUE(std::isinf(deviance_of(silent)));
+  EXPECT_TRUE(std::isinf(candidate_score(silent)));
   EXPECT_EQ(preferred({silent, candidate("other", 30, 0)}), 1U);
   EXPECT_THAT(candidates_text({silent, candidate("other", 30, 0)}),
               HasSubstr("other is the only one that gives all readings"));
   EXPECT_EQ(preferred({silent, silent}), std::nullopt);
   const Candidate read_back = candidate("silent", std::numeric_limits<double>::quiet_NaN(), 0);
-  EXPECT_TRUE(std::isinf(deviance_of(read_back)));
+  EXPECT_TRUE(std::isinf(candidate_score(read_back)));
 }
 
 TEST(Candidates, OnlyStrongEvidenceAgainstEachOtherDecides) {
@@ -84,7 +84,7 @@ TEST(Candidates, OnlyStrongEvidenceAgainstEachOtherDecides) {
   EXPECT_EQ(preferred({candidate("a", 9, 0), candidate("b", 1, 0), candidate("c", 2, 0)}),
             std::nullopt);
   EXPECT_THAT(candidates_text({candidate("a", 5, 3), candidate("b", 1, 0)}),
-              HasSubstr("b explains the bench readings best: its deviance is lower by 7.0"));
+              HasSubstr("b explains the bench readings best: its score is lower by 7.0"));
   EXPECT_THAT(candidates_text({candidate("a", 1, 0), candidate("b", 1, 0)}),
               HasSubstr("do not tell which"));
 }

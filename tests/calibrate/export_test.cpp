@@ -351,6 +351,30 @@ TEST(ExportStudy, WhatTheDataDidNotDetermineIsSaidInTheDeckAndAsAWarning) {
   EXPECT_THAT(file_text(made, "material.lig"), HasSubstr("undetermined"));
 }
 
+TEST(ExportStudy, ACoefficientHasTheValueOfItsSet) {
+  const std::vector<FittedValue> fitted = {
+      {.name = kWallRolling, .value = .1, .low = .02, .high = .2, .verdict = "undetermined"}};
+  const dem::Study study = hazelnuts();
+  const auto with_set = [&](std::size_t number) {
+    return export_study(study, study.model.grain, fitted,
+                        {.target = ExportTarget::edem, .set_number = number}, {{.1}, {.15}});
+  };
+  EXPECT_EQ(with_set(1).conversions[2].value, .1);
+  const StudyExport second = with_set(2);
+  EXPECT_THAT(second.conversions, ::testing::Contains(::testing::Field(&Conversion::value, .15)));
+  EXPECT_THAT(file_text(second, "README.txt"),
+              AllOf(HasSubstr("These 2 sets"), HasSubstr("Use one set as a whole"),
+                    HasSubstr("These files have set 2"),
+                    HasSubstr("  set 1\n    contact.particle_wall.rolling_friction 0.1\n")));
+  for (const std::size_t none : {std::size_t{0}, std::size_t{3}}) {
+    EXPECT_THAT(error_of([&] { with_set(none); }),
+                AllOf(HasSubstr("2 equally good sets"), HasSubstr("Fix: ")));
+  }
+  const StudyExport alone =
+      export_study(study, study.model.grain, fitted, {.target = ExportTarget::edem}, {{.1}});
+  EXPECT_THAT(file_text(alone, "README.txt"), Not(HasSubstr("Equally good sets")));
+}
+
 // A name may hold what ends a line, a comment or a string of some program.
 TEST(ExportStudy, NamesCannotBreakADeck) {
   dem::Study study = hazelnuts();
@@ -420,6 +444,9 @@ TEST(FittedValues, AreThoseOfBothMethods) {
   EXPECT_EQ(joint[0].name, "contact.particle_wall.restitution");
   EXPECT_EQ(joint[0].high, .45);
   EXPECT_EQ(joint[1].verdict, "undetermined");
+  EXPECT_EQ(exported_sets(test::joint_result()),
+            (std::vector<std::vector<double>>{{.4, .3}, {.41, .5}, {.39, .7}}));
+  EXPECT_THAT(exported_sets(test::published_result()), SizeIs(1));
   const auto published = fitted_values(test::published_result());
   ASSERT_THAT(published, SizeIs(2));
   EXPECT_EQ(published[0].value, .31);

@@ -28,7 +28,8 @@ Provenance provenance(const std::string& method) {
           .heap_definition =
               HeapDefinition{.name = "flank_20_80",
                              .is_assumed = true,
-                             .simulated_deg = {{"flank_20_80", 23.9}, {"whole_flank", 21.3}}}};
+                             .simulated_deg = {{"flank_20_80", 23.9}, {"whole_flank", 21.3}}},
+          .assumed = {"particle.density_kg_m3"}};
 }
 
 FittedParameter restitution() {

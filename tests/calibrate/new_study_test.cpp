@@ -99,6 +99,22 @@ TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new/drops.csv"));
 }
 
+TEST_F(NewStudyTest, MarksWhatItAssumes) {
+  NewStudy asked = study_of(grain("pea"), kAll);
+  asked.parts.emplace(dem::WallPart::tube, plate_kinds()[3]);
+  const std::vector<std::string> assumed = written(asked).assumed;
+  EXPECT_EQ(assumed, assumed_names(asked));
+  for (const char* name : {"particle.size_mm", "particle.density_kg_m3", "wall.tube.poisson_ratio",
+                           "contact.particle_tube.restitution", "experiment.heap.tube_height_mm"}) {
+    EXPECT_THAT(assumed, ::testing::Contains(name));
+  }
+  asked.has_own_sizes = asked.has_own_density = asked.has_own_tube = true;
+  asked.parts.clear();
+  EXPECT_THAT(assumed_names(asked),
+              ::testing::ElementsAre("particle.young_modulus_pa", "particle.poisson_ratio",
+                                     "wall.young_modulus_pa", "wall.poisson_ratio"));
+}
+
 TEST_F(NewStudyTest, CanHaveATubeOfAnotherMaterial) {
   NewStudy asked = study_of(grain("pea"), kAll);
   asked.parts.emplace(dem::WallPart::tube, plate_kinds()[3]);

@@ -86,7 +86,10 @@ TEST_F(StudyReport, ShowsTheHeapOfTheLastCheckAndNoOther) {
 
 TEST_F(StudyReport, BeginsWithTheAnswer) {
   const std::string page = page_of(study_report(result_));
-  EXPECT_THAT(page, HasSubstr("1 of 2 coefficients are determined"));
+  EXPECT_THAT(page, HasSubstr("1 of 2 coefficients is determined"));
+  EXPECT_THAT(page, Not(HasSubstr("any value in the interval")));
+  EXPECT_LT(page.find("Held out of the fit: roll"), page.find("In simulations with fresh seeds"));
+  EXPECT_LT(page.find("Use one row together"), page.find("Coefficients one by one"));
   EXPECT_THAT(page,
               HasSubstr("fresh seeds, it cannot be told whether bench and simulation agree."));
   EXPECT_LT(page.find("id=\"answer\""), page.find("id=\"heaps\""));
@@ -122,6 +125,52 @@ TEST_F(StudyReport, ShowsWhatMoreSpheresChange) {
   joint_in(result_).shape_check.reset();
   EXPECT_THAT(page_of(study_report(result_)), Not(HasSubstr("more spheres")))
       << "a result of an earlier version";
+}
+
+TEST_F(StudyReport, HasFewColumnsAndALittleMenu) {
+  const std::string page = page_of(study_report(result_));
+  const auto between = [&](const std::string& from, const std::string& to) {
+    const std::size_t start = page.find(from);
+    return page.substr(start, page.find(to, start) - start);
+  };
+  const auto count = [](const std::string& text, const std::string& what) {
+    int found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  EXPECT_LE(count(between("<nav", "</nav>"), "<a "), 8);
+  const std::string agreement = between("<section id=\"agreement\"", "</section>");
+  ASSERT_GT(count(agreement, "<table"), 2);
+  for (std::size_t at = agreement.find("<thead"); at != std::string::npos;
+       at = agreement.find("<thead", at + 1)) {
+    const std::string head = agreement.substr(at, agreement.find("</thead", at) - at);
+    EXPECT_LE(count(head, "<th "), 5) << head;
+    EXPECT_LE(count(head, ">±<"), 1) << head;
+  }
+  const std::string answer = between("<caption>Coefficients one by one", "</table>");
+  EXPECT_THAT(answer, AllOf(HasSubstr(">0.350 to 0.450<"), Not(HasSubstr("<svg"))));
+}
+
+TEST_F(StudyReport, SaysWhatIsAssumed) {
+  const std::string page = page_of(study_report(result_));
+  EXPECT_THAT(page, AllOf(HasSubstr("marked as assumed in the study"),
+                          HasSubstr("particle.density_kg_m3")));
+  result_.provenance.assumed.clear();
+  EXPECT_THAT(page_of(study_report(result_)), Not(HasSubstr("marked as assumed")));
+}
+
+TEST_F(StudyReport, SaysWhereSimulationsWereMade) {
+  JointResult& joint = joint_in(result_);
+  joint.runs.resize(20, joint.runs.front());
+  joint.rounds = {{.round = 0, .jobs = 12, .seconds = 30, .values = {.45, .4}, .sd = {.1, .2}},
+                  {.round = 1, .jobs = 17, .seconds = 40, .values = {.45, .4}, .sd = {.1, .2}}};
+  EXPECT_THAT(
+      page_of(study_report(result_)),
+      AllOf(HasSubstr("20 simulations entered the fit: 12 were spread over the bounds; 5 "
+                      "more, in 1 further round, were"),
+            HasSubstr("; 3 checked the best fits"), Not(HasSubstr("20 simulations were spread"))));
 }
 
 TEST_F(StudyReport, WhatIsForCheckingComesAfterTheAnswerInAnAppendix) {

@@ -10,6 +10,7 @@
 
 #include "calibrate/fit/propose.h"
 #include "calibrate/result/agreement_text.h"
+#include "calibrate/result/summary_text.h"
 #include "tests/calibrate/made_up_result.h"
 #include "tests/support/temporary_folder.h"
 
@@ -289,6 +290,74 @@ Verification disagreeing(const std::vector<int>& runs, double chance) {
     agreement.runs = count;
   }
   return check;
+}
+
+/// Four experiments: three agree, of the last is not known.
+Verification inconclusive(const Agreement& open) {
+  Verification check{.values = {}, .observables = {}, .chance = .98};
+  check.verdict = AgreementVerdict::cannot_tell;
+  for (const char* name : {"tilt", "roll", "heap"}) {
+    Agreement& agreement = check.observables.emplace_back();
+    agreement.observable = name;
+    agreement.verdict = AgreementVerdict::agrees;
+    agreement.runs = 9;
+  }
+  check.observables.push_back(open);
+  return check;
+}
+
+TEST(AgreementText, SaysWhatAgreesBeforeWhatDoesNot) {
+  Agreement drop;
+  drop.observable = "drop";
+  drop.verdict = AgreementVerdict::cannot_tell;
+  drop.runs = 9;
+  drop.detectable = 2;
+  EXPECT_EQ(agreement_text(inconclusive(drop)),
+            "three of four experiments agree (tilt, roll, heap); the drop is inconclusive: its "
+            "readings scatter too much for its tolerance; no difference is shown (as large ones "
+            "arise by chance in 98 % of cases)");
+  drop.runs_to_decide = 40;
+  EXPECT_THAT(agreement_text(inconclusive(drop)),
+              HasSubstr("the drop is inconclusive: it was simulated too few times;"));
+  Verification two = inconclusive(drop);
+  two.observables[2].verdict = AgreementVerdict::cannot_tell;
+  two.observables[2].runs_to_decide = 30;
+  EXPECT_THAT(agreement_text(two),
+              HasSubstr("two of four experiments agree (tilt, roll); heap, drop are inconclusive: "
+                        "they were simulated too few times;"));
+  two.verdict = AgreementVerdict::disagrees;
+  EXPECT_THAT(agreement_text(two), HasSubstr("(tilt, roll); bench and simulation disagree:"));
+}
+
+TEST(SummarySentences, BeginWithWhatWasPredictedAndSayThatOnlyWholeSetsFit) {
+  StudyResult result = test::joint_result();
+  JointResult& joint = test::joint_in(result);
+  const std::vector<std::string> sentences = summary_sentences(joint);
+  ASSERT_EQ(sentences.size(), 3U);
+  EXPECT_THAT(sentences[0], AllOf(HasSubstr("Held out of the fit: roll is predicted as"),
+                                  HasSubstr("and was measured as")));
+  EXPECT_THAT(sentences[1], HasSubstr("In simulations with fresh seeds, " + joint.agreement.text));
+  EXPECT_THAT(sentences[2],
+              AllOf(HasSubstr("1 of 2 coefficients is determined"),
+                    HasSubstr("1 is undetermined: only certain combinations with the other")));
+  EXPECT_TRUE(has_open_coefficients(joint));
+  joint.held_out.clear();
+  joint.parameters[1].verdict = Verdict::determined;
+  EXPECT_FALSE(has_open_coefficients(joint));
+  joint.verdict = AgreementVerdict::disagrees;
+  EXPECT_THAT(summary_sentences(joint),
+              ::testing::ElementsAre(HasSubstr("Do not use these coefficients"),
+                                     "All 2 coefficients are determined by these measurements."));
+}
+
+TEST(GoodSets, BeginWithTheFittedValues) {
+  StudyResult result = test::joint_result();
+  const std::vector<EquivalentSet> sets = good_sets(test::joint_in(result));
+  ASSERT_EQ(sets.size(), 3U);
+  EXPECT_EQ(sets[0].values, (std::vector<double>{.4, .3}));
+  EXPECT_EQ(sets[0].chi2, 0);
+  EXPECT_EQ(sets[0].verdict, AgreementVerdict::cannot_tell);
+  EXPECT_EQ(sets[2].values, (std::vector<double>{.39, .7}));
 }
 
 TEST(AgreementText, SaysWhetherReadingsDifferOrAreMissing) {

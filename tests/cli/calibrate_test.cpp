@@ -76,14 +76,14 @@ TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
 TEST_F(Calibrate, WeighsRollingModelsAgainstEachOther) {
   const Finished done = run({"study.toml", "--rolling-models", "constant_torque,elastic_plastic"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, AllOf(HasSubstr("deviance: means"), HasSubstr("elastic_plastic")));
+  EXPECT_THAT(done.out, AllOf(HasSubstr("score: means"), HasSubstr("elastic_plastic")));
   for (const char* model : {"constant_torque", "elastic_plastic"}) {
     const json result =
         json::parse(text(std::string("study_calibration/") + model + "/result.json"));
     EXPECT_EQ(result["provenance"]["rolling_model"], model);
     ASSERT_EQ(result["candidates"].size(), 2U);
     EXPECT_EQ(result["candidates"][0]["name"], "constant_torque");
-    EXPECT_GE(result["candidates"][1]["deviance_of_means"], 0);
+    EXPECT_GE(result["candidates"][1]["score_of_means"], 0);
   }
 }
 

@@ -52,6 +52,23 @@ TEST_F(Export, WritesDecksAndSaysWhatBecameOfEachCoefficient) {
   EXPECT_THAT(text("study/export/liggghts/drop.lig"), HasSubstr("jump drop.lig next_grain"));
 }
 
+TEST_F(Export, WritesTheSetThatIsAskedFor) {
+  const Finished best = run({"study", "--to", "edem"});
+  EXPECT_THAT(best.out, HasSubstr("of set 1 of 3 that fit equally well; use one together"));
+  const Finished other =
+      run({"study", "--to", "edem", "--set-number", "3", "--json", "other.json"});
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  const json made = json::parse(text("other.json"));
+  EXPECT_EQ(made["set_number"], 3);
+  EXPECT_EQ(made["sets"], json::parse("[[0.4, 0.3], [0.41, 0.5], [0.39, 0.7]]"));
+  EXPECT_EQ(made["conversions"][0]["value"], .39);
+  const Finished none = run({"study", "--to", "edem", "--set-number", "4"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err,
+              HasSubstr("--set-number 4: this study has 3 equally good sets, from 1 to 3"));
+  EXPECT_THAT(run({"study", "--to", "edem", "--set-number", "0"}).err, HasSubstr("Fix: "));
+}
+
 TEST_F(Export, JsonListsFilesAndConversions) {
   const Finished done = run({"study", "--to", "edem", "--out", "tables", "--json", "-"});
   ASSERT_EQ(done.exit_code, 0) << done.err;

@@ -337,6 +337,22 @@ TEST_F(StudyFile, BoundsThatMakeNoSenseAreRefused) {
   EXPECT_THAT(errors(kStudy, {key + "{ min = 0.1, max = 0.1 }"}), HasSubstr("min below max"));
 }
 
+TEST_F(StudyFile, SaysWhatIsAssumed) {
+  EXPECT_THAT(read(kStudy).assumed, ::testing::IsEmpty());
+  EXPECT_THAT(read("[study]\nassumed = []\n" + kStudy).assumed, ::testing::IsEmpty());
+  EXPECT_THAT(read("[study]\nassumed = [\"particle.density_kg_m3\", \"wall.poisson_ratio\", "
+                   "\"wall.poisson_ratio\"]\n" +
+                   kStudy)
+                  .assumed,
+              ::testing::ElementsAre("particle.density_kg_m3", "wall.poisson_ratio"));
+  EXPECT_THAT(
+      errors("[study]\nassumed = [\"particle.densty_kg_m3\", \"wall.colour\"]\n" + kStudy),
+      AllOf(HasSubstr("study.assumed names \"particle.densty_kg_m3\", which is not in this study"),
+            HasSubstr("write particle.density_kg_m3, or take it out"),
+            HasSubstr("names \"wall.colour\"")));
+  EXPECT_THAT(errors("[study]\nassumed = \"particle\"\n" + kStudy), HasSubstr("within brackets"));
+}
+
 TEST_F(StudyFile, SaysWhatAReportIsCalled) {
   EXPECT_EQ(read(kStudy).heading.title, "");
   const Study study = read("[study]\ntitle = \"Soybeans\"\nauthor = \"A. Smith\"\n" + kStudy);

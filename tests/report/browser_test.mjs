@@ -9,7 +9,7 @@
 //
 // What must hold: nothing is fetched, no error is told, no name becomes markup, every chart is drawn
 // with its titles inside it, on a desk, on a telephone and on paper, what can be scrolled sideways has a
-// sign, and what can be clicked reacts. Before the appendix there are eight pages of paper at most. Load
+// sign, what can be clicked reacts, and on a telephone verdicts are seen without scrolling sideways. Before the appendix there are eight pages of paper at most. Load
 // times are only printed.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
@@ -106,6 +106,12 @@ const hiddenWithoutSign = (page) => page.evaluate(() => [...document.querySelect
   .filter((box) => !box.closest('.plot') && !box.matches('.scrolls'))
   .map((box) => `${box.tagName}.${box.className}`));
 
+// Verdicts out of sight to the right: of the coefficients, and of what agrees.
+const verdictsOutOfSight = (page) => page.evaluate(() => [...document.querySelectorAll('#answer table, #agreement table')]
+  .filter((table) => table.querySelector('th:last-child').textContent === 'verdict')
+  .filter((table) => table.querySelector('td:last-child').getBoundingClientRect().right > innerWidth)
+  .map((table) => table.caption.textContent));
+
 // How much of the page's width the widest of its texts takes.
 const widthOfText = (page) => page.evaluate(() => {
   const body = getComputedStyle(document.body);
@@ -201,11 +207,13 @@ const browser = await puppeteer.launch({executablePath: chromium, headless: true
 try {
   const reports = makeReports(folder);
   for (const file of reports) {
-    assert.ok(statSync(file).size <= 12 * kMegabyte, `${file}: ${statSync(file).size} bytes`);
+    assert.ok(statSync(file).size <= 3 * kMegabyte, `${file}: ${statSync(file).size} bytes`);
     for (const width of [1280, 390]) {
       const {page, errors} = await open(browser, file, width);
       await checkPage(page, errors);
       assert.deepEqual(await hiddenWithoutSign(page), []);
+      assert.deepEqual(await verdictsOutOfSight(page), []);
+      assert.ok((await page.$$('header nav a')).length <= 8, 'the menu is long');
       if (width === 1280) assert.ok(await widthOfText(page) > .95, 'text leaves a part of the page empty');
       if (file === reports[0] && width === 1280) {
         await checkInteraction(page);

@@ -73,7 +73,7 @@ measured = { mean = 25, sd = 1, n = 5 }
 }
 # Keys that a result need not have.
 OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions", "candidates", "held_out",
-            "stiffness_checks", "stiffer_coefficients", "shape_check", "narrowing", "heap_definition",
+            "stiffness_checks", "stiffer_coefficients", "shape_check", "narrowing", "heap_definition", "assumed",
             "systematic_uncertainty"}
 
 

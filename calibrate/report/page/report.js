@@ -3,6 +3,13 @@
 // legible without colour: markers, dashes and lightness tell the parts of a chart apart.
 (() => {
   const charts = JSON.parse(document.getElementById('report-data').textContent).charts;
+  for (const chart of charts) {
+    // The same name row after row is written once, with how often.
+    chart.columns[0].values = chart.columns[0].values.flatMap(([name, times]) => Array(times).fill(name));
+  }
+  const library = document.createElement('script');
+  library.textContent = inflatedText(document.getElementById('packed-plotly').textContent);
+  document.head.append(library);
   const chartNamed = new Map(charts.map((chart) => [chart.name, chart]));
   const kInk = '#1a1a1a', kSoft = '#6b6b6b', kMark = '#0b4a80', kRule = '#dddddd';
   const kDashes = ['solid', 'dash', 'dot', 'dashdot', 'longdash', '8px,3px,2px,3px,2px,3px'];
