@@ -73,10 +73,14 @@ std::string determined_sentence(const JointResult& joint) {
   }
   if (const auto open = with(Verdict::undetermined); open > 0) {
     text += fmt::format(" {} {} undetermined", open, open == 1 ? "is" : "are");
-    text += joint.equivalence_family.empty()
-                ? "."
-                : ": only certain combinations with the other coefficients fit, such as the "
-                  "equally good sets.";
+    if (!joint.equivalence_family.empty()) {
+      text += open == 1
+                  ? ": these measurements hardly constrain it. Values of it that fit together "
+                    "with those of the others are in the equally good sets"
+                  : ": only certain combinations of them and of the others fit, such as the "
+                    "equally good sets";
+    }
+    text += '.';
   }
   return text;
 }

@@ -339,8 +339,12 @@ TEST(SummarySentences, BeginWithWhatWasPredictedAndSayThatOnlyWholeSetsFit) {
   EXPECT_THAT(sentences[1], HasSubstr("In simulations with fresh seeds, " + joint.agreement.text));
   EXPECT_THAT(sentences[2],
               AllOf(HasSubstr("1 of 2 coefficients is determined"),
-                    HasSubstr("1 is undetermined: only certain combinations with the other")));
+                    HasSubstr("1 is undetermined: these measurements hardly constrain it.")));
   EXPECT_TRUE(has_open_coefficients(joint));
+  joint.parameters[0].verdict = Verdict::undetermined;
+  EXPECT_THAT(summary_sentences(joint)[2],
+              HasSubstr("2 are undetermined: only certain combinations of them and of the others"));
+  joint.parameters[0].verdict = Verdict::determined;
   joint.held_out.clear();
   joint.parameters[1].verdict = Verdict::determined;
   EXPECT_FALSE(has_open_coefficients(joint));

@@ -73,6 +73,24 @@ TEST_F(Calibrate, GivesCoefficientsWithIntervalsAndVerdicts) {
   EXPECT_GT(regression["regression"]["anova"]["model"]["f"], 10);
 }
 
+TEST_F(Calibrate, WhatTheStudyMarksAsAssumedStaysSo) {
+  const std::string mark = "study.assumed=[\"particle.density_kg_m3\", \"wall.poisson_ratio\"]";
+  const Finished done = run({"study.toml", "--set", mark});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("Assumed in the study, not measured: particle.density_kg_m3"));
+  EXPECT_EQ(json::parse(text("study_calibration/result.json"))["provenance"]["assumed"],
+            json::parse(R"(["particle.density_kg_m3", "wall.poisson_ratio"])"));
+  ASSERT_EQ(run_repose(folder_, {"report", "study_calibration"}).exit_code, 0);
+  const std::string protocol = text("study_calibration/tables/protocol.csv");
+  const auto cells_of = [&](const std::string& row) {
+    const std::size_t start = protocol.find(row);
+    return protocol.substr(start, protocol.find('\n', start) - start);
+  };
+  // Item, what is stated, what is assumed, what was measured.
+  EXPECT_THAT(cells_of("grain:"), ::testing::ContainsRegex("ratio [0-9.]+\",density [0-9]+ kg"));
+  EXPECT_THAT(cells_of("wall:"), ::testing::ContainsRegex("Pa,Poisson's ratio [0-9.]+,"));
+}
+
 TEST_F(Calibrate, WeighsRollingModelsAgainstEachOther) {
   const Finished done = run({"study.toml", "--rolling-models", "constant_torque,elastic_plastic"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
