@@ -193,8 +193,8 @@ Advice Advisor::advice(std::size_t parameter, bool is_bounded) const {
     advice.text = is_bounded
                       ? "these experiments hardly narrow it further: use the interval, or say in "
                         "the study with useful_half_width what half-width is narrow enough"
-                      : "not identifiable from these experiments: fix it to a literature value, "
-                        "which will hardly affect them";
+                      : "not identifiable from these experiments: fix it to a literature value and "
+                        "fit the others again, which then belong to it";
   }
   return advice;
 }
