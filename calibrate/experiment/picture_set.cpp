@@ -9,6 +9,7 @@
 
 #include "base/distributions.h"
 #include "calibrate/experiment/picture_angles.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::calibrate {
 namespace {
@@ -115,6 +116,13 @@ void find_outliers(std::span<const SetPicture> pictures, PictureSet& set) {
 }
 
 }  // namespace
+
+vision::MeasureStatus status_named(std::string_view name) {
+  for (const auto status : {vision::MeasureStatus::ok, vision::MeasureStatus::flagged}) {
+    if (name == name_of(status)) return status;
+  }
+  return vision::MeasureStatus::refused;
+}
 
 SetPicture set_picture_of(const vision::ReposeAngle& measured, std::string_view definition,
                           const std::string& heap) {

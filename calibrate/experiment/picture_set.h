@@ -22,6 +22,9 @@ struct SetPicture {
   std::string heap = {};  ///< pictures of one name are of one heap; empty: of a heap of its own
 };
 
+/// By its name in JSON: "flagged"; of any other name, refused.
+vision::MeasureStatus status_named(std::string_view name);
+
 /// By a definition of base/angle_definition.h; empty: by the usual one.
 SetPicture set_picture_of(const vision::ReposeAngle& measured, std::string_view definition = {},
                           const std::string& heap = {});

@@ -3,20 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/distributions.h"
-#include "vision/measure/status_name.h"
 
 namespace repose::calibrate {
-namespace {
-
-vision::MeasureStatus status_named(const std::string& name) {
-  for (const auto status : {vision::MeasureStatus::ok, vision::MeasureStatus::flagged}) {
-    if (name == name_of(status)) return status;
-  }
-  return vision::MeasureStatus::refused;
-}
-
-}  // namespace
-
 PictureSet set_of(const std::vector<PictureReading>& pictures) {
   std::vector<SetPicture> all;
   for (const PictureReading& picture : pictures) {

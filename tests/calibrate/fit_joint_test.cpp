@@ -341,6 +341,10 @@ TEST(JointFit, AnExperimentThatAPlanSimulatedIsAdvisedWithWhatItWouldGive) {
   ASSERT_EQ(fit.additions.size(), 1U) << "the lines to add are given";
   EXPECT_EQ(fit.additions[0].experiment, "pendulum");
   EXPECT_EQ(fit.additions[0].lines, "[experiment.pendulum]\nstring_mm = 300\n");
+  offer.experiment.systematic_sd = 20;
+  EXPECT_THAT(plate_fit(problem).parameters[1].advice, Not(HasSubstr("[experiment.pendulum]")))
+      << "ten readings do not lower what they share";
+  offer.experiment.systematic_sd = 0;
   for (std::size_t k = 0; k < 11; ++k) {
     offer.runs[k].readings.clear();
     offer.runs[k].failure = "they miss each other";
