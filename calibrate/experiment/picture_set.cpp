@@ -117,7 +117,7 @@ void find_outliers(std::span<const SetPicture> pictures, PictureSet& set) {
 
 }  // namespace
 
-vision::MeasureStatus status_named(std::string_view name) {
+vision::MeasureStatus picture_status_named(std::string_view name) {
   for (const auto status : {vision::MeasureStatus::ok, vision::MeasureStatus::flagged}) {
     if (name == name_of(status)) return status;
   }

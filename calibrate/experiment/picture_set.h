@@ -23,7 +23,7 @@ struct SetPicture {
 };
 
 /// By its name in JSON: "flagged"; of any other name, refused.
-vision::MeasureStatus status_named(std::string_view name);
+vision::MeasureStatus picture_status_named(std::string_view name);
 
 /// By a definition of base/angle_definition.h; empty: by the usual one.
 SetPicture set_picture_of(const vision::ReposeAngle& measured, std::string_view definition = {},

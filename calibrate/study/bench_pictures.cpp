@@ -8,7 +8,7 @@ namespace repose::calibrate {
 PictureSet set_of(const std::vector<PictureReading>& pictures) {
   std::vector<SetPicture> all;
   for (const PictureReading& picture : pictures) {
-    all.push_back({.status = status_named(picture.status),
+    all.push_back({.status = picture_status_named(picture.status),
                    .angle_deg = picture.angle_deg,
                    .own_deg = picture.own_deg,
                    .camera_deg = picture.camera_deg,
