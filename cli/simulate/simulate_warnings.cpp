@@ -136,7 +136,7 @@ void add_grain_warning(const SimulatePlan& plan, const Run& run,
                    *heap->grains, *grains)});
 }
 
-/// A roll that hopped, or whose value is no distance along the flat.
+/// A roll that hopped, or stayed on the incline.
 void add_roll_warning(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
   const auto* roll = std::get_if<dem::RollProtocol>(&plan.spec.protocol);
   if (roll == nullptr) return;
@@ -147,12 +147,10 @@ void add_roll_warning(const SimulatePlan& plan, const Run& run, std::vector<RunW
   const double releases = reading_of(run, "releases").value_or(1);
   warnings.push_back(
       {"stayed_on_incline", run.result.seed,
-       fmt::format(
-           "the grain did not reach the flat in {:g} {}: its value is less its distance up "
-           "the incline from the foot, {:.3f} mm from where it was let go. Fix: a steeper "
-           "incline, as on the bench; or less rolling friction, if the bench's grains roll.",
-           releases, releases == 1 ? "release" : "releases",
-           kMmPerM * roll->release_m + *run.result.value)});
+       fmt::format("the grain stayed on the incline in {:g} {}: it counts as 0, as on a bench's "
+                   "sheet. Fix: a steeper incline, as on the bench; or less rolling friction, if "
+                   "the bench's grains roll.",
+                   releases, releases == 1 ? "release" : "releases")});
 }
 
 /// What single repeats tell against their values.

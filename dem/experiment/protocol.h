@@ -50,10 +50,11 @@ struct TiltProtocol {
 ///
 /// It lies on the incline, its long axis across the slope but for a turn, and otherwise at random.
 /// Value: how far along the flat its centroid lies from the foot once it is at rest, mm. A grain
-/// that stays on the incline is released again, up to ten times, as at a bench; then it has a value
-/// below 0: less its distance up the incline. Readings: "lateral_mm" (aside), "stopped_on_incline"
-/// (0 or 1), "releases", "hop_mm" (how high its lowest point rose above the flat), "time_s". Throws
-/// NoReading for a grain that does not stop.
+/// that stays on the incline is released again, up to ten times, as at a bench; then it counts as
+/// 0, which is also what the distance of a ball goes to as its rolling friction nears the slope
+/// above which it stays. Readings: "lateral_mm" (aside), "stopped_on_incline" (0 or 1), "releases",
+/// "hop_mm" (how high its lowest point rose above the flat), "time_s". Throws NoReading for a grain
+/// that does not stop.
 struct RollProtocol {
   double incline_deg = 20;
   double release_m = .15;        ///< from the foot of the incline, along it

@@ -12,10 +12,7 @@ std::vector<ProtocolKey> keys_of_roll(Protocol& protocol) {
 }
 
 /// Nothing limits how far it may roll but the fit, see kMostReading.
-Range possible_roll(const Model& model, const Protocol& protocol) {
-  const double release_m = std::get<RollProtocol>(protocol).release_m;
-  return {.from = -1e3 * (release_m + 2 * model.grain.reach_m())};
-}
+Range possible_roll(const Model& /*model*/, const Protocol& /*protocol*/) { return {.from = 0}; }
 
 double cost_of_roll_s(const Model& model, const Protocol& /*protocol*/) {
   constexpr double kSpeed_m_s = 1, kRun_s = 2;
@@ -32,7 +29,8 @@ ExperimentEntry roll_entry() {
       .value_name = "rolling distance",
       .description =
           "A grain is laid across an incline, let go, and rolls on along the flat plate. One that "
-          "stays on the incline is let go again. The distance is from the foot of the incline.",
+          "stays on the incline is let go again, up to ten times, and then counts as 0. The "
+          "distance is from the foot of the incline.",
       .readings = {{"lateral_mm", "mm"},
                    {"stopped_on_incline", ""},
                    {"releases", ""},

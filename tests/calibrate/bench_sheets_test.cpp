@@ -117,6 +117,9 @@ TEST_F(BenchSheets, ImpossibleReadingsAreToldByTheStudysGrain) {
   EXPECT_EQ(said("[experiment.fill]\nmeasured = { mean = 603 }\n"), "");
   EXPECT_THAT(said("[experiment.drop]\nheight_mm = 100\nmeasured = { mean = 900 }\n"),
               HasSubstr("[experiment.drop] measured = 900 mm"));
+  EXPECT_EQ(said("[experiment.roll]\nmeasured = { values = [120, 0] }\n"), "") << "it stayed";
+  EXPECT_THAT(errors("[experiment.roll]\nmeasured = { values = [120, -150] }\n"),
+              HasSubstr("experiment.roll.measured.values = -150. Rule: a number of at least 0"));
 }
 
 TEST_F(BenchSheets, RepeatsOnOneGrainAreAveragedFirst) {

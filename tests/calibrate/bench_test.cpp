@@ -105,6 +105,23 @@ TEST(Bench, ADiameterTakesOutTheFoot) {
                     HasSubstr("176.3 mm from the foot")));
 }
 
+/// As in simulations of it, Roll.AGrainThatStaysOnTheIncline*.
+TEST(Bench, AGrainThatStaysOnTheInclineCountsAsZero) {
+  std::vector<BenchReading> rows = readings({{20, 150, 782.4}, {20, 150, 0}});
+  const double tangent = std::tan(20 * kRad);
+  const BenchResult without = evaluate_bench(BenchTest::rolling, rows);
+  EXPECT_NEAR(without.quantities.front().repeats.mean, (.05556 + tangent) / 2, 5e-6);
+  EXPECT_THAT(without.notes, Contains(AllOf(HasSubstr("1 of 2 stayed on the incline"),
+                                            HasSubstr("the mean is a lower bound"))));
+  for (BenchReading& row : rows) row.optional = {{"diameter_mm", 20}};
+  const BenchResult with = evaluate_bench(BenchTest::rolling, rows);
+  EXPECT_NEAR(with.quantities.front().repeats.mean, (.05 + tangent) / 2, 5e-5);
+  rows.back().values.back() = -150;
+  EXPECT_THAT(error_of([&] { evaluate_bench(BenchTest::rolling, rows); }),
+              AllOf(HasSubstr("row 2: stopped_mm = -150"),
+                    HasSubstr("0 of a grain that stayed on the incline")));
+}
+
 TEST(Bench, TheGrainsSizeAndDensityTakeOutTheAir) {
   std::vector<BenchReading> rows = readings({{500, .458 * .458 * 500}});
   const BenchResult without = evaluate_bench(BenchTest::restitution, rows);

@@ -127,33 +127,39 @@ double foot_mm(ReadingValues v, double diameter_mm) {
   return foot_distance_m(v[kIncline] * kRadPerDeg, diameter_mm * kMPerMm / 2) * kMmPerM;
 }
 
-/// A ball in the corner touches both planes: it is let go above that and stops beyond.
-bool reaches_flat(ReadingValues v, double diameter_mm) {
-  return std::min(v[kReleased], v[kStopped]) > foot_mm(v, diameter_mm);
+/// Of a grain that stayed on the incline, however often it was let go.
+bool has_stayed(ReadingValues v) { return v[kStopped] == 0; }
+
+/// A ball in the corner touches both planes: it is let go above that, and stops beyond unless it
+/// stays where it is.
+bool can_stop_there(ReadingValues v, double diameter_mm) {
+  const double foot = foot_mm(v, diameter_mm);
+  return v[kReleased] > foot && (has_stayed(v) || v[kStopped] > foot);
 }
 
 std::optional<std::string> roll_error(ReadingValues v) {
   const auto diameter_mm = v.given(kDiameter);
-  if (!diameter_mm || reaches_flat(v, *diameter_mm)) return std::nullopt;
-  const bool is_released = v[kReleased] <= v[kStopped];
+  if (!diameter_mm || can_stop_there(v, *diameter_mm)) return std::nullopt;
+  const bool is_released = v[kReleased] <= v[kStopped] || has_stayed(v);
   return fmt::format(
       "{} = {:g}: a ball of {} = {:g} in the corner lies {:.4g} mm from the foot, d/2 tan(b/2). "
-      "Rule: more than that. Fix: measure from the foot to the ball's centre, along the plane that "
+      "Rule: more than that, or stopped_mm = 0 for one that never left the incline. Fix: measure "
+      "from the foot to the ball's centre, along the plane that "
       "it lies on, or correct the diameter.",
       is_released ? "released_mm" : "stopped_mm", is_released ? v[kReleased] : v[kStopped],
       kDiameter, *diameter_mm, foot_mm(v, *diameter_mm));
 }
 
-std::vector<std::string> remarks_on_foot(std::span<const ReadingValues> readings) {
+std::string remark_on_foot(std::span<const ReadingValues> readings) {
   const double neglected = mean_of(readings, [](ReadingValues v) {
     return rolling_friction_of(v[kIncline] * kRadPerDeg, v[kReleased] * kMPerMm,
                                v[kStopped] * kMPerMm);
   });
   if (readings.front().given(kDiameter)) {
-    return {fmt::format(
+    return fmt::format(
         "What a ball loses at the foot of the incline is taken out: without that mu_r would be "
         "{:.4g}.",
-        neglected)};
+        neglected);
   }
   const auto with_foot = [&](double diameter_m) {
     return mean_of(readings, [&](ReadingValues v) {
@@ -167,10 +173,24 @@ std::vector<std::string> remarks_on_foot(std::span<const ReadingValues> readings
       "distances mean {:.4g} for a ball that is small beside them",
       with_foot(0));
   if (std::ranges::all_of(readings,
-                          [](ReadingValues v) { return reaches_flat(v, kLarge_m * kMmPerM); })) {
+                          [](ReadingValues v) { return can_stop_there(v, kLarge_m * kMmPerM); })) {
     text += fmt::format(" and {:.4g} for one of 20 mm", with_foot(kLarge_m));
   }
-  return {text + fmt::format(". Fix: give {}, too.", kDiameter)};
+  return text + fmt::format(". Fix: give {}, too.", kDiameter);
+}
+
+std::vector<std::string> remarks_on_roll(std::span<const ReadingValues> readings) {
+  std::vector<std::string> remarks = {remark_on_foot(readings)};
+  const auto stayed = std::ranges::count_if(readings, has_stayed);
+  if (stayed > 0) {
+    remarks.push_back(fmt::format(
+        "{} of {} stayed on the incline (stopped_mm = 0). Such a grain says only that mu_r is tan "
+        "b "
+        "or more, and counts as tan b: the mean is a lower bound. Fix: a steeper incline. repose "
+        "calibrate needs none: its simulated grains that stay count as 0, too.",
+        stayed, readings.size()));
+  }
+  return remarks;
 }
 
 }  // namespace
@@ -208,7 +228,9 @@ Method rolling_method() {
   return {.source = "mu_r = S sin(b) / (S cos(b) + L), with the diameter less the loss at the foot",
           .columns = {{"incline_deg", "angle b of the incline", 0, kRightAngle_deg},
                       {"released_mm", "distance S down the incline"},
-                      {"stopped_mm", "distance L along the flat", kFromZero}},
+                      {"stopped_mm",
+                       "distance L along the flat, 0 of a grain that stayed on the incline",
+                       kFromZero}},
           .outputs = {{"rolling_friction", "", "coefficient of rolling friction mu_r",
                        rolling_friction}},
           .error = roll_error,
@@ -218,7 +240,7 @@ Method rolling_method() {
           .optional_columns = {{kDiameter,
                                 "diameter of the ball, or across the axis it rolls "
                                 "about"}},
-          .remarks = remarks_on_foot};
+          .remarks = remarks_on_roll};
 }
 
 }  // namespace repose::calibrate
