@@ -22,9 +22,14 @@ Json json_of(const dem::Material& material) {
 }
 
 Json json_of(const dem::PairCoefficients& pair) {
-  return {{"restitution", pair.restitution},
-          {"sliding_friction", pair.sliding_friction},
-          {"rolling_friction", pair.rolling_friction}};
+  Json json{{"restitution", pair.restitution},
+            {"sliding_friction", pair.sliding_friction},
+            {"rolling_friction", pair.rolling_friction}};
+  if (pair.restitution_exponent != 0) {
+    json["restitution_exponent"] = pair.restitution_exponent;
+    json["restitution_speed_m_s"] = pair.restitution_speed_m_s;
+  }
+  return json;
 }
 
 Json protocol_json(dem::Protocol protocol) {

@@ -160,6 +160,19 @@ Conversion rolling(ExportTarget target, const std::string& pair, Partner partner
   return converted;
 }
 
+/// By what grains touch: "wall", "tube" and so on, "particle".
+std::vector<std::pair<std::string, const dem::PairCoefficients*>> pairs_of(
+    const ExportFacts& facts) {
+  const dem::Model& model = facts.study().model;
+  std::vector<std::pair<std::string, const dem::PairCoefficients*>> pairs = {
+      {"wall", &model.grain_wall}};
+  for (const dem::WallPart part : facts.parts()) {
+    pairs.emplace_back(name_of(part), &facts.surface(part).with_grain);
+  }
+  if (facts.has_grain_contacts()) pairs.emplace_back("particle", &model.grain_grain);
+  return pairs;
+}
+
 void add_pair(const ExportFacts& facts, ExportTarget target, Partner partner,
               const std::string& other, const dem::PairCoefficients& values,
               std::vector<Conversion>& all) {
@@ -173,13 +186,9 @@ void add_pair(const ExportFacts& facts, ExportTarget target, Partner partner,
 
 std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget target) {
   std::vector<Conversion> all;
-  const dem::Model& model = facts.study().model;
-  add_pair(facts, target, Partner::wall, "wall", model.grain_wall, all);
-  for (const dem::WallPart part : facts.parts()) {
-    add_pair(facts, target, Partner::wall, name_of(part), facts.surface(part).with_grain, all);
-  }
-  if (facts.has_grain_contacts()) {
-    add_pair(facts, target, Partner::grain, "particle", model.grain_grain, all);
+  for (const auto& [other, pair] : pairs_of(facts)) {
+    const Partner partner = other == "particle" ? Partner::grain : Partner::wall;
+    add_pair(facts, target, partner, other, *pair, all);
   }
   return all;
 }
@@ -203,6 +212,15 @@ std::vector<std::string> refusals(const ExportFacts& facts, const ExportRequest&
         "rebound than here. No single factor makes up for that, so --approximate does not help. "
         "Fix: calibrate with damping = \"per_contact\", whose restitution belongs to this clump.",
         name_of(request.target), spheres));
+  }
+  for (const auto& [other, pair] : pairs_of(facts)) {
+    if (pair->restitution_exponent == 0) continue;
+    errors.push_back(fmt::format(
+        "contact.particle_{0}.restitution_exponent = {1:g} has no counterpart in {2}, where "
+        "restitution is the same at all speeds: impacts slower or faster than {3:g} m/s would "
+        "rebound otherwise than here, so --approximate does not help. Fix: calibrate without it, "
+        "with drops whose impacts are as fast as those of the process.",
+        other, pair->restitution_exponent, name_of(request.target), pair->restitution_speed_m_s));
   }
   if (request.takes_approximate) return errors;
   for (const Conversion& conversion : conversions) {

@@ -36,8 +36,9 @@ const Observable& observable_of(const Problem& problem, const std::string& exper
 
 void require_all_sought(const Problem& problem) {
   const auto is_of_six = [](const Parameter& parameter) {
-    return parameter.name.starts_with("contact.particle_wall.") ||
-           parameter.name.starts_with("contact.particle_particle.");
+    return (parameter.name.starts_with("contact.particle_wall.") ||
+            parameter.name.starts_with("contact.particle_particle.")) &&
+           !parameter.name.ends_with(".restitution_exponent");
   };
   if (problem.parameters.size() == kFirstOfGrains + kStep.size() &&
       std::ranges::all_of(problem.parameters, is_of_six)) {

@@ -14,12 +14,14 @@ struct Place {
   double dem::PairCoefficients::*in_bench;
 };
 
-constexpr std::array<Place, 3> kPlaces = {{
+constexpr std::array<Place, 4> kPlaces = {{
     {"restitution", &dem::CoefficientSet::restitution, &dem::PairCoefficients::restitution},
     {"sliding_friction", &dem::CoefficientSet::sliding_friction,
      &dem::PairCoefficients::sliding_friction},
     {"rolling_friction", &dem::CoefficientSet::rolling_friction,
      &dem::PairCoefficients::rolling_friction},
+    {"restitution_exponent", &dem::CoefficientSet::restitution_exponent,
+     &dem::PairCoefficients::restitution_exponent},
 }};
 
 std::string prefix_of(dem::WallPart part) { return "contact.particle_" + name_of(part) + '.'; }

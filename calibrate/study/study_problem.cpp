@@ -45,6 +45,7 @@ double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
     for (double* value : {&pair->restitution, &pair->sliding_friction, &pair->rolling_friction}) {
       if (std::isnan(*value)) *value = .3;
     }
+    pair->restitution_exponent = 0;
   }
   return entry.cost_s(model, study.experiments.at(entry.experiment).protocol);
 }

@@ -18,9 +18,10 @@ constexpr double kSeen = 1;  // uncertainties: less is no effect
 
 /// "µs w" for contact.particle_wall.sliding_friction; "g" for grains, and "tube" and so on.
 std::string heading_of(const std::string& parameter) {
-  const std::string_view which = parameter.ends_with("restitution")        ? "e"
-                                 : parameter.ends_with("sliding_friction") ? "µs"
-                                                                           : "µr";
+  const std::string_view which = parameter.ends_with("restitution")            ? "e"
+                                 : parameter.ends_with("sliding_friction")     ? "µs"
+                                 : parameter.ends_with("restitution_exponent") ? "α"
+                                                                               : "µr";
   std::string other = "g";
   if (parameter.find("particle_wall") != std::string::npos) other = "w";
   for (const auto& [part, name] : dem::kWallParts) {
@@ -138,7 +139,8 @@ std::string plan_table(const calibrate::Plan& plan, const calibrate::OfferedStud
   page.add(effects_table(plan));
   page.add_gap();
   page.add(
-      "e restitution, µs sliding friction, µr rolling friction; w with the wall, g between grains; "
+      "e restitution, α its exponent, µs sliding friction, µr rolling friction; w with the wall, g "
+      "between grains; "
       "–: less than its uncertainty. a run: time of one simulation on a core of this machine.");
   page.add_gap();
   page.add(

@@ -38,9 +38,14 @@ Json material_json(const dem::Material& material) {
 }
 
 Json pair_json(const dem::PairCoefficients& pair) {
-  return {{"restitution", pair.restitution},
-          {"sliding_friction", pair.sliding_friction},
-          {"rolling_friction", pair.rolling_friction}};
+  Json json{{"restitution", pair.restitution},
+            {"sliding_friction", pair.sliding_friction},
+            {"rolling_friction", pair.rolling_friction}};
+  if (pair.restitution_exponent != 0) {
+    json["restitution_exponent"] = pair.restitution_exponent;
+    json["restitution_speed_m_s"] = pair.restitution_speed_m_s;
+  }
+  return json;
 }
 
 Json clump_json(const SimulatePlan& plan) {
@@ -64,7 +69,7 @@ void add_context(const SimulatePlan& plan, Json& json) {
   json["rolling_model"] = dem::name_of(model.rolling);
   json["rolling_definition"] = dem::rolling_definition(model.rolling);
   json["damping"] = dem::name_of(model.damping);
-  json["damping_definition"] = dem::damping_definition(model.damping);
+  json["damping_definition"] = dem::damping_definition(model);
   json["stiffness_factor"] = model.stiffness_factor;
   json["timestep_fraction"] = model.timestep_s ? Json(nullptr) : Json(model.timestep_fraction);
   json["clump"] = clump_json(plan);

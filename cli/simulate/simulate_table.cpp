@@ -175,8 +175,13 @@ void add_readings(const std::vector<Run>& runs, Page& page) {
 }
 
 std::string coefficients_text(const dem::PairCoefficients& pair) {
-  return fmt::format("restitution {:g}, sliding friction {:g}, rolling friction {:g}",
-                     pair.restitution, pair.sliding_friction, pair.rolling_friction);
+  const std::string by_speed =
+      pair.restitution_exponent == 0
+          ? ""
+          : fmt::format(" at {:g} m/s, falling with the speed to the power {:g}",
+                        pair.restitution_speed_m_s, pair.restitution_exponent);
+  return fmt::format("restitution {:g}{}, sliding friction {:g}, rolling friction {:g}",
+                     pair.restitution, by_speed, pair.sliding_friction, pair.rolling_friction);
 }
 
 /// Coefficients mean nothing without these.

@@ -29,12 +29,21 @@ void check(const Material& material, base::ErrorList& errors) {
 
 void check(const PairCoefficients& pair, const std::string& names, base::ErrorList& errors) {
   const auto friction = [](double value) { return value >= 0 && value <= 100; };
-  require(errors, pair.restitution >= .01 && pair.restitution <= 1, names + "restitution",
-          pair.restitution, ".01 to 1");
+  require(errors, pair.restitution >= kLeastRestitution && pair.restitution <= 1,
+          names + "restitution", pair.restitution, ".01 to 1");
   require(errors, friction(pair.sliding_friction), names + "sliding_friction",
           pair.sliding_friction, "0 or above");
   require(errors, friction(pair.rolling_friction), names + "rolling_friction",
           pair.rolling_friction, "0 or above");
+  if (pair.restitution_exponent == 0) return;
+  require(errors,
+          pair.restitution_exponent > 0 && pair.restitution_exponent <= kMostRestitutionExponent,
+          names + "restitution_exponent", pair.restitution_exponent, "0 to .25");
+  require(errors, pair.restitution_speed_m_s > 0 && std::isfinite(pair.restitution_speed_m_s),
+          names + "restitution_speed_m_s", pair.restitution_speed_m_s,
+          "above 0, the speed that the restitution is of");
+  require(errors, !(pair.restitution > kMostRestitutionBySpeed), names + "restitution",
+          pair.restitution, "at most .99 where it depends on the speed");
 }
 
 ContactLaw law_of(const Material& a, const Material& b, const PairCoefficients& pair) {
@@ -46,13 +55,15 @@ ContactLaw law_of(const Material& a, const Material& b, const PairCoefficients& 
   };
   const double young = 1 / (normal_compliance(a) + normal_compliance(b));
   const double shear = 1 / (shear_compliance(a) + shear_compliance(b));
+  const double tangential_root = std::sqrt(4 * shear / young);
   return {.reduced_young_pa = young,
           .reduced_shear_pa = shear,
           .normal_damping = damping_factor(pair.restitution),
-          .tangential_damping =
-              textbook_damping_factor(pair.restitution) * std::sqrt(4 * shear / young),
+          .tangential_damping = textbook_damping_factor(pair.restitution) * tangential_root,
           .sliding_friction = pair.sliding_friction,
-          .rolling_friction = pair.rolling_friction};
+          .rolling_friction = pair.rolling_friction,
+          .by_speed = SpeedDamping(pair),
+          .tangential_root = tangential_root};
 }
 
 }  // namespace
@@ -80,6 +91,7 @@ ContactTable::ContactTable(std::vector<Material> materials, std::vector<PairCoef
   laws_.reserve(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     laws_.push_back(law_of(materials_[k / count], materials_[k % count], pairs_[k]));
+    is_by_speed_ = is_by_speed_ || !laws_.back().by_speed.is_constant();
   }
 }
 

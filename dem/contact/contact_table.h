@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dem/contact/material.h"
+#include "dem/contact/speed_damping.h"
 
 namespace repose::dem {
 
@@ -14,6 +15,10 @@ struct ContactLaw {
   double tangential_damping = 0;  ///< factor on sqrt(S_n m*) v_t
   double sliding_friction = 0;
   double rolling_friction = 0;
+  /// Takes the place of both damping factors where restitution depends on the speed: the
+  /// tangential one times tangential_root.
+  SpeedDamping by_speed = {};
+  double tangential_root = 1;  ///< sqrt(S_t / S_n) = sqrt(4 G* / E*)
 };
 
 /// Materials, and what each pair of them does: everything contacts depend on but shape.
@@ -32,6 +37,8 @@ class ContactTable {
   int size() const { return static_cast<int>(materials_.size()); }
   RollingModel rolling() const { return rolling_; }
   DampingModel damping() const { return damping_; }
+  /// Whether restitution depends on the speed of impact in any pair.
+  bool is_by_speed() const { return is_by_speed_; }
 
  private:
   std::size_t index(int a, int b) const {
@@ -43,6 +50,7 @@ class ContactTable {
   std::vector<ContactLaw> laws_;
   RollingModel rolling_;
   DampingModel damping_;
+  bool is_by_speed_ = false;
 };
 
 }  // namespace repose::dem

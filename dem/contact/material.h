@@ -33,11 +33,23 @@ enum class DampingModel {
   shared,
 };
 
+/// Of impacts; textbook restitutions below that cannot be told from 0.
+inline constexpr double kLeastRestitution = .01;
+/// Where restitution depends on the speed of impact: slow ones would make energy without a limit.
+inline constexpr double kMostRestitutionBySpeed = .99;
+/// Of the speed: a contact that yields all over has e ~ v^(-1/4) (Johnson 1985, Contact Mechanics,
+/// eq. 11.47), others less.
+inline constexpr double kMostRestitutionExponent = .25;
+
 /// What two materials do to each other.
 struct PairCoefficients {
   double restitution = 1;       ///< .01 ... 1: what comes out of a central impact of two spheres
   double sliding_friction = 0;  ///< >= 0
   double rolling_friction = 0;  ///< >= 0
+  /// 0: restitution is the same at all speeds. Else, 0 ... kMostRestitutionExponent, it is that of
+  /// an impact at restitution_speed_m_s, and of others as speed_damping.h says.
+  double restitution_exponent = 0;
+  double restitution_speed_m_s = 0;
 };
 
 }  // namespace repose::dem

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "dem/engine/contact_step.h"
+#include "dem/engine/damp_by_speed.h"
 #include "dem/engine/find_contacts.h"
 #include "dem/engine/finish_contacts.h"
 #include "dem/engine/share_damping.h"
@@ -15,10 +16,12 @@
 namespace repose::dem {
 
 /// The second pass: what pushes.
-template <typename Other>
+template <bool is_by_speed, typename Other>
 REPOSE_INLINE void find_forces(Four<Other>& four, double timestep) {
   Springs<Lanes> springs = four.springs;
-  four.force = contact_force(four.contacts.touch, laws_of(four.touching), timestep, springs);
+  Law<Lanes> law = laws_of(four.touching);
+  if constexpr (is_by_speed) damp_by_speed(four, law);
+  four.force = contact_force(four.contacts.touch, law, timestep, springs);
   four.springs = springs;
 }
 
@@ -134,7 +137,11 @@ REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
     const std::span<Four<Other>> fours =
         find_all<is_round, Other>(now, meeting, step.timestep_s, work.fours, spare);
     if (is_shared) share_damping(fours, meeting.pairs.data(), work.energies);
-    for (Four<Other>& four : fours) find_forces(four, step.timestep_s);
+    if (step.contacts.is_by_speed()) {
+      for (Four<Other>& four : fours) find_forces<true>(four, step.timestep_s);
+    } else {
+      for (Four<Other>& four : fours) find_forces<false>(four, step.timestep_s);
+    }
     deepest = greatest(
         finish_all<is_round, Other>(fours, sides, step.contacts.rolling(), step.timestep_s),
         deepest);

@@ -85,6 +85,9 @@ class NoReading : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a coefficient of restitution means for the model's clump, and at which speed.
+std::string damping_definition(const Model& model);
+
 // Each runs one repeat. The same seed gives the same bytes at any number of threads. They throw
 // std::invalid_argument for a protocol that cannot be run (every error at once), UnstableRun for a
 // run that went wrong, NoReading and Interrupted as said there.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "dem/contact/damping_name.h"
 #include "dem/shape/clump/size_classes.h"
 
 namespace repose::dem {
@@ -88,6 +89,21 @@ void find_errors(const Model& model, base::ErrorList& errors) {
   } catch (const std::invalid_argument& error) {
     errors.add(error.what());
   }
+}
+
+std::string damping_definition(const Model& model) {
+  std::string text = damping_definition(model.damping);
+  const auto add = [&text](const std::string& other, const PairCoefficients& pair) {
+    if (pair.restitution_exponent == 0) return;
+    text += fmt::format(
+        "; particle_{0}.restitution is that of impacts at {1:g} m/s, at v it is multiplied by "
+        "(v / {1:g} m/s)^-restitution_exponent, up to {2:g}",
+        other, pair.restitution_speed_m_s, kMostRestitutionBySpeed);
+  };
+  add("wall", model.grain_wall);
+  for (const auto& [part, surface] : model.parts) add(name_of(part), surface.with_grain);
+  add("particle", model.grain_grain);
+  return text;
 }
 
 Wall study_wall(WallShape shape, const Pose& pose) {

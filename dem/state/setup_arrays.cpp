@@ -13,10 +13,11 @@ namespace repose::dem {
 namespace {
 
 constexpr const char* kDamping = "damping";
+constexpr const char* kBySpeed = "pair_restitution_exponent_speed";
 
 void add_contact_table(ArrayWriter& arrays, const ContactTable& table) {
   std::vector<std::string> names;
-  std::vector<double> properties, pairs;
+  std::vector<double> properties, pairs, by_speed;
   for (int a = 0; a < table.size(); ++a) {
     const Material& material = table.material(a);
     names.push_back(material.name);
@@ -25,11 +26,13 @@ void add_contact_table(ArrayWriter& arrays, const ContactTable& table) {
     for (int b = 0; b < table.size(); ++b) {
       const PairCoefficients& pair = table.pair(a, b);
       pairs.insert(pairs.end(), {pair.restitution, pair.sliding_friction, pair.rolling_friction});
+      by_speed.insert(by_speed.end(), {pair.restitution_exponent, pair.restitution_speed_m_s});
     }
   }
   arrays.texts("material_name", std::move(names));
   arrays.numbers("material_density_young_poisson", 3, std::move(properties));
   arrays.numbers("pair_restitution_sliding_rolling", 3, std::move(pairs));
+  if (table.is_by_speed()) arrays.numbers(kBySpeed, 2, std::move(by_speed));
   arrays.texts("rolling_model", {name_of(table.rolling())});
   if (table.damping() != DampingModel::per_contact) {
     arrays.texts(kDamping, {name_of(table.damping())});
@@ -66,6 +69,14 @@ ContactTable contact_table_in(const ArrayReader& arrays) {
     pair.sliding_friction = coefficients.take();
     pair.rolling_friction = coefficients.take();
     pairs.push_back(pair);
+  }
+  if (arrays.has(kBySpeed)) {
+    NumberStream by_speed = arrays.numbers(kBySpeed, 2);
+    for (PairCoefficients& pair : pairs) {
+      pair.restitution_exponent = by_speed.take();
+      pair.restitution_speed_m_s = by_speed.take();
+    }
+    check_end(by_speed.is_at_end(), by_speed.name());
   }
   const auto& models = arrays.texts("rolling_model");
   const auto rolling = rolling_model_named(models.empty() ? "" : models.front());

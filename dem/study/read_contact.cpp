@@ -13,8 +13,10 @@
 namespace repose::dem {
 namespace {
 
-// What ContactTable accepts; textbook restitutions below .01 cannot be told from 0.
-constexpr Range kRestitution = from_to(.01, 1);
+// What ContactTable accepts.
+constexpr Range kRestitution = from_to(kLeastRestitution, 1);
+constexpr Range kRestitutionBySpeed = from_to(kLeastRestitution, kMostRestitutionBySpeed);
+constexpr Range kExponent = from_to(0, kMostRestitutionExponent);
 constexpr Range kFriction = from_to(0, 100);
 
 /// What is known beforehand: { min = 0.1, max = 0.6, mean = 0.3, sd = 0.05 }.
@@ -81,8 +83,9 @@ void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
 }
 
 Coefficient read_coefficient(Section& pair, const std::string& key, const Range& range,
-                             const std::string& number) {
-  const std::string bounds = fmt::format("{} = {{ min = 0.1, max = 0.6 }}", key);
+                             const std::string& number,
+                             const std::string& some_bounds = "{ min = 0.1, max = 0.6 }") {
+  const std::string bounds = fmt::format("{} = {}", key, some_bounds);
   const std::string rule = range.rule() + ", or bounds to find it in";
   const std::string example = fmt::format("{} = {} or {}", key, number, bounds);
   Coefficient coefficient;
@@ -97,6 +100,31 @@ Coefficient read_coefficient(Section& pair, const std::string& key, const Range&
   return coefficient;
 }
 
+/// How restitution depends on the speed of impact, where the study says so: an exponent and the
+/// speed that the restitution is of.
+void read_speed(Section& pair, CoefficientSet& set) {
+  constexpr const char* kExponentKey = "restitution_exponent";
+  constexpr const char* kSpeedKey = "restitution_speed_m_s";
+  constexpr double kFastest_m_s = 1000;
+  const bool has_exponent = pair.has(kExponentKey);
+  if (has_exponent) {
+    set.restitution_exponent =
+        read_coefficient(pair, kExponentKey, kExponent, "0.1", "{ min = 0, max = 0.25 }");
+  } else {
+    pair.value(kExponentKey);  // it could be there
+  }
+  set.restitution_speed_m_s =
+      pair.number(kSpeedKey, above(0, kFastest_m_s), "restitution_speed_m_s = 3");
+  if (has_exponent == pair.has(kSpeedKey)) return;
+  pair.errors().add(
+      pair.value(has_exponent ? kExponentKey : kSpeedKey)->place,
+      fmt::format("{} is given without {}", pair.full(has_exponent ? kExponentKey : kSpeedKey),
+                  has_exponent ? kSpeedKey : kExponentKey),
+      "an impact at v restores restitution (v / restitution_speed_m_s)^-restitution_exponent",
+      has_exponent ? "add the speed at which restitution is what it is, such as that of the drops"
+                   : "take it out, or add restitution_exponent = { min = 0, max = 0.25 }");
+}
+
 /// A pair that is missing is told once, not key by key.
 CoefficientSet read_pair(Section& contact, const std::string& key) {
   if (contact.exists() && !contact.has(key)) {
@@ -108,10 +136,12 @@ CoefficientSet read_pair(Section& contact, const std::string& key) {
                     contact.full(key)));
   }
   Section pair = contact.section(key);
+  const Range& restitution = pair.has("restitution_exponent") ? kRestitutionBySpeed : kRestitution;
   CoefficientSet set{
-      .restitution = read_coefficient(pair, "restitution", kRestitution, "0.3"),
+      .restitution = read_coefficient(pair, "restitution", restitution, "0.3"),
       .sliding_friction = read_coefficient(pair, "sliding_friction", kFriction, "0.4"),
       .rolling_friction = read_coefficient(pair, "rolling_friction", kFriction, "0.04")};
+  read_speed(pair, set);
   pair.refuse_others();
   return set;
 }
@@ -120,7 +150,9 @@ PairCoefficients values_of(const CoefficientSet& set) {
   constexpr double kOpen = std::numeric_limits<double>::quiet_NaN();
   return {.restitution = set.restitution.value.value_or(kOpen),
           .sliding_friction = set.sliding_friction.value.value_or(kOpen),
-          .rolling_friction = set.rolling_friction.value.value_or(kOpen)};
+          .rolling_friction = set.rolling_friction.value.value_or(kOpen),
+          .restitution_exponent = set.restitution_exponent.value.value_or(kOpen),
+          .restitution_speed_m_s = set.restitution_speed_m_s.value_or(0)};
 }
 
 /// Reads the model that `key` names, one of `names`. Stays as it is when the study does not say.

@@ -143,7 +143,8 @@ Study read_text(const fs::path& file, const std::string& text,
 void add_open(const CoefficientSet& set, const std::string& pair, std::vector<std::string>& names) {
   for (const auto& [coefficient, name] : {std::pair(&set.restitution, "restitution"),
                                           {&set.sliding_friction, "sliding_friction"},
-                                          {&set.rolling_friction, "rolling_friction"}}) {
+                                          {&set.rolling_friction, "rolling_friction"},
+                                          {&set.restitution_exponent, "restitution_exponent"}}) {
     if (!coefficient->value) names.push_back(fmt::format("contact.{}.{}", pair, name));
   }
 }
@@ -228,6 +229,7 @@ Model model_for(const Study& study, Experiment experiment) {
     close(model.grain_grain.restitution, model.grain_wall.restitution);
     close(model.grain_grain.sliding_friction, model.grain_wall.sliding_friction);
     close(model.grain_grain.rolling_friction, model.grain_wall.rolling_friction);
+    model.grain_grain.restitution_exponent = 0;
   }
   return model;
 }

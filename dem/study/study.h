@@ -37,6 +37,8 @@ struct CoefficientSet {
   Coefficient restitution;
   Coefficient sliding_friction;
   Coefficient rolling_friction;
+  Coefficient restitution_exponent = {.value = 0, .known_mean = {}, .known_sd = {}};
+  std::optional<double> restitution_speed_m_s = {};  ///< given where the exponent is
 };
 
 /// An error that all readings of an experiment have in common, so that more of them do not help.

@@ -258,6 +258,19 @@ TEST(ExportStudy, SharedDampingIsRefusedForClumpsAndPassesForSpheres) {
   EXPECT_THAT(exported(study, ExportTarget::liggghts, false).files, Not(IsEmpty()));
 }
 
+// In the others it is the same at all speeds.
+TEST(ExportStudy, RestitutionThatDependsOnTheSpeedIsRefused) {
+  dem::Study study = hazelnuts();
+  study.model.grain_wall.restitution_exponent = .1;
+  study.model.grain_wall.restitution_speed_m_s = 3;
+  study.particle_wall.restitution_exponent.value = .1;
+  for (const auto& [target, name] : kExportTargets) {
+    EXPECT_THAT(error_of([&, of = target] { exported(study, of, true); }),
+                AllOf(HasSubstr("contact.particle_wall.restitution_exponent = 0.1"),
+                      HasSubstr(std::string(name)), HasSubstr("3 m/s"), HasSubstr("Fix:")));
+  }
+}
+
 TEST(ExportStudy, EdemIsToldItsOwnNameOfTheRollingModel) {
   using dem::RollingModel;
   for (const auto& [model, name] : {std::pair(RollingModel::constant_torque, "Standard"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -427,6 +428,32 @@ TEST_F(StudyRun, SharedDampingMakesOtherRuns) {
   };
   EXPECT_THAT(described("per_contact"), Not(HasSubstr("damping")));
   EXPECT_THAT(described("shared"), HasSubstr("\"damping\":\"shared\""));
+}
+
+/// Two heights of drop tell how restitution goes with the speed: 100 and 4 mm are fivefold.
+TEST_F(StudyRun, TwoHeightsGiveRestitutionAndItsExponentBack) {
+  const double e0 = .5, exponent = .12;
+  const auto rebound_mm = [&](double height_mm) {
+    const double speed = std::sqrt(2 * 9.80665 * height_mm / 1000);
+    return height_mm * std::pow(e0 * std::pow(speed / 1.4, -exponent), 2);
+  };
+  const auto outcome = run(
+      "speeds", 2, -1,
+      {"particle.young_modulus_pa = 1e8",  // too stiff for its weight to matter
+       "contact.particle_wall.restitution_exponent = { min = 0, max = 0.25 }",
+       "contact.particle_wall.restitution_speed_m_s = 1.4",
+       "contact.particle_wall.sliding_friction = 0.4", "experiment.drop.low_height_mm = 4",
+       fmt::format("experiment.drop.measured = {{ mean = {}, sd = 0.3, n = 10, in_air = false }}",
+                   rebound_mm(100)),
+       fmt::format("experiment.drop.also_measured.low_rebound_mm = {{ mean = {}, sd = 0.02, n = 10 "
+                   "}}",
+                   rebound_mm(4))});
+  ASSERT_TRUE(outcome);
+  ASSERT_THAT(outcome->fit.parameters, SizeIs(2));
+  EXPECT_NEAR(outcome->fit.parameters[0].value, e0, .01);
+  EXPECT_EQ(outcome->fit.parameters[1].name, "contact.particle_wall.restitution_exponent");
+  EXPECT_NEAR(outcome->fit.parameters[1].value, exponent, .02);
+  EXPECT_EQ(outcome->fit.parameters[1].verdict, Verdict::determined);
 }
 
 TEST_F(StudyRun, FindsTheCoefficientsOfTheBench) {

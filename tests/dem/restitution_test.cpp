@@ -166,5 +166,71 @@ TEST(Restitution, ContactNeverPulls) {
   }
 }
 
+/// Of a contact whose restitution depends on the speed.
+SimulationSetup by_speed(double restitution, double exponent, double young_pa = 1e9) {
+  const Material wood{
+      .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = young_pa, .poisson_ratio = .3};
+  SimulationSetup setup = scene_of(sphere_shape(kRadius), wood, wood,
+                                   {.restitution = restitution,
+                                    .restitution_exponent = exponent,
+                                    .restitution_speed_m_s = kSpeed});
+  setup.walls = {tilted_plane(0)};
+  setup.timestep_s = .5 * accurate_timestep_s(setup, kSpeed, kImpactFraction);
+  return setup;
+}
+
+TEST(RestitutionBySpeed, BothAWallAndAnotherBallRestoreWhatTheLawSays) {
+  for (const double e : {.1, .3, .5, .8}) {
+    for (const double exponent : {.05, .15, .25}) {
+      SimulationSetup setup = by_speed(e, exponent);
+      EXPECT_NEAR(restitution_seen(setup, .5), e, .01 * e) << exponent;
+      setup.walls.clear();
+      EXPECT_NEAR(restitution_seen(setup, .5), e, .01 * e) << exponent << " balls";
+    }
+  }
+}
+
+/// The law has no scale but its own speed: neither stiffness nor mass matters.
+TEST(RestitutionBySpeed, DoesNotDependOnTheStiffness) {
+  EXPECT_NEAR(restitution_seen(by_speed(.4, .2, 1e7), .5), .4, .004);
+  EXPECT_NEAR(restitution_seen(by_speed(.4, .2, 1e11), .5), .4, .004);
+}
+
+TEST(RestitutionBySpeed, WithoutAnExponentIsTheSameToTheBit) {
+  SimulationSetup plain = glass_on_wall(.4);
+  plain.timestep_s = accurate_timestep_s(plain, kSpeed);
+  SimulationSetup zero = plain;
+  PairCoefficients pair = plain.contacts.pair(0, 0);
+  pair.restitution_speed_m_s = 3;
+  zero.contacts = ContactTable({plain.contacts.material(0), plain.contacts.material(1)},
+                               {pair, pair, pair, pair}, RollingModel::none);
+  EXPECT_FALSE(zero.contacts.is_by_speed());
+  EXPECT_EQ(impact(plain, .3).after.velocity.z(), impact(zero, .3).after.velocity.z());
+}
+
+TEST(RestitutionBySpeed, IsHeldBetweenItsLeastAndItsMost) {
+  const PairCoefficients pair{
+      .restitution = .5, .restitution_exponent = .25, .restitution_speed_m_s = 1};
+  EXPECT_DOUBLE_EQ(restitution_at(pair, 16), .25);
+  EXPECT_DOUBLE_EQ(restitution_at(pair, .01), kMostRestitutionBySpeed);
+  EXPECT_DOUBLE_EQ(restitution_at(pair, 1e9), kLeastRestitution);
+  EXPECT_EQ(restitution_at({.restitution = .5}, .01), .5);
+}
+
+TEST(RestitutionBySpeed, WhatItCannotBeIsRefused) {
+  const Material wood{
+      .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e9, .poisson_ratio = .3};
+  const auto error = [&](const PairCoefficients& pair) {
+    return error_of([&] { ContactTable({wood}, {pair}, RollingModel::none); });
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(error({.restitution = .5, .restitution_exponent = .3, .restitution_speed_m_s = 1}),
+              HasSubstr("restitution_exponent is 0.3. Rule: 0 to .25"));
+  EXPECT_THAT(error({.restitution = .5, .restitution_exponent = .1}),
+              HasSubstr("restitution_speed_m_s is 0. Rule: above 0"));
+  EXPECT_THAT(error({.restitution = 1, .restitution_exponent = .1, .restitution_speed_m_s = 1}),
+              HasSubstr("restitution is 1. Rule: at most .99"));
+}
+
 }  // namespace
 }  // namespace repose::dem

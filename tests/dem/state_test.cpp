@@ -191,6 +191,29 @@ TEST_F(StateFile, EverythingComesBack) {
   EXPECT_EQ(state.checkpoint.contacts.size(), simulation.contacts().size());
 }
 
+TEST_F(StateFile, KeepsHowRestitutionGoesWithTheSpeed) {
+  const auto setup_with = [](double exponent) {
+    const Material wood{
+        .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e8, .poisson_ratio = .3};
+    SimulationSetup setup{
+        .kinds = {{.shape = sphere_shape(.005), .material = 0}},
+        .contacts = ContactTable({wood},
+                                 {{.restitution = .4,
+                                   .restitution_exponent = exponent,
+                                   .restitution_speed_m_s = exponent > 0 ? 3. : 0.}},
+                                 RollingModel::none)};
+    setup.timestep_s = 1e-6;
+    return setup;
+  };
+  write_state(file(), Simulation(setup_with(.1)), "{}");
+  const SimulationSetup read = read_state(file()).setup;
+  EXPECT_EQ(read.contacts.pair(0, 0).restitution_exponent, .1);
+  EXPECT_EQ(read.contacts.pair(0, 0).restitution_speed_m_s, 3);
+  EXPECT_TRUE(read.contacts.is_by_speed());
+  write_state(file(), Simulation(setup_with(0)), "{}");
+  EXPECT_FALSE(read_state(file()).setup.contacts.is_by_speed());
+}
+
 TEST_F(StateFile, PointsAreThePresentGrainsAndAreDrawn) {
   EXPECT_THAT(saved(), AllOf(HasSubstr("NumberOfPoints=\"29\" NumberOfVerts=\"29\""),
                              HasSubstr("Name=\"orientation\" NumberOfComponents=\"4\""),

@@ -385,6 +385,32 @@ TEST_F(StudyFile, SettingsReplaceAndAddValues) {
   EXPECT_EQ(study.seed, 7U) << "the last one counts";
 }
 
+TEST_F(StudyFile, RestitutionMayDependOnTheSpeed) {
+  EXPECT_EQ(read(kStudy).particle_wall.restitution_exponent.value, 0) << "not by default";
+  const std::string speed = "contact.particle_wall.restitution_speed_m_s = 3";
+  const std::string exponent = "contact.particle_wall.restitution_exponent = ";
+  const Study known = read(kStudy, {exponent + "0.1", speed});
+  EXPECT_EQ(known.model.grain_wall.restitution_exponent, .1);
+  EXPECT_EQ(known.model.grain_wall.restitution_speed_m_s, 3);
+  EXPECT_EQ(known.model.grain_grain.restitution_exponent, 0);
+  const Study sought = read(kStudy, {exponent + "{ min = 0, max = 0.25 }", speed});
+  EXPECT_TRUE(sought.particle_wall.restitution_exponent.is_sought());
+  EXPECT_THAT(open_coefficients(sought, Experiment::drop),
+              Contains("contact.particle_wall.restitution_exponent"));
+  EXPECT_TRUE(depends_on(entry_of(Experiment::drop), "contact.particle_wall.restitution_exponent"));
+  EXPECT_FALSE(
+      depends_on(entry_of(Experiment::tilt), "contact.particle_wall.restitution_exponent"));
+  EXPECT_THAT(errors(kStudy, {exponent + "0.1"}),
+              HasSubstr("restitution_exponent is given without restitution_speed_m_s"));
+  EXPECT_THAT(errors(kStudy, {speed}),
+              HasSubstr("restitution_speed_m_s is given without restitution_exponent"));
+  EXPECT_THAT(
+      errors(kStudy, {exponent + "0.5", speed}),
+      HasSubstr("restitution_exponent = 0.5. Rule: a number of at least 0 and at most 0.25"));
+  EXPECT_THAT(errors(kStudy, {exponent + "0.1", speed, "contact.particle_wall.restitution = 1"}),
+              HasSubstr("at most 0.99"));
+}
+
 TEST_F(StudyFile, NumbersOfSettingsNeedNoDigitBeforeOrAfterTheirPoint) {
   const Study study = read(kStudy, {"particle.density_kg_m3 =900.", "wall.poisson_ratio=+.25",
                                     "contact.particle_wall.restitution={min=.2,max = .5}",
