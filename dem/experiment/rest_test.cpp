@@ -24,13 +24,25 @@ Energy energy_of(const Grain& grain, const Vector& gyration_m2) {
   return {.5 * grain.velocity.squaredNorm(), .5 * own_spin.cwiseAbs2().dot(gyration_m2)};
 }
 
-/// How many contacts each grain has.
+/// How many contacts hold each grain: not those that it grazes, which push so much less than its
+/// hardest that their friction moves nothing.
 std::vector<int> contacts_of_each(const Simulation& simulation) {
-  std::vector<int> contacts(static_cast<std::size_t>(simulation.grain_count()));
-  for (const ContactState& contact : simulation.contacts()) {
-    ++contacts[static_cast<std::size_t>(contact.grain_a)];
-    if (contact.grain_b >= 0) ++contacts[static_cast<std::size_t>(contact.grain_b)];
-  }
+  constexpr double kGraze = .01;
+  const std::vector<ContactState> all = simulation.contacts();
+  const auto count = static_cast<std::size_t>(simulation.grain_count());
+  const auto for_each_side = [&all](const auto& visit) {
+    for (const ContactState& contact : all) {
+      visit(static_cast<std::size_t>(contact.grain_a), contact.push_n);
+      if (contact.grain_b >= 0) visit(static_cast<std::size_t>(contact.grain_b), contact.push_n);
+    }
+  };
+  std::vector<double> hardest(count);
+  for_each_side(
+      [&](std::size_t grain, double push) { hardest[grain] = std::max(hardest[grain], push); });
+  std::vector<int> contacts(count);
+  for_each_side([&](std::size_t grain, double push) {
+    if (push >= kGraze * hardest[grain]) ++contacts[grain];
+  });
   return contacts;
 }
 

@@ -42,6 +42,16 @@ TEST(RestTest, SpinOnTheSpotDoesNotCountWhereNothingResistsIt) {
   }
 }
 
+/// As in the apron of a heap: one that barely touches its neighbour, too.
+TEST(RestTest, SpinOnTheSpotDoesNotCountForGrazingANeighbour) {
+  Simulation simulation = spinning_ball(RollingModel::relative_constant_torque, {0, 0, 20});
+  const double apart_m = 2 * kRestingRadius_m - 1e-9;
+  simulation.add({.position = {apart_m, 0, kRestingRadius_m}});
+  EXPECT_TRUE(rest_s(simulation, .3));
+  EXPECT_GT(simulation.grain(0).spin.z(), 10);
+  EXPECT_EQ(simulation.contacts().size(), 3U) << "two on the plate, and the graze";
+}
+
 TEST(RestTest, SpinThatATorqueResistsIsWaitedFor) {
   Simulation simulation = spinning_ball(RollingModel::constant_torque, {0, 0, 20});
   EXPECT_TRUE(rest_s(simulation, 2));
