@@ -113,7 +113,8 @@ void judge(const UncertainMean& change, double level, SensitivityCheck& check) {
   const Interval within = not_ruled_out(change);
   if (within.low >= -check.limit && within.high <= check.limit) {
     if (check.failed_runs == 0) check.verdict = AgreementVerdict::agrees;
-  } else if (check.chance < level) {
+  } else if (check.chance < level &&
+             (check.interval.low > check.limit || check.interval.high < -check.limit)) {
     check.verdict = AgreementVerdict::disagrees;
   }
 }

@@ -28,7 +28,7 @@ struct SensitivityCheck {
   double limit = 0;        ///< half-width of the measured mean's 95 % interval
   int runs = 0;            ///< with that value, and a reading
   int failed_runs = 0;
-  /// agrees: the change is shown to be within the limit. disagrees: it is more than chance makes.
+  /// agrees: the change is shown to be within the limit. disagrees: it is shown to be beyond it.
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
 };
 

@@ -327,7 +327,7 @@ void add_sensitivity(const std::vector<SensitivityCheck>& readings,
 
 SensitivityWords stiffness_words() {
   return {.table = "stiffness_checks",
-          .title = "Stiffer grains at the same coefficients",
+          .title = "Stiffer grains at the coefficients checked last",
           .input = {.name = "stiffness factor", .unit = {}},
           .explanation =
               "The grains of these experiments are softer than real ones, since softer "
@@ -342,7 +342,7 @@ SensitivityWords stiffness_words() {
 
 SensitivityWords shape_words(const ShapeCheck& shape) {
   return {.table = "shape_check",
-          .title = "More spheres at the same coefficients",
+          .title = "More spheres at the coefficients checked last",
           .input = {.name = "spheres", .unit = {}, .decimals = 0},
           .explanation = fmt::format(
               "The coefficients belong to a clump of this many spheres: {}. Simulated again with "

@@ -57,7 +57,9 @@ void add_model(const StudyResult& result, DataTable& data) {
   add(data, "contact model", from.contact_model);
   add(data, "damping", from.damping + ": " + from.damping_definition);
   add(data, "rolling friction", from.rolling_model + ": " + from.rolling_definition);
-  add(data, "clump", fmt::format("{}, {} spheres", from.clump.source, from.clump.spheres));
+  add(data, "clump",
+      fmt::format("{}, {} sphere{}", from.clump.source, from.clump.spheres,
+                  from.clump.spheres == 1 ? "" : "s"));
   add(data, "clump volume error", percent(from.clump.volume_error));
   add(data, "clump inertia error", percent(from.clump.inertia_error));
   if (from.clump.size_sd_percent) {

@@ -86,9 +86,17 @@ std::string unit_shown(const std::string& unit) {
 }
 
 std::string axis_of_observable(const std::string& name, const std::string& unit) {
-  const auto* known = dem::find_experiment(name);
-  const std::string what =
-      known == nullptr ? shortened(spaced(name)) : std::string(known->value_name);
+  // Of another reading, "drop.low_rebound_mm", the unit is said behind.
+  const std::size_t dot = name.find('.');
+  const auto* known = dem::find_experiment(name.substr(0, dot));
+  std::string what = shortened(spaced(name));
+  if (known != nullptr && dot == std::string::npos) what = known->value_name;
+  if (known != nullptr && dot != std::string::npos) {
+    std::string reading = name.substr(dot + 1);
+    if (!unit.empty() && reading.ends_with('_' + unit))
+      reading.resize(reading.size() - unit.size() - 1);
+    what = fmt::format("{}, {}", spaced(std::string(known->name)), shortened(spaced(reading)));
+  }
   if (unit.empty()) return what;
   return fmt::format("{} [{}]", what, unit_shown(unit));
 }

@@ -385,12 +385,30 @@ void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
   }
 }
 
+/// A rebound from the lower height of a drop that is higher than that.
+void find_impossible_low_rebound(const dem::Study& study, const dem::ClumpShape& grain,
+                                 const dem::StudyExperiment& described,
+                                 std::vector<std::string>& errors) {
+  const auto* drop = std::get_if<dem::DropProtocol>(&described.protocol);
+  if (drop == nullptr || !drop->low_height_m) return;
+  const double most_mm = 1e3 * (*drop->low_height_m + 2 * grain.reach_m());
+  for (const dem::MeasuredReading& reading : described.measured.also) {
+    if (reading.name != "low_rebound_mm" || reading.mean <= most_mm) continue;
+    errors.push_back(fmt::format(
+        "{}: [experiment.drop.also_measured] low_rebound_mm = {:.10g} mm. Rule: at most {:.4g} mm, "
+        "low_height_mm = {:.4g} and from lying to standing with this grain. Fix: correct the "
+        "reading, or the study.",
+        study.file.string(), reading.mean, most_mm, 1e3 * *drop->low_height_m));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> impossible_readings(const dem::Study& study,
                                              const dem::ClumpShape& grain) {
   std::vector<std::string> errors;
   for (const auto& [experiment, described] : study.experiments) {
+    find_impossible_low_rebound(study, grain, described, errors);
     const dem::ExperimentEntry& entry = dem::entry_of(experiment);
     const dem::Range range = measurable_range(study, grain, entry);
     std::vector<double> readings = described.measured.values;

@@ -27,7 +27,8 @@ namespace {
 std::string four_digits(double value) {
   if (!std::isfinite(value)) return kNothing;
   const double size = std::abs(value);
-  return fmt::format("{:.{}f}", value, size < 10 ? 3 : size < 100 ? 2 : 1);
+  const double shown = size < .0005 ? 0 : value;  // no "-0.000"
+  return fmt::format("{:.{}f}", shown, size < 10 ? 3 : size < 100 ? 2 : 1);
 }
 
 Table parameters_table(const calibrate::JointResult& joint) {
@@ -192,7 +193,8 @@ void add_sensitivity(const std::vector<calibrate::SensitivityCheck>& readings,
   page.add_gap();
   page.add(table);
   page.add(fmt::format(
-      "({}, at these coefficients; limit: the half-width of the 95 % interval of the bench's mean)",
+      "({}, at the coefficients checked last; limit: the half-width of the 95 % interval of the "
+      "bench's mean)",
       words.explanation));
   if (coefficients.empty()) return;
   Table moved({{.heading = words.coefficients},

@@ -136,6 +136,11 @@ std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
     page.add(fmt::format("{}: {}.", budget.budget.name, budget.budget.description));
   }
   page.add("one more hour: additional runs within one hour, for comparison.");
+  page.add(
+      "The checks simulate the best fit with fresh seeds and, within a fifth of the budget each, "
+      "with "
+      "stiffer grains where the study's are softened and with more spheres where its shape "
+      "allows.");
   page.add_gap();
   page.add(
       "Timed with one run of each experiment on this machine under its present load. A fit that "

@@ -197,7 +197,8 @@ Table belongs_to_table(const SimulatePlan& plan) {
   table.add_row({"  damping", fmt::format("{}: {}", dem::name_of(model.damping),
                                           dem::damping_definition(model.damping))});
   table.add_row(
-      {"  clump", fmt::format("{} spheres, volume error {:.1f} % ({})", model.grain.spheres.size(),
+      {"  clump", fmt::format("{} sphere{}, volume error {:.1f} % ({})", model.grain.spheres.size(),
+                              model.grain.spheres.size() == 1 ? "" : "s",
                               100 * plan.grain.errors.volume_error, plan.grain.source)});
   if (model.size_sd_fraction > 0) {
     table.add_row({"  sizes", fmt::format("standard deviation {:.3g} % of the mean",

@@ -117,6 +117,12 @@ TEST_F(BenchSheets, ImpossibleReadingsAreToldByTheStudysGrain) {
   EXPECT_EQ(said("[experiment.fill]\nmeasured = { mean = 603 }\n"), "");
   EXPECT_THAT(said("[experiment.drop]\nheight_mm = 100\nmeasured = { mean = 900 }\n"),
               HasSubstr("[experiment.drop] measured = 900 mm"));
+  const std::string low =
+      "[experiment.drop]\nheight_mm = 500\nlow_height_mm = 20\nalso_measured = { low_rebound_mm = "
+      "{ "
+      "mean = ";
+  EXPECT_THAT(said(low + "90 } }\n"), HasSubstr("low_rebound_mm = 90 mm. Rule: at most "));
+  EXPECT_EQ(said(low + "9 } }\n"), "");
   EXPECT_EQ(said("[experiment.roll]\nmeasured = { values = [120, 0] }\n"), "") << "it stayed";
   EXPECT_THAT(errors("[experiment.roll]\nmeasured = { values = [120, -150] }\n"),
               HasSubstr("experiment.roll.measured.values = -150. Rule: a number of at least 0"));
