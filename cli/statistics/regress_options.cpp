@@ -23,6 +23,7 @@ namespace {
 constexpr std::array kRegressNames{
     OptionName{.value = "linear model", .option = "--model linear"},
     OptionName{.value = "blocks column", .option = "--blocks"},
+    OptionName{.value = "choose no blocks", .option = "--blocks none"},
     OptionName{.value = "factor columns", .option = "--factors A,B,C"}};
 constexpr std::array kTarget{OptionName{.value = "target value", .option = "--target"}};
 
@@ -90,7 +91,9 @@ RegressPlan plan_regress(const RegressArguments& arguments) {
                                                                     .blocks = arguments.blocks,
                                                                     .codings = codings});
     plan.left_out = std::move(table.left_out);
-    plan.notes = std::move(table.notes);
+    for (std::string& note : table.notes) {
+      plan.notes.push_back(naming_options(std::move(note), kRegressNames));
+    }
     plan.report = report_on(calibrate::regress(table.runs, plan.model), plan.target);
     for (calibrate::SurfaceDiagnostic& diagnostic : plan.report.diagnostics) {
       diagnostic.message = naming_options(std::move(diagnostic.message), kTarget);

@@ -184,11 +184,13 @@ TEST_F(RegressCommand, AColumnOfTextIsBlocks) {
   without.insert(without.end(), {"--blocks", "none"});
   EXPECT_FALSE(result(without).contains("blocks"));
   EXPECT_GT(result(without)["residual_sd"].get<double>(), 1);
-  EXPECT_THAT(run(without).out, HasSubstr("not used: column Day"));
+  EXPECT_THAT(run(without).out, HasSubstr("not used: column Day (no blocks are wanted"));
 
   // A number for each day is a factor, unless it is said to be blocks.
   folder_.write("runs.csv", two_days("Day", "1", "2"));
   EXPECT_EQ(result(words)["factors"].size(), 3U);
+  EXPECT_THAT(result(words)["notes"].dump(), HasSubstr("Day holds numbers and is taken for a"));
+  EXPECT_THAT(run(words).out, HasSubstr("--blocks"));
   Words named = words;
   named.insert(named.end(), {"--blocks", "Day"});
   EXPECT_EQ(result(named)["coefficients"], blocked["coefficients"]);
@@ -197,6 +199,16 @@ TEST_F(RegressCommand, AColumnOfTextIsBlocks) {
   Words wrong = words;
   wrong.insert(wrong.end(), {"--blocks", "Week"});
   EXPECT_THAT(run(wrong).err, HasSubstr("has no column Week for blocks"));
+}
+
+TEST_F(RegressCommand, BlocksThatAreAFactorAreNamed) {
+  folder_.write("runs.csv", std::string("mu,kind,y\n1,a,2\n1,a,2.1\n2,b,3\n2,b,3.1\n1,a,2.2\n"));
+  const Words words = {"runs.csv", "--response", "y", "--model", "linear"};
+  EXPECT_THAT(run(words).err, AllOf(HasSubstr("mu is the same throughout each block of kind"),
+                                    HasSubstr("--blocks none")));
+  Words without = words;
+  without.insert(without.end(), {"--blocks", "none"});
+  EXPECT_EQ(run(without).exit_code, 0);
 }
 
 TEST_F(RegressCommand, WhatOtherProgramsWriteBesideARunIsNoFactor) {

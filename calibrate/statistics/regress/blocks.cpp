@@ -16,6 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+}  // namespace
+
 bool varies_within(const Blocks& blocks, const std::vector<double>& values) {
   std::vector<std::optional<double>> first(blocks.labels.size());
   for (std::size_t run = 0; run < values.size(); ++run) {
@@ -25,8 +27,6 @@ bool varies_within(const Blocks& blocks, const std::vector<double>& values) {
   }
   return false;
 }
-
-}  // namespace
 
 std::size_t block_columns_of(const RunTable& table) {
   return table.blocks && !table.blocks->labels.empty() ? table.blocks->labels.size() - 1 : 0;

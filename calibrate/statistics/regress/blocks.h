@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -10,6 +11,9 @@
 /// Blocks in the model matrix: b - 1 columns that are 1 in a block, -1 in the last one and 0 in all
 /// others. So the shifts add up to 0, and the terms describe the mean of the blocks.
 namespace repose::calibrate {
+
+/// Whether values, one of each run, differ between runs of one block.
+bool varies_within(const Blocks& blocks, const std::vector<double>& values);
 
 /// Of b blocks, b - 1.
 std::size_t block_columns_of(const RunTable& table);

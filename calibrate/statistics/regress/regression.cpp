@@ -121,6 +121,19 @@ void check_rank(const RunTable& table, const Regression& regression,
                 const Decomposition& decomposition) {
   const Index rank = decomposition.qr.rank();
   if (rank == decomposition.qr.cols()) return;
+  const auto told_by_blocks = std::find_if(
+      table.levels.begin(), table.levels.end(), [&](const std::vector<double>& levels) {
+        return table.blocks && !varies_within(*table.blocks, levels);
+      });
+  if (told_by_blocks != table.levels.end()) {
+    const auto at = static_cast<std::size_t>(told_by_blocks - table.levels.begin());
+    throw std::invalid_argument(fmt::format(
+        "{}: {} is the same throughout each block of {}, so that the runs cannot tell its effect "
+        "from theirs. Fix: choose no blocks, if only {} differs between them; otherwise leave {} "
+        "out of the factor columns, or make runs at several levels in each block.",
+        table.name, table.factors[at].name, table.blocks->name, table.factors[at].name,
+        table.factors[at].name));
+  }
   std::vector<std::string> names;
   for (Index k = rank; k < decomposition.qr.cols(); ++k) {
     const auto column = static_cast<std::size_t>(decomposition.qr.colsPermutation().indices()[k]);

@@ -104,6 +104,13 @@ std::string bookkeeping_of(const std::string& name, const Column& column) {
   return {};
 }
 
+/// What people call that which runs made together have in common; numbers of it are no levels.
+bool sounds_like_blocks(const std::string& name) {
+  return is_one_of(plain_name(name), {"day", "week", "month", "session", "shift", "batch", "lot",
+                                      "series", "operator", "person", "site", "lab", "machine",
+                                      "rig", "replicate", "replication", "rep"});
+}
+
 /// Says of each column what it is.
 class ColumnSorter {
  public:
@@ -124,6 +131,7 @@ class ColumnSorter {
   const Names& factors() const { return factors_; }
   const std::string& blocks() const { return blocks_; }
   std::vector<LeftOut> take_left_out() { return std::move(left_out_); }
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   void look_at(std::size_t place) {
@@ -142,13 +150,20 @@ class ColumnSorter {
     } else if (column.is_text() || is_called_block) {
       leave_out(name, column.different() == 1 ? "the same in every run"
                       : seeks_blocks          ? "text that does not part the runs into blocks"
-                                              : "there are no blocks");
+                      : blocks_.empty()       ? "no blocks are wanted, and text is no factor"
+                                              : "the blocks are those of " + blocks_);
     } else if (!wanted_.factors.empty()) {
       return;  // left out by who named the factors
     } else if (column.is_count()) {
       counts_.push_back(name);
     } else {
       factors_.push_back(name);
+      if (seeks_blocks && column.may_be_blocks() && sounds_like_blocks(name)) {
+        notes_.push_back(
+            fmt::format("{} holds numbers and is taken for a factor. If it only says which runs "
+                        "were made together, name it as blocks column.",
+                        name));
+      }
     }
   }
 
@@ -181,6 +196,7 @@ class ColumnSorter {
   Names candidates_;  ///< for blocks
   Names counts_;
   std::vector<LeftOut> left_out_;
+  std::vector<std::string> notes_;
 };
 
 Blocks blocks_in(const Table& table, const std::string& name) {
@@ -285,6 +301,7 @@ TableOfRuns runs_in(Table table, const RunColumns& columns) {
   }
   errors.throw_if_any();
   for (LeftOut& one : sorted.take_left_out()) result.left_out.push_back(std::move(one));
+  result.notes.insert(result.notes.end(), sorted.notes().begin(), sorted.notes().end());
   runs.responses = std::move(runs.levels.back());
   runs.levels.pop_back();
   const std::vector<bool> is_cube = cube_runs(table);
