@@ -50,6 +50,30 @@ TEST_F(BenchCommand, WhatIsNotUsedOfATableIsSaid) {
   EXPECT_THAT(run({"sliding", "b.csv"}).err, HasSubstr("b.csv:5: lines 5 to 6 look like mean"));
 }
 
+TEST_F(BenchCommand, MixedDecimalSignsAreRefused) {
+  folder_.write("a.csv", std::string("angle_deg\n22,1\n1.403\n21,9\n"));
+  folder_.write("b.csv", std::string("sample,angle_deg\na,\"22,1\"\nb,1.403\n"));
+  for (const char* file : {"a.csv", "b.csv"}) {
+    EXPECT_THAT(run({"sliding", file}).err, AllOf(HasSubstr(":3: angle_deg is \"1.403\""),
+                                                  HasSubstr("line 2 has a decimal comma")));
+  }
+}
+
+TEST_F(BenchCommand, AnUnclearNumberIsOneError) {
+  folder_.write("a.csv", std::string("sample;bulk_density_kg_m3\na;1.403\nb;1.398\n"));
+  const std::string errors = run({"fill", "a.csv"}).err;
+  EXPECT_THAT(errors, HasSubstr("may mean 1403"));
+  EXPECT_THAT(errors, ::testing::Not(HasSubstr("must be")));
+}
+
+TEST_F(BenchCommand, HeightsWithAndWithoutAirHaveNoMean) {
+  folder_.write("a.csv", std::string("drop_mm,rebound_mm,in_air\n500,80,1\n500,81,0\n"));
+  EXPECT_THAT(run({"restitution", "a.csv"}).err, HasSubstr("have no common mean"));
+  EXPECT_EQ(run({"restitution", "a.csv", "--set", "diameter_mm=5", "--set", "density_kg_m3=1200"})
+                .exit_code,
+            0);
+}
+
 TEST_F(BenchCommand, ADensityOfGasIsNone) {
   folder_.write("a.csv", std::string("sample;bulk_density_kg_m3\na;1.403\nb;1.398\n"));
   EXPECT_THAT(run({"fill", "a.csv"}).err,

@@ -60,6 +60,12 @@ std::string range_of(const ReadingColumn& column) {
 
 ReadingValues values_of(const BenchReading& reading) { return {reading.values, reading.optional}; }
 
+std::vector<ReadingValues> values_of(std::span<const BenchReading> readings) {
+  std::vector<ReadingValues> values;
+  for (const BenchReading& reading : readings) values.push_back(values_of(reading));
+  return values;
+}
+
 bool is_possible(const std::string& place, const ReadingColumn& column, double value,
                  base::ErrorList& errors) {
   if (value > column.above && value < column.below) return true;  // false for NaN
@@ -133,9 +139,8 @@ std::vector<std::string> notes_on(const Method& method, std::span<const BenchRea
                                   const std::vector<BenchQuantity>& quantities) {
   std::vector<std::string> notes = {method.validity};
   if (method.remarks) {
-    std::vector<ReadingValues> values;
-    for (const BenchReading& reading : readings) values.push_back(values_of(reading));
-    for (std::string& remark : method.remarks(values)) notes.push_back(std::move(remark));
+    for (std::string& remark : method.remarks(values_of(readings)))
+      notes.push_back(std::move(remark));
   }
   const BenchQuantity& first = quantities.front();
   if (first.values.size() < readings.size()) {
@@ -226,6 +231,11 @@ BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> reading
   }
   check_readings(test, readings);
   const Method method = method_of(test);
+  if (method.error_of_all) {
+    if (const auto error = method.error_of_all(values_of(readings))) {
+      throw std::invalid_argument(*error);
+    }
+  }
   BenchResult result{.quantities = {}, .source = method.source, .notes = {}};
   for (const MethodOutput& output : method.outputs) {
     std::vector<double> values = sample_means(readings, output.of);

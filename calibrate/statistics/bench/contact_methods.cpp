@@ -80,14 +80,28 @@ std::optional<std::string> drop_error(ReadingValues v) {
       v[kRebound], v[kDrop], kDiameter, *v.given(kDiameter), kDensity, *v.given(kDensity));
 }
 
+/// With and without the air's drag, heights mean different numbers, and their mean none.
+std::optional<std::string> mixed_air_error(std::span<const ReadingValues> readings) {
+  const auto in_air = std::ranges::count_if(readings, is_in_air);
+  if (in_air == 0 || in_air == std::ssize(readings) ||
+      grain_in_air(*std::ranges::find_if(readings, is_in_air))) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "{} of {} heights were read in air, the others are free of its drag ({} = 0). Rule: such "
+      "heights have no common mean until the drag is taken out. Fix: give {} and {}, too, or make "
+      "two tables of them.",
+      in_air, readings.size(), kInAirColumn, kDiameter, kDensity);
+}
+
 std::vector<std::string> remarks_on_air(std::span<const ReadingValues> readings) {
   const auto in_air = std::ranges::count_if(readings, is_in_air);
   if (in_air == 0) return {"The heights are free of the air's drag (in_air = 0)."};
   if (in_air < std::ssize(readings)) {
-    return {
-        fmt::format("{} of {} heights were read in air, the others are free of its drag "
-                    "(in_air = 0).",
-                    in_air, readings.size())};
+    return {fmt::format(
+        "{} of {} heights were read in air, the others are free of its drag (in_air = 0): it is "
+        "taken out of the former alone, by each reading's {} and {}.",
+        in_air, readings.size(), kDiameter, kDensity)};
   }
   const double as_read = mean_of(readings, restitution_as_read);
   const auto grain = grain_in_air(readings.front());
@@ -212,7 +226,8 @@ Method restitution_method() {
           .optional_columns = {{kDiameter, "diameter of the sphere of the grain's volume"},
                                {kDensity, "density of the grain"},
                                in_air_column()},
-          .remarks = remarks_on_air};
+          .remarks = remarks_on_air,
+          .error_of_all = mixed_air_error};
 }
 
 Method sliding_method() {

@@ -53,6 +53,8 @@ struct Method {
   std::vector<ReadingColumn> optional_columns = {};
   /// What to know about these readings beside that, a sentence each.
   std::function<std::vector<std::string>(std::span<const ReadingValues>)> remarks = {};
+  /// What is wrong with readings together, each of which is possible: "what. Fix: ...".
+  std::function<std::optional<std::string>(std::span<const ReadingValues>)> error_of_all = {};
 };
 
 ReadingColumn in_air_column();

@@ -28,6 +28,7 @@ Method drop_on_grains_method() {
                      [](ReadingValues v) { return v[1]; }}};
   method.optional_columns = {in_air_column()};
   method.remarks = {};
+  method.error_of_all = {};
   method.validity =
       "No material constant: on a bed most grains are thrown aside. Calibrate a study with these "
       "readings.";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -119,15 +120,17 @@ Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
         fmt::format("{}: no readings yet: fill in a row for each reading below its header, {}.",
                     table.name, fmt::join(names, ", ")));
   }
+  const std::vector<NumberColumn> needed = needed_columns(table, constants, test, errors);
+  const std::set<int> unclear = unclear_lines(table, needed);
   try {
-    numbers_of(table, needed_columns(table, constants, test, errors));
+    numbers_of(table, needed);
   } catch (const std::invalid_argument& error) {
     errors.add(error.what());
   }
   const auto sample = table.column(kSampleColumn);
   for (const TableRow& row : table.rows) {
     auto values = values_in(table, row, constants, names);
-    if (!values) continue;  // said above
+    if (!values || unclear.contains(row.line)) continue;  // said above
     sheet.readings.push_back({.place = fmt::format("{}:{}", table.name, row.line),
                               .values = *std::move(values),
                               .sample = sample ? row.cells[*sample] : "",

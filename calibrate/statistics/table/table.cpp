@@ -246,17 +246,18 @@ class NumberMarks {
           "\"{}\", which is not a finite number. Fix: write a number, or delete the row.", cell);
     }
     if (!is_ambiguous || is_settled(mark)) return {};
-    const auto is_possible = [&](double number) {
-      return number > column.above && number < column.below;
-    };
-    const double thousands = without(cell, mark).value_or(0);
-    if (value && is_possible(*value) && !is_possible(thousands)) return {};
+    // A sheet with decimal commas has no decimal points, however plausible the number would be.
     if (comma_row_ != nullptr && mark == '.') {
       return fmt::format(
           "\"{}\", which may mean thousands: line {} has a decimal comma. Fix: write "
           "all numbers with a decimal comma and without points.",
           cell, comma_row_->line);
     }
+    const auto is_possible = [&](double number) {
+      return number > column.above && number < column.below;
+    };
+    const double thousands = without(cell, mark).value_or(0);
+    if (value && is_possible(*value) && !is_possible(thousands)) return {};
     return fmt::format(
         "\"{}\", which may mean {:.10g}{}. Fix: write {:.10g} if it does{}.", cell, thousands,
         value && is_possible(*value) ? fmt::format(" as well as {:.10g}", *value) : "", thousands,
@@ -267,7 +268,7 @@ class NumberMarks {
  private:
   bool is_settled(char mark) const {
     if (mark == ',') return table_.has_decimal_comma || comma_row_ != nullptr;
-    return !table_.has_decimal_comma || (has_decimal_point_ && comma_row_ == nullptr);
+    return comma_row_ == nullptr && (!table_.has_decimal_comma || has_decimal_point_);
   }
 
   const Table& table_;
@@ -350,6 +351,25 @@ std::optional<double> number_of(std::string_view cell) {
   const auto [stopped_at, error] = std::from_chars(start, end, number);
   if (error != std::errc{} || stopped_at != end || !std::isfinite(number)) return std::nullopt;
   return number;
+}
+
+std::set<int> unclear_lines(const Table& table, std::span<const NumberColumn> columns) {
+  std::vector<NumberColumn> found;
+  std::vector<std::size_t> places;
+  for (const NumberColumn& wanted : columns) {
+    const auto column = table.column(wanted.name);
+    if (!column) continue;
+    found.push_back(wanted);
+    places.push_back(*column);
+  }
+  const NumberMarks marks(table, places);
+  std::set<int> lines;
+  for (const TableRow& row : table.rows) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!marks.problem_of(row.cells[places[i]], found[i]).empty()) lines.insert(row.line);
+    }
+  }
+  return lines;
 }
 
 std::vector<std::vector<double>> numbers_of(const Table& table,

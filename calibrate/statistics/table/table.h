@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,6 +57,9 @@ Table read_table(const std::filesystem::path& file, NoRows no_rows = NoRows::ref
 
 /// A cell as a finite number, with a decimal point or comma; none if it is not one.
 std::optional<double> number_of(std::string_view cell);
+
+/// The lines on which `numbers_of` has something to say of a cell.
+std::set<int> unclear_lines(const Table& table, std::span<const NumberColumn> columns);
 
 /// The numbers of some columns: [column][row]. That they are possible is not checked: the range
 /// only serves to tell what "1.403" means.
