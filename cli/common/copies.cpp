@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/fingerprint.h"
+#include "vision/film/film_angle.h"
 
 namespace repose::cli {
 namespace {
@@ -62,7 +63,8 @@ std::vector<std::optional<std::size_t>> copies_among(const std::vector<fs::path>
 }
 
 std::string text_of_copy(const fs::path& copy, const fs::path& first) {
-  return fmt::format("{}: the same picture as {}, counted once", copy.string(), first.string());
+  return fmt::format("{}: the same {} as {}, counted once", copy.string(),
+                     vision::has_film_ending(copy) ? "film" : "picture", first.string());
 }
 
 }  // namespace repose::cli

@@ -20,7 +20,7 @@ std::string pixels_of(const vision::Picture& picture);
 std::vector<std::optional<std::size_t>> copies_among(
     const std::vector<std::filesystem::path>& files, const std::vector<std::string>& pixels);
 
-/// "b.jpg: the same picture as a.jpg, counted once"
+/// "b.jpg: the same picture as a.jpg, counted once"; of films "the same film"
 std::string text_of_copy(const std::filesystem::path& copy, const std::filesystem::path& first);
 
 }  // namespace repose::cli

@@ -1,7 +1,11 @@
 #include "cli/track/track.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
 
+#include "cli/common/copies.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
@@ -18,6 +22,18 @@ void print_errors(const std::vector<TrackedFilm>& films) {
     const std::string whose = film.is_internal_error ? "internal error: " : "";
     if (!film.error.empty()) print_line(whose + film.error);
     if (!film.overlay_error.empty()) print_line(film.overlay_error);
+  }
+}
+
+/// Of films that are copies of an earlier one.
+void name_copies(std::vector<TrackedFilm>& films) {
+  std::vector<std::filesystem::path> files;
+  for (const TrackedFilm& film : films) files.emplace_back(film.file);
+  const auto first_of = copies_among(files, std::vector<std::string>(files.size()));
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    if (!first_of[i]) continue;
+    films[i].copy_of = films[*first_of[i]].file;
+    print_line(text_of_copy(files[i], files[*first_of[i]]));
   }
 }
 
@@ -41,11 +57,12 @@ ExitCode run_track(const TrackArguments& arguments) {
   print_lines(plan.notes);
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
-  const std::vector<TrackedFilm> films = track_batch(plan, is_interrupted);
+  std::vector<TrackedFilm> films = track_batch(plan, is_interrupted);
   if (is_interrupted) {
     print_line("interrupted, no results were written");
     return ExitCode::interrupted;
   }
+  name_copies(films);
   Outputs outputs;
   const bool any_was_read =
       std::any_of(films.begin(), films.end(), [](const auto& film) { return film.error.empty(); });

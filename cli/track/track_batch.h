@@ -13,7 +13,8 @@ namespace repose::cli {
 
 struct TrackedFilm {
   std::string file;
-  std::string error = {};  ///< why it could not be read; empty: its track says
+  std::string error = {};    ///< why it could not be read; empty: its track says
+  std::string copy_of = {};  ///< an earlier film of the same bytes; empty: it is no copy
   bool is_internal_error = false;
   Filmed filmed = Filmed::drop;
   vision::DropTrack drop = {};  ///< of what was filmed, without the

@@ -75,12 +75,13 @@ std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& pl
     const bool rolls = plan.filmed == Filmed::roll;
     std::string csv = rolls ? kRollHeader : kTiltHeader;
     for (const TrackedFilm& film : films) {
-      if (has_reading(film)) csv += rolls ? roll_row(film) : tilt_row(film);
+      if (film.copy_of.empty() && has_reading(film)) csv += rolls ? roll_row(film) : tilt_row(film);
     }
     return csv;
   }
   std::string csv = kDropHeader;
   for (const TrackedFilm& film : films) {
+    if (!film.copy_of.empty()) continue;
     const std::size_t bounces = film.drop.bounces.size();
     // Of a film whose first bounce was not read there is none to give.
     const std::size_t first = film.drop.has_first_bounce() ? 1 : 0;

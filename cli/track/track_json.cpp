@@ -155,6 +155,7 @@ Json json_of(const TrackedFilm& film) {
             {"experiment", filmed_name(film.filmed)},
             {"status", name_of(status_of(film))}};
   add_readings(film, json);
+  json["copy_of"] = film.copy_of.empty() ? Json() : Json(film.copy_of);
   json["film"] = film.error.empty() ? film_json(facts_of(film)) : Json();
   json["warnings"] = warnings_json(warnings_of(film));
   if (!film.error.empty()) {

@@ -14,8 +14,10 @@ namespace {
 
 /// What one experiment has and others do not.
 void read_own_options(const TrackArguments& arguments, TrackPlan& plan) {
-  plan.released_mm = read_positive({"--released", arguments.released, plan.errors},
-                                   "a distance in mm above 0", "--released 150");
+  constexpr double kShortest_mm = 1, kLongest_mm = 10000;  // of inclines that can be filmed
+  plan.released_mm =
+      read_number_within({"--released", arguments.released, plan.errors}, kShortest_mm, kLongest_mm,
+                         "how far up the incline from its foot, in mm");
   const auto belongs = [&](bool does, const std::string& given, const char* message) {
     if (!does && !given.empty()) plan.errors.emplace_back(message);
   };

@@ -131,7 +131,8 @@ double value_of(const TrackedFilm& film) {
 std::string mean_text(const std::vector<TrackedFilm>& films, Filmed filmed) {
   std::vector<double> values;
   for (const TrackedFilm& film : films) {
-    if (has_reading(film) && (filmed != Filmed::drop || film.drop.has_first_bounce())) {
+    if (film.copy_of.empty() && has_reading(film) &&
+        (filmed != Filmed::drop || film.drop.has_first_bounce())) {
       values.push_back(value_of(film));
     }
   }

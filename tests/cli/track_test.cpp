@@ -150,6 +150,23 @@ TEST_F(TrackCommand, ARefusedFilmHasAReasonAndNoNumber) {
   EXPECT_THAT(film["reason"].get<std::string>(), HasSubstr("Fix: "));
 }
 
+TEST_F(TrackCommand, CopiesOfAFilmCountOnce) {
+  draw_roll("a.mp4", 150);
+  draw_roll("b.mp4", 170);
+  std::filesystem::copy(folder_.path() / "a.mp4", folder_.path() / "c.mp4");
+  const Finished done = run({"roll", "a.mp4", "b.mp4", "c.mp4", "--released", "100", "--json",
+                             "r.json", "--csv", "r.csv"});
+  EXPECT_THAT(text("r.csv"), AllOf(HasSubstr("\nb,"), ::testing::Not(HasSubstr("\nc,"))));
+  EXPECT_THAT(done.out, HasSubstr("mean of 2 rolls"));
+  EXPECT_THAT(done.err, HasSubstr("c.mp4: the same film as a.mp4, counted once"));
+  const json films = json::parse(text("r.json"));
+  EXPECT_EQ(films[2]["copy_of"], "a.mp4");
+  EXPECT_TRUE(films[1]["copy_of"].is_null());
+  for (const char* far : {"1e-9", "1e9"}) {
+    EXPECT_THAT(run({"roll", "a.mp4", "--released", far}).err, HasSubstr("--released"));
+  }
+}
+
 TEST_F(TrackCommand, FilmsOfRollsBecomeATableThatTheBenchReads) {
   const DrawnRoll roll = draw_roll("a.mp4", 150);
   draw_roll("b.mp4", 170);
