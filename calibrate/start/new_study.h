@@ -23,7 +23,7 @@ struct NewStudy {
   bool has_own_density = false;
   double tube_diameter_mm = 0;  ///< inner
   double tube_height_mm = 0;
-  bool has_own_tube = false;
+  bool has_own_tube = false;  ///< for heaps and fills; else it is the usual one of heaps
   std::vector<dem::Experiment> experiments;  ///< at least one
 };
 

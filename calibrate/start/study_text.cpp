@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/angle_definition.h"
 #include "calibrate/start/new_study.h"
 #include "calibrate/start/toml_text.h"
 #include "calibrate/start/usual_experiment.h"
@@ -32,7 +33,8 @@ UsualBench bench_of(const NewStudy& study) {
   return {.grain_mm = study.sizes_mm,
           .young_modulus_pa = study.grain.young_modulus_pa,
           .tube_diameter_mm = study.tube_diameter_mm,
-          .tube_height_mm = study.tube_height_mm};
+          .tube_height_mm = study.tube_height_mm,
+          .has_own_tube = study.has_own_tube};
 }
 
 std::string particle_section(const NewStudy& study) {
@@ -136,7 +138,10 @@ std::string contacts(const NewStudy& study) {
   text += toml_comment(
       "Say in the braces what the bounds are: bounds = \"known\", where no such material lies "
       "outside, or \"convenience\"; and with useful_half_width how narrow an interval you need.");
-  text += "[contact]\nrolling_model = \"constant_torque\"  # EDEM's standard\n\n";
+  text +=
+      "[contact]\nrolling_model = \"constant_torque\"  # EDEM's standard\n"
+      "damping = \"per_contact\"  # as in other programs; \"shared\": as if each pair touched "
+      "once\n\n";
   text += contact_section(study, "particle_wall", study.grain.with_wall) + '\n';
   text += contact_section(study, "particle_particle", study.grain.with_grain);
   for (const auto& [part, plate] : study.parts) text += part_section(study, part);
@@ -179,6 +184,10 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
     text += fmt::format("stiffness_factor = {}\n", toml_number(usual.stiffness_factor));
   }
   if (entry.is_pictured) {
+    text += toml_comment(
+        "By what the bench measured the angle: flank_20_80, the straight flank "
+        "between 20 and 80 % of the height; or the name of another definition.");
+    text += fmt::format("definition = \"{}\"\n", base::kUsualDefinition.name);
     text += toml_comment(fmt::format(
         "To use photographs or films instead of a sheet, put them into a folder and name it "
         "here; and say where the lens is, from the heap's middle and above the plate:\n"

@@ -36,8 +36,13 @@ void adapt(dem::HeapProtocol& heap, const UsualBench& bench) {
   heap.plate_m = kPlateWidths * heap.tube_diameter_m;
 }
 
-/// A tube that holds a bulk of large grains, too.
+/// The own tube, or one that holds a bulk of large grains, too.
 void adapt(dem::FillProtocol& fill, const UsualBench& bench) {
+  if (bench.has_own_tube) {
+    fill.tube_diameter_m = bench.tube_diameter_mm * kMPerMm;
+    fill.tube_height_m = bench.tube_height_mm * kMPerMm;
+    return;
+  }
   constexpr double kLengths = 5;
   const double wide_m = kMPerMm * kRound_mm * std::ceil(kLengths * longest_mm(bench) / kRound_mm);
   fill.tube_diameter_m = std::max(fill.tube_diameter_m, wide_m);

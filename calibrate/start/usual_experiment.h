@@ -15,6 +15,7 @@ struct UsualBench {
   double young_modulus_pa = 0;          ///< of the grains
   double tube_diameter_mm = 0;          ///< inner; of heaps
   double tube_height_mm = 0;
+  bool has_own_tube = false;  ///< fills are made in this one, too
 };
 
 /// A round number of mm, about six grains across; three times as high.

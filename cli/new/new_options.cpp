@@ -119,6 +119,18 @@ void read_tube(const NewArguments& arguments, NewPlan& plan) {
     study.tube_height_mm = *height;
     study.has_own_tube = true;
   }
+  const auto is_done = [&](dem::Experiment one) {
+    return std::ranges::find(study.experiments, one) != study.experiments.end();
+  };
+  if (!is_done(dem::Experiment::heap) && !(study.has_own_tube && is_done(dem::Experiment::fill))) {
+    if (study.has_own_tube && plan.errors.empty()) {
+      plan.errors.push_back(fmt::format(
+          "--tube-mm {}: none of the experiments has a tube. Fix: leave it out, or add heap or "
+          "fill to --experiments.",
+          arguments.tube_mm));
+    }
+    return;
+  }
   constexpr double kFewestAcross = 3;  // fewer jam
   const double longest_mm = *std::max_element(study.sizes_mm.begin(), study.sizes_mm.end());
   if (study.tube_diameter_mm < kFewestAcross * longest_mm) {

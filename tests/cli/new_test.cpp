@@ -107,6 +107,22 @@ TEST_F(NewCommand, ATubeThatGrainsJamInIsRefused) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
+TEST_F(NewCommand, ATubeIsAskedForOnlyWhereThereIsOne) {
+  const Finished drop = run({"a.toml", "--grain-mm", "0.1,0.1,0.1", "--experiments", "drop"});
+  EXPECT_EQ(drop.exit_code, 0) << drop.err;
+  ASSERT_EQ(run({"b.toml", "--experiments", "fill", "--tube-mm", "80x240"}).exit_code, 0);
+  EXPECT_THAT(text("b.toml"), HasSubstr("[experiment.fill]\ntube_diameter_mm = 80\n"
+                                        "tube_height_mm = 240\n"));
+  EXPECT_THAT(run({"c.toml", "--experiments", "drop", "--tube-mm", "80x240"}).err,
+              HasSubstr("none of the experiments has a tube"));
+}
+
+TEST_F(NewCommand, ChoicesThatMoveTheResultAreWritten) {
+  ASSERT_EQ(run({"a.toml"}).exit_code, 0);
+  EXPECT_THAT(text("a.toml"), AllOf(HasSubstr("\ndamping = \"per_contact\""),
+                                    HasSubstr("\ndefinition = \"flank_20_80\"\n")));
+}
+
 TEST_F(NewCommand, NothingIsWrittenOver) {
   ASSERT_EQ(run({"a.toml"}).exit_code, 0);
   folder_.write("a/drops.csv", std::string("drop_mm,rebound_mm\n500,100\n"));
