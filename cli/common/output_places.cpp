@@ -46,6 +46,14 @@ std::string error_of_name(const OutputPlace& place) {
                      ending, place.ending);
 }
 
+/// A JSON file has the names of a CSV's columns too: the header alone counts.
+bool is_of_its_kind(std::string_view text, const OutputPlace& place) {
+  if (place.ending != ".csv") return text.find(place.mark) != std::string_view::npos;
+  const std::string_view header = text.substr(0, text.find('\n') + 1);
+  return !header.starts_with('{') && !header.starts_with('[') &&
+         header.find(place.mark) != std::string_view::npos;
+}
+
 /// Of a file that is there already.
 std::string error_of_earlier(const OutputPlace& place) {
   std::error_code ignored;
@@ -62,7 +70,7 @@ std::string error_of_earlier(const OutputPlace& place) {
   const std::string other =
       fmt::format("already exists, and is not what this option writes. {}", kFix);
   try {
-    return base::read_whole_file(place.file).find(place.mark) == std::string::npos ? other : "";
+    return is_of_its_kind(base::read_whole_file(place.file), place) ? "" : other;
   } catch (const std::invalid_argument&) {
     return other;  // what cannot be read is not ours either
   }

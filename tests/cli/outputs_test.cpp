@@ -114,6 +114,7 @@ TEST_F(OutputsOf, FilesOfOthersStay) {
   folder_.write("camera.toml", hints);
   std::filesystem::copy(path("heap.png"), path("film.mp4"));
   const std::string study = text("study.toml");
+  ASSERT_EQ(shell("repose measure heap.png --json own.txt").exit_code, 0);
   for (const std::string words :
        {"measure heap.png --csv heap.png.repose.toml", "measure heap.png --json package.json",
         "measure heap.png --csv mine.csv", "measure heap.png --report page.html",
@@ -124,7 +125,7 @@ TEST_F(OutputsOf, FilesOfOthersStay) {
         "design sweep --factor a=0:1 --out mine.csv", "design sweep --factor a=0:1 --out runs.csv",
         "shape --size-mm 3,3,3 --out package.json", "verify --json package.json",
         "simulate drop study.toml --json package.json", "compare heap.png heap.png --json film.mp4",
-        "calibrate study.toml --json mine.csv"}) {
+        "measure heap.png --csv own.txt", "calibrate study.toml --json mine.csv"}) {
     const Finished refused = shell("repose " + words);
     EXPECT_EQ(refused.exit_code, 2) << words;
     EXPECT_THAT(refused.err, HasSubstr("Fix: ")) << words;
