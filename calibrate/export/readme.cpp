@@ -20,7 +20,7 @@ const char* program_of(ExportTarget target) {
     case ExportTarget::edem:
       break;
   }
-  return "EDEM: Hertz-Mindlin (no slip) with standard rolling friction";
+  return "EDEM: Hertz-Mindlin (no slip), with the rolling friction named below";
 }
 
 /// A text of the target's own, without its last line break.
