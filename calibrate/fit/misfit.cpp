@@ -131,6 +131,14 @@ void Misfit::inflate_near(const Point& point) {
   for (Surrogate& surrogate : surrogates_) surrogate.inflate_near(point);
 }
 
+Misfit Misfit::measuring(const std::vector<double>& means) const {
+  Misfit other = *this;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    other.targets_[i].value = surrogates_[i].warp().of_expected(means[i]);
+  }
+  return other;
+}
+
 double Misfit::difference(std::size_t observable, const Point& point) const {
   const Expectation w = surrogates_[observable].at(point, false);
   const Target& target = targets_[observable];

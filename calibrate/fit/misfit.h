@@ -27,6 +27,9 @@ class Misfit {
   /// See Surrogate::inflate_near().
   void inflate_near(const Point& point);
 
+  /// The same of other measured means, which are as uncertain.
+  Misfit measuring(const std::vector<double>& means) const;
+
   /// Squared standardised differences, priors and risks of failure: what 3.84 is compared with.
   double chi2(const Point& point) const;
   /// (simulated - measured) / sigma of one observable.

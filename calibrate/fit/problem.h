@@ -113,11 +113,21 @@ struct FitSettings {
   bool robust = false;     ///< Cauchy's loss: an observable that fits nothing else counts less
 };
 
-/// What a study assumes beside its coefficients, as multiples of what it says: all 1 in the runs
-/// that a fit is made from.
+/// A number of the study that no fit seeks, changed.
+struct InputStep {
+  std::string input;  ///< its name; empty: none
+  double change = 0;  ///< in its unit
+  double work = 1;    ///< of a run with it, as a multiple
+
+  auto operator<=>(const InputStep&) const = default;
+};
+
+/// What a study assumes beside its coefficients, as multiples of what it says: all 1, and no step,
+/// in the runs that a fit is made from.
 struct AssumedInputs {
   double stiffness = 1;  ///< of grains and walls
   double spheres = 1;    ///< of the clump that stands for a grain
+  InputStep step = {};
 
   auto operator<=>(const AssumedInputs&) const = default;
 };
@@ -155,6 +165,17 @@ struct Offer {
   std::vector<Run> runs;    ///< all over the bounds, each once, in a fixed order; or none
 };
 
+/// A number of the study that no fit seeks, and how well it is known.
+struct FixedInput {
+  std::string name;  ///< "experiment.roll.incline_deg"
+  std::string unit;
+  double value = 0;
+  double sd = 0;                         ///< standard uncertainty
+  bool is_assumed = false;               ///< nobody stated it
+  InputStep step = {};                   ///< by the sd, to either side
+  std::vector<std::string> experiments;  ///< that it can move
+};
+
 /// Parameters to be found, what was measured, and what can be simulated.
 struct Problem {
   std::vector<Parameter> parameters;
@@ -165,6 +186,7 @@ struct Problem {
   /// Measured, but of experiments that no observable is of: predicted from the fit (prediction.h).
   std::vector<Observable> held_out = {};
   GrainSpheres spheres = {};
+  std::vector<FixedInput> fixed_inputs = {};
 };
 
 /// Every error of a problem, a line each: where, the value, the rule, "Fix: ...". Empty: none.

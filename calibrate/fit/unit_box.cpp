@@ -49,7 +49,7 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
 }
 
 double run_s_of(const Experiment& experiment, const AssumedInputs& inputs) {
-  return experiment.run_s * std::sqrt(inputs.stiffness) *
+  return experiment.run_s * inputs.step.work * std::sqrt(inputs.stiffness) *
          (1 + experiment.spheres_share * (inputs.spheres - 1));
 }
 

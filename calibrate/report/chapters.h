@@ -17,6 +17,8 @@ void add_assumed_scatter(const JointResult& joint, std::vector<Block>& blocks);
 Chapter protocol_chapter(const ReportedStudy& study);
 /// What bench and simulation gave.
 Chapter agreement_chapter(const JointResult& joint);
+/// What inputs held fixed move, beside the intervals.
+Chapter assumed_chapter(const JointResult& joint);
 /// How that was decided, in full: what the fit had expected, and how readings scatter.
 Chapter checks_chapter(const JointResult& joint);
 /// Along each coefficient the experiment that tells it best.

@@ -30,7 +30,8 @@ std::vector<Chapter> finished_chapters(const ReportedStudy& study, const StudyRe
   std::vector<Chapter> chapters;
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     add({answer_chapter(*joint, pictures), protocol_chapter(study), heap_chapter(pictures),
-         agreement_chapter(*joint), telling_curves_chapter(study, *joint), limits_chapter(result)},
+         agreement_chapter(*joint), assumed_chapter(*joint), telling_curves_chapter(study, *joint),
+         limits_chapter(result)},
         false, chapters);
     add({more_heaps_chapter(pictures), checks_chapter(*joint), curves_chapter(study, *joint),
          surfaces_chapter(study, *joint), knowledge_chapter(*joint), statistics_chapter(*joint),

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "calibrate/fit/assumed_scatter.h"
+#include "calibrate/fit/input_effects.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
@@ -158,6 +159,9 @@ struct JointResult {
   /// What coefficients would be with other scatters than those assumed; empty: none was assumed, or
   /// an earlier version's.
   AssumedScatters assumed_scatters = {};
+  std::vector<InputEffect> assumed_inputs;   ///< held fixed; or none
+  std::vector<CombinedEffect> with_assumed;  ///< all of them together, beside the intervals
+  std::vector<std::string> inputs_taken_as_exact;
   double chi2 = 0;
   std::optional<double> degrees_of_freedom;  ///< of the fit; earlier versions did not say
   std::vector<std::vector<double>> correlation;

@@ -256,6 +256,34 @@ void fields(Io& io, Held<Io, ShapeCheck>& shape) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, InputChange>& change) {
+  io("name", change.name);
+  io("change", change.change);
+  io("uncertainty", change.uncertainty);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, InputEffect>& effect) {
+  io("input", effect.input);
+  io("unit", effect.unit);
+  io("value", effect.value);
+  io("sd", effect.sd);
+  io("is_assumed", effect.is_assumed);
+  io("readings", effect.readings);
+  io("coefficients", effect.coefficients);
+  io("not_varied", effect.not_varied);
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, CombinedEffect>& combined) {
+  io("name", combined.name);
+  io("value", combined.value);
+  io("effect", combined.effect);
+  io("half_width", combined.half_width);
+  io("interval", combined.interval);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, EquivalentSet>& set) {
   by_name(io, "parameters", io.names().parameters, set.values);
   io("chi2_above_best", set.chi2);
@@ -360,6 +388,11 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   }
   if (io.has("assumed_scatter", !joint.assumed_scatters.readings.empty())) {
     io("assumed_scatter", joint.assumed_scatters);
+  }
+  if (io.has("assumed_inputs", !joint.assumed_inputs.empty())) {
+    io("assumed_inputs", joint.assumed_inputs);
+    io("with_assumed", joint.with_assumed);
+    io("inputs_taken_as_exact", joint.inputs_taken_as_exact);
   }
   io("chi2", joint.chi2);
   if (io.has("degrees_of_freedom", joint.degrees_of_freedom.has_value())) {

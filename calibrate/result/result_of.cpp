@@ -16,6 +16,7 @@
 #include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 #include "dem/study/experiment_table.h"
+#include "dem/study/held_inputs.h"
 
 namespace repose::calibrate {
 namespace {
@@ -182,6 +183,11 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
                     .stiffer_coefficients = outcome.stiffness.coefficients,
                     .shape_check = outcome.shape,
                     .assumed_scatters = outcome.assumed_scatters,
+                    .assumed_inputs = outcome.inputs,
+                    .with_assumed = outcome.combined,
+                    .inputs_taken_as_exact = outcome.inputs.empty()
+                                                 ? std::vector<std::string>{}
+                                                 : dem::inputs_taken_as_exact(record.study),
                     .chi2 = fit.chi2,
                     .degrees_of_freedom = fit.freedom.degrees,
                     .correlation = fit.correlation,

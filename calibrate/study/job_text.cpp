@@ -14,14 +14,19 @@ PlainJson json_of(const Job& job) {
           {"values", job.values},
           {"seed", job.seed},
           {"stiffness", job.inputs.stiffness},
-          {"spheres", job.inputs.spheres}};
+          {"spheres", job.inputs.spheres},
+          {"step", {job.inputs.step.input, job.inputs.step.change, job.inputs.step.work}}};
 }
 
 Job job_in(const PlainJson& json) {
   return {.experiment = json.at("experiment"),
           .values = json.at("values"),
           .seed = json.at("seed"),
-          .inputs = {.stiffness = json.at("stiffness"), .spheres = json.at("spheres")}};
+          .inputs = {.stiffness = json.at("stiffness"),
+                     .spheres = json.at("spheres"),
+                     .step = {.input = json.at("step").at(0),
+                              .change = json.at("step").at(1),
+                              .work = json.at("step").at(2)}}};
 }
 
 }  // namespace

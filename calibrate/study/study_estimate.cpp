@@ -7,6 +7,7 @@
 
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/fit/budget.h"
+#include "calibrate/fit/input_effects.h"
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/unit_box.h"
@@ -65,21 +66,28 @@ double run_s_of_all(const Problem& problem, const std::vector<Job>& jobs) {
   return seconds;
 }
 
-/// Of the last runs: those of stiffer grains, and of grains of more spheres.
+/// Of inputs held fixed, wherever the coefficients are.
+InputPlan input_plan(const Problem& problem, int repeats) {
+  return plan_inputs(problem, verification_jobs(problem, middle_of(problem), repeats, 0));
+}
+
+/// Of the last runs: those of stiffer grains, of grains of more spheres, and of other inputs.
 void count_last_runs(const Problem& problem, int repeats,
                      std::vector<ExperimentEstimate>& estimates) {
+  std::vector<Job> jobs = input_plan(problem, repeats).jobs;
   for (const AssumedInput input : {AssumedInput::stiffness, AssumedInput::spheres}) {
-    const SensitivityPlan plan = plan_sensitivity(problem, input, middle_of(problem), repeats);
-    for (ExperimentEstimate& estimate : estimates) {
-      for (const Job& job : plan.jobs) {
-        if (job.experiment != estimate.experiment) continue;
-        if (job.inputs == AssumedInputs{}) {
-          ++estimate.check_runs;
-          continue;
-        }
-        ++estimate.varied_runs;
-        estimate.varied_s += run_s_of(experiment_named(problem, job.experiment), job.inputs);
+    const auto more = plan_sensitivity(problem, input, middle_of(problem), repeats).jobs;
+    jobs.insert(jobs.end(), more.begin(), more.end());
+  }
+  for (ExperimentEstimate& estimate : estimates) {
+    for (const Job& job : jobs) {
+      if (job.experiment != estimate.experiment) continue;
+      if (job.inputs == AssumedInputs{}) {
+        ++estimate.check_runs;
+        continue;
       }
+      ++estimate.varied_runs;
+      estimate.varied_s += run_s_of(experiment_named(problem, job.experiment), job.inputs);
     }
   }
 }
@@ -115,7 +123,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
 }
 
 double last_runs_s(const Problem& problem, int repeats) {
-  double seconds = 0;
+  double seconds = input_plan(problem, repeats).run_s;
   for (const AssumedInput input : {AssumedInput::stiffness, AssumedInput::spheres}) {
     seconds += plan_sensitivity(problem, input, middle_of(problem), repeats).run_s;
   }

@@ -15,10 +15,11 @@ namespace repose::calibrate {
 /// the fit's number is about right in the sum, the other the most there can be.
 struct ExperimentEstimate {
   std::string experiment;
-  double run_s = 0;     ///< by the program's own measure, see Experiment::run_s
-  int fit_runs = 0;     ///< in all rounds of the fit
-  int check_runs = 0;   ///< with fresh seeds afterwards, or to predict what is held out
-  int varied_runs = 0;  ///< likewise, with stiffer grains than the study's, or of more spheres
+  double run_s = 0;    ///< by the program's own measure, see Experiment::run_s
+  int fit_runs = 0;    ///< in all rounds of the fit
+  int check_runs = 0;  ///< with fresh seeds afterwards, or to predict what is held out
+  int varied_runs =
+      0;  ///< likewise, with stiffer grains than the study's, more spheres, other inputs
   double varied_s = 0;  ///< all of these
 };
 
@@ -29,7 +30,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
 double checks_s(const Problem& problem, const Budget& budget, int rounds);
 
 /// Work of what follows the last check, likewise: predictions of what is held out, stiffer grains,
-/// grains of more spheres.
+/// grains of more spheres, inputs held fixed that are varied.
 double last_runs_s(const Problem& problem, int repeats);
 
 /// Runs of each experiment that so many seconds buy, in the order of estimate_of; none of those

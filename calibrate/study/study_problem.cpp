@@ -10,10 +10,12 @@
 #include "base/angle_definition.h"
 #include "calibrate/experiment/simulated_run.h"
 #include "calibrate/fit/budget.h"
+#include "calibrate/fit/unit_box.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/coefficients.h"
 #include "dem/contact/adhesion.h"
 #include "dem/study/experiment_table.h"
+#include "dem/study/held_inputs.h"
 
 namespace repose::calibrate {
 namespace {
@@ -169,6 +171,32 @@ double stated_sd(const std::vector<dem::Systematic>& parts) {
   return sd;
 }
 
+/// What a study says of its numbers' uncertainty, for the experiments that were measured.
+std::vector<FixedInput> fixed_inputs_of(const dem::Study& study, const dem::ClumpShape& grain,
+                                        const Problem& problem) {
+  std::vector<FixedInput> inputs;
+  for (const dem::HeldInput& held : dem::held_inputs(study)) {
+    FixedInput input{.name = held.name,
+                     .unit = held.unit,
+                     .value = held.value,
+                     .sd = held.sd,
+                     .is_assumed = held.is_assumed,
+                     .step = {.input = held.name, .change = held.step},
+                     .experiments = {}};
+    dem::Study changed = study;
+    dem::change_input(changed, held.name, held.step);
+    for (const Experiment& experiment : measured_experiments(problem)) {
+      const dem::ExperimentEntry& entry = dem::experiment_named(experiment.name);
+      if (!dem::has_effect(held.name, entry.experiment)) continue;
+      input.experiments.push_back(experiment.name);
+      input.step.work =
+          std::max(input.step.work, run_cost_s(changed, grain, entry) / experiment.run_s);
+    }
+    if (!input.experiments.empty()) inputs.push_back(std::move(input));
+  }
+  return inputs;
+}
+
 class Maker {
  public:
   Maker(const dem::Study& study, const dem::ClumpFile& grain) : study_(study), grain_(grain) {}
@@ -200,6 +228,7 @@ class Maker {
           study_.file.string(), made_.problem.held_out.empty() ? "" : ", but for those held out"));
     }
     allow_a_fit();
+    made_.problem.fixed_inputs = fixed_inputs_of(study_, grain_.shape, made_.problem);
     require_sound(made_.problem);
     return std::move(made_);
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/distributions.h"
 #include "calibrate/fit/first_round.h"
@@ -286,6 +287,57 @@ bool refine(const Problem& problem, const Budget& budget, const StudySimulator& 
   return vary(problem, budget, plan, AssumedInput::spheres, runner, outcome, shape);
 }
 
+/// What of the study is known but not exactly, one after the other. False when interrupted.
+bool vary_inputs(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
+  std::vector<Job> own;
+  for (const Run& run : outcome.checks) own.push_back(run.job);
+  InputPlan plan = plan_inputs(problem, own);
+  std::vector<Run> varied;
+  for (std::size_t k = 0; k < plan.inputs.size(); ++k) {
+    const FixedInput& input = problem.fixed_inputs[k];
+    std::vector<Job> jobs = plan.jobs;
+    std::erase_if(jobs, [&](const Job& job) { return job.inputs.step != input.step; });
+    if (jobs.empty()) continue;
+    try {
+      const auto runs = runner.get("varying " + input.name, jobs, 0);
+      if (!runs) return false;
+      varied = joined(std::move(varied), *runs);
+    } catch (const std::invalid_argument& error) {
+      plan.inputs[k].not_varied = input.experiments;
+      outcome.notes.push_back(fmt::format("{} cannot be varied by its uncertainty, {:g} {}: {}",
+                                          input.name, input.sd, input.unit, error.what()));
+    }
+  }
+  outcome.inputs =
+      effects_of_inputs(problem, plan, outcome.checks, varied, outcome.fit, outcome.runs);
+  outcome.combined = combined_effects(problem, outcome.fit, outcome.inputs);
+  return true;
+}
+
+/// Coefficients that are less certain by what was held fixed than by all else, and what is open.
+void note_inputs(StudyOutcome& outcome) {
+  for (const CombinedEffect& combined : outcome.combined) {
+    if (!(combined.effect > combined.half_width)) continue;
+    outcome.notes.push_back(fmt::format(
+        "{}: inputs that were held fixed, each within its own uncertainty, move it by ± {:.2g} "
+        "(95 %), and its interval is ± {:.2g}. With them it is {:.3g} to {:.3g}. Fix: measure what "
+        "moves it most (assumed_inputs), and state its uncertainty in [uncertainty].",
+        combined.name, combined.effect, combined.half_width, combined.interval.low,
+        combined.interval.high));
+  }
+  std::string open;
+  for (const InputEffect& effect : outcome.inputs) {
+    if (effect.not_varied.empty()) continue;
+    open += fmt::format("{}{} ({})", open.empty() ? "" : ", ", effect.input,
+                        fmt::join(effect.not_varied, ", "));
+  }
+  if (open.empty()) return;
+  outcome.notes.push_back(fmt::format(
+      "what these inputs move is not known in the experiments named: {}. Simulating that would "
+      "take more than a fifth of this budget, or cannot be done. Fix: a larger budget.",
+      open));
+}
+
 /// Readings that another value of an assumed input changes.
 void note_sensitivity(const Problem& problem, const Sensitivity& found,
                       std::vector<std::string>& notes) {
@@ -357,12 +409,14 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
     if (!predict(problem, runner, outcome)) return std::nullopt;
     if (!stiffen(problem, budget, runner, outcome)) return std::nullopt;
     if (!refine(problem, budget, context.simulator, runner, outcome)) return std::nullopt;
+    if (!vary_inputs(problem, runner, outcome)) return std::nullopt;
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }
   note_checks(outcome);
   note_sensitivity(problem, outcome.stiffness, outcome.notes);
   note_sensitivity(problem, outcome.shape, outcome.notes);
+  note_inputs(outcome);
   note_missing_grains(outcome.notes, outcome.runs);
   outcome.heap_angles_deg = heap_angles_deg(context, outcome.checks);
   outcome.simulated = runner.simulated();

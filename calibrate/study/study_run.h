@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibrate/fit/assumed_scatter.h"
+#include "calibrate/fit/input_effects.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
@@ -52,6 +53,8 @@ struct StudyOutcome {
   AssumedScatters assumed_scatters;        ///< of readings whose scatter nobody measured
   Sensitivity stiffness;                   ///< stiffer grains, in softened experiments
   ShapeCheck shape;                        ///< grains of more spheres
+  std::vector<InputEffect> inputs;         ///< held fixed, and what they move
+  std::vector<CombinedEffect> combined;    ///< all of these
   std::vector<Run> runs;                   ///< those that the fit was made from
   std::vector<Run> checks;                 ///< those of the last check
   NamedAngles heap_angles_deg;             ///< of these (heap_angles.h)

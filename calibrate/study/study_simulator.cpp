@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +12,7 @@
 
 #include "base/angle_definition.h"
 #include "calibrate/study/coefficients.h"
+#include "dem/study/held_inputs.h"
 
 namespace repose::calibrate {
 
@@ -26,7 +28,7 @@ Run run_of(const SimulatedJob& done) {
   return run;
 }
 
-/// By the number of spheres.
+/// By the number of spheres, and what of the study is changed.
 struct StudySimulator::FinerGrains {
   struct Grain {
     explicit Grain(const dem::ClumpFile& made) : file(made), named(made) {}
@@ -35,15 +37,16 @@ struct StudySimulator::FinerGrains {
   };
 
   std::mutex making;
-  std::map<int, Grain> made;
+  std::map<std::pair<int, InputStep>, Grain> made;
 
-  const Grain& of(dem::GrainSource source, int spheres) {
+  const Grain& of(dem::GrainSource source, int spheres, const InputStep& step) {
     const std::scoped_lock lock(making);
-    const auto found = made.find(spheres);
+    const auto key = std::pair(spheres, step);
+    const auto found = made.find(key);
     if (found != made.end()) return found->second;
     source.fill.spheres = spheres;
     source.fill.volume_error.reset();
-    return made.try_emplace(spheres, dem::build_grain(source)).first->second;
+    return made.try_emplace(key, dem::build_grain(source)).first->second;
   }
 };
 
@@ -62,17 +65,24 @@ int StudySimulator::spheres(double multiple) const {
 }
 
 const dem::ClumpFile& StudySimulator::finer_grain(double multiple) const {
-  return finer_->of(study_.grain, spheres(multiple)).file;
+  return finer_->of(study_.grain, spheres(multiple), {}).file;
 }
 
-const NamedGrain& StudySimulator::grain(const AssumedInputs& inputs) const {
-  if (inputs.spheres == 1) return grain_;
-  return finer_->of(study_.grain, spheres(inputs.spheres)).named;
+const NamedGrain& StudySimulator::grain(const dem::GrainSource& source,
+                                        const AssumedInputs& inputs) const {
+  const bool is_other = source.size_factor != study_.grain.size_factor ||
+                        (source.sizes && *source.sizes != *study_.grain.sizes);
+  if (inputs.spheres == 1 && !is_other) return grain_;
+  return finer_->of(source, spheres(inputs.spheres), is_other ? inputs.step : InputStep{}).named;
 }
 
 RunSpec StudySimulator::spec(const Job& job) const {
   const dem::Experiment experiment = dem::experiment_named(job.experiment).experiment;
-  RunSpec spec = spec_of(study_, experiment, grain(job.inputs), heap_views_);
+  const InputStep& step = job.inputs.step;
+  std::optional<dem::Study> changed;
+  if (!step.input.empty()) dem::change_input(changed.emplace(study_), step.input, step.change);
+  const dem::Study& study = changed ? *changed : study_;
+  RunSpec spec = spec_of(study, experiment, grain(study.grain, job.inputs), heap_views_);
   spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.inputs.stiffness);
   for (std::size_t k = 0; k < names_.size(); ++k) {
     // An experiment without a part has none of its coefficients.

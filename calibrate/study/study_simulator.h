@@ -52,7 +52,7 @@ class StudySimulator {
  private:
   struct FinerGrains;
   int spheres(double multiple) const;
-  const NamedGrain& grain(const AssumedInputs& inputs) const;
+  const NamedGrain& grain(const dem::GrainSource& source, const AssumedInputs& inputs) const;
 
   dem::Study study_;
   NamedGrain grain_;

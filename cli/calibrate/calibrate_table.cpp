@@ -241,6 +241,45 @@ void add_shape(const calibrate::JointResult& joint, Page& page) {
   page.add(open);
 }
 
+/// What inputs held fixed move: those that move a coefficient by a quarter of its interval's half.
+void add_inputs(const calibrate::JointResult& joint, Page& page) {
+  if (joint.with_assumed.empty()) return;
+  constexpr double kMatters = .25;
+  Table table({{.heading = "what we assumed"},
+               {.heading = "moves"},
+               number_column("by"),
+               number_column("half-width")});
+  bool is_any = false;
+  for (const calibrate::InputEffect& input : joint.assumed_inputs) {
+    for (std::size_t j = 0; j < input.coefficients.size(); ++j) {
+      const double half = joint.with_assumed[j].half_width;
+      if (!(std::abs(input.coefficients[j].change) > kMatters * half)) continue;
+      table.add_row({fmt::format("{} {:.4g} ± {:.3g} {}{}", input.input, input.value, input.sd,
+                                 input.unit, input.is_assumed ? " (assumed)" : ""),
+                     short_name(input.coefficients[j].name),
+                     fmt::format("{:+.2g}", input.coefficients[j].change), four_digits(half)});
+      is_any = true;
+    }
+  }
+  page.add_gap();
+  if (is_any) {
+    page.add(table);
+    page.add(
+        "(the input larger by its standard uncertainty; others move no coefficient by more than a "
+        "quarter of the half-width of its 95 % interval)");
+  } else {
+    page.add(
+        "What was held fixed, varied within its own uncertainty, moves no coefficient by more than "
+        "a quarter of the half-width of its 95 % interval.");
+  }
+  std::string with;
+  for (const calibrate::CombinedEffect& one : joint.with_assumed) {
+    with += fmt::format("{}{} {} … {}", with.empty() ? "" : ", ", short_name(one.name),
+                        four_digits(one.interval.low), four_digits(one.interval.high));
+  }
+  page.add(fmt::format("With all that was assumed (95 %): {}.", with));
+}
+
 /// "μs wall" for "contact.particle_wall.sliding_friction", "e grain" between grains.
 std::string symbol_of(const std::string& coefficient) {
   const std::string name = short_name(coefficient);
@@ -371,6 +410,7 @@ std::string joint_table(const calibrate::JointResult& joint,
   add_assumed_scatter(joint, page);
   add_stiffness(joint, page);
   add_shape(joint, page);
+  add_inputs(joint, page);
   add_advice(joint, page);
   add_additions(joint, page);
   add_heap_definition(provenance, page);

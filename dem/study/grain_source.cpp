@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "dem/shape/clump/size_classes.h"
+
 namespace repose::dem {
 namespace {
 
@@ -20,9 +22,8 @@ ClumpFile filled(const Mesh& surface, const FillOptions& options) {
   return {.source = {}, .repairs = {}, .shape = std::move(filled.shape), .errors = filled.errors};
 }
 
-}  // namespace
-
-ClumpFile build_grain(const GrainSource& source) {
+/// As large as the source says.
+ClumpFile unscaled_grain(const GrainSource& source) {
   if (source.clump) return read_clump_file(*source.clump);
   if (source.scan) {
     Scan scan = read_scan(*source.scan, source.scan_unit);
@@ -37,6 +38,23 @@ ClumpFile build_grain(const GrainSource& source) {
   }
   ClumpFile clump = filled(calliper_surface(*source.sizes), source.fill);
   clump.source = text_of(*source.sizes);
+  return clump;
+}
+
+/// All lengths multiplied; errors that are fractions stay.
+void scale(ClumpFile& clump, double factor) {
+  clump.shape = scaled(clump.shape, factor);
+  for (double* length_m : {&clump.errors.surface_error_mean_m, &clump.errors.surface_error_p95_m,
+                           &clump.errors.sticks_out_m, &clump.errors.falls_short_m}) {
+    *length_m *= factor;
+  }
+}
+
+}  // namespace
+
+ClumpFile build_grain(const GrainSource& source) {
+  ClumpFile clump = unscaled_grain(source);
+  if (source.size_factor != 1) scale(clump, source.size_factor);
   return clump;
 }
 

@@ -16,7 +16,8 @@ struct GrainSource {
   ScanUnit scan_unit = ScanUnit::millimetre;
   std::optional<CalliperSizes> sizes;
   std::optional<std::filesystem::path> clump;
-  FillOptions fill;  ///< of a scan or of sizes; a clump file has its spheres
+  FillOptions fill;        ///< of a scan or of sizes; a clump file has its spheres
+  double size_factor = 1;  ///< by which all its lengths are multiplied
 };
 
 /// Reads the scan, clump file or sizes and fills the surface with spheres: seconds, where reading a

@@ -34,14 +34,14 @@ struct ParticleProperty {
 
 constexpr ParticleProperty kYoung{
     .key = "young_modulus_pa",
-    .possible = above(0, 1e13),
+    .possible = kPossibleYoung_pa,
     .plausible = from_to(1e6, 1.3e12),
     .usual = from_to(1e7, 5e11),
     .examples = "Pa: soaked seeds 1e7, nuts and plastics 1e9, glass 7e10, steel 2e11",
     .slips = {{{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}}};
 constexpr ParticleProperty kDensity{
     .key = "density_kg_m3",
-    .possible = above(0, 1e6),
+    .possible = kPossibleDensity_kg_m3,
     .plausible = from_to(10, 25'000),
     .usual = from_to(100, 25'000),
     .examples = "kg/m3: foam 20, wood and seeds 500 to 1300, steel 7850, tungsten 19300",
@@ -93,7 +93,7 @@ void read_material(Section& section, const std::string& otherwise, Material& mat
   check_plausible(section, kYoung);
   check_plausible(section, kDensity);
   material.poisson_ratio =
-      section.needed_number("poisson_ratio", from_to_below(0, .5), "poisson_ratio = 0.38");
+      section.needed_number("poisson_ratio", kPossiblePoisson, "poisson_ratio = 0.38");
 }
 
 void read_wall_material(Section& wall, const std::string& otherwise, Material& material) {

@@ -5,6 +5,11 @@
 
 namespace repose::dem {
 
+/// What the program can compute with.
+inline constexpr Range kPossibleYoung_pa = above(0, 1e13);
+inline constexpr Range kPossibleDensity_kg_m3 = above(0, 1e6);
+inline constexpr Range kPossiblePoisson = from_to_below(0, .5);
+
 /// Files that a study names.
 struct NamedFiles {
   std::filesystem::path folder;  ///< where they are looked for

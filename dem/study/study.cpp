@@ -13,6 +13,7 @@
 #include "base/fingerprint.h"
 #include "base/whole_file.h"
 #include "dem/study/experiment_table.h"
+#include "dem/study/held_inputs.h"
 #include "dem/study/read_contact.h"
 #include "dem/study/read_experiments.h"
 #include "dem/study/read_particle.h"
@@ -124,6 +125,7 @@ void read_sections(const ConfigValue& config, Section root, const NamedFiles& fi
                                        "[experiment.heap]; all their keys have usual values");
   read_experiments(experiments, files, study);
   read_simulation(root.section("simulation"), study);
+  read_uncertainty(root.section("uncertainty"), study);
   root.refuse_others();
 }
 

@@ -127,6 +127,10 @@ struct Study {
   std::map<WallPart, CoefficientSet> particle_parts;  ///< of the parts in `model.parts`
   CoefficientSet particle_particle;
   std::map<Experiment, StudyExperiment> experiments;  ///< those that it describes
+  /// [uncertainty]: standard uncertainties of numbers that are known, by their keys
+  /// ("experiment.roll.incline_deg"), in their units; and whether a calibration looks what they do.
+  std::map<std::string, double> stated_sd;
+  bool varies_inputs = true;
   int replicates = 1;
   std::uint64_t seed = 1;
   std::optional<int> threads;  ///< when the file says how many

@@ -41,7 +41,7 @@ SECTIONS = ["study", "particle", "wall", "wall.tube", "contact", "contact.partic
             "experiment.fill.also_measured", "experiment.pendulum",
             "experiment.draw_down", "experiment.draw_down.also_measured",
             "experiment.heap.measured", "experiment.heap.also_measured",
-            "experiment.drop.measured", "experiment.drop.also_measured", "simulation"]
+            "experiment.drop.measured", "experiment.drop.also_measured", "simulation", "uncertainty"]
 
 
 def keys_in(value):

@@ -15,6 +15,8 @@ struct CalliperSizes {
   /// 0: both ends round, an ellipsoid; 1: the end at +x comes to a point. A hazelnut is about .5.
   double tip_fraction = 0;
 
+  bool operator==(const CalliperSizes&) const = default;
+
   /// Empty when usable; else a line for each error.
   std::vector<std::string> problems() const;
 };
