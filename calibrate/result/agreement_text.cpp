@@ -240,14 +240,14 @@ std::string agreement_text(const Verification& verification, double degrees) {
   }
   return after_what_agrees(
       verification,
-      fmt::format("{}; no difference is shown (as large ones arise by chance in {} of cases){}",
-                  inconclusive_text(verification), percent(verification.chance),
-                  is_tested
-                      ? ""
-                      : fmt::format(". Nor would agreement be more than reproduced, not tested: the "
-                                    "coefficients use up what these experiments tell ({:.1f} "
-                                    "degrees of freedom are left)",
-                                    degrees)));
+      fmt::format(
+          "{}; no difference is shown (as large ones arise by chance in {} of cases){}",
+          inconclusive_text(verification), percent(verification.chance),
+          is_tested ? ""
+                    : fmt::format(". Nor would agreement be more than reproduced, not tested: the "
+                                  "coefficients use up what these experiments tell ({:.1f} "
+                                  "degrees of freedom are left)",
+                                  degrees)));
 }
 
 std::string shape_check_text(const ShapeCheck& shape) {

@@ -19,10 +19,9 @@ std::string number_with_unit(double value, const std::string& unit) {
 /// The sentence that a reader takes away; details are in prediction_text().
 std::string headline_of(const Prediction& one) {
   const std::string margin = number_with_unit(one.tolerance, one.unit);
-  const std::string possible = one.possible
-                                   ? fmt::format(", where {:.3g} to {:.3g} was possible",
-                                                 one.possible->low, one.possible->high)
-                                   : "";
+  const std::string possible = one.possible ? fmt::format(", where {:.3g} to {:.3g} was possible",
+                                                          one.possible->low, one.possible->high)
+                                            : "";
   const std::string text = fmt::format(
       "{} is predicted as {} (95 % interval {:.4g} to {:.4g}{}) and was measured as {}: ", one.name,
       number_with_unit(one.predicted, one.unit), one.interval.low, one.interval.high, possible,

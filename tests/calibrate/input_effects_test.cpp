@@ -39,7 +39,7 @@ double reading(const Job& job) {
 /// Run names something else inside of a gtest test.
 using Runs = std::vector<Run>;
 
-Run run_of(const Job& job) {
+Run closed_form_run(const Job& job) {
   return {.job = job, .readings = {{"value", reading(job)}}, .failure = {}};
 }
 
@@ -58,7 +58,7 @@ Observable observable(const char* name, double mean) {
 
 Runs all(const std::vector<Job>& jobs) {
   Runs runs;
-  for (const Job& job : jobs) runs.push_back(run_of(job));
+  for (const Job& job : jobs) runs.push_back(closed_form_run(job));
   return runs;
 }
 
@@ -87,8 +87,8 @@ struct InputEffects : ::testing::Test {
     constexpr int kPoints = 16;
     for (int k = 0; k <= kPoints; ++k) {
       const double way = static_cast<double>(k) / kPoints;
-      runs_.push_back(run_of({.experiment = "drop", .values = {.2 + .7 * way, .6}}));
-      runs_.push_back(run_of({.experiment = "roll", .values = {.55, .2 + .8 * way}}));
+      runs_.push_back(closed_form_run({.experiment = "drop", .values = {.2 + .7 * way, .6}}));
+      runs_.push_back(closed_form_run({.experiment = "roll", .values = {.55, .2 + .8 * way}}));
     }
     checks_ = {{.experiment = "drop", .values = {.5, .6}},
                {.experiment = "roll", .values = {.55, .5}}};
@@ -147,7 +147,8 @@ TEST_F(InputEffects, ByChanceEachRunIsComparedWithThatOfItsSeed) {
   problem_.fixed_inputs = {problem_.fixed_inputs[0]};
   Runs checks, varied;
   for (int k = 0; k < 24; ++k) {
-    checks.push_back(run_of({.experiment = "drop", .values = {.5, .6}, .seed = 1000000000U + k}));
+    checks.push_back(
+        closed_form_run({.experiment = "drop", .values = {.5, .6}, .seed = 1000000000U + k}));
     checks.back().readings["value"] += k * k;  // far more scatter than the change
   }
   problem_.settings.budget_s = 50;
@@ -157,7 +158,7 @@ TEST_F(InputEffects, ByChanceEachRunIsComparedWithThatOfItsSeed) {
   ASSERT_THAT(plan.jobs, SizeIs(10)) << "a fifth of 50 s";
   for (int k = 0; k < 10; ++k) {
     EXPECT_EQ(plan.jobs[k].seed, jobs[k].seed);
-    varied.push_back(run_of(plan.jobs[k]));
+    varied.push_back(closed_form_run(plan.jobs[k]));
     varied.back().readings["value"] += k * k + (k % 2 == 0 ? .1 : -.1);
   }
   const auto effects =

@@ -312,21 +312,21 @@ TEST(AgreementText, SaysWhatAgreesBeforeWhatDoesNot) {
   drop.verdict = AgreementVerdict::cannot_tell;
   drop.runs = 9;
   drop.detectable = 2;
-  EXPECT_EQ(agreement_text(inconclusive(drop)),
+  EXPECT_EQ(agreement_text(inconclusive(drop), 3),
             "three of four experiments agree (tilt, roll, heap); the drop is inconclusive: its "
-            "readings scatter too much for its tolerance; no difference is shown (as large ones "
+            "readings scatter too much for its margin; no difference is shown (as large ones "
             "arise by chance in 98 % of cases)");
   drop.runs_to_decide = 40;
-  EXPECT_THAT(agreement_text(inconclusive(drop)),
+  EXPECT_THAT(agreement_text(inconclusive(drop), 3),
               HasSubstr("the drop is inconclusive: it was simulated too few times;"));
   Verification two = inconclusive(drop);
   two.observables[2].verdict = AgreementVerdict::cannot_tell;
   two.observables[2].runs_to_decide = 30;
-  EXPECT_THAT(agreement_text(two),
+  EXPECT_THAT(agreement_text(two, 3),
               HasSubstr("two of four experiments agree (tilt, roll); heap, drop are inconclusive: "
                         "they were simulated too few times;"));
   two.verdict = AgreementVerdict::disagrees;
-  EXPECT_THAT(agreement_text(two), HasSubstr("(tilt, roll); bench and simulation disagree:"));
+  EXPECT_THAT(agreement_text(two, 3), HasSubstr("(tilt, roll); bench and simulation disagree:"));
 }
 
 TEST(SummarySentences, BeginWithWhatWasPredictedAndSayThatOnlyWholeSetsFit) {
