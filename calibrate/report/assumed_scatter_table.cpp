@@ -17,7 +17,6 @@ void add_assumed_scatter(const JointResult& joint, std::vector<Block>& blocks) {
               .title = "With half and with twice the assumed scatter",
               .data = {.columns = {{.name = "coefficient", .unit = {}},
                                    {.name = "scatter", .unit = {}},
-                                   {.name = "value", .unit = {}, .decimals = 3},
                                    {.name = "95 % from", .unit = {}, .decimals = 3},
                                    {.name = "95 % to", .unit = {}, .decimals = 3},
                                    {.name = "verdict", .unit = {}}},
@@ -25,8 +24,8 @@ void add_assumed_scatter(const JointResult& joint, std::vector<Block>& blocks) {
   for (const ScatterDependence& coefficient : assumed.coefficients) {
     for (const auto& [scatter, one] :
          {std::pair{"half", &coefficient.half}, std::pair{"twice", &coefficient.twice}}) {
-      table.data.add({label_of(coefficient.name), std::string(scatter), cell(one->value),
-                      cell(one->interval.low), cell(one->interval.high), name_of(one->verdict)});
+      table.data.add({label_of(coefficient.name), std::string(scatter), cell(one->interval.low),
+                      cell(one->interval.high), name_of(one->verdict)});
     }
   }
   blocks.push_back(Heading{"What an assumed scatter decides"});

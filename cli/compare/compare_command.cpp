@@ -22,11 +22,12 @@ The verdict on two pictures is about these two heaps. Heaps of the same grains
 differ too: give folders instead of pictures to compare sets of heaps by their
 means, which is a verdict on the grains. A folder contains photographs, one per
 heap (with --group-by-name those whose names differ in a last number after _ or
-- alone are of one heap, which has their mean), or simulated heaps, as written by repose simulate heap --out and repose
-calibrate --out; a .vtp file is one such heap. Its pictures are drawn as from
-far away. A level camera that stands three widths from the heap reads some .8
-degrees less, for the nuts of the sample: --camera-mm says where the photographs
-were taken from, by the lens's distance from the heap's middle and its height
+- alone are of one heap, which has their mean), or simulated heaps, as written
+by repose simulate heap --out and repose calibrate --out; a .vtp file is one
+such heap. Its pictures are drawn as from far away. A level camera that stands
+three widths from the heap reads some .8 degrees less, for the nuts of the
+sample: --camera-mm says where the photographs were taken from, by the lens's
+distance from the heap's middle and its height
 above the ground, so that both sets are seen alike.
 
 Scale: mm per pixel, or the known width of the base. One value applies to both

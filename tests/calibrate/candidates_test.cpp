@@ -23,6 +23,7 @@ JointResult joint_with(double chance, double bench_sd, double simulated_sd) {
   ResultObservable& heap = joint.observables.front();
   heap.measured_sd = bench_sd;
   heap.measured_uncertainty = bench_sd / std::sqrt(kHeapReadings);
+  heap.systematic_uncertainty = 0;
   heap.sd_assumed = false;
   heap.predicted_sd = simulated_sd;
   heap.verification.runs = 3;

@@ -328,7 +328,7 @@ TEST(RegressionBlocks, WhatBlocksMixUpIsNamed) {
   RunTable same = line({0, 0, 0, 1, 1, 1}, {1, 2, 3, 5, 6, 7});
   same.blocks = Blocks{"day", {"Mon", "Tue"}, {0, 0, 0, 1, 1, 1}};
   EXPECT_THAT(regression_error(same, SurfaceModel::linear),
-              AllOf(HasSubstr("cannot tell"), HasSubstr("or blocks")));
+              AllOf(HasSubstr("cannot tell"), HasSubstr("choose no blocks")));
   same.blocks->labels = {"Mon"};
   same.blocks->of_runs.assign(6, 0);
   EXPECT_THAT(regression_error(same, SurfaceModel::linear), HasSubstr("day is the same in every"));
