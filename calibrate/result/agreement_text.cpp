@@ -11,6 +11,8 @@
 namespace repose::calibrate {
 namespace {
 
+constexpr double kShown = .05;  // a chance below that shows a difference
+
 std::vector<const Agreement*> with(const Verification& verification, AgreementVerdict verdict) {
   std::vector<const Agreement*> found;
   for (const Agreement& agreement : verification.observables) {
@@ -90,6 +92,15 @@ std::string inconclusive_text(const Verification& verification) {
 std::string after_what_agrees(const Verification& verification, const std::string& rest) {
   const std::string agreeing = agreeing_text(verification);
   return agreeing.empty() ? rest : agreeing + "; " + rest;
+}
+
+/// Of one that agrees: a difference may be too small to matter and be shown all the same.
+std::string shown_difference(const Verification& verification) {
+  if (!(verification.chance < kShown)) return {};
+  return fmt::format(
+      "; what they differ by is too small to matter by these margins, and still more than chance "
+      "makes (as large differences arise by chance in {} of cases)",
+      percent(verification.chance));
 }
 
 /// What would decide it.
@@ -225,7 +236,8 @@ std::string agreement_text(const Verification& verification, double degrees) {
   switch (verification.verdict) {
     case AgreementVerdict::agrees:
       if (is_tested) {
-        return "bench and simulation agree: every experiment is shown to be within its margin";
+        return "bench and simulation agree: every experiment is shown to be within its margin" +
+               shown_difference(verification);
       }
       return fmt::format(
           "the bench is reproduced, not tested: every experiment is shown to be within its margin, "

@@ -59,7 +59,8 @@ std::string determined_sentence(const JointResult& joint) {
   const std::ptrdiff_t determined = with(Verdict::determined);
   const std::ptrdiff_t all = std::ssize(joint.parameters);
   if (determined == all) {
-    return fmt::format("All {} coefficients are determined by these measurements.", all);
+    return all == 1 ? "The coefficient is determined by these measurements."
+                    : fmt::format("All {} coefficients are determined by these measurements.", all);
   }
   std::string text = fmt::format("{} of {} coefficients {} determined by these measurements.",
                                  determined, all, determined == 1 ? "is" : "are");

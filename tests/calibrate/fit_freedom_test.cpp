@@ -164,7 +164,7 @@ double disagreements(int count, int fitted, double u_y, int n, std::uint64_t see
 }
 
 TEST(Freedom, WhatIsAlikeIsCalledDifferentInOneOfTwentyCases) {
-  // 5 +- .7 % of 1000 by chance. Against N readings as if nothing had been fitted: below 2 %.
+  // 5 +- .7 % of 1000 by chance.
   constexpr int kMany = 200;
   EXPECT_NEAR(disagreements(2, 1, .2, kMany, 1), 5, 2.5);
   EXPECT_NEAR(disagreements(3, 2, .2, kMany, 2), 5, 2.5);

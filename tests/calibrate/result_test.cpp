@@ -386,6 +386,17 @@ TEST(AgreementText, WhatTheCoefficientsUseUpIsReproducedNotTested) {
   EXPECT_THAT(agreement_text(check, 0), HasSubstr("reproduced, not tested"));
 }
 
+TEST(AgreementText, ADifferenceTooSmallToMatterIsSaidAllTheSame) {
+  Verification check;
+  check.verdict = AgreementVerdict::agrees;
+  check.chance = .02;
+  EXPECT_THAT(agreement_text(check, 1),
+              AllOf(HasSubstr("within its margin; "), HasSubstr("more than chance makes"),
+                    HasSubstr("in 2 % of cases")));
+  check.chance = .2;
+  EXPECT_THAT(agreement_text(check, 1), Not(HasSubstr("more than chance")));
+}
+
 TEST(AgreementText, AVerdictThatRestsOnABoundSaysWhatTheBoundIs) {
   ResultParameter parameter;
   parameter.verdict = Verdict::one_sided;

@@ -201,7 +201,8 @@ TEST_F(StateFile, KeepsHowRestitutionGoesWithTheSpeed) {
                                  {{.restitution = .4,
                                    .restitution_exponent = exponent,
                                    .restitution_speed_m_s = exponent > 0 ? 3. : 0.}},
-                                 RollingModel::none)};
+                                 RollingModel::none),
+        .walls = {}};
     setup.timestep_s = 1e-6;
     return setup;
   };
