@@ -197,12 +197,12 @@ TEST_F(StateFile, KeepsHowRestitutionGoesWithTheSpeed) {
         .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e8, .poisson_ratio = .3};
     SimulationSetup setup{
         .kinds = {{.shape = sphere_shape(.005), .material = 0}},
+        .walls = {},
         .contacts = ContactTable({wood},
                                  {{.restitution = .4,
                                    .restitution_exponent = exponent,
                                    .restitution_speed_m_s = exponent > 0 ? 3. : 0.}},
-                                 RollingModel::none),
-        .walls = {}};
+                                 RollingModel::none)};
     setup.timestep_s = 1e-6;
     return setup;
   };
