@@ -164,7 +164,10 @@ InputPlan plan_inputs(const Problem& problem, const std::vector<Job>& checks) {
                            .unit = input.unit,
                            .value = input.value,
                            .sd = input.sd,
-                           .is_assumed = input.is_assumed});
+                           .is_assumed = input.is_assumed,
+                           .readings = {},
+                           .coefficients = {},
+                           .not_varied = {}});
   }
   const std::vector<Variation> variations = variations_of(problem, checks);
   const double most_s = kInputsOfBudget * problem.settings.budget_s;

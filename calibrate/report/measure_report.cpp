@@ -77,7 +77,7 @@ std::string answer_text(const std::vector<MeasuredPhotograph>& pictures,
     text += fmt::format(
         " These are {} pictures of {} heaps, and n counts heaps; pictures of one heap have a "
         "standard deviation of {}°.",
-        set.pictures, set.heaps_deg->n, shown(*set.within_sd_deg, 2));
+        set.pictures, set.heaps_deg->n, shown(set.within_sd_deg, 2));
   }
   if (set.ok_deg && set.flagged > 0) text += ' ' + mean_text(*set.ok_deg, "Of those that are ok");
   if (outliers > 0) {

@@ -61,7 +61,7 @@ void read_assumed(Section& section, const ConfigValue& root, std::vector<std::st
   const ConfigValue* list = section.value("assumed");
   if (list != nullptr && list->kind == ConfigValue::Kind::array && list->items.empty()) return;
   const auto listed = section.texts("assumed", example);
-  if (!listed) return;
+  if (!listed || list == nullptr) return;
   std::vector<std::string> names;
   add_names(root, "", names);
   for (std::size_t k = 0; k < listed->size(); ++k) {
