@@ -143,6 +143,29 @@ ResultObservable drop_result() {
           {{"bias_sd", .25}, {"air_drag", .125}}};
 }
 
+SurrogateQuality drop_surrogate() {
+  return {.observable = "drop",
+          .runs = 12,
+          .failed_runs = 1,
+          .warp = 0,
+          .length_scales = {},
+          .leave_one_out_sigma = 1.25,
+          .leave_one_out_error = .75,
+          .inflation = 1.5};
+}
+
+InputEffect higher_drop() {
+  return {.input = "experiment.drop.height_mm",
+          .unit = "mm",
+          .value = 500,
+          .sd = 2,
+          .is_assumed = false,
+          .readings = {{"drop", .25, .0625}},
+          .coefficients = {{"particle_wall.restitution", -.0625, .015625},
+                           {"particle_wall.rolling_friction", 0, 0}},
+          .not_varied = {"heap"}};
+}
+
 /// The sliding friction is told by rolls whose scatter nobody measured.
 AssumedScatters assumed_rolls() {
   return {.readings = {{.observable = "roll", .fraction = .35}},
@@ -234,34 +257,21 @@ StudyResult joint_result() {
            {"particle_wall.rolling_friction", .3, {0, 1}, Verdict::undetermined}},
       .shape_check = finer_drop(),
       .assumed_scatters = assumed_rolls(),
-      .assumed_inputs = {{.input = "experiment.drop.height_mm",
-                          .unit = "mm",
-                          .value = 500,
-                          .sd = 2,
-                          .is_assumed = false,
-                          .readings = {{"drop", .25, .0625}},
-                          .coefficients = {{"particle_wall.restitution", -.0625, .015625},
-                                           {"particle_wall.rolling_friction", 0, 0}},
-                          .not_varied = {"heap"}}},
+      .assumed_inputs = {higher_drop()},
       .with_assumed = {{"particle_wall.restitution", .4, .1225, .125, {.25, .6}},
                        {"particle_wall.rolling_friction", .5, 0, .5, {0, 1}}},
       .inputs_taken_as_exact = {"experiment.heap.plate_mm"},
       .chi2 = .5,
+      .degrees_of_freedom = {},
       .correlation = {{1, .25}, {.25, 1}},
       .reading_correlation = {{1}},
+      .bench_correlation = {},
       .equivalence_family = {{{{.41, .5}, 1.5}, AgreementVerdict::disagrees, {26}},
                              {{{.39, .7}, 2.5}, {}, {}}},
       .additions = {{.experiment = "pendulum", .lines = "[experiment.pendulum]\n"}},
       .candidates = {constant_torque()},
       .warnings = {"a <b>bold</b> warning"},
-      .surrogates = {{.observable = "drop",
-                      .runs = 12,
-                      .failed_runs = 1,
-                      .warp = 0,
-                      .length_scales = {},
-                      .leave_one_out_sigma = 1.25,
-                      .leave_one_out_error = .75,
-                      .inflation = 1.5}},
+      .surrogates = {drop_surrogate()},
       .rounds = {{.round = 1, .jobs = 12, .seconds = 30, .values = {.45, .4}, .sd = {.1, .2}}},
       .responses = {{.observable = 0,
                      .parameter = 0,

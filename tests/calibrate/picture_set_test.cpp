@@ -84,8 +84,9 @@ TEST(PictureSet, WhatTheCameraDoesToAllIsNotLoweredByMore) {
 }
 
 TEST(PictureSet, OfNothingHasNoMean) {
-  const PictureSet set =
-      set_of_pictures(std::vector<SetPicture>{{.status = MeasureStatus::refused}});
+  SetPicture refused;
+  refused.status = MeasureStatus::refused;
+  const PictureSet set = set_of_pictures(std::vector<SetPicture>{refused});
   EXPECT_FALSE(set.heaps_deg);
   EXPECT_FALSE(set.ok_deg);
   EXPECT_EQ(set.refused, 1);
