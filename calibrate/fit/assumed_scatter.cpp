@@ -7,9 +7,8 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kMultiple = 2;  // and the same below: half
-constexpr double kMovesAlone =
-    .1;  // change of an interval's width, by its own, that is worth saying
+constexpr double kMultiple = 2;      // and the same below: half
+constexpr double kWorthSaying = .1;  // change of an interval's width, as a part of it
 
 double width_of(const Interval& interval) { return interval.high - interval.low; }
 
@@ -51,7 +50,7 @@ bool is_moved(const FittedParameter& assumed, const ScatterDependence& otherwise
       std::vector<const MovedCoefficient*>{&otherwise.half, &otherwise.twice},
       [&](const MovedCoefficient* one) {
         return one->verdict != assumed.verdict ||
-               std::abs(width_of(one->interval) - width) > kMovesAlone * width;
+               std::abs(width_of(one->interval) - width) > kWorthSaying * width;
       });
 }
 

@@ -58,8 +58,13 @@ std::string agreeing_text(const Verification& verification) {
 
 /// Why neither agreement nor a difference is shown of one.
 std::string open_reason(const Agreement& agreement, bool is_one) {
-  if (agreement.runs < 2 && !std::isfinite(agreement.detectable)) {
+  // Of an experiment without chance one run is all that there is.
+  if (!std::isfinite(agreement.difference.low)) {
     return fmt::format("too few of {} runs gave a reading", is_one ? "its" : "their");
+  }
+  if (agreement.difference.low >= -agreement.tolerance &&
+      agreement.difference.high <= agreement.tolerance) {
+    return fmt::format("some of {} runs gave no reading", is_one ? "its" : "their");
   }
   if (agreement.runs_to_decide) {
     return fmt::format("{} {} simulated too few times", is_one ? "it" : "they",

@@ -62,8 +62,10 @@ std::string determined_sentence(const JointResult& joint) {
     return all == 1 ? "The coefficient is determined by these measurements."
                     : fmt::format("All {} coefficients are determined by these measurements.", all);
   }
-  std::string text = fmt::format("{} of {} coefficients {} determined by these measurements.",
-                                 determined, all, determined == 1 ? "is" : "are");
+  std::string text = determined == 0
+                         ? "No coefficient is determined by these measurements."
+                         : fmt::format("{} of {} coefficients {} determined by these measurements.",
+                                       determined, all, determined == 1 ? "is" : "are");
   if (const auto bounded = with(Verdict::bounded); bounded > 0) {
     text += fmt::format(" {} {} bounded: known to an interval, not to a value.", bounded,
                         bounded == 1 ? "is" : "are");

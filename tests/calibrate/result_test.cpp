@@ -311,16 +311,28 @@ TEST(AgreementText, SaysWhatAgreesBeforeWhatDoesNot) {
   drop.observable = "drop";
   drop.verdict = AgreementVerdict::cannot_tell;
   drop.runs = 9;
-  drop.detectable = 2;
+  drop.difference = {-3, 4};
+  drop.tolerance = 1;
   EXPECT_EQ(agreement_text(inconclusive(drop), 3),
             "three of four experiments agree (tilt, roll, heap); the drop is inconclusive: its "
             "readings scatter too much for its margin; no difference is shown (as large ones "
             "arise by chance in 98 % of cases)");
+  drop.runs = 1;
+  drop.detectable = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(agreement_text(inconclusive(drop), 3), HasSubstr("its readings scatter too much"))
+      << "of an experiment without chance one run is enough, and a fit may follow its reading";
+  drop.difference = {-.5, .5};
+  EXPECT_THAT(agreement_text(inconclusive(drop), 3), HasSubstr("some of its runs gave no reading"));
+  drop.difference.low = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(agreement_text(inconclusive(drop), 3),
+              HasSubstr("too few of its runs gave a reading"));
+  drop.difference = {-3, 4};
   drop.runs_to_decide = 40;
   EXPECT_THAT(agreement_text(inconclusive(drop), 3),
               HasSubstr("the drop is inconclusive: it was simulated too few times;"));
   Verification two = inconclusive(drop);
   two.observables[2].verdict = AgreementVerdict::cannot_tell;
+  two.observables[2].difference = {-3, 4};
   two.observables[2].runs_to_decide = 30;
   EXPECT_THAT(agreement_text(two, 3),
               HasSubstr("two of four experiments agree (tilt, roll); heap, drop are inconclusive: "

@@ -38,6 +38,13 @@ class Measure : public ::testing::Test {
     }();
     vision::write_picture(folder_.path() / name, heap);
   }
+  void draw_slopes_to(const std::string& name, double angle_rad) const {
+    HeapScene scene;
+    scene.width = 600;
+    scene.height = 400;
+    scene.form.left_rad = scene.form.right_rad = angle_rad;
+    vision::write_picture(folder_.path() / name, draw_heap(scene).picture);
+  }
   void draw_plain(const std::string& name, int width = 300, std::uint8_t brightness = 0) const {
     const auto bytes =
         std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
@@ -243,16 +250,9 @@ TEST_F(Measure, SeveralPicturesHaveAMeanOfThoseThatAreOk) {
 }
 
 TEST_F(Measure, PicturesThatDifferInANumberAreOfOneHeapWhenAsked) {
-  const auto draw = [&](const char* name, double angle_rad) {
-    HeapScene scene;
-    scene.width = 600;
-    scene.height = 400;
-    scene.form.left_rad = scene.form.right_rad = angle_rad;
-    vision::write_picture(folder_.path() / name, draw_heap(scene).picture);
-  };
-  draw("a_1.png", .38);
-  draw("a_2.png", .4);
-  draw("b-1.png", .42);
+  draw_slopes_to("a_1.png", .38);
+  draw_slopes_to("a_2.png", .4);
+  draw_slopes_to("b-1.png", .42);
   const std::vector<std::string> pictures = {"a_1.png", "a_2.png", "b-1.png"};
   std::vector<std::string> grouped = pictures;
   grouped.insert(grouped.end(),
@@ -274,17 +274,10 @@ TEST_F(Measure, PicturesThatDifferInANumberAreOfOneHeapWhenAsked) {
 }
 
 TEST_F(Measure, AnOutlierIsNamedInEveryOutput) {
-  const auto draw = [&](const char* name, double angle_rad) {
-    HeapScene scene;
-    scene.width = 600;
-    scene.height = 400;
-    scene.form.left_rad = scene.form.right_rad = angle_rad;
-    vision::write_picture(folder_.path() / name, draw_heap(scene).picture);
-  };
-  draw("a.png", .37);
-  draw("b.png", .38);
-  draw("c.png", .39);
-  draw("other.png", .8);
+  draw_slopes_to("a.png", .37);
+  draw_slopes_to("b.png", .38);
+  draw_slopes_to("c.png", .39);
+  draw_slopes_to("other.png", .8);
   const Finished result = run({"a.png", "b.png", "c.png", "other.png", "--summary", "mean.json",
                                "--json", "all.json", "--report", "page.html"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
