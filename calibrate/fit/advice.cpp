@@ -90,6 +90,7 @@ void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& 
       of_ten.noise2 += std::pow(experiment.systematic_fraction * of_ten.readings.back(), 2) +
                        std::pow(experiment.systematic_sd, 2);
     }
+    of_ten.noise2 += std::pow(experiment.model_fraction * of_ten.readings.back(), 2);
   }
   of_ten.noise2 /= static_cast<double>(solution_.sets.points.size());
   all.push_back(std::move(unmeasured));

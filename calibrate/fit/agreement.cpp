@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/distributions.h"
 
@@ -26,6 +27,15 @@ UncertainMean difference_of(const UncertainMean& simulated, const UncertainMean&
   };
   return {simulated.value - measured.value, std::hypot(simulated.uncertainty, measured.uncertainty),
           std::min(base::df_of_sum(variance_of(simulated), variance_of(measured)), kKnown)};
+}
+
+UncertainMean with_known(const UncertainMean& mean, double sd) {
+  if (!(sd > 0)) return mean;
+  const double uncertainty = std::hypot(mean.uncertainty, sd);
+  if (!(mean.uncertainty > 0)) {
+    return {mean.value, uncertainty, std::numeric_limits<double>::infinity()};
+  }
+  return {mean.value, uncertainty, mean.df * std::pow(uncertainty / mean.uncertainty, 4)};
 }
 
 double chance_of(const UncertainMean& difference) {

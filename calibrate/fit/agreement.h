@@ -34,6 +34,10 @@ struct ExperimentChance {
 /// With Welch and Satterthwaite's degrees of freedom: Welch (1947), Biometrika 34, 28.
 UncertainMean difference_of(const UncertainMean& simulated, const UncertainMean& measured);
 
+/// With a further error of known standard deviation: it makes the degrees of freedom more (Welch
+/// 1947).
+UncertainMean with_known(const UncertainMean& mean, double sd);
+
 /// The probability that chance alone makes a difference as large, to either side.
 double chance_of(const UncertainMean& difference);
 

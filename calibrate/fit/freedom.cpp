@@ -77,6 +77,7 @@ Misfit::Linearised Misfit::linearised(const Point& best, const std::vector<bool>
       const double settled = kSettled * measured_[i] / unit;
       parts[a].variance = std::max(parts[a].variance, settled * settled);
       parts[a].measured_sd = 0;
+      parts[a].model2 = 0;
     }
     add_to(all.unsure);
   }

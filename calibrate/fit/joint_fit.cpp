@@ -20,14 +20,6 @@ namespace {
 
 constexpr double kReaches = .01;  // of the box, from a bound
 constexpr double kNearlyAll = .9;
-constexpr double kNarrow = .25;  // of the value: a half-width that leaves one
-
-/// Neither end at a bound.
-bool is_narrow(const Parameter& parameter, const FittedParameter& fitted) {
-  const double half = (fitted.interval.high - fitted.interval.low) / 2;
-  return half <= kNarrow * std::abs(fitted.value) ||
-         half <= parameter.useful_half_width.value_or(0);
-}
 
 Verdict verdict_of(const Parameter& parameter, const Profile& profile,
                    const FittedParameter& fitted) {
@@ -35,7 +27,8 @@ Verdict verdict_of(const Parameter& parameter, const Profile& profile,
   const bool high = profile.high >= 1 - kReaches;
   if ((low && high) || profile.high - profile.low > kNearlyAll) return Verdict::undetermined;
   if (low || high) return Verdict::one_sided;
-  return is_narrow(parameter, fitted) ? Verdict::determined : Verdict::bounded;
+  const double half = (fitted.interval.high - fitted.interval.low) / 2;
+  return leaves_one_value(parameter, fitted.value, half) ? Verdict::determined : Verdict::bounded;
 }
 
 FittedParameter parameter_of(const Problem& problem, const Solution& solution, std::size_t j) {
@@ -97,6 +90,7 @@ FittedObservable observable_of(const Problem& problem, const Solution& solution,
   fitted.measured = observable.mean;
   fitted.measured_uncertainty = solution.misfit.measured_uncertainty(i);
   fitted.systematic_uncertainty = observable.systematic_sd;
+  fitted.model_uncertainty = solution.misfit.model_scale() * observable.model_sd;
   const double by_scatter2 =
       std::pow(fitted.measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2);
   fitted.measured_sd = std::sqrt(std::max(0., by_scatter2) * observable.n);
@@ -176,8 +170,11 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   const std::vector<Run> sorted = in_order(problem, runs);
   const Solution solution = solve(problem, sorted);
   JointFit fit;
-  fit.chi2 = solution.best.chi2;
+  fit.chi2 = solution.stated_chi2;
   fit.freedom = solution.misfit.freedom(solution.best.point);
+  fit.freedom.degrees = solution.stated_freedom.degrees;
+  fit.freedom.of_chi2 = solution.stated_freedom.of_chi2;
+  if (solution.misfit.has_model_errors()) fit.model_error_scale = solution.misfit.model_scale();
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     fit.parameters.push_back(parameter_of(problem, solution, j));
   }

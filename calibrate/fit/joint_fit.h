@@ -53,6 +53,7 @@ struct FittedObservable {
   bool sd_assumed = false;            ///< the sd was not measured
   double measured_uncertainty = 0;    ///< standard uncertainty of the mean
   double systematic_uncertainty = 0;  ///< the part of it that all readings have in common
+  double model_uncertainty = 0;       ///< standard uncertainty by what the model gets wrong
   double simulated = 0;               ///< expected, by the surrogate
   double simulated_uncertainty = 0;
   double simulated_sd = 0;      ///< scatter from seed to seed
@@ -139,8 +140,10 @@ struct JointFit {
   std::vector<ResponseSurface> surfaces;
   std::vector<RoundSummary> rounds;  ///< of the runs that propose() asked for
   std::vector<std::string> warnings;
-  double chi2 = 0;  ///< sum of the squared difference_sigma, of priors too
+  double chi2 = 0;  ///< least sum of squared difference_sigma, of priors too, by Problem's model_sd
   Freedom freedom;
+  /// By what Observable::model_sd had to be multiplied (model_error.h); none: all are 0.
+  std::optional<double> model_error_scale = {};
 };
 
 /// Fits all parameters to all observables at once, from runs that are done.

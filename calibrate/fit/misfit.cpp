@@ -104,8 +104,9 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     const double sd =
         std::hypot(with_systematic(observable, few_readings_factor(observable) * by_scatter),
                    observable.shift_sd);
-    targets_.push_back(
-        {w, sd / warp.slope(w), std::pow(observable.systematic_sd / warp.slope(w), 2)});
+    targets_.push_back({w, sd / warp.slope(w),
+                        std::pow(observable.systematic_sd / warp.slope(w), 2),
+                        observable.model_sd / warp.slope(w)});
   }
   if (!errors.empty()) throw std::invalid_argument(errors);
   correlation_.expected = reading_correlation_of(problem, surrogates_);
@@ -141,8 +142,15 @@ Misfit Misfit::measuring(const std::vector<double>& means) const {
 
 double Misfit::difference(std::size_t observable, const Point& point) const {
   const Expectation w = surrogates_[observable].at(point, false);
-  const Target& target = targets_[observable];
-  return (w.mean - target.value) / std::hypot(target.sd, std::sqrt(w.variance));
+  return (w.mean - targets_[observable].value) / std::sqrt(1 / weight(observable) + w.variance);
+}
+
+bool Misfit::has_model_errors() const {
+  return std::ranges::any_of(targets_, [](const Target& target) { return target.model_sd > 0; });
+}
+
+double Misfit::model_variance(std::size_t observable) const {
+  return std::pow(model_scale_ * targets_[observable].model_sd, 2);
 }
 
 double Misfit::surrogate_variance_fraction(std::size_t observable, const Point& point) const {
@@ -151,7 +159,7 @@ double Misfit::surrogate_variance_fraction(std::size_t observable, const Point& 
 
 double Misfit::weight(std::size_t observable) const {
   const double sd = targets_[observable].sd;
-  return 1 / (sd * sd);
+  return 1 / (sd * sd + model_variance(observable));
 }
 
 double Misfit::chi2(const Point& point) const {
@@ -171,7 +179,7 @@ std::vector<CorrelatedPart> Misfit::parts_of(const Together& together, const Poi
     const Expectation w = surrogates_[i].at(point, with_jacobian);
     const Target& target = targets_[i];
     parts.push_back({w.mean - target.value, target.sd, w.variance, counts_[i], w.mean_gradient,
-                     w.variance_gradient});
+                     w.variance_gradient, model_variance(i)});
   }
   return parts;
 }
@@ -183,7 +191,7 @@ void Misfit::add_together(const Together& together, const Point& point, bool wit
   const std::vector<CorrelatedPart> parts = parts_of(together, point, with_jacobian);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const CorrelatedPart& part = parts[k];
-    const double own2 = part.measured_sd * part.measured_sd;
+    const double own2 = part.measured_sd * part.measured_sd + part.model2;
     const double sigma2 = own2 + part.variance;
     const double distrust = std::sqrt(part.variance / sigma2);
     const std::size_t row = penalties + observables[k];

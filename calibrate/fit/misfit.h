@@ -49,12 +49,17 @@ class Misfit {
   const std::vector<std::vector<double>>& bench_correlation() const {
     return correlation_.measured;
   }
-  /// 1 over the variance of the measured mean, in the units of the observable's surrogate.
+  /// 1 over the variance of the measured mean and of the model's error, in the units of the
+  /// observable's surrogate.
   double weight(std::size_t observable) const;
   /// The part of that variance which more readings do not lower.
-  double systematic_variance(std::size_t observable) const {
-    return targets_[observable].systematic2;
+  double lasting_variance(std::size_t observable) const {
+    return targets_[observable].systematic2 + model_variance(observable);
   }
+  /// Takes the model for so many times as wrong as Observable::model_sd says.
+  void scale_model_errors(double scale) { model_scale_ = scale; }
+  double model_scale() const { return model_scale_; }
+  bool has_model_errors() const;
   /// What a search minimises: those of chi2(), and small ones that choose among equals.
   Residuals residuals(const Point& point, bool with_jacobian) const;
   /// Of the fit that has its minimum there (freedom.cpp).
@@ -66,7 +71,9 @@ class Misfit {
     double value = 0;
     double sd = 0;
     double systematic2 = 0;  ///< of its square, what the readings have in common
+    double model_sd = 0;     ///< Observable::model_sd
   };
+  double model_variance(std::size_t observable) const;
   /// The observables of one experiment.
   struct Together {
     std::vector<std::size_t> observables;
@@ -89,6 +96,7 @@ class Misfit {
   PartCorrelation correlation_;
   std::vector<Together> together_;
   std::vector<FailureRisk> risks_;
+  double model_scale_ = 1;
   bool robust_ = false;
 };
 

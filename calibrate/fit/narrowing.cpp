@@ -15,7 +15,7 @@ constexpr double kHour_s = 3600;
 struct Seen {
   Eigen::VectorXd expected;  ///< at each of the plausible sets
   double bench2 = 0;         ///< variance of the measured mean by the scatter of its readings
-  double systematic2 = 0;    ///< and by what they have in common
+  double lasting2 = 0;       ///< and by what they have in common, and the model's
   double surrogate2 = 0;     ///< of what the surrogate expects
 };
 
@@ -23,8 +23,8 @@ Seen seen(const Solution& solution, std::size_t observable) {
   const std::vector<Point>& points = solution.sets.points;
   const auto count = static_cast<double>(points.size());
   Seen seen{.expected = Eigen::VectorXd(static_cast<Eigen::Index>(points.size())),
-            .systematic2 = solution.misfit.systematic_variance(observable)};
-  seen.bench2 = 1 / solution.misfit.weight(observable) - seen.systematic2;
+            .lasting2 = solution.misfit.lasting_variance(observable)};
+  seen.bench2 = 1 / solution.misfit.weight(observable) - seen.lasting2;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Expectation w = solution.misfit.surrogates()[observable].at(points[k], false);
     seen.expected[static_cast<Eigen::Index>(k)] = w.mean;
@@ -50,15 +50,15 @@ Eigen::MatrixXd columns_of(const std::vector<Point>& points) {
 }
 
 /// The parts of the parameters' standard deviations that are left when the variance of every
-/// observable falls from what it is to bench2 * `bench` + systematic2 + surrogate2 * `surrogate`:
+/// observable falls from what it is to bench2 * `bench` + lasting2 + surrogate2 * `surrogate`:
 /// as if it were measured once more, with the variance that makes up the difference.
 std::vector<double> left_over(const Eigen::MatrixXd& parameters, const std::vector<Seen>& all,
                               double bench, double surrogate) {
   std::vector<double> more;
   Eigen::MatrixXd readings(parameters.rows(), 0);
   for (const Seen& one : all) {
-    const double now = one.bench2 + one.systematic2 + one.surrogate2;
-    const double then = one.bench2 * bench + one.systematic2 + one.surrogate2 * surrogate;
+    const double now = one.bench2 + one.lasting2 + one.surrogate2;
+    const double then = one.bench2 * bench + one.lasting2 + one.surrogate2 * surrogate;
     if (!(then > 0) || !(now > then)) continue;
     more.push_back(now * then / (now - then));
     readings.conservativeResize(Eigen::NoChange, readings.cols() + 1);

@@ -126,15 +126,19 @@ double measured_uncertainty_of(const Problem& problem, const Observable& observa
   return with_systematic(observable, std::max(known, reading_sd / std::sqrt(observable.n)));
 }
 
-void judge(const Problem& problem, const Observable& observable, double sets_df,
+/// `of_sets`: of the reading that the sets lead to. That the model is wrong makes no difference
+/// less real, but a difference less of a surprise.
+void judge(const Problem& problem, const Observable& observable, const UncertainMean& of_sets,
            Prediction& prediction) {
-  const double measured_df =
-      observable.sd ? observable.n - 1 : std::numeric_limits<double>::infinity();
-  const UncertainMean difference =
-      difference_of({prediction.predicted, prediction.uncertainty, sets_df},
-                    {prediction.measured, prediction.measured_uncertainty, measured_df});
-  prediction.difference_sigma = difference.value / difference.uncertainty;
-  prediction.chance = chance_of(difference);
+  const double scatter2 = std::max(
+      0., std::pow(prediction.measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2));
+  const double df = observable.sd ? observable.n - 1 : std::numeric_limits<double>::infinity();
+  const UncertainMean bench =
+      with_known({prediction.measured, std::sqrt(scatter2), df}, observable.systematic_sd);
+  const UncertainMean difference = difference_of(of_sets, bench);
+  const UncertainMean by_chance = difference_of(with_known(of_sets, prediction.model_sd), bench);
+  prediction.difference_sigma = by_chance.value / by_chance.uncertainty;
+  prediction.chance = chance_of(by_chance);
   const Interval within = not_ruled_out(difference);
   if (within.low >= -prediction.tolerance && within.high <= prediction.tolerance) {
     prediction.verdict = AgreementVerdict::agrees;
@@ -142,11 +146,9 @@ void judge(const Problem& problem, const Observable& observable, double sets_df,
     prediction.verdict = AgreementVerdict::disagrees;
   }
   if (prediction.verdict != AgreementVerdict::cannot_tell) return;
-  const double by_scatter2 =
-      std::pow(prediction.measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2);
-  prediction.readings_to_decide = readings_to_decide(
-      difference, std::sqrt(std::max(by_scatter2, 0.)), observable.n, prediction.tolerance,
-      kLevel / static_cast<double>(problem.held_out.size()));
+  prediction.readings_to_decide =
+      readings_to_decide(difference, std::sqrt(scatter2), observable.n, prediction.tolerance,
+                         kLevel / static_cast<double>(problem.held_out.size()));
 }
 
 /// Of the runs all over the bounds and of the drawn sets, as far as a bench can read it.
@@ -179,6 +181,7 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
                         .interval = {kNone, kNone},
                         .coefficients_sd = kNone,
                         .run_sd = kNone,
+                        .model_sd = fit.model_error_scale.value_or(1) * observable.model_sd,
                         .difference_sigma = kNone,
                         .chance = kNone,
                         .tolerance = kNone,
@@ -199,13 +202,16 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
   prediction.predicted = average_of(sets.means);
   prediction.coefficients_sd = std::sqrt(by_coefficients);
   prediction.run_sd = std::sqrt(sets.run_variance());
-  prediction.uncertainty = std::sqrt(by_coefficients + between / count);
+  const UncertainMean of_sets{prediction.predicted, std::sqrt(by_coefficients + between / count),
+                              count - 1};
+  const UncertainMean real = with_known(of_sets, prediction.model_sd);
+  prediction.uncertainty = real.uncertainty;
   prediction.measured_uncertainty =
       measured_uncertainty_of(problem, observable, prediction.run_sd, runs);
-  const double half = base::student_t_quantile(.975, count - 1) * prediction.uncertainty;
+  const double half = base::student_t_quantile(.975, real.df) * real.uncertainty;
   prediction.interval = {std::max(prediction.predicted - half, observable.least),
                          std::min(prediction.predicted + half, observable.most)};
-  judge(problem, observable, count - 1, prediction);
+  judge(problem, observable, of_sets, prediction);
   return prediction;
 }
 

@@ -24,10 +24,11 @@ struct Prediction {
   double measured = 0;
   double measured_uncertainty = 0;  ///< standard uncertainty of the mean
   double predicted = 0;
-  double uncertainty = 0;  ///< standard uncertainty: by the coefficients and by chance in the runs
-  Interval interval;       ///< 95 %, of the expected reading
+  double uncertainty = 0;  ///< standard: by the coefficients, by chance in the runs, by the model
+  Interval interval;       ///< 95 %, of the reading that a bench would have
   double coefficients_sd = 0;  ///< of the uncertainty, what the coefficients leave open
   double run_sd = 0;           ///< scatter of runs at the same coefficients
+  double model_sd = 0;         ///< what the model gets wrong, part of the uncertainty
   double difference_sigma = 0;
   double chance = 0;     ///< that prediction and measurement differ so much by chance
   double tolerance = 0;  ///< what does not matter

@@ -149,6 +149,12 @@ void check_observable(const Problem& problem, const Observable& observable, Erro
         "Fix: correct it (bias_sd), or leave it out",
         name, observable.systematic_sd));
   }
+  if (!(observable.model_sd >= 0 && std::isfinite(observable.model_sd))) {
+    errors.push_back(
+        fmt::format("{}: the model's error has the standard deviation {}. Rule: a number of 0 or "
+                    "more. Fix: model_error, a fraction of the reading",
+                    name, observable.model_sd));
+  }
   check_scatter(observable, errors);
 }
 
@@ -227,6 +233,12 @@ void require_sound(const Problem& problem) {
   std::string text;
   for (const std::string& error : errors_of(problem)) text += (text.empty() ? "" : "\n") + error;
   if (!text.empty()) throw std::invalid_argument(text);
+}
+
+bool leaves_one_value(const Parameter& parameter, double value, double half_width) {
+  constexpr double kNarrow = .25;
+  return half_width <= kNarrow * std::abs(value) ||
+         half_width <= parameter.useful_half_width.value_or(0);
 }
 
 double standard_uncertainty(const Observable& observable) {

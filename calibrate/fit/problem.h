@@ -60,6 +60,8 @@ struct Experiment {
   double systematic_sd = 0;
   /// By what fraction of their mean single readings of a bench scatter where nobody measured it.
   double usual_scatter = .05;
+  /// By what fraction of it the model may miss a reading of any bench: Observable::model_sd.
+  double model_fraction = 0;
 };
 
 /// A part of the uncertainty of a measured mean that all its readings have in common.
@@ -95,6 +97,9 @@ struct Observable {
   double systematic_sd = 0;
   /// What that is made of, in quadrature.
   std::vector<SystematicPart> systematic = {};
+  /// Standard deviation of what the model gets wrong of the reading at the best coefficients that
+  /// there are, its clump and its laws being what they are: known beforehand.
+  double model_sd = 0;
   bool has_own_trials = false;  ///< on the bench: its chance is that of no other reading
   /// A difference between bench and simulation up to this does not matter; see margin_of().
   std::optional<double> tolerance = {};
@@ -194,6 +199,10 @@ std::vector<std::string> errors_of(const Problem& problem);
 
 /// Throws std::invalid_argument with every error of the problem, a line each.
 void require_sound(const Problem& problem);
+
+/// Whether a 95 % interval of this half-width leaves one value: at most a quarter of it, or what
+/// the parameter's useful_half_width calls enough.
+bool leaves_one_value(const Parameter& parameter, double value, double half_width);
 
 /// Standard uncertainty of an observable's mean by the scatter of its readings, in its unit: sd /
 /// sqrt(n).

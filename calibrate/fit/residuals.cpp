@@ -57,7 +57,8 @@ double covariance_of(const std::vector<CorrelatedPart>& parts, const PartCorrela
   const CorrelatedPart& b = parts[other];
   return correlation.measured[one][other] * shared_readings(a.readings, b.readings) *
              a.measured_sd * b.measured_sd +
-         correlation.expected[one][other] * std::sqrt(a.variance * b.variance);
+         correlation.expected[one][other] * std::sqrt(a.variance * b.variance) +
+         (one == other ? a.model2 : 0);
 }
 
 double shared_readings(int one, int other) {

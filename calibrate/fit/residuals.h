@@ -21,6 +21,7 @@ struct CorrelatedPart {
   int readings = 1;        ///< behind the measured mean
   Point gradient;          ///< of the difference; empty unless derivatives are wanted
   Point variance_gradient;
+  double model2 = 0;  ///< variance of what the model gets wrong, each reading by itself
 };
 
 /// How the errors of such differences vary together, of each pair; 1 on the diagonals.
@@ -32,9 +33,9 @@ struct PartCorrelation {
 /// L^-1 r for the differences r and the covariance L L^T = V of their errors: independent, of
 /// variance 1, and their squares sum up to r^T V^-1 r.
 ///
-/// V_ij = rho_m,ij sqrt(m / M) s_i s_j + rho_e,ij sqrt(v_i v_j): m of the M readings of a bench are
-/// taken to be of the same grains or heaps, m and M being the smaller and the larger of both
-/// counts.
+/// V_ij = rho_m,ij sqrt(m / M) s_i s_j + rho_e,ij sqrt(v_i v_j), and d_i^2 where i = j: m of the M
+/// readings of a bench are taken to be of the same grains or heaps, m and M being the smaller and
+/// the larger of both counts.
 Residuals made_independent(const std::vector<CorrelatedPart>& parts,
                            const PartCorrelation& correlation, bool with_jacobian);
 

@@ -1,5 +1,7 @@
 #include "calibrate/fit/solution.h"
 
+#include "calibrate/fit/model_error.h"
+
 namespace repose::calibrate {
 namespace {
 
@@ -32,6 +34,8 @@ Solution solve(const Problem& problem, const std::vector<Run>& runs) {
   Minimum best = least_minimum(misfit, {});
   misfit.inflate_near(best.point);
   best = least_minimum(misfit, {best.point});
+  misfit.scale_model_errors(model_error_scale(misfit, best));
+  if (misfit.model_scale() > 1) best = least_minimum(misfit, {best.point});
   PlausibleSets sets = plausible_sets(misfit, problem.settings.seed);
   std::vector<Profile> profiles = profiles_of(misfit, best, sets);
   for (int turn = 0; turn < kMaxTurns; ++turn) {
@@ -40,7 +44,16 @@ Solution solve(const Problem& problem, const std::vector<Run>& runs) {
     best = minimum_from(misfit, least.point);
     profiles = profiles_of(misfit, best, sets);
   }
-  return {std::move(misfit), std::move(best), std::move(sets), std::move(profiles)};
+  Misfit stated = misfit;
+  stated.scale_model_errors(1);
+  const Minimum least = misfit.model_scale() > 1 ? minimum_from(stated, best.point) : best;
+  Freedom freedom = stated.freedom(least.point);
+  return {.misfit = std::move(misfit),
+          .best = std::move(best),
+          .sets = std::move(sets),
+          .profiles = std::move(profiles),
+          .stated_chi2 = least.chi2,
+          .stated_freedom = std::move(freedom)};
 }
 
 }  // namespace repose::calibrate

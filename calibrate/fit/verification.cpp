@@ -38,7 +38,8 @@ class Differences {
               const std::vector<double>& measured_uncertainty, const JointFit* fit,
               const Freedom* made_by);
 
-  /// As if the bench's mean had no part in what was simulated: what equivalence is judged by.
+  /// As if the bench's mean had no part in what was simulated: what equivalence is judged by. What
+  /// the model gets wrong is part of the difference, not of its uncertainty.
   UncertainMean whole(std::size_t i) const { return difference_of(simulated_[i], measured_[i]); }
   /// As it is by chance, the fit having followed a part of the bench's.
   UncertainMean left(std::size_t i) const;
@@ -57,8 +58,17 @@ class Differences {
   Eigen::MatrixXd bench_;   ///< covariance of the measured means
   Eigen::MatrixXd runs_;    ///< of the simulated ones
   Eigen::MatrixXd kept_;    ///< I - H
+  Eigen::MatrixXd model_;   ///< of what the model gets wrong
   Eigen::MatrixXd unsure_;  ///< of the differences by what the fit did not know
 };
+
+/// Only the scatter of readings is known by how many there are.
+UncertainMean bench_mean(const Observable& observable, double uncertainty) {
+  const double scatter2 = std::pow(uncertainty, 2) - std::pow(observable.systematic_sd, 2);
+  return with_known({observable.mean, std::sqrt(std::max(scatter2, 0.)),
+                     observable.sd ? observable.n - 1 : kInfinite},
+                    observable.systematic_sd);
+}
 
 Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows, std::size_t size) {
   const auto count = static_cast<Eigen::Index>(size);
@@ -77,10 +87,14 @@ Differences::Differences(const Problem& problem, const std::vector<UncertainMean
   const std::size_t count = problem.observables.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Observable& one = problem.observables[i];
-    measured_.push_back({one.mean, measured_uncertainty[i], one.sd ? one.n - 1 : kInfinite});
+    measured_.push_back(bench_mean(one, measured_uncertainty[i]));
   }
   bench_ = Eigen::MatrixXd::Zero(place(count), place(count));
   runs_ = bench_;
+  model_ = bench_;
+  for (std::size_t i = 0; i < count; ++i) {
+    model_(place(i), place(i)) = std::pow(problem.observables[i].model_sd, 2);
+  }
   for (const std::vector<std::size_t>& own : by_experiment(problem)) {
     for (const std::size_t i : own) {
       for (const std::size_t k : own) {
@@ -109,16 +123,20 @@ UncertainMean Differences::left(std::size_t i) const {
     own += part * part;
     spread += std::pow(part, 4) / measured_[k].df;
   }
-  const double unsure2 = unsure_(place(i), place(i));
+  const double model2 = (kept_.row(place(i)) * model_ * kept_.row(place(i)).transpose())(0);
   const double bench_df = spread > 0 ? own * own / spread : kInfinite;
   // What the fit did not know counts as known itself: it adds to the variance alone.
-  const UncertainMean bench{measured_[i].value, std::sqrt(bench2 + unsure2),
-                            bench2 > 0 ? bench_df * std::pow(1 + unsure2 / bench2, 2) : kInfinite};
-  return difference_of(simulated_[i], bench);
+  const double known = std::sqrt(unsure_(place(i), place(i)) + model2);
+  return difference_of(simulated_[i],
+                       with_known({measured_[i].value, std::sqrt(bench2), bench_df}, known));
 }
 
 ExperimentChance Differences::chance_of_experiment(const std::vector<std::size_t>& there) const {
-  if (there.size() == 1) return {chance_of(whole(there.front())), 1};
+  if (there.size() == 1) {
+    const std::size_t i = there.front();
+    const double model_sd = problem_.observables[i].model_sd;
+    return {chance_of(difference_of(simulated_[i], with_known(measured_[i], model_sd))), 1};
+  }
   const Eigen::Index count = place(there.size());
   Eigen::VectorXd differences(count);
   MeanCovariance runs{Eigen::MatrixXd(count, count), kInfinite};
@@ -131,7 +149,7 @@ ExperimentChance Differences::chance_of_experiment(const std::vector<std::size_t
     for (Eigen::Index b = 0; b < count; ++b) {
       const Eigen::Index k = place(there[static_cast<std::size_t>(b)]);
       runs.matrix(a, b) = runs_(place(i), k);
-      bench.matrix(a, b) = bench_(place(i), k);
+      bench.matrix(a, b) = bench_(place(i), k) + model_(place(i), k);
     }
   }
   return {chance_of(differences, runs, bench), static_cast<int>(count)};
@@ -146,9 +164,9 @@ double Differences::chance(const std::vector<std::size_t>& there) const {
   }
   std::vector<Eigen::Index> places;
   for (const std::size_t i : there) places.push_back(place(i));
-  const Eigen::MatrixXd assumed = (bench_ + runs_)(places, places);
+  const Eigen::MatrixXd assumed = (bench_ + model_ + runs_)(places, places);
   const Eigen::MatrixXd real =
-      Eigen::MatrixXd(kept_ * bench_ * kept_.transpose() + unsure_)(places, places) +
+      Eigen::MatrixXd(kept_ * (bench_ + model_) * kept_.transpose() + unsure_)(places, places) +
       Eigen::MatrixXd(runs_(places, places));
   const Eigen::MatrixXd ratio = assumed.llt().solve(real);
   const double mean = ratio.trace();

@@ -49,7 +49,8 @@ double uncertainty_of_mean(const Surrogate& surrogate, double w, int readings,
   const double mean = std::abs(surrogate.warp().expected(w));
   const double by_scatter = std::max(experiment.usual_scatter * mean, surrogate.reading_sd(w)) /
                             std::sqrt(static_cast<double>(readings));
-  return std::hypot(by_scatter, experiment.systematic_fraction * mean, experiment.systematic_sd);
+  const double shared = std::hypot(experiment.systematic_fraction * mean, experiment.systematic_sd);
+  return std::hypot(by_scatter, shared, experiment.model_fraction * mean);
 }
 
 /// From one bound to the other, over the uncertainty of bench and surrogate.
@@ -68,7 +69,8 @@ double effect_of(const Surrogate& surrogate, const Point& material, std::size_t 
 
 }  // namespace
 
-Foresight::Foresight(const Problem& problem, const std::vector<Run>& runs, int readings) {
+Foresight::Foresight(const Problem& problem, const std::vector<Run>& runs, int readings)
+    : parameters_(problem.parameters) {
   const std::vector<Run> ordered = in_order(problem, runs);
   const Misfit misfit(problem, ordered, {}, true);
   const std::vector<Point> plausible = plausible_sets(misfit, problem.settings.seed).points;
@@ -133,7 +135,13 @@ Outlook Foresight::with(const std::vector<std::size_t>& experiments) const {
       const double low = std::max(0., materials_[k][j] - half);
       const double high = std::min(1., materials_[k][j] + half);
       widths[j].push_back(high - low);
-      if (low > 0 && high < 1) outlook.determined[j] += 1 / static_cast<double>(materials_.size());
+      const Parameter& parameter = parameters_[j];
+      const double box = parameter.max - parameter.min;
+      const bool is_value = leaves_one_value(parameter, parameter.min + materials_[k][j] * box,
+                                             (high - low) / 2 * box);
+      if (low > 0 && high < 1 && is_value) {
+        outlook.determined[j] += 1 / static_cast<double>(materials_.size());
+      }
     }
   }
   for (const std::vector<double>& of_one : widths) outlook.widths.push_back(median(of_one));

@@ -29,7 +29,7 @@ struct Prospect {
 struct Outlook {
   /// Of the 95 % intervals, as a part of the distance of the bounds: medians over materials.
   std::vector<double> widths;
-  /// Part of the plausible materials whose interval ends inside both bounds.
+  /// Part of the plausible materials whose interval ends inside both bounds and leaves one value.
   std::vector<double> determined;
 };
 
@@ -61,6 +61,7 @@ class Foresight {
   void learn(const Problem& problem, const std::vector<Run>& runs, const Experiment& experiment,
              int readings);
 
+  std::vector<Parameter> parameters_;
   std::vector<Prospect> prospects_;
   std::vector<Point> materials_;
   Eigen::MatrixXd known_;                                 ///< precision of the plausible sets

@@ -411,6 +411,9 @@ Chapter agreement_chapter(const JointResult& joint) {
   if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
     chapter.blocks.push_back(Paragraph{titled(freedom) + '.'});
   }
+  if (const std::string model = model_error_text(joint); !model.empty()) {
+    chapter.blocks.push_back(Paragraph{titled(model) + '.'});
+  }
   chapter.blocks.push_back(Paragraph{
       "Agrees: the difference is shown to be within the margin. Disagrees: it is more than "
       "chance makes. Cannot tell: neither is shown. All numbers behind these verdicts are in the "

@@ -17,6 +17,25 @@ std::string systematic_text(const ResultObservable& observable) {
                      observable.unit, parts.empty() ? "" : " (" + parts + ")");
 }
 
+std::string model_error_text(const JointResult& joint) {
+  std::string sds;
+  for (const ResultObservable& observable : joint.observables) {
+    if (!(observable.model_uncertainty > 0)) continue;
+    sds += fmt::format("{}{} {:.2g}{}{}", sds.empty() ? "" : ", ", observable.name,
+                       observable.model_uncertainty, observable.unit.empty() ? "" : " ",
+                       observable.unit);
+  }
+  if (sds.empty()) return {};
+  const double scale = joint.model_error_scale.value_or(1);
+  return fmt::format(
+      "whatever its coefficients, the model is taken to miss {} (standard deviation){}", sds,
+      scale > 1 ? fmt::format(": {:.2g} times what the study says or is usual, as "
+                              "the readings contradict each other by more than "
+                              "chance and that",
+                              scale)
+                : "");
+}
+
 std::string condition_text(const JointResult& joint, const ResultParameter& parameter) {
   const AssumedScatters& assumed = joint.assumed_scatters;
   const auto found =

@@ -163,7 +163,8 @@ struct JointResult {
   std::vector<CombinedEffect> with_assumed;  ///< all of them together, beside the intervals
   std::vector<std::string> inputs_taken_as_exact;
   double chi2 = 0;
-  std::optional<double> degrees_of_freedom;  ///< of the fit; earlier versions did not say
+  std::optional<double> degrees_of_freedom;      ///< of the fit; earlier versions did not say
+  std::optional<double> model_error_scale = {};  ///< none: the model was taken to have no error
   std::vector<std::vector<double>> correlation;
   std::vector<std::vector<double>> reading_correlation;
   std::vector<std::vector<double>> bench_correlation;  ///< earlier versions took it for the same

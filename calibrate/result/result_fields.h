@@ -154,6 +154,9 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   if (io.has("systematic", !observable.systematic.empty())) {
     io("systematic", observable.systematic);
   }
+  if (io.has("model_uncertainty", observable.model_uncertainty > 0)) {
+    io("model_uncertainty", observable.model_uncertainty);
+  }
   io("simulated", observable.simulated);
   io("simulated_uncertainty", observable.simulated_uncertainty);
   io("simulated_sd", observable.simulated_sd);
@@ -181,6 +184,7 @@ void fields(Io& io, Held<Io, Prediction>& prediction) {
   io("interval", prediction.interval);
   io("coefficients_sd", prediction.coefficients_sd);
   io("run_sd", prediction.run_sd);
+  if (io.has("model_sd", prediction.model_sd > 0)) io("model_sd", prediction.model_sd);
   io("difference_sigma", prediction.difference_sigma);
   io("p", prediction.chance);
   io("tolerance", prediction.tolerance);
@@ -397,6 +401,9 @@ void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& pr
   io("chi2", joint.chi2);
   if (io.has("degrees_of_freedom", joint.degrees_of_freedom.has_value())) {
     io("degrees_of_freedom", joint.degrees_of_freedom);
+  }
+  if (io.has("model_error_scale", joint.model_error_scale.has_value())) {
+    io("model_error_scale", joint.model_error_scale);
   }
   io("correlation", joint.correlation);
   io("reading_correlation", joint.reading_correlation);

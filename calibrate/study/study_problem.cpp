@@ -271,7 +271,8 @@ class Maker {
          .spheres_share = spheres_share(study_, grain_.shape, entry),
          .systematic_fraction = systematic.sd,
          .systematic_sd = stated_sd(measured.systematic),
-         .usual_scatter = entry.usual_scatter});
+         .usual_scatter = entry.usual_scatter,
+         .model_fraction = described->second.model_error.value_or(entry.usual_model_error)});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured)
       add(with(systematic, observable_of(measured, entry.usual_scatter)), entry, "value");
@@ -348,6 +349,8 @@ class Maker {
     observable.experiment = name;
     observable.reading = reading;
     observable.unit = unit_of(entry, reading);
+    observable.model_sd =
+        made_.problem.experiments.back().model_fraction * std::abs(observable.mean);
     const dem::Range readable = dem::readable_in(observable.unit);
     observable.least = readable.from;
     observable.most = readable.to;

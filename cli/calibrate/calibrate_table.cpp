@@ -74,12 +74,15 @@ Table observables_table(const calibrate::JointResult& joint) {
   return table;
 }
 
-/// What of a mean's uncertainty is not by chance.
+/// What of the differences is not by chance.
 void add_systematic(const calibrate::JointResult& joint, Page& page) {
   for (const calibrate::ResultObservable& observable : joint.observables) {
     const std::string shared = systematic_text(observable);
     if (shared.empty()) continue;
     page.add(fmt::format("({}: its readings share {})", observable.name, shared));
+  }
+  if (const std::string model = model_error_text(joint); !model.empty()) {
+    page.add(fmt::format("({})", model));
   }
 }
 

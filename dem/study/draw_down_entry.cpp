@@ -46,6 +46,7 @@ ExperimentEntry draw_down_entry() {
           .sheet = {.test = "draw_down", .value = "discharged_percent", .protocol = {}},
           .is_bulk = true,
           .is_usual = false,
+          .usual_model_error = .03,
           .usual = DrawDownProtocol{},
           .keys = keys_of_draw_down,
           .run =

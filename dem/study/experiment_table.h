@@ -83,6 +83,9 @@ struct ExperimentEntry {
   /// By what fraction of their mean single readings of a bench usually scatter: assumed where
   /// nobody measured it. docs/study-file.md says what it is from.
   double usual_scatter = .05;
+  /// By what fraction of its readings the model usually misses them (standard deviation), whatever
+  /// its coefficients. docs/study-file.md says what it is from.
+  double usual_model_error = 0;
 
   Protocol usual;  ///< with the usual values of all keys
   std::vector<ProtocolKey> (*keys)(Protocol& protocol) = nullptr;

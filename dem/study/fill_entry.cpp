@@ -72,6 +72,7 @@ ExperimentEntry fill_entry() {
           .is_usual = false,
           .systematic = systematic_of_fill,
           .usual_scatter = .02,
+          .usual_model_error = .02,
           .usual = FillProtocol{},
           .keys = keys_of_fill,
           .run =

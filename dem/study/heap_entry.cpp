@@ -69,6 +69,7 @@ ExperimentEntry heap_entry() {
           .is_bulk = true,
           .is_pictured = true,
           .is_filmed = true,
+          .usual_model_error = .03,
           .usual = HeapProtocol{},
           .keys = keys_of_heap,
           .run =

@@ -80,6 +80,7 @@ ExperimentEntry drop_on_grains_entry() {
               [](const Protocol& protocol) { return std::get<GrainDropProtocol>(protocol).grains; },
           .softening_effect = "rebounds less than one with the real stiffness",
           .usual_scatter = .45,
+          .usual_model_error = .03,
           .usual = GrainDropProtocol{},
           .keys = drop_keys,
           .run =
@@ -111,6 +112,7 @@ ExperimentEntry tilt_on_grains_entry() {
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainTiltProtocol>(protocol).places; },
           .usual_scatter = .2,
+          .usual_model_error = .03,
           .usual = GrainTiltProtocol{},
           .keys = tilt_keys,
           .run =
@@ -145,6 +147,7 @@ ExperimentEntry roll_on_grains_entry() {
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainRollProtocol>(protocol).places; },
           .usual_scatter = .25,
+          .usual_model_error = .03,
           .usual = GrainRollProtocol{},
           .keys = roll_keys,
           .run =

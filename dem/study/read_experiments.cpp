@@ -262,6 +262,10 @@ void read_experiment(Section section, const ExperimentEntry& entry, const NamedF
   read_also(section, entry, described.measured);
   if (entry.is_pictured) described.definition = read_definition(section);
   described.is_held_out = section.truth("held_out", "held_out = true").value_or(false);
+  constexpr double kPercent = 100;
+  const auto model_error =
+      section.number("model_error_percent", from_to(0, kPercent), "model_error_percent = 3");
+  if (model_error) described.model_error = *model_error / kPercent;
   section.refuse_others();
   study.experiments.emplace(entry.experiment, std::move(described));
 }

@@ -44,6 +44,7 @@ ExperimentEntry roll_entry() {
                 .protocol = {{"incline_deg", "incline_deg"}, {"released_mm", "release_mm"}}},
       .is_filmed = true,
       .usual_scatter = .35,
+      .usual_model_error = .02,
       .usual = RollProtocol{},
       .keys = keys_of_roll,
       .run =

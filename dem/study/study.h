@@ -98,6 +98,8 @@ struct StudyExperiment {
   double stiffness_factor = 1;  ///< of the grains and walls in it; 1 is the real material
   /// Its readings are not fitted, but predicted from the fit of the others, and compared.
   bool is_held_out = false;
+  /// By what fraction of a reading the model may miss it; none: the experiment's usual one.
+  std::optional<double> model_error = {};
 };
 
 /// What a report says about a study beside its numbers. Each may be empty.

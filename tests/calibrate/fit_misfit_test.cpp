@@ -173,8 +173,8 @@ TEST(Misfit, WhatReadingsHaveInCommonIsPartOfTheirMeansUncertainty) {
   problem.observables[0].systematic_sd = 3 * before.measured_uncertainty(0);
   const Misfit after = misfit_of(problem, false);
   EXPECT_NEAR(after.measured_uncertainty(0) / before.measured_uncertainty(0), std::sqrt(10), 1e-9);
-  EXPECT_EQ(before.systematic_variance(0), 0);
-  EXPECT_NEAR(1 / after.weight(0) - 1 / before.weight(0), after.systematic_variance(0),
+  EXPECT_EQ(before.lasting_variance(0), 0);
+  EXPECT_NEAR(1 / after.weight(0) - 1 / before.weight(0), after.lasting_variance(0),
               1e-9 / after.weight(0));
   EXPECT_EQ(after.weight(1), before.weight(1));
 }
