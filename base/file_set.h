@@ -12,7 +12,7 @@ struct NamedText {
   std::string text;
 };
 
-/// Whose a file is that lies under a name to be written, and that no list of ours has.
+/// Owner of an existing file that is not in our manifest.
 enum class Unlisted {
   users,  ///< it must not be replaced
   ours,   ///< in a folder that is ours alone: an earlier version wrote it

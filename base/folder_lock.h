@@ -4,7 +4,7 @@
 
 namespace repose::base {
 
-/// As long as it is there no other process has the same. It ends with the process, however that
+/// An exclusive lock between processes. It ends with the process, however that
 /// ends; the file stays, empty.
 class FolderLock {
  public:

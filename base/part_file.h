@@ -23,7 +23,7 @@ class PartFile {
   PartFile(PartFile&&) = delete;
   PartFile& operator=(PartFile&&) = delete;
 
-  /// For libraries that write by name. It ends as the file does.
+  /// For libraries that write by name. It keeps the extension.
   const std::filesystem::path& path() const { return part_; }
 
   /// @throws std::system_error

@@ -9,7 +9,7 @@ namespace repose::base {
 /// ours (that of std::uniform_real_distribution is not fixed).
 class Random {
  public:
-  /// `draws`: of one that this one goes on from.
+  /// Skips `draws` numbers, to resume a stream.
   explicit Random(std::uint64_t seed, std::uint64_t draws = 0) : engine_(seed), draws_(draws) {
     engine_.discard(draws);
   }

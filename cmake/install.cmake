@@ -18,7 +18,7 @@ foreach(module base vision dem render calibrate)
 endforeach()
 # The component "program" is what a package for users has.
 install(TARGETS repose_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 set(help_folder ${PROJECT_BINARY_DIR}/help)
 install(FILES ${help_folder}/repose

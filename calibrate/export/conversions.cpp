@@ -43,8 +43,8 @@ RestitutionLaw restitution_law(ExportTarget target) {
       break;
   }
   return {"Coefficient of Restitution", "speed after per speed before a central impact",
-          "EDEM's damper has the textbook factor. Where it is not allowed to pull, low values "
-          "rebound higher than they say (.25 for .1): calibrate the drop there."};
+          "EDEM's damper has the textbook factor. Where tensile damping is disabled, low values "
+          "rebound too high (0.1 gives 0.25): calibrate the drop there."};
 }
 
 /// The polynomial by which LAMMPS turns a restitution into the factor of its `damping tsuji`

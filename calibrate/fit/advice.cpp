@@ -147,10 +147,11 @@ Advice Advisor::addition_advice(std::size_t parameter) const {
                                [&](const Experiment& e) { return e.name == experiment; });
   });
   if (is_told || tellers.empty()) return {};
-  return {fmt::format("do an experiment that tells it from the others: add [experiment.{}] and its "
-                      "readings to the study",
-                      fmt::join(tellers, "] or [experiment.")),
-          tellers};
+  return {
+      fmt::format("run an experiment that isolates this coefficient: add [experiment.{}] and its "
+                  "readings to the study",
+                  fmt::join(tellers, "] or [experiment.")),
+      tellers};
 }
 
 std::string Advisor::more_readings_advice(std::size_t parameter) const {

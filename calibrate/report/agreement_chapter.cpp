@@ -319,9 +319,8 @@ void add_sensitivity(const std::vector<SensitivityCheck>& readings,
   if (coefficients.empty()) return;
   chapter.blocks.push_back(moved_coefficients_table(coefficients, words));
   chapter.blocks.push_back(
-      Paragraph{fmt::format("The same readings ask for these coefficients where the changes above "
-                            "are taken into account, "
-                            "with their uncertainty. {}",
+      Paragraph{fmt::format("Refitting with the changes above, and their uncertainty, gives these "
+                            "coefficients. {}",
                             words.use)});
 }
 

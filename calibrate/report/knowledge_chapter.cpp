@@ -90,7 +90,7 @@ Table uncertainty_table(const JointResult& joint) {
 /// What computing and measuring more would do to the widths of the intervals.
 Table narrowing_table(const JointResult& joint) {
   Table table{.name = "narrowing",
-              .title = "Width of the 95 % interval, now and foreseen",
+              .title = "Width of the 95 % interval: current and predicted",
               .data = {.columns = {{.name = "coefficient", .unit = {}},
                                    {.name = "now", .unit = {}, .decimals = 3},
                                    {.name = "one more core hour", .unit = {}, .decimals = 3},

@@ -17,7 +17,7 @@ class StudyProgressLine {
   std::string stage_;
   double earlier_s_ = 0;  ///< work of the stages before this one
   double stage_s_ = 0;    ///< work done in this one
-  ProgressLine line_{"at most {} to the end"};
+  ProgressLine line_{"at most {} remaining"};
 };
 
 }  // namespace repose::cli

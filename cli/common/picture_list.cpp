@@ -92,7 +92,7 @@ void drop_films_of_pictures(std::size_t first, FileList& list) {
   const auto is_taken_along = [&](const fs::path& file) {
     if (!vision::has_film_ending(file) || !pictures.contains(file.stem())) return false;
     list.notes.push_back(
-        fmt::format("{}: left out, since a picture has its name, as where a telephone takes both "
+        fmt::format("{}: left out, since a picture has its name, as where a phone takes both "
                     "at once; name it to have it measured too",
                     file.string()));
     return true;

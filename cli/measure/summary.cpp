@@ -16,7 +16,7 @@ double rounded(double angle_deg) { return std::round(angle_deg * 1e6) / 1e6; }
 
 std::string mean_text(const calibrate::Summary& mean) {
   const auto& [n, middle, sd, uncertainty] = mean;
-  if (!sd || !uncertainty) return fmt::format("{:.2f}° n = 1, which has no scatter", middle);
+  if (!sd || !uncertainty) return fmt::format("{:.2f}° only one picture: no scatter", middle);
   return fmt::format(
       "{:.2f}° sd {:.2f}° n = {}, 95 % interval of the mean {:.2f} … {:.2f}° (Student)", middle,
       *sd, n, middle - *uncertainty, middle + *uncertainty);

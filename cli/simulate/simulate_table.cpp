@@ -52,8 +52,9 @@ std::string mean_text(const SimulatePlan& plan, const std::vector<Run>& runs) {
                        summary->mean, unit, summary->n);
   }
   if (!summary->sd || !summary->mean_uncertainty) {
-    return fmt::format("mean {:.3f}{} n = 1, which has no scatter and no interval: --repeats 5",
-                       summary->mean, unit);
+    return fmt::format(
+        "mean {:.3f}{} Only one repeat: no standard deviation or interval. Try --repeats 5",
+        summary->mean, unit);
   }
   return fmt::format(
       "mean {:.3f}{} sd {:.3f}{} n = {}, 95 % interval of the mean {:.3f} … {:.3f}{}"

@@ -182,8 +182,7 @@ void Simulation::State::audit_energy() {
       falls += bodies.mass[k] * setup.gravity.norm() * bodies.bounding_radius[k];
   }
   if (has_energy_mark && made > kEnergyTolerance * (now.kinetic_j + now.elastic_j + falls)) {
-    stop(fmt::format("{:.3g} J came from nowhere ({:.3g} J are in motion)", made, now.kinetic_j),
-         fix);
+    stop(fmt::format("energy grew by {:.3g} J ({:.3g} J are in motion)", made, now.kinetic_j), fix);
   }
   has_energy_mark = true;
   energy_mark_j = now.sum_j();

@@ -120,7 +120,7 @@ void read_sections(const ConfigValue& config, Section root, const NamedFiles& fi
                               "[contact.particle_wall] and [contact.particle_particle], each with "
                               "restitution, sliding_friction and rolling_friction"),
                study);
-  Section experiments = needed_section(root, "experiment", "a study has an experiment or more",
+  Section experiments = needed_section(root, "experiment", "at least one experiment is required",
                                        "[experiment.drop], [experiment.tilt], [experiment.roll] or "
                                        "[experiment.heap]; all their keys have usual values");
   read_experiments(experiments, files, study);

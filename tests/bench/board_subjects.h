@@ -12,7 +12,7 @@
 /// Made-up pictures of boards, and of boards beside heaps, of which all is known.
 namespace repose::bench {
 
-/// A camera with any lens that a telephone or a compact camera may have.
+/// A camera with any lens that a phone or a compact camera may have.
 testing::BoardCamera any_camera(std::uint64_t seed);
 
 /// Pictures of a board that is held all over the picture, for the fit of a lens.

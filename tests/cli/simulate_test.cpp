@@ -80,7 +80,8 @@ TEST_F(Simulate, APartOfAnotherMaterialIsToldWhereTheBenchHasIt) {
 
 TEST_F(Simulate, OneRepeatHasNoInterval) {
   EXPECT_THAT(run({"roll", "study.toml"}).out,
-              AllOf(HasSubstr("n = 1, which has no scatter"), Not(HasSubstr("95 %"))));
+              AllOf(HasSubstr("Only one repeat: no standard deviation or interval"),
+                    Not(HasSubstr("95 %"))));
   EXPECT_TRUE(timeless({"roll", "study.toml"})["interval"].is_null());
 }
 
