@@ -66,6 +66,12 @@ void RecoveryTally::add(const calibrate::StudyOutcome& outcome, const std::vecto
                         bool verbose) {
   add(outcome.fit, truth, verbose);
   ++agreements_[outcome.best.verdict];
+  for (const calibrate::Agreement& one : outcome.best.observables) {
+    if (!verbose) continue;
+    fmt::print("    {:<44} measured {:.4g} +- {:.2g} simulated {:.4g} +- {:.2g} chance {:.3f}\n",
+               one.observable, one.measured, one.measured_uncertainty, one.simulated,
+               one.simulated_uncertainty, one.chance);
+  }
   for (const calibrate::Prediction& prediction : outcome.predictions) {
     HeldOut& held_out = held_out_[prediction.name];
     ++held_out.predictions;
