@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "base/angle_definition.h"
 #include "base/version.h"
+#include "calibrate/experiment/model_fields.h"
 #include "cli/common/degrees.h"
 #include "cli/simulate/simulate_values.h"
 #include "cli/simulate/simulate_warnings.h"
@@ -17,7 +16,7 @@
 namespace repose::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using calibrate::Json;
 
 constexpr int kIndent = 2;
 constexpr double kMillimetres = 1e3;
@@ -31,20 +30,8 @@ std::string text_of(const Json& json) {
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json material_json(const dem::Material& material) {
-  return {{"name", material.name},
-          {"density_kg_m3", material.density_kg_m3},
-          {"young_modulus_pa", material.young_modulus_pa},
-          {"poisson_ratio", material.poisson_ratio}};
-}
-
-Json pair_json(const dem::PairCoefficients& pair) {
-  Json json{{"restitution", pair.restitution},
-            {"sliding_friction", pair.sliding_friction},
-            {"rolling_friction", pair.rolling_friction}};
-  if (pair.restitution_exponent != 0) {
-    json["restitution_exponent"] = pair.restitution_exponent;
-    json["restitution_speed_m_s"] = pair.restitution_speed_m_s;
-  }
+  Json json{{"name", material.name}};
+  json.update(calibrate::json_of_fields(material));
   return json;
 }
 
@@ -75,13 +62,13 @@ void add_context(const SimulatePlan& plan, Json& json) {
   json["clump"] = clump_json(plan);
   json["materials"] = {{"particle", material_json(model.grain_material)},
                        {"wall", material_json(model.wall_material)}};
-  json["contact"] = {{"particle_wall", pair_json(model.grain_wall)}};
+  json["contact"] = {{"particle_wall", calibrate::json_of_fields(model.grain_wall)}};
   if (dem::has_grain_contacts(plan.experiment)) {
-    json["contact"]["particle_particle"] = pair_json(model.grain_grain);
+    json["contact"]["particle_particle"] = calibrate::json_of_fields(model.grain_grain);
   }
   for (const auto& [part, surface] : model.parts) {
     json["materials"][name_of(part)] = material_json(surface.material);
-    json["contact"]["particle_" + name_of(part)] = pair_json(surface.with_grain);
+    json["contact"]["particle_" + name_of(part)] = calibrate::json_of_fields(surface.with_grain);
   }
   json["study"] = {
       {"file", plan.study.file.string()}, {"hash", plan.study.hash}, {"settings", plan.settings}};
