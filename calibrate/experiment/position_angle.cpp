@@ -1,7 +1,6 @@
 #include "calibrate/experiment/position_angle.h"
 
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -60,21 +59,20 @@ PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
   return result;
 }
 
-std::map<std::string, double> add_position_angle(dem::Repeat& heap) {
+void add_position_angle(RunResult& heap) {
   const std::vector<dem::HeapEnvelope> envelopes = std::exchange(heap.envelopes, {});
-  const auto layer = heap.readings.find("no_heap");
-  const bool is_layer = layer != heap.readings.end() && layer->second != 0;
+  const bool is_layer = heap.readings.number("no_heap").value_or(0) != 0;
   const PositionAngle usual =
       is_layer ? PositionAngle{} : position_angle(envelopes, {.has_definitions = true});
   PositionAngle inner;
   if (usual.angle_deg) inner = position_angle(envelopes, {.window_from = .3, .window_to = .7});
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  heap.value = usual.angle_deg.value_or(kNone);
-  heap.readings["base_radius_mm"] = 1e3 * usual.base_radius_m.value_or(kNone);
-  heap.readings["between_views_deg"] = usual.between_views_deg.value_or(kNone);
-  heap.readings["angle_xz_deg"] = usual.first_view_deg.value_or(kNone);
-  heap.readings["inner_window_deg"] = inner.angle_deg.value_or(kNone);
-  return usual.other_deg;
+  heap.value = usual.angle_deg;
+  heap.other_deg = usual.other_deg;
+  heap.readings["base_radius_mm"] = usual.base_radius_m;
+  if (auto& radius = heap.readings["base_radius_mm"]) *radius *= 1e3;
+  heap.readings["between_views_deg"] = usual.between_views_deg;
+  heap.readings["angle_xz_deg"] = usual.first_view_deg;
+  heap.readings["inner_window_deg"] = inner.angle_deg;
 }
 
 }  // namespace repose::calibrate

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "dem/experiment/experiment.h"
+#include "calibrate/experiment/run_result.h"
 #include "dem/experiment/heap_envelope.h"
 #include "vision/measure/outline_angle.h"
 
@@ -34,12 +34,12 @@ struct PositionAngle {
 PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
                              const vision::OutlineOptions& options = {});
 
-/// Completes what run_heap() or resume_heap() returned: takes its envelopes, sets its value to
-/// their angle in degrees, and adds the readings "base_radius_mm", "between_views_deg" (scatter
-/// between directions), "angle_xz_deg" (seen along y) and "inner_window_deg" (as the value, but
-/// fitted from 30 to 70 % of the height instead of 20 to 80: low heaps are hollow at the foot, and
-/// the stretch moves their angle). NaN where there is none: of a layer ("no_heap" 1) all of them
-/// are. Returns the same angle by the other definitions, as PositionAngle::other_deg.
-std::map<std::string, double> add_position_angle(dem::Repeat& heap);
+/// Measures a heap as run_heap() or resume_heap() gives it: takes its envelopes, and adds their
+/// angle in degrees as its value, by the other definitions too, and the readings "base_radius_mm",
+/// "between_views_deg" (scatter between directions), "angle_xz_deg" (seen along y) and
+/// "inner_window_deg" (as the value, but fitted from 30 to 70 % of the height instead of 20 to 80:
+/// low heaps are hollow at the foot, and the stretch moves their angle). A layer ("no_heap" 1) has
+/// none of these numbers.
+void add_position_angle(RunResult& heap);
 
 }  // namespace repose::calibrate

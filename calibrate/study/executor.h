@@ -10,7 +10,7 @@
 namespace repose::calibrate {
 
 /// Hears of each job that is done, in any order, one at a time.
-using JobDone = std::function<void(std::size_t job, const SimulatedJob& done)>;
+using JobDone = std::function<void(std::size_t job, const RunResult& result)>;
 
 /// Something that simulates jobs: threads of this process, or processes on many machines. What the
 /// jobs give does not depend on it.

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "base/angle_definition.h"
-#include "calibrate/experiment/simulated_run.h"
+#include "calibrate/experiment/run_result.h"
 
 namespace repose::calibrate {
 

@@ -32,8 +32,8 @@ class JobRunner {
   void simulate(StudyProgress progress, const std::vector<Job>& jobs,
                 const std::vector<std::size_t>& open, std::vector<std::optional<Run>>& runs);
   /// What a fit takes from it. Readings that cannot be make it a failed run, and are noted.
-  Run possible(const SimulatedJob& done) const;
-  void keep(const SimulatedJob& done) const;
+  Run possible(const Job& job, RunResult result) const;
+  void keep(const Job& job, const RunResult& result) const;
 
   const Problem& problem_;
   const StudyContext& context_;

@@ -1,7 +1,5 @@
 #include "calibrate/study/job_text.h"
 
-#include <stdexcept>
-
 #include <nlohmann/json.hpp>
 
 namespace repose::calibrate {
@@ -34,18 +32,5 @@ Job job_in(const PlainJson& json) {
 std::string text_of(const Job& job) { return json_of(job).dump(); }
 
 Job job_in(const std::string& text) { return job_in(PlainJson::parse(text)); }
-
-std::string text_of(const SimulatedJob& done) {
-  return PlainJson{{"job", json_of(done.job)}, {"run", run_text(done.run)}}.dump();
-}
-
-SimulatedJob simulated_job_in(const std::string& text) {
-  const PlainJson json = PlainJson::parse(text);
-  std::optional<SimulatedRun> run = run_in(json.at("run").get<std::string>());
-  if (!run)
-    throw std::runtime_error(
-        "another process sent a run that cannot be read. Fix: start the same version everywhere.");
-  return {.job = job_in(json.at("job")), .run = *std::move(run)};
-}
 
 }  // namespace repose::calibrate

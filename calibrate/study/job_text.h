@@ -2,16 +2,12 @@
 
 #include <string>
 
-#include "calibrate/study/study_simulator.h"
+#include "calibrate/fit/problem.h"
 
-/// Jobs and what they gave as text, to be sent to another process. Every number comes back to the
-/// last bit.
+/// Jobs as text, to be sent to another process. Every number comes back to the last bit.
 namespace repose::calibrate {
 
 std::string text_of(const Job& job);
 Job job_in(const std::string& text);
-
-std::string text_of(const SimulatedJob& done);
-SimulatedJob simulated_job_in(const std::string& text);
 
 }  // namespace repose::calibrate

@@ -15,7 +15,7 @@ void ThreadExecutor::run(const std::vector<Job>& jobs, const JobDone& done,
   std::mutex telling;
   const auto work = [&] {
     for (std::size_t k = next++; k < jobs.size() && !is_interrupted && !is_broken_off; k = next++) {
-      const SimulatedJob result = simulator_.simulate(jobs[k], is_interrupted);
+      const RunResult result = simulator_.simulate(jobs[k], is_interrupted);
       const std::scoped_lock lock(telling);
       done(k, result);
     }

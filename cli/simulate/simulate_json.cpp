@@ -87,7 +87,7 @@ Json object_of(const std::vector<std::pair<std::string, double>>& numbers) {
 
 /// A heap's angle from both sources, and each view of it.
 void add_pictures(const Run& run, Json& json) {
-  const calibrate::SimulatedRun& result = run.result;
+  const calibrate::RunResult& result = run.result;
   const auto seen = calibrate::picture_mean(result).angle_deg;
   json["source"] = calibrate::is_from_pictures(result) ? "pictures" : "positions";
   json["angle_from_pictures_deg"] = seen ? finite_or_null(seen->mean) : Json(nullptr);
@@ -124,9 +124,9 @@ void add_sources(const SimulatePlan& plan, const std::vector<Run>& runs, Json& j
 }
 
 Json run_json(const Run& run) {
-  const calibrate::SimulatedRun& result = run.result;
+  const calibrate::RunResult& result = run.result;
   Json readings = Json::object();
-  for (const auto& [name, value] : result.readings) readings[name] = finite_or_null(value);
+  for (const auto& [name, value] : result.readings) readings[name] = finite_value_or_null(value);
   Json json{{"seed", result.seed},
             {"value", finite_value_or_null(calibrate::value_of(result))},
             {"reason", result.failure.empty() ? Json(nullptr) : Json(result.failure)},

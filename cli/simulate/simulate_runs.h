@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/experiment/simulated_run.h"
+#include "calibrate/experiment/run_result.h"
 #include "cli/simulate/simulate_options.h"
 
 namespace repose::cli {
@@ -20,10 +20,10 @@ enum class RunOutcome {
 /// One repeat, done or not.
 struct Run {
   RunOutcome outcome = RunOutcome::not_run;
-  calibrate::SimulatedRun result;  ///< counts when done
-  std::string state_file;          ///< empty: none was asked for
-  std::string overlay_file;        ///< of a heap's first view or a draw-down; else empty
-  std::string error;               ///< why it is not done
+  calibrate::RunResult result;  ///< counts when done
+  std::string state_file;       ///< empty: none was asked for
+  std::string overlay_file;     ///< of a heap's first view or a draw-down; else empty
+  std::string error;            ///< why it is not done
 };
 
 /// Runs all repeats that the --out folder does not hold already, several at a time, and puts each

@@ -31,7 +31,7 @@ Table repeats_table(const SimulatePlan& plan, const std::vector<Run>& runs) {
                number_column("Mclump-st/s"),
                {}});
   for (const Run& run : runs) {
-    const calibrate::SimulatedRun& result = run.result;
+    const calibrate::RunResult& result = run.result;
     const auto value = calibrate::value_of(result);
     table.add_row({std::to_string(result.seed), value ? fmt::format("{:.3f}", *value) : kNothing,
                    std::to_string(result.steps),

@@ -29,9 +29,7 @@ std::optional<std::vector<double>> values_of(const std::vector<Run>& runs) {
 std::vector<double> readings_named(const std::vector<Run>& runs, const std::string& name) {
   std::vector<double> readings;
   for (const Run& run : runs) {
-    const auto found = run.result.readings.find(name);
-    if (found == run.result.readings.end() || !std::isfinite(found->second)) continue;
-    readings.push_back(found->second);
+    if (const auto reading = run.result.readings.number(name)) readings.push_back(*reading);
   }
   return readings;
 }
@@ -68,7 +66,7 @@ std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs) {
   HeapAngles angles;
   std::vector<double> positions, pictures, scatters;
   for (const Run& run : runs) {
-    const calibrate::SimulatedRun& result = run.result;
+    const calibrate::RunResult& result = run.result;
     if (result.views.empty()) return std::nullopt;
     if (const auto angle = calibrate::position_value(result)) positions.push_back(*angle);
     const calibrate::PictureMean seen = calibrate::picture_mean(result);

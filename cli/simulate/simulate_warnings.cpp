@@ -17,9 +17,7 @@ namespace repose::cli {
 namespace {
 
 std::optional<double> reading_of(const Run& run, const std::string& name) {
-  const auto found = run.result.readings.find(name);
-  if (found == run.result.readings.end() || !std::isfinite(found->second)) return std::nullopt;
-  return found->second;
+  return run.result.readings.number(name);
 }
 
 RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
@@ -79,7 +77,7 @@ void add_picture_warnings(const std::vector<Run>& runs, std::vector<RunWarning>&
     return;
   }
   for (const Run& run : runs) {
-    const calibrate::SimulatedRun& result = run.result;
+    const calibrate::RunResult& result = run.result;
     if (result.views.empty() || calibrate::is_from_pictures(result)) continue;
     warnings.push_back({"pictures_refused", result.seed,
                         fmt::format("{} of {} pictures could not be measured: its value is the "

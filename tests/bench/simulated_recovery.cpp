@@ -140,7 +140,7 @@ class Material {
   }
 
   calibrate::Run simulated(const calibrate::Job& job) {
-    return run_of(bench_.simulate(job, never_));
+    return run_of(job, bench_.simulate(job, never_));
   }
 
   dem::Study study_;
