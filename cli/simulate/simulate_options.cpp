@@ -20,7 +20,7 @@
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
-#include "cli/simulate/simulate_folder.h"
+#include "cli/simulate/simulate_runs.h"
 
 namespace repose::cli {
 namespace {
