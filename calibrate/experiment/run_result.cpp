@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 #include "base/fingerprint.h"
 #include "base/units.h"
 #include "calibrate/experiment/json_fields.h"
-#include "dem/experiment/heap_envelope.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::calibrate {
@@ -89,6 +89,22 @@ void fields(Io& io, Held<Io, RunResult>& run) {
   io("wall_s", run.wall_s);
   io("trajectory_s", run.trajectory_s);
   if (io.has("other_deg", !run.other_deg.empty())) io("other_deg", run.other_deg);
+}
+
+void add_position_angle(RunResult& heap) {
+  const std::vector<dem::HeapEnvelope> envelopes = std::exchange(heap.envelopes, {});
+  const bool is_layer = heap.readings.number("no_heap").value_or(0) != 0;
+  const PositionAngle usual =
+      is_layer ? PositionAngle{} : position_angle(envelopes, {.has_definitions = true});
+  PositionAngle inner;
+  if (usual.angle_deg) inner = position_angle(envelopes, {.window_from = .3, .window_to = .7});
+  heap.value = usual.angle_deg;
+  heap.other_deg = usual.other_deg;
+  heap.readings["base_radius_mm"] = usual.base_radius_m;
+  if (auto& radius = heap.readings["base_radius_mm"]) *radius *= 1e3;
+  heap.readings["between_views_deg"] = usual.between_views_deg;
+  heap.readings["angle_xz_deg"] = usual.first_view_deg;
+  heap.readings["inner_window_deg"] = inner.angle_deg;
 }
 
 std::string no_heap_reason(const RunResult& run) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "dem/experiment/experiment.h"
 
 namespace repose::calibrate {
@@ -31,6 +31,14 @@ struct RunResult : dem::Repeat {
   double wall_s = 0;                   ///< of the simulation, in all calls that worked on it
   std::optional<double> trajectory_s;  ///< between the frames of its film; none: there is no film
 };
+
+/// Measures a heap as run_heap() or resume_heap() gives it: takes its envelopes, and adds their
+/// angle in degrees as its value, by the other definitions too, and the readings "base_radius_mm",
+/// "between_views_deg" (scatter between directions), "angle_xz_deg" (seen along y) and
+/// "inner_window_deg" (as the value, but fitted from 30 to 70 % of the height instead of 20 to 80:
+/// low heaps are hollow at the foot, and the stretch moves their angle). A layer ("no_heap" 1) has
+/// none of these numbers.
+void add_position_angle(RunResult& heap);
 
 /// Why the grains of a heap experiment make none: they spread to a layer ("no_heap" among the
 /// readings), or stand so that less than half of their sides slope (no value). Empty: they do, or

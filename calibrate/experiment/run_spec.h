@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/study.h"

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "calibrate/experiment/draw_down_front.h"
-#include "calibrate/experiment/position_angle.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "dem/engine/unstable_run.h"
 #include "dem/state/state_file.h"
 

@@ -10,8 +10,8 @@
 
 #include "base/whole_file.h"
 #include "calibrate/experiment/run_result.h"
-#include "calibrate/study/study_folder.h"
 #include "calibrate/study/study_problem.h"
+#include "calibrate/study/study_record.h"
 #include "dem/state/state_file.h"
 
 namespace repose::calibrate::report {

@@ -1,5 +1,3 @@
-#include "calibrate/study/rank_executor.h"
-
 #include <chrono>
 #include <future>
 #include <optional>
@@ -10,7 +8,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include "calibrate/study/job_text.h"
+#include "calibrate/study/executor.h"
 
 namespace repose::calibrate {
 namespace {

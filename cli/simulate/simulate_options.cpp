@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/bench_air.h"

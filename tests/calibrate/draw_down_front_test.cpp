@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "base/units.h"
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {

@@ -1,4 +1,4 @@
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 
 #include <algorithm>
 #include <array>

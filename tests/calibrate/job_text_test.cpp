@@ -1,4 +1,4 @@
-#include "calibrate/study/job_text.h"
+#include "calibrate/study/executor.h"
 
 #include <gtest/gtest.h>
 

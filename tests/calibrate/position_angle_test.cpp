@@ -1,4 +1,4 @@
-#include "calibrate/experiment/position_angle.h"
+#include "calibrate/experiment/heap_angle.h"
 
 #include <cmath>
 #include <vector>

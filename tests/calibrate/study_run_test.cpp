@@ -16,7 +16,7 @@
 
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/study/study_problem.h"
-#include "calibrate/study/thread_executor.h"
+#include "calibrate/study/executor.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
