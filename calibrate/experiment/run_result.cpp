@@ -166,6 +166,23 @@ std::vector<std::pair<std::string, double>> values_by_definition(const RunResult
   return values;
 }
 
+std::vector<std::pair<std::string, double>> means_by_definition(
+    const std::vector<RunResult>& runs) {
+  std::map<std::string, std::vector<double>> angles;
+  for (const RunResult& run : runs) {
+    for (const auto& [name, angle] : values_by_definition(run)) {
+      angles[name].push_back(angle);
+    }
+  }
+  std::vector<std::pair<std::string, double>> means;
+  for (const base::AngleDefinition& definition : base::kAngleDefinitions) {
+    const auto found = angles.find(std::string(definition.name));
+    if (found == angles.end() || found->second.size() < runs.size()) continue;
+    means.emplace_back(definition.name, summarise(found->second).mean);
+  }
+  return means;
+}
+
 std::map<std::string, double> readings_of(const RunResult& run) {
   if (!run.failure.empty()) return {};
   std::map<std::string, double> readings;

@@ -69,6 +69,8 @@ std::optional<double> value_of(const RunResult& run);
 /// Of a heap, its value by each definition that it allows, in the order of
 /// base/angle_definition.h; of other experiments none.
 std::vector<std::pair<std::string, double>> values_by_definition(const RunResult& run);
+/// Means of that over runs, by the definitions that all of them allow.
+std::vector<std::pair<std::string, double>> means_by_definition(const std::vector<RunResult>& runs);
 
 /// The standard deviation s sqrt(1 - 1/n) by which the angle in one view scatters within a heap
 /// more than the mean of n views that scatter by s.

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "base/angle_definition.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
@@ -108,23 +106,13 @@ Run JobRunner::possible(const Job& job, RunResult result) const {
 }
 
 NamedAngles heap_angles_deg(const StudyContext& context, const std::vector<Run>& runs) {
-  std::map<std::string, std::vector<double>> angles;
-  std::size_t heaps = 0;
+  std::vector<RunResult> heaps;
   for (const Run& run : runs) {
     if (!run.failure.empty()) continue;
-    const auto saved = context.folder.find(context.simulator.spec(run.job), run.job.seed);
-    if (!saved) continue;
-    const auto values = values_by_definition(*saved);
-    heaps += values.empty() ? 0 : 1;
-    for (const auto& [name, value] : values) angles[name].push_back(value);
+    auto saved = context.folder.find(context.simulator.spec(run.job), run.job.seed);
+    if (saved && !values_by_definition(*saved).empty()) heaps.push_back(*std::move(saved));
   }
-  NamedAngles means;
-  for (const base::AngleDefinition& definition : base::kAngleDefinitions) {
-    const auto found = angles.find(std::string(definition.name));
-    if (found == angles.end() || found->second.size() < heaps) continue;
-    means.emplace_back(definition.name, summarise(found->second).mean);
-  }
-  return means;
+  return means_by_definition(heaps);
 }
 
 }  // namespace repose::calibrate

@@ -239,7 +239,7 @@ void add_sources_table(const std::vector<calibrate::RunResult>& runs, Page& page
 /// The mean by each definition of the angle, and which of them is the value.
 void add_definitions_table(const SimulatePlan& plan, const std::vector<calibrate::RunResult>& runs,
                            Page& page) {
-  const auto means = means_by_definition(runs);
+  const auto means = calibrate::means_by_definition(runs);
   if (means.empty()) return;
   Table table({{.heading = "  definition of the angle"}, number_column("mean [deg]"), {}, {}});
   for (const auto& [name, mean] : means) {
@@ -383,7 +383,7 @@ std::string simulate_json(const SimulatePlan& plan, const Repeats& repeats) {
   add_sources(plan, runs, json);
   if (entry.is_pictured) {
     json["definition"] = base::definition_meant(plan.spec.definition);
-    json["definitions_deg"] = object_of(means_by_definition(runs));
+    json["definitions_deg"] = object_of(calibrate::means_by_definition(runs));
   }
   for (std::size_t k = 0; k < runs.size(); ++k) {
     json["repeats"].push_back(run_json(runs[k], repeats.files[k]));

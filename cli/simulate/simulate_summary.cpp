@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <variant>
 
 #include <fmt/format.h>
@@ -40,23 +39,6 @@ std::vector<double> readings_named(const std::vector<calibrate::RunResult>& runs
     if (const auto reading = run.readings.number(name)) readings.push_back(*reading);
   }
   return readings;
-}
-
-std::vector<std::pair<std::string, double>> means_by_definition(
-    const std::vector<calibrate::RunResult>& runs) {
-  std::map<std::string, std::vector<double>> angles;
-  for (const calibrate::RunResult& run : runs) {
-    for (const auto& [name, angle] : calibrate::values_by_definition(run)) {
-      angles[name].push_back(angle);
-    }
-  }
-  std::vector<std::pair<std::string, double>> means;
-  for (const base::AngleDefinition& definition : base::kAngleDefinitions) {
-    const auto found = angles.find(std::string(definition.name));
-    if (found == angles.end() || found->second.size() < runs.size()) continue;
-    means.emplace_back(definition.name, calibrate::summarise(found->second).mean);
-  }
-  return means;
 }
 
 std::optional<calibrate::Summary> summarise(const std::vector<calibrate::RunResult>& runs) {
@@ -189,7 +171,7 @@ void add_definition_warning(const SimulatePlan& plan, const std::vector<calibrat
   if (!calibrate::is_definition_assumed(plan.spec.entry(), described)) return;
   std::string others;
   double used = 0;
-  for (const auto& [name, mean] : means_by_definition(runs)) {
+  for (const auto& [name, mean] : calibrate::means_by_definition(runs)) {
     if (name == base::kUsualDefinition.name) {
       used = mean;
     } else {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "calibrate/statistics/summary.h"
@@ -40,11 +39,6 @@ struct HeapAngles {
 
 /// None when a repeat has no value or no pictures were taken.
 std::optional<HeapAngles> heap_angles(const std::vector<calibrate::RunResult>& runs);
-
-/// Means over the repeats of a heap's angle by each definition that all of them allow; of other
-/// experiments none.
-std::vector<std::pair<std::string, double>> means_by_definition(
-    const std::vector<calibrate::RunResult>& runs);
 
 /// A reading of the repeats that have it, and only of those.
 std::vector<double> readings_named(const std::vector<calibrate::RunResult>& runs,
