@@ -1,11 +1,10 @@
-#include "calibrate/experiment/heap_angle.h"
-
 #include <algorithm>
 #include <array>
 
 #include <gmock/gmock.h>
 
 #include "base/units.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/simulate_experiment.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/error_of.h"

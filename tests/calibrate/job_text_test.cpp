@@ -1,6 +1,6 @@
-#include "calibrate/study/executor.h"
-
 #include <gtest/gtest.h>
+
+#include "calibrate/study/executor.h"
 
 namespace repose::calibrate {
 namespace {

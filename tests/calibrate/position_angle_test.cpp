@@ -1,11 +1,10 @@
-#include "calibrate/experiment/heap_angle.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "base/units.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/sphere_heap.h"
 

@@ -15,8 +15,8 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/experiment/run_folder.h"
-#include "calibrate/study/study_problem.h"
 #include "calibrate/study/executor.h"
+#include "calibrate/study/study_problem.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
