@@ -24,10 +24,10 @@ constexpr double kMargin_m = .002;
 
 double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
 
-double mean_deg(const std::optional<vision::OutlineFlank>& left,
-                const std::optional<vision::OutlineFlank>& right) {
+std::optional<double> mean_deg(const std::optional<vision::OutlineFlank>& left,
+                               const std::optional<vision::OutlineFlank>& right) {
   const auto angle_rad = vision::OutlineAngle{.left = left, .right = right}.angle_rad();
-  return angle_rad ? degrees(*angle_rad) : std::numeric_limits<double>::quiet_NaN();
+  return angle_rad ? std::optional(degrees(*angle_rad)) : std::nullopt;
 }
 
 /// A picture of both boxes from the front, and where their parts are in it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "dem/experiment/protocol.h"
@@ -17,10 +18,10 @@ struct DrawDownFront {
   /// right.
   std::vector<vision::Slope> slopes;
   /// Mean of the slopes that fall towards the slot, each measured as one flank of a heap whose
-  /// crest is at the side wall; NaN when neither can be, as where they stand nearly upright.
-  double upper_angle_deg = 0;
-  /// Of the heap below, mean of its flanks; NaN without any.
-  double lower_angle_deg = 0;
+  /// crest is at the side wall; none when neither can be, as where they stand nearly upright.
+  std::optional<double> upper_angle_deg;
+  /// Of the heap below, mean of its flanks; none without any.
+  std::optional<double> lower_angle_deg;
 };
 
 /// Draws and measures it: binarised, the upper edge of each slope and of the heap, and the line

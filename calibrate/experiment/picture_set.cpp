@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/distributions.h"
-#include "calibrate/experiment/picture_angles.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::calibrate {

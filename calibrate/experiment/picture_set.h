@@ -67,7 +67,7 @@ struct PictureSet {
 /// Outliers, ASQC Basic References in Quality Control 16, where M is .6745 (x - m) / MAD and u is
 /// not. An outlier that is flagged is left out of the mean: the picture itself says that something
 /// is wrong with it, and the others, what. One that is ok counts. Simulated views have no wrong
-/// objects, and are means of all (picture_angles.h). Fully correlated errors have the mean of their
+/// objects, and are means of all (heap_angle.h). Fully correlated errors have the mean of their
 /// uncertainties: JCGM 100:2008 (GUM), 5.2.2, note 1. Proved by PictureSet.* in tests/calibrate.
 PictureSet set_of_pictures(std::span<const SetPicture> pictures);
 

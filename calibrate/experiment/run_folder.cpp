@@ -1,10 +1,12 @@
 #include "calibrate/experiment/run_folder.h"
 
+#include <array>
 #include <mutex>
 #include <optional>
 #include <regex>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -12,8 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/whole_file.h"
-#include "calibrate/experiment/restart_text.h"
-#include "calibrate/experiment/stored_run.h"
 #include "dem/state/state_file.h"
 
 namespace repose::calibrate {
@@ -42,12 +42,86 @@ bool has_stored(const fs::path& folder, const IsMeant& is_meant) {
   return false;
 }
 
+constexpr std::array<std::string_view, 4> kStages = {"rain", "settle_in_tube", "lift", "settle"};
+
+Json json_of(const dem::HeapProgress& progress) {
+  std::vector<double> before;
+  for (const dem::Vector& centre : progress.rest.before) {
+    before.insert(before.end(), {centre.x(), centre.y(), centre.z()});
+  }
+  return {{"stage", kStages.at(static_cast<std::size_t>(progress.stage))},
+          {"steps", progress.work.steps},
+          {"clump_steps", progress.work.clump_steps},
+          {"shortest_timestep_s", progress.work.shortest_timestep_s},
+          {"steps_left", progress.steps_left},
+          {"random_draws", progress.random_draws},
+          {"rest_since_s", progress.rest.since_s},
+          {"rest_before_m", before},
+          {"until_s", progress.until_s},
+          {"grains", progress.grains},
+          {"start_m", progress.start_m}};
+}
+
+dem::HeapStage stage_named(const std::string& name) {
+  for (std::size_t k = 0; k < kStages.size(); ++k) {
+    if (kStages[k] == name) return static_cast<dem::HeapStage>(k);
+  }
+  throw std::invalid_argument("its stage is unknown");
+}
+
+dem::HeapProgress progress_in(const Json& json) {
+  dem::HeapProgress progress;
+  progress.stage = stage_named(json.at("stage"));
+  progress.work = {json.at("steps"), json.at("clump_steps"), json.at("shortest_timestep_s")};
+  progress.steps_left = json.at("steps_left");
+  progress.random_draws = json.at("random_draws");
+  progress.rest.since_s = json.at("rest_since_s");
+  const std::vector<double> before = json.at("rest_before_m");
+  for (std::size_t k = 0; k + 2 < before.size(); k += 3) {
+    progress.rest.before.emplace_back(before[k], before[k + 1], before[k + 2]);
+  }
+  progress.until_s = json.at("until_s");
+  progress.grains = json.at("grains");
+  progress.start_m = json.at("start_m");
+  return progress;
+}
+
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw std::invalid_argument(
       fmt::format("{}: {}. Fix: delete it, and its run starts again.", file.string(), what));
 }
 
 }  // namespace
+
+std::string restart_text(const std::string& description, const RestartRecord& record) {
+  const dem::Film& film = record.film;
+  return Json{
+      {"simulated", Json::parse(description)},
+      {"progress", json_of(record.progress)},
+      {"film", {{"times_s", film.times_s}, {"start_s", film.start_s}, {"last_s", film.last_s}}},
+      {"trajectory_s", record.trajectory_s ? Json(*record.trajectory_s) : Json(nullptr)},
+      {"wall_s", record.wall_s}}
+      .dump();
+}
+
+RestartRecord restart_in(const std::string& text, const std::string& description) {
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("simulated") != Json::parse(description)) {
+      throw std::invalid_argument("it belongs to another run");
+    }
+    const Json& film = json.at("film");
+    RestartRecord restart;
+    restart.progress = progress_in(json.at("progress"));
+    restart.film = {film.at("times_s"), film.at("start_s"), film.at("last_s")};
+    const Json& trajectory = json.at("trajectory_s");
+    if (!trajectory.is_null()) restart.trajectory_s = trajectory.get<double>();
+    restart.wall_s = json.at("wall_s");
+    return restart;
+  } catch (const nlohmann::json::exception&) {
+    throw std::invalid_argument("it is cut short or was changed");
+  }
+}
 
 /// Any thread may find something.
 struct RunFolder::Remarks {
@@ -78,18 +152,17 @@ fs::path RunFolder::file(const RunSpec& spec, std::uint64_t seed, const char* en
   return place;
 }
 
-std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t seed) const {
+std::optional<RunResult> RunFolder::find(const RunSpec& spec, std::uint64_t seed) const {
   const fs::path place = file(spec, seed, ".json");
   const std::optional<std::string> text = base::read_file_if_there(place);
   if (!text) return std::nullopt;
   try {
-    StoredRun stored = stored_run_in(*text);
-    if (stored.run.seed != seed ||
-        Json::parse(stored.description) != Json::parse(description_of(spec, seed))) {
+    RunResult run = run_in(*text);
+    if (run.seed != seed || run.simulated != description_of(spec, seed)) {
       throw std::invalid_argument("it is of another run");
     }
-    stored.run.definition = spec.definition;
-    return std::move(stored.run);
+    run.definition = spec.definition;
+    return run;
   } catch (const std::invalid_argument& error) {
     note_damaged(place, error.what());
     return std::nullopt;
@@ -110,8 +183,8 @@ std::vector<std::string> RunFolder::remarks() const {
   return {remarks_->lines.begin(), remarks_->lines.end()};
 }
 
-std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint64_t seed) const {
-  std::optional<SimulatedRun> run = find(spec, seed);
+std::optional<RunResult> RunFolder::find_whole(const RunSpec& spec, std::uint64_t seed) const {
+  std::optional<RunResult> run = find(spec, seed);
   if (run && !has_definition(*run, spec.definition)) return std::nullopt;
   if (!run || !run->failure.empty() || spec.viewing.views == 0) {
     if (run) run->views.clear();
@@ -121,9 +194,8 @@ std::optional<SimulatedRun> RunFolder::find_whole(const RunSpec& spec, std::uint
   return run;
 }
 
-void RunFolder::save(const RunSpec& spec, const SimulatedRun& run) const {
-  base::write_whole_file(file(spec, run.seed, ".json"),
-                         text_of({.description = description_of(spec, run.seed), .run = run}));
+void RunFolder::save(const RunSpec& spec, const RunResult& run) const {
+  base::write_whole_file(file(spec, run.seed, ".json"), text_of(run));
 }
 
 fs::path RunFolder::state_file(const RunSpec& spec, std::uint64_t seed) const {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/experiment/run_result.h"
 #include "calibrate/experiment/run_spec.h"
-#include "calibrate/experiment/simulated_run.h"
 #include "dem/experiment/heap_progress.h"
 #include "dem/state/trajectory.h"
 
@@ -20,6 +20,12 @@ struct RestartRecord {
   std::optional<double> trajectory_s;  ///< between the film's frames; none: it has no film
   double wall_s = 0;                   ///< spent so far
 };
+
+/// What a restart file holds beside the state, as JSON in the state's provenance.
+std::string restart_text(const std::string& description, const RestartRecord& record);
+/// @throws std::invalid_argument  the text is damaged or of a run with another description; says
+/// what is wrong.
+RestartRecord restart_in(const std::string& text, const std::string& description);
 
 struct SavedRestart {
   dem::HeapRestart from;
@@ -40,13 +46,13 @@ class RunFolder {
   /// None when it was not saved; a file that is damaged (see remarks()) or of something else counts
   /// as not saved, and is overwritten when the run has been made again. Its views may be of another
   /// number than asked for.
-  std::optional<SimulatedRun> find(const RunSpec& spec, std::uint64_t seed) const;
+  std::optional<RunResult> find(const RunSpec& spec, std::uint64_t seed) const;
 
   /// The same, but none when something is missing that was asked for: its pictures.
-  std::optional<SimulatedRun> find_whole(const RunSpec& spec, std::uint64_t seed) const;
+  std::optional<RunResult> find_whole(const RunSpec& spec, std::uint64_t seed) const;
 
   /// @throws std::invalid_argument  it cannot be written; what was saved before stays.
-  void save(const RunSpec& spec, const SimulatedRun& run) const;
+  void save(const RunSpec& spec, const RunResult& run) const;
 
   /// What was found damaged so far and counts as not saved ("FILE: what ..."), and what was noted
   /// by others; sorted.

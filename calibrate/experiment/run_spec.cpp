@@ -3,34 +3,14 @@
 #include <utility>
 #include <variant>
 
-#include <nlohmann/json.hpp>
-
 #include "base/fingerprint.h"
+#include "calibrate/experiment/model_fields.h"
 #include "calibrate/experiment/simulator_version.h"
 #include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 
 namespace repose::calibrate {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json json_of(const dem::Material& material) {
-  return {{"density_kg_m3", material.density_kg_m3},
-          {"young_modulus_pa", material.young_modulus_pa},
-          {"poisson_ratio", material.poisson_ratio}};
-}
-
-Json json_of(const dem::PairCoefficients& pair) {
-  Json json{{"restitution", pair.restitution},
-            {"sliding_friction", pair.sliding_friction},
-            {"rolling_friction", pair.rolling_friction}};
-  if (pair.restitution_exponent != 0) {
-    json["restitution_exponent"] = pair.restitution_exponent;
-    json["restitution_speed_m_s"] = pair.restitution_speed_m_s;
-  }
-  return json;
-}
 
 Json protocol_json(dem::Protocol protocol) {
   Json json = Json::object();
@@ -66,15 +46,18 @@ RunSpec spec_of(const dem::Study& study, dem::Experiment experiment, const Named
 
 std::string description_of(const RunSpec& spec, std::uint64_t seed) {
   const dem::Model& model = spec.model;
-  Json json{{"experiment", spec.entry().name},      {"protocol", protocol_json(spec.protocol)},
-            {"grain", spec.grain_fingerprint},      {"particle", json_of(model.grain_material)},
-            {"wall", json_of(model.wall_material)}, {"particle_wall", json_of(model.grain_wall)}};
+  Json json{{"experiment", spec.entry().name},
+            {"protocol", protocol_json(spec.protocol)},
+            {"grain", spec.grain_fingerprint},
+            {"particle", json_of_fields(model.grain_material)},
+            {"wall", json_of_fields(model.wall_material)},
+            {"particle_wall", json_of_fields(model.grain_wall)}};
   if (dem::has_grain_contacts(spec.entry().experiment)) {
-    json["particle_particle"] = json_of(model.grain_grain);
+    json["particle_particle"] = json_of_fields(model.grain_grain);
   }
   for (const auto& [part, surface] : model.parts) {
-    json[name_of(part)] = json_of(surface.material);
-    json["particle_" + name_of(part)] = json_of(surface.with_grain);
+    json[name_of(part)] = json_of_fields(surface.material);
+    json["particle_" + name_of(part)] = json_of_fields(surface.with_grain);
   }
   if (model.size_sd_fraction > 0) json["size_sd_fraction"] = model.size_sd_fraction;
   json["rolling_model"] = dem::name_of(model.rolling);

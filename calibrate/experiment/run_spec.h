@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/study.h"
@@ -24,7 +24,7 @@ struct RunSpec {
   dem::Model model;  ///< with the grain, and all coefficients that the experiment needs
   std::string grain_fingerprint;
   HeapViewing viewing = {.views = 0};  ///< none of experiments that are not pictured
-  std::string definition = {};  ///< as SimulatedRun::definition: how it is read, not what it is
+  std::string definition = {};         ///< as RunResult::definition: how it is read, not what it is
 
   const dem::ExperimentEntry& entry() const { return dem::entry_of(protocol); }
 };

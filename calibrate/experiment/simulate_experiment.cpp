@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "calibrate/experiment/draw_down_front.h"
-#include "calibrate/experiment/position_angle.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "dem/engine/unstable_run.h"
 #include "dem/state/state_file.h"
 
@@ -32,9 +30,9 @@ class ExperimentRunner {
   ExperimentRunner(const RunSpec& spec, std::uint64_t seed, const SimulateOptions& options)
       : spec_(spec), seed_(seed), options_(options) {}
 
-  SimulatedRun run() {
-    std::optional<SimulatedRun> saved = reusable();
-    SimulatedRun run = saved ? *std::move(saved) : simulated();
+  RunResult run() {
+    std::optional<RunResult> saved = reusable();
+    RunResult run = saved ? *std::move(saved) : simulated();
     run.definition = spec_.definition;
     if (!run.failure.empty()) return run;
     if (spec_.viewing.views == 0) {
@@ -47,9 +45,9 @@ class ExperimentRunner {
 
  private:
   /// From the folder, if nothing of it would have to be simulated again.
-  std::optional<SimulatedRun> reusable() const {
+  std::optional<RunResult> reusable() const {
     if (options_.folder == nullptr) return std::nullopt;
-    std::optional<SimulatedRun> run = options_.folder->find(spec_, seed_);
+    std::optional<RunResult> run = options_.folder->find(spec_, seed_);
     if (!run || !run->failure.empty()) return run;
     if (!has_definition(*run, spec_.definition)) return std::nullopt;
     const bool has_film =
@@ -61,22 +59,17 @@ class ExperimentRunner {
     return run;
   }
 
-  SimulatedRun simulated() {
-    SimulatedRun run;
+  RunResult simulated() {
+    RunResult run;
     run.seed = seed_;
+    run.simulated = description_of(spec_, seed_);
     if (options_.trajectory) run.trajectory_s = options_.trajectory->interval_s;
     const std::optional<SavedRestart> restart = usable_restart();
     const double spent_s = restart ? restart->record.wall_s : 0;
     start_ = Clock::now();
     try {
-      dem::Repeat repeat = repeated(restart, spent_s);
-      if (!repeat.envelopes.empty()) run.other_deg = add_position_angle(repeat);
-      if (std::isfinite(repeat.value)) run.value = repeat.value;
-      run.readings = repeat.readings;
-      run.steps = repeat.steps;
-      run.timestep_s = repeat.timestep_s;
-      run.clump_steps = repeat.clump_steps;
-      state_ = repeat.state;
+      static_cast<dem::Repeat&>(run) = repeated(restart, spent_s);
+      if (!run.envelopes.empty()) add_position_angle(run);
       run.failure = no_heap_reason(run);
       if (const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol)) {
         measure_front(*boxes, run);
@@ -139,35 +132,34 @@ class ExperimentRunner {
 
   bool goes_on(double fraction) const { return !options_.report || options_.report(fraction); }
 
-  void measure_front(const dem::DrawDownProtocol& boxes, SimulatedRun& run) const {
-    const DrawDownFront front = draw_down_front(scene(), boxes);
+  void measure_front(const dem::DrawDownProtocol& boxes, RunResult& run) const {
+    const DrawDownFront front = draw_down_front(scene(run), boxes);
     run.readings["upper_angle_deg"] = front.upper_angle_deg;
     run.readings["lower_angle_deg"] = front.lower_angle_deg;
   }
 
   /// The state first: a run is there only when all of it is.
-  void save(const SimulatedRun& run) const {
+  void save(const RunResult& run) const {
     if (options_.folder == nullptr) return;
-    if (state_ && (options_.saves_state || spec_.entry().is_pictured)) {
-      dem::write_state(options_.folder->state_file(spec_, seed_), *state_,
-                       description_of(spec_, seed_));
+    if (run.state && (options_.saves_state || spec_.entry().is_pictured)) {
+      dem::write_state(options_.folder->state_file(spec_, seed_), *run.state, run.simulated);
     }
     options_.folder->save(spec_, run);
     options_.folder->remove_restart(spec_, seed_);
   }
 
-  render::Scene scene() const {
-    if (state_) return render::scene_of(*state_);
+  render::Scene scene(const RunResult& run) const {
+    if (run.state) return render::scene_of(*run.state);
     return render::scene_of(dem::read_state(options_.folder->state_file(spec_, seed_)));
   }
 
   /// Pictures that could not be drawn are not saved: another machine may draw them.
-  void take_pictures(SimulatedRun& run) const {
+  void take_pictures(RunResult& run) const {
     run.views.clear();
     run.camera = spec_.viewing.camera;
     try {
       run.views = measure_views(
-          HeapViewSession(scene(), spec_.viewing), spec_.model.threads, [&](double fraction) {
+          HeapViewSession(scene(run), spec_.viewing), spec_.model.threads, [&](double fraction) {
             return goes_on(kSimulationFraction + (1 - kSimulationFraction) * fraction);
           });
     } catch (const dem::Interrupted&) {
@@ -183,14 +175,15 @@ class ExperimentRunner {
   std::uint64_t seed_;
   const SimulateOptions& options_;
   Clock::time_point start_ = Clock::now();
-  std::shared_ptr<const dem::Simulation> state_;  ///< of a run just simulated
 };
 
 }  // namespace
 
-SimulatedRun simulate_experiment(const RunSpec& spec, std::uint64_t seed,
-                                 const SimulateOptions& options) {
-  return ExperimentRunner(spec, seed, options).run();
+RunResult simulate_experiment(const RunSpec& spec, std::uint64_t seed,
+                              const SimulateOptions& options) {
+  RunResult run = ExperimentRunner(spec, seed, options).run();
+  run.state.reset();  // saved where it was asked for
+  return run;
 }
 
 }  // namespace repose::calibrate

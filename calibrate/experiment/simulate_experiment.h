@@ -36,7 +36,7 @@ struct SimulateOptions {
 /// restart file is damaged.
 /// @throws std::runtime_error  this machine cannot draw a draw-down, which has readings in its
 /// picture alone.
-SimulatedRun simulate_experiment(const RunSpec& spec, std::uint64_t seed,
-                                 const SimulateOptions& options = {});
+RunResult simulate_experiment(const RunSpec& spec, std::uint64_t seed,
+                              const SimulateOptions& options = {});
 
 }  // namespace repose::calibrate

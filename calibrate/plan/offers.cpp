@@ -32,7 +32,7 @@ std::vector<Offer> offers_in(const RunFolder& folder, const dem::Study& study,
                                          [](const Offer& one) { return one.experiment.name; });
     if (offer == offers.end()) continue;
     if (const auto run = folder.find_whole(simulator.spec(job), job.seed)) {
-      offer->runs.push_back(run_of({job, *run}));
+      offer->runs.push_back(run_of(job, *run));
     }
   }
   return offers;

@@ -8,7 +8,7 @@
 #include "calibrate/plan/foresight.h"
 #include "calibrate/plan/offered_study.h"
 #include "calibrate/plan/smallest_set.h"
-#include "calibrate/study/study_context.h"
+#include "calibrate/study/job_runner.h"
 
 /// Which experiments to do: what `repose plan` tells.
 namespace repose::calibrate {

@@ -6,8 +6,7 @@
 
 #include "calibrate/fit/problem.h"
 #include "calibrate/statistics/regress/surface_report.h"
-#include "calibrate/study/heap_angles.h"
-#include "calibrate/study/study_context.h"
+#include "calibrate/study/job_runner.h"
 
 /// The way a published study of hazelnuts was calibrated, step by step, to be compared with: one
 /// coefficient after the other, from single runs, on the absolute error of one heap. THEORY.md says
@@ -42,7 +41,7 @@ struct PublishedOutcome {
   std::vector<double> values;  ///< all six, as in Problem::parameters
   std::vector<PublishedHeap> verification;
   std::vector<Run> checks;      ///< the runs of these
-  NamedAngles heap_angles_deg;  ///< of these (heap_angles.h)
+  NamedAngles heap_angles_deg;  ///< of these (job_runner.h)
   double measured_angle_deg = 0;
 };
 

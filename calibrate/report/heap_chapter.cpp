@@ -11,8 +11,7 @@
 
 #include "base/angle_definition.h"
 #include "base/units.h"
-#include "calibrate/experiment/heap_views.h"
-#include "calibrate/experiment/picture_angles.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/heap_model.h"
 #include "calibrate/report/picture_data.h"

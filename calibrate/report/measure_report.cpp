@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/version.h"
-#include "calibrate/experiment/picture_angles.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/report/document.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/picture_data.h"

@@ -12,7 +12,7 @@
 #include "base/whole_file.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
-#include "calibrate/study/study_folder.h"
+#include "calibrate/study/study_record.h"
 #include "dem/study/config.h"
 #include "dem/study/experiment_table.h"
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/whole_file.h"
-#include "calibrate/experiment/stored_run.h"
-#include "calibrate/study/study_folder.h"
+#include "calibrate/experiment/run_result.h"
 #include "calibrate/study/study_problem.h"
+#include "calibrate/study/study_record.h"
 #include "dem/state/state_file.h"
 
 namespace repose::calibrate::report {
@@ -54,16 +54,14 @@ std::vector<MeasuredNumber> measured_in(const JointResult& joint) {
 }
 
 /// A run as RunFolder saves it; none where the file is damaged.
-std::optional<SavedRun> run_in(const fs::path& file) {
+std::optional<SavedRun> saved_run_in(const fs::path& file) {
   try {
-    const StoredRun stored = stored_run_in(base::read_whole_file(file));
-    const auto simulated = nlohmann::json::parse(stored.description);
+    const RunResult result = run_in(base::read_whole_file(file));
+    const auto simulated = nlohmann::json::parse(result.simulated);
     SavedRun run{.experiment = simulated.at("experiment"),
                  .values = {},
-                 .readings = {},
-                 .failure = stored.run.failure};
-    if (run.failure.empty()) run.readings = stored.run.readings;
-    std::erase_if(run.readings, [](const auto& reading) { return !std::isfinite(reading.second); });
+                 .readings = readings_of(result),
+                 .failure = result.failure};
     for (const auto& [pair, contact] : simulated.items()) {
       if (!pair.starts_with("particle_")) continue;
       for (const auto& [name, value] : contact.items()) {
@@ -88,7 +86,7 @@ std::vector<SavedRun> runs_in(const fs::path& folder) {
   std::sort(files.begin(), files.end());
   std::vector<SavedRun> runs;
   for (const fs::path& file : files) {
-    if (auto run = run_in(file)) runs.push_back(*std::move(run));
+    if (auto run = saved_run_in(file)) runs.push_back(*std::move(run));
   }
   return runs;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibrate/result/json_fields.h"
+#include "calibrate/experiment/json_fields.h"
 #include "calibrate/result/result.h"
 #include "calibrate/result/surface_fields.h"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/angle_definition.h"
-#include "calibrate/experiment/simulated_run.h"
+#include "calibrate/experiment/run_result.h"
 #include "calibrate/fit/family.h"
 #include "calibrate/fit/unit_box.h"
 #include "calibrate/result/agreement_text.h"

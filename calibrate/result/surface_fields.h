@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibrate/result/json_fields.h"
+#include "calibrate/experiment/json_fields.h"
 #include "calibrate/result/surface_summary.h"
 
 /// How files name the fields of a fitted surface.

@@ -44,7 +44,7 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     auto saved = context_.folder.find_whole(context_.simulator.spec(jobs[k]), jobs[k].seed);
-    if (saved) runs[k] = possible({.job = jobs[k], .run = *std::move(saved)});
+    if (saved) runs[k] = possible(jobs[k], *std::move(saved));
     if (!runs[k]) open.push_back(k);
   }
   reused_ += static_cast<int>(jobs.size() - open.size());
@@ -72,9 +72,9 @@ void JobRunner::simulate(StudyProgress progress, const std::vector<Job>& jobs,
   context_.report(progress);
   context_.executor.run(
       missing,
-      [&](std::size_t k, const SimulatedJob& done) {
-        keep(done);
-        runs[open[k]] = possible(done);
+      [&](std::size_t k, const RunResult& result) {
+        keep(missing[k], result);
+        runs[open[k]] = possible(missing[k], result);
         ++simulated_;
         ++progress.done;
         progress.seconds_done += run_s_of(problem_, missing[k]);
@@ -84,16 +84,15 @@ void JobRunner::simulate(StudyProgress progress, const std::vector<Job>& jobs,
 }
 
 /// Whoever simulates saves its runs, but where its folder is another machine's.
-void JobRunner::keep(const SimulatedJob& done) const {
-  const RunSpec spec = context_.simulator.spec(done.job);
-  if (!context_.folder.find_whole(spec, done.job.seed)) context_.folder.save(spec, done.run);
+void JobRunner::keep(const Job& job, const RunResult& result) const {
+  const RunSpec spec = context_.simulator.spec(job);
+  if (!context_.folder.find_whole(spec, job.seed)) context_.folder.save(spec, result);
 }
 
-Run JobRunner::possible(const SimulatedJob& done) const {
-  const RunSpec spec = context_.simulator.spec(done.job);
-  SimulatedJob read = done;
-  read.run.definition = spec.definition;  // another process does not send it
-  Run run = run_of(read);
+Run JobRunner::possible(const Job& job, RunResult result) const {
+  const RunSpec spec = context_.simulator.spec(job);
+  result.definition = spec.definition;  // another process does not send it
+  Run run = run_of(job, result);
   std::string fault = fault_of(spec, run);
   if (fault.empty()) return run;
   context_.folder.note(
@@ -104,6 +103,16 @@ Run JobRunner::possible(const SimulatedJob& done) const {
   run.readings.clear();
   run.failure = std::move(fault);
   return run;
+}
+
+NamedAngles heap_angles_deg(const StudyContext& context, const std::vector<Run>& runs) {
+  std::vector<RunResult> heaps;
+  for (const Run& run : runs) {
+    if (!run.failure.empty()) continue;
+    auto saved = context.folder.find(context.simulator.spec(run.job), run.job.seed);
+    if (saved && !values_by_definition(*saved).empty()) heaps.push_back(*std::move(saved));
+  }
+  return means_by_definition(heaps);
 }
 
 }  // namespace repose::calibrate

@@ -1,14 +1,38 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "calibrate/experiment/run_folder.h"
 #include "calibrate/fit/problem.h"
-#include "calibrate/study/study_context.h"
+#include "calibrate/study/executor.h"
 
+/// How a study's jobs are done, whatever its method.
 namespace repose::calibrate {
+
+/// How far a study is.
+struct StudyProgress {
+  std::string stage;  ///< "round 2 of at most 4", "check 1 of at most 3"
+  int done = 0;       ///< jobs of this stage
+  int of = 0;
+  double seconds_done = 0;  ///< estimated work of those, s of one core
+  double seconds_of = 0;
+  std::optional<double> seconds_later;  ///< of the stages that follow, at most; none: unknown
+};
+
+/// By what they are done. All of it must outlive the study.
+struct StudyContext {
+  const StudySimulator& simulator;
+  const RunFolder& folder;
+  Executor& executor;
+  const std::atomic<bool>& is_interrupted;
+  std::function<void(const StudyProgress&)> report = [](const StudyProgress&) {};
+};
 
 /// About how long a job takes, s by the program's own measure.
 double run_s_of(const Problem& problem, const Job& job);
@@ -32,13 +56,20 @@ class JobRunner {
   void simulate(StudyProgress progress, const std::vector<Job>& jobs,
                 const std::vector<std::size_t>& open, std::vector<std::optional<Run>>& runs);
   /// What a fit takes from it. Readings that cannot be make it a failed run, and are noted.
-  Run possible(const SimulatedJob& done) const;
-  void keep(const SimulatedJob& done) const;
+  Run possible(const Job& job, RunResult result) const;
+  void keep(const Job& job, const RunResult& result) const;
 
   const Problem& problem_;
   const StudyContext& context_;
   int reused_ = 0;
   int simulated_ = 0;
 };
+
+/// By a definition's name, in the order of base/angle_definition.h.
+using NamedAngles = std::vector<std::pair<std::string, double>>;
+
+/// Mean over the heaps among the runs, as the folder holds them, by the definitions that all of
+/// them allow. Empty: there are no heaps.
+NamedAngles heap_angles_deg(const StudyContext& context, const std::vector<Run>& runs);
 
 }  // namespace repose::calibrate

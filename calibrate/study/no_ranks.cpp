@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "calibrate/study/rank_executor.h"
+#include "calibrate/study/executor.h"
 
 /// In place of rank_executor.cpp where MPI was not found.
 namespace repose::calibrate {

@@ -1,5 +1,3 @@
-#include "calibrate/study/rank_executor.h"
-
 #include <chrono>
 #include <future>
 #include <optional>
@@ -7,9 +5,10 @@
 #include <string>
 #include <thread>
 
+#include <fmt/format.h>
 #include <mpi.h>
 
-#include "calibrate/study/job_text.h"
+#include "calibrate/study/executor.h"
 
 namespace repose::calibrate {
 namespace {
@@ -42,6 +41,17 @@ std::optional<Message> receive() {
   MPI_Recv(message.text.data(), size, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
            MPI_STATUS_IGNORE);
   return message;
+}
+
+RunResult run_of_rank(const std::string& text) {
+  try {
+    return run_in(text);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(
+        fmt::format("another process sent a run that cannot be read: {}. Fix: start the same "
+                    "version everywhere.",
+                    error.what()));
+  }
 }
 
 /// Rank 0 at work on one list of jobs.
@@ -113,7 +123,7 @@ class Farm {
     if (!message) return false;
     const auto rank = static_cast<std::size_t>(message->rank);
     if (message->tag == kDone) {
-      finish(rank, simulated_job_in(message->text));
+      finish(rank, run_of_rank(message->text));
     } else {
       if (!message->text.empty()) error_ = message->text;
       release(rank);
@@ -121,10 +131,10 @@ class Farm {
     return true;
   }
 
-  void finish(std::size_t rank, const SimulatedJob& done) {
+  void finish(std::size_t rank, const RunResult& result) {
     const std::size_t job = at_work_[rank].value();
     release(rank);
-    done_(job, done);
+    done_(job, result);
   }
 
   void release(std::size_t rank) {
@@ -137,7 +147,7 @@ class Farm {
   const StudySimulator& simulator_;
   const std::atomic<bool>& is_interrupted_;
   std::vector<std::optional<std::size_t>> at_work_;  ///< the job of each rank
-  std::future<SimulatedJob> own_;
+  std::future<RunResult> own_;
   std::size_t next_ = 0;
   int busy_ = 0;
   std::string error_;

@@ -12,8 +12,7 @@
 #include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
-#include "calibrate/study/heap_angles.h"
-#include "calibrate/study/study_context.h"
+#include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate {
@@ -57,7 +56,7 @@ struct StudyOutcome {
   std::vector<CombinedEffect> combined;    ///< all of these
   std::vector<Run> runs;                   ///< those that the fit was made from
   std::vector<Run> checks;                 ///< those of the last check
-  NamedAngles heap_angles_deg;             ///< of these (heap_angles.h)
+  NamedAngles heap_angles_deg;             ///< of these (job_runner.h)
   std::vector<std::string> notes;          ///< what a reader of the fit must know of its runs
   int simulated = 0;                       ///< runs made by this call
   int reused = 0;                          ///< runs found in the folder

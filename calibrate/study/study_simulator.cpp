@@ -16,14 +16,14 @@
 
 namespace repose::calibrate {
 
-Run run_of(const SimulatedJob& done) {
-  Run run{.job = done.job, .readings = readings_of(done.run), .failure = done.run.failure};
+Run run_of(const Job& job, const RunResult& result) {
+  Run run{.job = job, .readings = readings_of(result), .failure = result.failure};
   if (run.failure.empty() && !run.readings.contains("value")) {
     run.readings.clear();
     run.failure =
-        base::is_usual_definition(done.run.definition)
+        base::is_usual_definition(result.definition)
             ? "it has no value"
-            : fmt::format("its angle cannot be measured by the definition {}", done.run.definition);
+            : fmt::format("its angle cannot be measured by the definition {}", result.definition);
   }
   return run;
 }
@@ -92,16 +92,15 @@ RunSpec StudySimulator::spec(const Job& job) const {
   return spec;
 }
 
-SimulatedJob StudySimulator::simulate(const Job& job,
-                                      const std::atomic<bool>& is_interrupted) const {
+RunResult StudySimulator::simulate(const Job& job, const std::atomic<bool>& is_interrupted) const {
   const SimulateOptions options{
       .folder = folder_, .trajectory = {}, .report = [&](double) { return !is_interrupted; }};
-  SimulatedJob done{.job = job, .run = simulate_experiment(spec(job), job.seed, options)};
-  if (!done.run.picture_error.empty()) {
+  RunResult result = simulate_experiment(spec(job), job.seed, options);
+  if (!result.picture_error.empty()) {
     throw std::runtime_error(
-        fmt::format("no pictures of heaps can be drawn: {}", done.run.picture_error));
+        fmt::format("no pictures of heaps can be drawn: {}", result.picture_error));
   }
-  return done;
+  return result;
 }
 
 }  // namespace repose::calibrate

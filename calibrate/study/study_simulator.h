@@ -12,14 +12,8 @@
 
 namespace repose::calibrate {
 
-/// A job that was simulated.
-struct SimulatedJob {
-  Job job;
-  SimulatedRun run;
-};
-
-/// What a fit takes from it: its readings (see readings_of), or why there are none.
-Run run_of(const SimulatedJob& done);
+/// What a fit takes from a job's result: its readings (see readings_of), or why there are none.
+Run run_of(const Job& job, const RunResult& result);
 
 /// Turns jobs into runs: the study's experiments with a job's coefficients.
 class StudySimulator {
@@ -47,7 +41,7 @@ class StudySimulator {
   /// @throws std::invalid_argument  as simulate_experiment.
   /// @throws std::runtime_error  this machine cannot draw: heaps without pictures must not be
   /// fitted together with those that have them.
-  SimulatedJob simulate(const Job& job, const std::atomic<bool>& is_interrupted) const;
+  RunResult simulate(const Job& job, const std::atomic<bool>& is_interrupted) const;
 
  private:
   struct FinerGrains;

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "calibrate/experiment/picture_angles.h"
-#include "calibrate/study/study_folder.h"
+#include "calibrate/experiment/heap_angle.h"
+#include "calibrate/study/study_record.h"
 #include "cli/calibrate/bench_films.h"
 #include "cli/common/copies.h"
 #include "cli/common/cores.h"

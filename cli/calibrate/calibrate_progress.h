@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "calibrate/study/study_context.h"
+#include "calibrate/study/job_runner.h"
 #include "cli/common/progress.h"
 
 namespace repose::cli {

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/study/study_folder.h"
+#include "calibrate/study/study_record.h"
 #include "dem/state/state_file.h"
 
 namespace repose::cli {

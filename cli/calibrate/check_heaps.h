@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "calibrate/study/study_context.h"
+#include "calibrate/study/job_runner.h"
 #include "cli/calibrate/calibrate_options.h"
 
 namespace repose::cli {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "calibrate/result/candidates.h"
-#include "calibrate/study/rank_executor.h"
-#include "calibrate/study/study_folder.h"
+#include "calibrate/study/executor.h"
+#include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/option_value.h"

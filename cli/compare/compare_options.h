@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "cli/compare/compare.h"
 #include "cli/compare/heap_source.h"
 #include "vision/compare/heap_comparison.h"

@@ -13,7 +13,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "cli/common/copies.h"
 #include "cli/common/heap_names.h"
 #include "cli/common/output.h"

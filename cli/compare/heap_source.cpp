@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/study/study_folder.h"
+#include "calibrate/study/study_record.h"
 #include "cli/common/picture_list.h"
 
 namespace repose::cli {

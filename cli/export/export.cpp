@@ -12,7 +12,6 @@
 #include "base/printable.h"
 #include "calibrate/export/export.h"
 #include "calibrate/result/result.h"
-#include "calibrate/study/study_folder.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/interrupt.h"

@@ -9,7 +9,7 @@
 #include "base/folder_lock.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/plan/plan.h"
-#include "calibrate/study/thread_executor.h"
+#include "calibrate/study/executor.h"
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/calibrate/calibrate_progress.h"
 #include "cli/common/interrupt.h"

@@ -11,7 +11,7 @@
 #include "base/printable.h"
 #include "base/whole_file.h"
 #include "calibrate/report/study_report.h"
-#include "calibrate/study/study_folder.h"
+#include "calibrate/study/study_record.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"

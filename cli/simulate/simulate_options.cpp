@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/bench_air.h"
@@ -20,7 +20,7 @@
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
-#include "cli/simulate/simulate_folder.h"
+#include "cli/simulate/simulate_runs.h"
 
 namespace repose::cli {
 namespace {

@@ -8,10 +8,23 @@
 
 #include "base/folder_lock.h"
 #include "calibrate/experiment/run_spec.h"
-#include "cli/simulate/simulate.h"
 #include "dem/study/study.h"
 
 namespace repose::cli {
+
+/// What `repose simulate` is asked to do, as typed; empty: not given.
+struct SimulateArguments {
+  std::string experiment;  ///< its name: "heap"
+  std::string study;
+  std::vector<std::string> settings;  ///< key.path=value
+  std::string seed;
+  std::string repeats;
+  std::string threads;
+  std::string out_folder;
+  std::string json_file;
+  std::string trajectory_s;
+  std::string views;
+};
 
 /// A `repose simulate` that can be carried out.
 struct SimulatePlan {

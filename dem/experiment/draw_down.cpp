@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -122,11 +122,11 @@ double time_of(const Flow& flow, double fraction) {
   return flow.passed_s[static_cast<std::size_t>(std::max(0.0, grain))];
 }
 
-/// Grains a second while the flow is steady; NaN where it is too short for that.
-double rate_s(const Flow& flow) {
+/// Grains a second while the flow is steady; none where it is too short for that.
+std::optional<double> rate_s(const Flow& flow) {
   const double steady_s = time_of(flow, kSteadyTo) - time_of(flow, kSteadyFrom);
   const double grains = (kSteadyTo - kSteadyFrom) * static_cast<double>(flow.passed_s.size());
-  return steady_s > 0 ? grains / steady_s : std::numeric_limits<double>::quiet_NaN();
+  return steady_s > 0 ? std::optional(grains / steady_s) : std::nullopt;
 }
 
 }  // namespace
@@ -138,16 +138,19 @@ Repeat run_draw_down(const Model& model, const DrawDownProtocol& protocol, std::
   check_flow(run, protocol, flow);
   const Boxes boxes = boxes_of(run.simulation(), protocol);
   const double mean_grain_g = 1e3 * model.grain_material.density_kg_m3 * model.grain.volume_m3;
+  std::optional<double> rate_g_s = rate_s(flow);
+  if (rate_g_s) {
+    *rate_g_s = mean_grain_g * *rate_g_s * (boxes.below.relative_mass / boxes.below.grains);
+  }
   constexpr double kPercent = 100;
-  return run.finish(
-      kPercent * boxes.below.relative_mass / boxes.relative_mass(), seed,
-      {{"grains", boxes.grains()},
-       {"grains_out", boxes.below.grains},
-       {"filled_g", mean_grain_g * boxes.relative_mass()},
-       {"discharged_g", mean_grain_g * boxes.below.relative_mass},
-       {"time_s", time_of(flow, kThrough)},
-       {"rate_g_s", mean_grain_g * rate_s(flow) * (boxes.below.relative_mass / boxes.below.grains)},
-       {"at_rest", flow.is_at_rest ? 1 : 0}});
+  return run.finish(kPercent * boxes.below.relative_mass / boxes.relative_mass(), seed,
+                    {{"grains", boxes.grains()},
+                     {"grains_out", boxes.below.grains},
+                     {"filled_g", mean_grain_g * boxes.relative_mass()},
+                     {"discharged_g", mean_grain_g * boxes.below.relative_mass},
+                     {"time_s", time_of(flow, kThrough)},
+                     {"rate_g_s", rate_g_s},
+                     {"at_rest", flow.is_at_rest ? 1 : 0}});
 }
 
 }  // namespace repose::dem

@@ -120,7 +120,7 @@ double mean_mm(const std::vector<Bounce>& bounces, double Bounce::*reading) {
   return 1e3 * sum / static_cast<double>(bounces.size());
 }
 
-std::map<std::string, double> readings_of(const std::vector<Bounce>& bounces) {
+Readings readings_of(const std::vector<Bounce>& bounces) {
   const double mean = mean_mm(bounces, &Bounce::rise_m);
   double squares = 0;
   double never_rose = 0;

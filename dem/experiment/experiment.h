@@ -43,18 +43,29 @@ struct Model {
   int threads = 1;
 };
 
-/// One repeat of an experiment.
+/// Readings of a run, named with their unit: "lowest_point_rise_mm", "grains_off_plate". One that
+/// could not be taken is among them, without a number.
+struct Readings : std::map<std::string, std::optional<double>> {
+  using map::map;
+  /// None also for a name that is not among them.
+  std::optional<double> number(const std::string& name) const;
+  /// @throws std::out_of_range  there is no such number.
+  double at(const std::string& name) const;
+};
+
+/// One repeat of an experiment, as the engine gives it.
 struct Repeat {
-  double value = 0;  ///< in the unit of the experiment; NaN for a heap
   std::uint64_t seed = 0;
+  /// In the unit of the experiment; none of a heap: its `envelopes` are measured, not here.
+  std::optional<double> value;
+  Readings readings;  ///< others than the value
   std::int64_t steps = 0;
-  double timestep_s = 0;   ///< the shortest
-  double clump_steps = 0;  ///< grains times steps, summed
-  /// Other readings, named with their unit: "lowest_point_rise_mm", "grains_off_plate".
-  std::map<std::string, double> readings;
+  double timestep_s = 0;                     ///< the shortest
+  double clump_steps = 0;                    ///< grains times steps, summed
   std::vector<HeapEnvelope> envelopes = {};  ///< of a heap, from 18 sides; else empty
-  /// The end of the run, to look at; shared because a simulation cannot be copied.
-  std::shared_ptr<const Simulation> state;
+  /// The end of the run, to look at; shared because a simulation cannot be copied. Null: of a run
+  /// that was read from a file.
+  std::shared_ptr<const Simulation> state = nullptr;
 };
 
 /// Called periodically with the completed fraction (0 ... 1); returns false to cancel the run.

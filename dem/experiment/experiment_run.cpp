@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,14 +23,25 @@ std::int64_t multiple_after(std::int64_t step, std::int64_t every) {
 
 }  // namespace
 
+std::optional<double> Readings::number(const std::string& name) const {
+  const auto found = find(name);
+  return found == end() ? std::nullopt : found->second;
+}
+
+double Readings::at(const std::string& name) const {
+  const std::optional<double> found = number(name);
+  if (found) return *found;
+  throw std::out_of_range(fmt::format("the run has no reading {}", name));
+}
+
 int count_present(const Simulation& simulation) {
   int present = 0;
   for (int k = 0; k < simulation.grain_count(); ++k) present += simulation.is_present(k) ? 1 : 0;
   return present;
 }
 
-double scatter_of(double squares, std::size_t count) {
-  if (count < 2) return std::numeric_limits<double>::quiet_NaN();
+std::optional<double> scatter_of(double squares, std::size_t count) {
+  if (count < 2) return std::nullopt;
   return std::sqrt(squares / (static_cast<double>(count) - 1));
 }
 
@@ -101,16 +113,20 @@ void ExperimentRun::look() const {
   throw Interrupted(fmt::format("interrupted at {:.4f} s of the experiment", simulation_.time_s()));
 }
 
-Repeat ExperimentRun::finish(double value, std::uint64_t seed,
-                             std::map<std::string, double> readings) {
+Repeat ExperimentRun::finish(std::optional<double> value, std::uint64_t seed, Readings readings) {
   const double shortest_s =
       std::min(progress_.work.shortest_timestep_s, simulation_.setup().timestep_s);
-  return {.value = value,
-          .seed = seed,
+  const auto keep_finite = [](std::optional<double>& number) {
+    if (number && !std::isfinite(*number)) number.reset();
+  };
+  keep_finite(value);
+  for (auto& [name, number] : readings) keep_finite(number);
+  return {.seed = seed,
+          .value = value,
+          .readings = std::move(readings),
           .steps = progress_.work.steps,
           .timestep_s = shortest_s,
           .clump_steps = progress_.work.clump_steps,
-          .readings = std::move(readings),
           .state = std::make_shared<const Simulation>(std::move(simulation_))};
 }
 

@@ -2,9 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <string>
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/pace.h"
@@ -15,8 +13,8 @@ namespace repose::dem {
 int count_present(const Simulation& simulation);
 
 /// Standard deviation of `count` readings whose squared differences from their mean add up to
-/// `squares`; NaN of a single one, which shows none.
-double scatter_of(double squares, std::size_t count);
+/// `squares`; none of a single one.
+std::optional<double> scatter_of(double squares, std::size_t count);
 
 /// Who is told what on the way.
 struct Observers {
@@ -48,7 +46,7 @@ class ExperimentRun {
   void report_progress(double fraction);
 
   /// Ends the run: its simulation goes into the result.
-  Repeat finish(double value, std::uint64_t seed, std::map<std::string, double> readings);
+  Repeat finish(std::optional<double> value, std::uint64_t seed, Readings readings);
 
  private:
   std::int64_t next_frame_step() const;

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -141,7 +140,7 @@ Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t 
   const HeapProtocol tube = tube_of(protocol);
   const HeapProtocol filled = collared(tube, protocol);
   const double spout_m = filled.tube_height_m + protocol.pour_m;
-  std::map<std::string, double> readings;
+  Readings readings;
   ExperimentRun filling = empty_tube(model, filled, {report, record}, spout_m);
   pour(filling, filled, seed, spout_m, grains_per_s(protocol, model, filling.simulation().setup()));
   if (protocol.taps) readings["hausner_ratio"] = tapped(filling, protocol);

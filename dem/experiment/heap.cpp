@@ -170,7 +170,7 @@ Repeat finish_heap(ExperimentRun run, const Model& model, std::uint64_t seed) {
   std::vector<HeapEnvelope> envelopes = heap_envelopes(placed_spheres(run.simulation()), kViews);
   const double height = height_m(envelopes);
   const bool is_layer = height < kLowestHeap * diameter_m(model.grain);
-  Repeat repeat = run.finish(std::numeric_limits<double>::quiet_NaN(), seed,
+  Repeat repeat = run.finish(std::nullopt, seed,
                              {{"grains", grains},
                               {"grains_on_plate", on_plate},
                               {"grains_off_plate", grains - on_plate},

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -143,12 +142,11 @@ Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t 
     const Simulation& simulation = roll.run.simulation();
     const double reached_m = on_flat_m(simulation);
     if (reached_m == 0 && releases < most_releases) continue;
-    const std::map<std::string, double> readings = {
-        {"lateral_mm", 1e3 * simulation.grain(0).position.y()},
-        {"stopped_on_incline", reached_m == 0 ? 1 : 0},
-        {"releases", releases},
-        {"hop_mm", 1e3 * roll.hop_m},
-        {"time_s", simulation.time_s()}};
+    const Readings readings = {{"lateral_mm", 1e3 * simulation.grain(0).position.y()},
+                               {"stopped_on_incline", reached_m == 0 ? 1 : 0},
+                               {"releases", releases},
+                               {"hop_mm", 1e3 * roll.hop_m},
+                               {"time_s", simulation.time_s()}};
     if (!record.frame) return roll.run.finish(1e3 * reached_m, seed, readings);
     // Frames show the release that counts.
     return rolled(model, protocol, grain, {report, record})

@@ -14,7 +14,7 @@
 #include <fmt/core.h>
 
 #include "base/distributions.h"
-#include "calibrate/experiment/position_angle.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/export/export.h"
 #include "calibrate/statistics/summary.h"
 #include "dem/experiment/heap_envelope.h"

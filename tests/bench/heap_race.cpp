@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/export/export.h"
 #include "calibrate/study/coefficients.h"
 #include "dem/experiment/experiment.h"

@@ -223,7 +223,7 @@ FilmRow roll_row(double frames_per_s, bool has_scale, unsigned seed) {
                                      2e3 * model.grain.reach_m(), protocol.incline_deg)};
   Recorder recorder;
   const dem::Repeat repeat = run_roll(model, protocol, seed, {}, recorder.record(2e-3));
-  if (repeat.value < 0) {
+  if (repeat.readings.at("stopped_on_incline") != 0) {
     row.reason = "it stays on the incline";
     return row;
   }
@@ -243,7 +243,7 @@ FilmRow roll_row(double frames_per_s, bool has_scale, unsigned seed) {
   const vision::RollTrack track = track_roll(film->file, options);
   row.reason = track.reason;
   row.is_flagged = track.status == vision::MeasureStatus::flagged;
-  if (track.has_reading) row.readings.push_back({repeat.value, track.stopped_mm});
+  if (track.has_reading) row.readings.push_back({repeat.value.value(), track.stopped_mm});
   return row;
 }
 
@@ -269,7 +269,7 @@ FilmRow tilt_row(double frames_per_s, unsigned seed) {
   const vision::TiltTrack track = vision::track_tilt(film->file);
   row.reason = track.reason;
   row.is_flagged = track.status == vision::MeasureStatus::flagged;
-  if (track.has_reading) row.readings.push_back({repeat.value, track.angle_deg});
+  if (track.has_reading) row.readings.push_back({repeat.value.value(), track.angle_deg});
   return row;
 }
 

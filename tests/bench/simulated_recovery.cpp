@@ -14,9 +14,9 @@
 #include "calibrate/fit/first_round.h"
 #include "calibrate/fit/random.h"
 #include "calibrate/plan/foresight.h"
+#include "calibrate/study/executor.h"
 #include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_run.h"
-#include "calibrate/study/thread_executor.h"
 #include "dem/study/grain_source.h"
 #include "tests/bench/recovery_tally.h"
 
@@ -140,7 +140,7 @@ class Material {
   }
 
   calibrate::Run simulated(const calibrate::Job& job) {
-    return run_of(bench_.simulate(job, never_));
+    return run_of(job, bench_.simulate(job, never_));
   }
 
   dem::Study study_;

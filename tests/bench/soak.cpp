@@ -139,10 +139,9 @@ dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base
 
 bool is_finite(const dem::Repeat& repeat) {
   bool is_good = repeat.timestep_s > 0 && std::isfinite(repeat.clump_steps) &&
-                 (std::isfinite(repeat.value) || !repeat.envelopes.empty());
+                 (repeat.value ? std::isfinite(*repeat.value) : !repeat.envelopes.empty());
   for (const auto& [name, value] : repeat.readings) {
-    // A heap has no angle from a side where nothing lies.
-    is_good = is_good && (std::isfinite(value) || name.ends_with("_deg"));
+    is_good = is_good && std::isfinite(value.value_or(0));
   }
   return is_good;
 }

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "base/units.h"
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {
@@ -63,8 +63,8 @@ DrawDownFront front_of(const Degrees& angles) { return draw_down_front(scene_of(
 
 TEST(DrawDownFront, ShowsTheAnglesOfKnownSlopes) {
   const DrawDownFront front = front_of({25, 25, 35, 35});
-  EXPECT_NEAR(front.lower_angle_deg, 25, .3);
-  EXPECT_NEAR(front.upper_angle_deg, 35, .3);
+  EXPECT_NEAR(front.lower_angle_deg.value(), 25, .3);
+  EXPECT_NEAR(front.upper_angle_deg.value(), 35, .3);
 }
 
 TEST(DrawDownFront, ItsLinesLieOnTheSlopesInThePicture) {
@@ -95,16 +95,16 @@ TEST(DrawDownFront, ItsLinesLieOnTheSlopesInThePicture) {
 TEST(DrawDownFront, IsTheSameMirrored) {
   const DrawDownFront one = front_of({22, 28, 30, 40});
   const DrawDownFront mirrored = front_of({28, 22, 40, 30});
-  EXPECT_NEAR(one.lower_angle_deg, 25, .4);
-  EXPECT_NEAR(one.upper_angle_deg, 35, .4);
-  EXPECT_NEAR(mirrored.lower_angle_deg, one.lower_angle_deg, .1);
-  EXPECT_NEAR(mirrored.upper_angle_deg, one.upper_angle_deg, .1);
+  EXPECT_NEAR(one.lower_angle_deg.value(), 25, .4);
+  EXPECT_NEAR(one.upper_angle_deg.value(), 35, .4);
+  EXPECT_NEAR(mirrored.lower_angle_deg.value(), one.lower_angle_deg.value(), .1);
+  EXPECT_NEAR(mirrored.upper_angle_deg.value(), one.upper_angle_deg.value(), .1);
 }
 
 TEST(DrawDownFront, ASideWithoutASlopeIsLeftOut) {
-  EXPECT_NEAR(front_of({25, 25, 33, {}}).upper_angle_deg, 33, .3);
+  EXPECT_NEAR(front_of({25, 25, 33, {}}).upper_angle_deg.value(), 33, .3);
   const DrawDownFront bare = front_of({25, 25, {}, {}});
-  EXPECT_TRUE(std::isnan(bare.upper_angle_deg));
+  EXPECT_FALSE(bare.upper_angle_deg);
   EXPECT_FALSE(bare.slopes.front().angle_rad);
   EXPECT_TRUE(bare.slopes.back().angle_rad);
   render::Scene empty;
@@ -114,7 +114,7 @@ TEST(DrawDownFront, ASideWithoutASlopeIsLeftOut) {
 }
 
 TEST(DrawDownFront, SteepSlopesHaveAnAngleToo) {
-  EXPECT_NEAR(front_of({25, 25, 70, 70}).upper_angle_deg, 70, 1);
+  EXPECT_NEAR(front_of({25, 25, 70, 70}).upper_angle_deg.value(), 70, 1);
 }
 
 constexpr dem::DrawDownProtocol kBoxes{
@@ -184,9 +184,9 @@ TEST(DrawDownFront, PhotographsOfTheHeapAndTheSlopesShowTheSame) {
     const Measured photo = measured(*repeat.state);
     if (!photo.lower_rad || !photo.upper_left_rad || !photo.upper_right_rad) continue;
     const DrawDownFront front = draw_down_front(render::scene_of(*repeat.state), kBoxes);
-    EXPECT_NEAR(*photo.lower_rad / kDegree, front.lower_angle_deg, .5);
+    EXPECT_NEAR(*photo.lower_rad / kDegree, front.lower_angle_deg.value(), .5);
     const double upper_rad = (*photo.upper_left_rad + *photo.upper_right_rad) / 2;
-    EXPECT_NEAR(upper_rad / kDegree, front.upper_angle_deg, .5);
+    EXPECT_NEAR(upper_rad / kDegree, front.upper_angle_deg.value(), .5);
     return;
   }
   FAIL() << "no run has slopes that can all be measured in photographs";

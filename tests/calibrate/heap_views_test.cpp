@@ -1,11 +1,10 @@
-#include "calibrate/experiment/heap_views.h"
-
 #include <algorithm>
 #include <array>
 
 #include <gmock/gmock.h>
 
 #include "base/units.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/simulate_experiment.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/error_of.h"
@@ -108,15 +107,15 @@ TEST(HeapViews, AnotherCameraTakesPicturesAnewOfTheSameHeap) {
   const RunFolder folder(files.path());
   SimulateOptions options;
   options.folder = &folder;
-  const std::string far = run_text(simulate_experiment(spec, 1, options));
+  const std::string far = text_of(simulate_experiment(spec, 1, options));
   spec.viewing.camera = {.distance_m = .4, .height_m = .1};
   EXPECT_FALSE(folder.find_whole(spec, 1)) << "has other pictures";
-  const SimulatedRun near = simulate_experiment(spec, 1, options);
-  EXPECT_EQ(near.wall_s, run_in(far).value().wall_s) << "is not simulated again";
-  EXPECT_NE(run_text(near), far);
-  EXPECT_EQ(run_text(folder.find_whole(spec, 1).value()), run_text(near));
+  const RunResult near = simulate_experiment(spec, 1, options);
+  EXPECT_EQ(near.wall_s, run_in(far).wall_s) << "is not simulated again";
+  EXPECT_NE(text_of(near), far);
+  EXPECT_EQ(text_of(folder.find_whole(spec, 1).value()), text_of(near));
   spec.viewing.camera.reset();
-  EXPECT_EQ(run_text(simulate_experiment(spec, 1, options)), far);
+  EXPECT_EQ(text_of(simulate_experiment(spec, 1, options)), far);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/experiment/run_folder.h"
+#include "calibrate/study/executor.h"
 #include "calibrate/study/study_run.h"
-#include "calibrate/study/thread_executor.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/temporary_folder.h"
 

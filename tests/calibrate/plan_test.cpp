@@ -246,13 +246,14 @@ TEST_F(OfferedStudyTest, WhatAPlanSimulatedIsOfferedToACalibrationInTheSameFolde
   const StudySimulator simulator(small.study, grain, small.problem.parameters);
   std::vector<calibrate::Run> saved;
   for (const Job& job : plan_jobs(small)) {
-    SimulatedRun run;
+    RunResult run;
     run.seed = job.seed;
+    run.simulated = description_of(simulator.spec(job), job.seed);
     run.value = 7;
     run.timestep_s = 1e-6;
     run.readings["time_s"] = 1;
     folder.save(simulator.spec(job), run);
-    if (job.experiment == "roll") saved.push_back(run_of({job, run}));
+    if (job.experiment == "roll") saved.push_back(run_of(job, run));
   }
   std::map<std::string, Offer> offers;
   for (const Offer& offer : offers_in(folder, study, grain)) offers[offer.experiment.name] = offer;

@@ -1,11 +1,10 @@
-#include "calibrate/experiment/position_angle.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "base/units.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/sphere_heap.h"
 
@@ -15,8 +14,10 @@ namespace {
 using dem::ClumpSphere;
 using repose::testing::sphere_cone;
 using repose::testing::sphere_frustum;
+using ::testing::Contains;
 using ::testing::IsEmpty;
 using ::testing::Key;
+using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
 
 PositionAngle angle_of(const std::vector<ClumpSphere>& heap, int views = 18) {
@@ -199,39 +200,42 @@ TEST(PositionAngle, RoughGrainsHeapWhereSmoothOnesSpreadToALayer) {
     protocol.tube_height_m = .1;
     protocol.lift_speed_m_s = .1;
     protocol.plate_m = .3;
-    dem::Repeat heap = run_heap(model, protocol, 1);
+    RunResult heap;
+    static_cast<dem::Repeat&>(heap) = run_heap(model, protocol, 1);
     add_position_angle(heap);
     return heap.value;
   };
-  const double rough = angle_deg({.31, .5, .2}, {.11, .5, .2});
+  const double rough = angle_deg({.31, .5, .2}, {.11, .5, .2}).value();
   EXPECT_GT(rough, 3);
   EXPECT_LT(rough, 60);
-  EXPECT_TRUE(std::isnan(angle_deg({.31, .2, .02}, {.11, .1, .01})));
+  EXPECT_FALSE(angle_deg({.31, .2, .02}, {.11, .1, .01}));
 }
 
 TEST(PositionAngle, CompletesAHeapsReadings) {
-  dem::Repeat heap;
-  heap.envelopes = dem::heap_envelopes(sphere_cone(25, .06, .002), 18);
-  const PositionAngle angle = position_angle(heap.envelopes);
+  RunResult heap;
+  const auto envelopes = dem::heap_envelopes(sphere_cone(25, .06, .002), 18);
+  heap.envelopes = envelopes;
+  const PositionAngle angle = position_angle(envelopes);
   add_position_angle(heap);
-  EXPECT_EQ(heap.value, angle.angle_deg.value());
+  EXPECT_EQ(heap.other_deg, position_angle(envelopes, {.has_definitions = true}).other_deg);
+  EXPECT_EQ(heap.value.value(), angle.angle_deg.value());
   EXPECT_THAT(heap.envelopes, IsEmpty());
   EXPECT_THAT(heap.readings, UnorderedElementsAre(Key("base_radius_mm"), Key("between_views_deg"),
                                                   Key("angle_xz_deg"), Key("inner_window_deg")));
-  EXPECT_EQ(heap.readings["base_radius_mm"], 1e3 * angle.base_radius_m.value());
-  EXPECT_EQ(heap.readings["angle_xz_deg"], angle.first_view_deg.value());
-  EXPECT_NEAR(heap.readings["inner_window_deg"], 25, .3);
+  EXPECT_EQ(heap.readings.at("base_radius_mm"), 1e3 * angle.base_radius_m.value());
+  EXPECT_EQ(heap.readings.at("angle_xz_deg"), angle.first_view_deg.value());
+  EXPECT_NEAR(heap.readings.at("inner_window_deg"), 25, .3);
 }
 
 TEST(PositionAngle, OfALayerNothingIsRead) {
-  dem::Repeat layer;
+  RunResult layer;
   layer.envelopes = dem::heap_envelopes(sphere_cone(25, .06, .002), 18);
   layer.readings["no_heap"] = 1;  // its grains are that large
   add_position_angle(layer);
-  EXPECT_TRUE(std::isnan(layer.value));
+  EXPECT_FALSE(layer.value);
   for (const char* name :
        {"base_radius_mm", "between_views_deg", "angle_xz_deg", "inner_window_deg"}) {
-    EXPECT_TRUE(std::isnan(layer.readings.at(name))) << name;
+    EXPECT_THAT(layer.readings, Contains(Pair(name, std::nullopt)));
   }
 }
 

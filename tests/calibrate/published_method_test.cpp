@@ -47,8 +47,8 @@ class FormulaExecutor : public Executor {
   void run(const std::vector<Job>& jobs, const JobDone& done,
            const std::atomic<bool>& is_interrupted) override {
     for (std::size_t k = 0; k < jobs.size() && !is_interrupted; ++k) {
-      SimulatedJob result{.job = jobs[k], .run = {}};
-      result.run.seed = jobs[k].seed;
+      RunResult result;
+      result.seed = jobs[k].seed;
       const std::vector<double>& x = jobs[k].values;
       const double value = jobs[k].experiment == "drop"   ? 500 * x[0] * x[0]
                            : jobs[k].experiment == "tilt" ? std::atan(x[1]) * 180 / 3.14159265358979
@@ -57,9 +57,9 @@ class FormulaExecutor : public Executor {
                                : 10 + 30 * x[4] + 200 * x[5] + .01 * (jobs[k].seed % 3);
       const bool is_empty = jobs[k].experiment == "drop" && x[0] > fails_above_restitution;
       if (is_empty) {
-        result.run.failure = "nothing was seen";
+        result.failure = "nothing was seen";
       } else {
-        result.run.value = value;
+        result.value = value;
       }
       done(k, result);
     }

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "calibrate/experiment/stored_run.h"
+#include "calibrate/experiment/run_result.h"
 #include "calibrate/report/study_report.h"
 #include "dem/state/state_file.h"
 #include "tests/calibrate/made_up_result.h"
@@ -324,12 +324,12 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
   folder_.write("study.json", std::string(kRecord));
   std::filesystem::create_directory(folder_.path() / "runs");
   for (const auto& [number, value] : {std::pair("2", 7.0), {"5", 30.0}}) {
-    StoredRun stored;
-    stored.description = replaced(kDrop, "%d", number);
-    stored.run.value = value;
-    stored.run.readings = {{"value", value}};
-    stored.run.timestep_s = 1e-6;
-    folder_.write(std::string("runs/") + number + ".json", text_of(stored));
+    RunResult run;
+    run.simulated = replaced(kDrop, "%d", number);
+    run.value = value;
+    run.readings = {{"sd_mm", std::nullopt}};
+    run.timestep_s = 1e-6;
+    folder_.write(std::string("runs/") + number + ".json", text_of(run));
   }
   folder_.write("runs/damaged.json", std::string("{\"simulated\": "));
   const Report report = made();

@@ -57,13 +57,14 @@ std::string ten_digits(double value) {
   return fmt::format("{:.9e}", std::abs(value) < 1e-9 ? 0 : value);
 }
 
-std::string line_of(const SimulatedRun& run) {
+std::string line_of(const RunResult& run) {
   std::string line = "value " + ten_digits(run.value.value());
   // Drawing and measuring differ in edge pixels from one kind of processor to the next.
   const auto seen = [](double value) { return fmt::format("{:.2f}", value); };
   for (const auto& [name, value] : run.readings) {
     const bool is_seen = name == "upper_angle_deg" || name == "lower_angle_deg";
-    line += ' ' + name + ' ' + (is_seen ? seen(value) : ten_digits(value));
+    line += ' ' + name + ' ';
+    line += !value ? "nan" : is_seen ? seen(*value) : ten_digits(*value);
   }
   if (!run.views.empty()) line += " seen " + seen(value_of(run).value());
   return line;
@@ -85,7 +86,7 @@ TEST(SimulatorVersion, IsRaisedWhenWhatASimulationGivesHasChanged) {
   const NamedGrain grain(dem::build_grain(study.grain));
   std::vector<std::string> lines, others;
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    const SimulatedRun run =
+    const RunResult run =
         simulate_experiment(spec_of(study, entry.experiment, grain, kHeapViews), 1);
     EXPECT_TRUE(run.failure.empty()) << entry.name << ": " << run.failure;
     EXPECT_EQ(is_from_pictures(run), entry.is_pictured) << entry.name;

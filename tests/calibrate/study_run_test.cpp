@@ -15,8 +15,8 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/experiment/run_folder.h"
+#include "calibrate/study/executor.h"
 #include "calibrate/study/study_problem.h"
-#include "calibrate/study/thread_executor.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
@@ -171,10 +171,10 @@ TEST_F(StudyRun, ALayerIsAFailedRunOfTheFit) {
   const dem::Study study = read({"experiment.heap={grains=12,lift_speed_mm_s=200}",
                                  "contact.particle_wall.rolling_friction=0.3"});
   const std::atomic<bool> is_interrupted = false;
-  const SimulatedJob done = simulator_of(study).simulate(
-      {.experiment = "heap", .values = {.5, .2}, .seed = 1}, is_interrupted);
-  EXPECT_THAT(run_of(done).readings, IsEmpty());
-  EXPECT_THAT(run_of(done).failure, AllOf(HasSubstr("spread to a layer"), HasSubstr("Fix: ")));
+  const Job job{.experiment = "heap", .values = {.5, .2}, .seed = 1};
+  const auto found = run_of(job, simulator_of(study).simulate(job, is_interrupted));
+  EXPECT_THAT(found.readings, IsEmpty());
+  EXPECT_THAT(found.failure, AllOf(HasSubstr("spread to a layer"), HasSubstr("Fix: ")));
 }
 
 TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
@@ -543,10 +543,10 @@ TEST_F(StudyRun, DamagedFilesAreSimulatedAgain) {
 TEST_F(StudyRun, AnExperimentWithoutAReadingIsAFailedRunNotAnError) {
   const dem::Study study = read({"contact.particle_wall.rolling_friction=0"});
   const std::atomic<bool> is_interrupted = false;
-  const SimulatedJob done = simulator_of(study).simulate(
-      {.experiment = "tilt", .values = {.5, 90.}, .seed = 1}, is_interrupted);
-  EXPECT_THAT(run_of(done).readings, IsEmpty());
-  EXPECT_THAT(run_of(done).failure, HasSubstr("instead of sliding"));
+  const Job job{.experiment = "tilt", .values = {.5, 90.}, .seed = 1};
+  const auto found = run_of(job, simulator_of(study).simulate(job, is_interrupted));
+  EXPECT_THAT(found.readings, IsEmpty());
+  EXPECT_THAT(found.failure, HasSubstr("instead of sliding"));
 }
 
 /// As a broken machine would: the first drop rebounds as high as it says.
@@ -559,9 +559,9 @@ class WrongExecutor : public Executor {
            const std::atomic<bool>& is_interrupted) override {
     right_.run(
         jobs,
-        [&](std::size_t k, SimulatedJob job) {
-          if (job.job.experiment == "drop" && job.job.seed == 1) job.run.value = rebound_mm_;
-          done(k, job);
+        [&](std::size_t k, RunResult result) {
+          if (jobs[k].experiment == "drop" && jobs[k].seed == 1) result.value = rebound_mm_;
+          done(k, result);
         },
         is_interrupted);
   }

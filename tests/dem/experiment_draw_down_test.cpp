@@ -59,7 +59,7 @@ TEST(DrawDown, WhatRunsOutAndWhatStaysIsTheFill) {
   EXPECT_EQ(readings.at("grains"), below + above);
   EXPECT_NEAR(readings.at("discharged_g"), ball_g * below, 1e-6);
   EXPECT_NEAR(readings.at("filled_g"), ball_g * (below + above), 1e-6);
-  EXPECT_NEAR(usual().value, 100. * below / (below + above), 1e-9);
+  EXPECT_NEAR(usual().value.value(), 100. * below / (below + above), 1e-9);
   EXPECT_EQ(readings.at("at_rest"), 1);
 }
 
@@ -76,7 +76,8 @@ TEST(DrawDown, GrainsStayBetweenThePanes) {
 }
 
 TEST(DrawDown, FrictionKeepsGrainsAboveTheSlot) {
-  EXPECT_GT(run_draw_down(balls({.1, .2, .05}), kBoxes, 1).value, usual().value + 2);
+  EXPECT_GT(run_draw_down(balls({.1, .2, .05}), kBoxes, 1).value.value(),
+            usual().value.value() + 2);
 }
 
 /// Mass through a slot by the law of Beverloo, Leniger and van de Velde (1961), The flow of

@@ -27,9 +27,9 @@ TEST(FilledTube, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
   const double grain_kg = 1000 * 4.0 / 3 * std::numbers::pi * 1e-6;
   const double tube_m3 = std::numbers::pi / 4 * .15 * .15 * .15;
   const double grains = repeat.readings.at("grains");
-  EXPECT_NEAR(repeat.value, grains * grain_kg / tube_m3, 1e-9);
+  EXPECT_NEAR(repeat.value.value(), grains * grain_kg / tube_m3, 1e-9);
   EXPECT_NEAR(repeat.readings.at("mass_g"), 1e3 * grains * grain_kg, 1e-9);
-  EXPECT_NEAR(repeat.readings.at("solid_fraction"), repeat.value / 1000, 1e-12);
+  EXPECT_NEAR(repeat.readings.at("solid_fraction"), repeat.value.value() / 1000, 1e-12);
   for (int k = 0; k < repeat.state->grain_count(); ++k) {
     if (!repeat.state->is_present(k)) continue;
     EXPECT_LT(repeat.state->grain(k).position.z(), .15);
@@ -49,7 +49,8 @@ TEST(FilledTubes, FrictionMakesLooserPackings) {
   Model smooth = balls_to_fill(), rough = balls_to_fill();
   smooth.grain_grain = {.3, .05, .01};
   rough.grain_grain = {.3, .8, .3};
-  EXPECT_LT(run_fill(rough, kTubeToFill, 1).value, run_fill(smooth, kTubeToFill, 1).value - 20);
+  EXPECT_LT(run_fill(rough, kTubeToFill, 1).value.value(),
+            run_fill(smooth, kTubeToFill, 1).value.value() - 20);
 }
 
 // 2 kg/s: as long as the tube's 1.4 kg and what is heaped over its rim take.
@@ -70,7 +71,7 @@ TEST(FilledTubes, PouredSlowlyTheyTakeTheirTimeAndLieDenser) {
   const double heaped_s = 1e-3 * slow_fill.readings.at("mass_g") / *slow.pour_kg_s;
   EXPECT_LT(fast_s, heaped_s + .3);
   EXPECT_GT(slow_s, heaped_s);
-  EXPECT_GT(slow_fill.value, fast_fill.value);
+  EXPECT_GT(slow_fill.value.value(), fast_fill.value.value());
 }
 
 TEST(FilledTubes, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
@@ -84,7 +85,8 @@ TEST(FilledTubes, TapsMakeItDenserAndNeverDenserThanBallsCanBe) {
   EXPECT_EQ(poured.readings.count("hausner_ratio"), 0U);
   EXPECT_GT(once.readings.at("hausner_ratio"), 1);
   EXPECT_GT(often.readings.at("hausner_ratio"), once.readings.at("hausner_ratio"));
-  EXPECT_NEAR(often.value / often.readings.at("hausner_ratio"), poured.value, .05 * poured.value)
+  EXPECT_NEAR(often.value.value() / often.readings.at("hausner_ratio"), poured.value.value(),
+              .05 * poured.value.value())
       << "below the collar it is poured as without";
   // Random close packing (Scott and Kilgour 1969, J. Phys. D 2, 863).
   EXPECT_LT(often.readings.at("solid_fraction"), .637);

@@ -19,14 +19,16 @@ Model beads() {
 }
 
 double tilt_deg(const Model& model) {
-  return run_tilt_on_grains(model, {.rate_deg_s = 10, .places = 8}, 1).value;
+  return run_tilt_on_grains(model, {.rate_deg_s = 10, .places = 8}, 1).value.value();
 }
 
 double roll_deg(const Model& model) {
-  return run_roll_on_grains(model, {.rate_deg_s = 10, .places = 8}, 1).value;
+  return run_roll_on_grains(model, {.rate_deg_s = 10, .places = 8}, 1).value.value();
 }
 
-double drop_mm(const Model& model) { return run_drop_on_grains(model, {.grains = 100}, 1).value; }
+double drop_mm(const Model& model) {
+  return run_drop_on_grains(model, {.grains = 100}, 1).value.value();
+}
 
 TEST(TiltOnGrains, TellsSlidingFrictionAndIsSteeperThanIt) {
   Model smooth = beads(), rough = beads();
@@ -64,9 +66,9 @@ TEST(DropOnGrains, TellsRestitution) {
 
 /// All readings of one small run each.
 std::vector<double> small_runs(const Model& model) {
-  return {run_tilt_on_grains(model, {.rate_deg_s = 10, .places = 2}, 1).value,
-          run_roll_on_grains(model, {.rate_deg_s = 10, .places = 2}, 1).value,
-          run_drop_on_grains(model, {.grains = 5}, 1).value};
+  return {run_tilt_on_grains(model, {.rate_deg_s = 10, .places = 2}, 1).value.value(),
+          run_roll_on_grains(model, {.rate_deg_s = 10, .places = 2}, 1).value.value(),
+          run_drop_on_grains(model, {.grains = 5}, 1).value.value()};
 }
 
 TEST(OnGrains, WallsHaveNoEffect) {

@@ -78,7 +78,7 @@ TEST_P(RollOverTwoMaterials, GoesAsFarAsEnergyAllows) {
   model = with_part(model, WallPart::incline, {.05, .8, GetParam().incline});
   const double expected_mm =
       by_energy_and_foot_mm(20, .15, 9.6349e-3, GetParam().incline, GetParam().flat);
-  EXPECT_NEAR(run_roll(model, {}, 1).value, expected_mm, .001 * expected_mm);
+  EXPECT_NEAR(run_roll(model, {}, 1).value.value(), expected_mm, .001 * expected_mm);
 }
 
 INSTANTIATE_TEST_SUITE_P(Frictions, RollOverTwoMaterials,
@@ -87,11 +87,11 @@ INSTANTIATE_TEST_SUITE_P(Frictions, RollOverTwoMaterials,
 
 TEST(WallParts, ATiltIsOfThePlateAlone) {
   Model model = test::sphere_bench();
-  const double value = run_tilt(model, {.rate_deg_s = 10}, 1).value;
+  const double value = run_tilt(model, {.rate_deg_s = 10}, 1).value.value();
   for (const WallPart part : {WallPart::tube, WallPart::incline, WallPart::pane}) {
     model = with_part(model, part, {.9, .01, .3});
   }
-  EXPECT_EQ(run_tilt(model, {.rate_deg_s = 10}, 1).value, value);
+  EXPECT_EQ(run_tilt(model, {.rate_deg_s = 10}, 1).value.value(), value);
   EXPECT_NEAR(value, std::atan(.39) * 180 / std::numbers::pi, .1);
 }
 
@@ -100,7 +100,7 @@ TEST(WallParts, ARoughTubeHoldsALooserFill) {
   const Model model = test::soft_bench();
   const Repeat smooth = run_fill(with_part(model, WallPart::tube, {.31, 0, 0}), kNarrow, 1);
   const Repeat rough = run_fill(with_part(model, WallPart::tube, {.31, 2, .5}), kNarrow, 1);
-  EXPECT_GT(smooth.value, rough.value + 5);
+  EXPECT_GT(smooth.value.value(), rough.value.value() + 5);
 }
 
 TEST(WallParts, AFrictionlessTubeLeavesAnotherHeapThanARoughOne) {
@@ -122,7 +122,7 @@ TEST(WallParts, PanesCarryGrainsAndFloorsDoNotKnowIt) {
   const Repeat smooth = run_draw_down(with_part(model, WallPart::pane, {.1, 0, 0}), kBoxes, 1);
   const Repeat rough = run_draw_down(with_part(model, WallPart::pane, {.1, 1, .3}), kBoxes, 1);
   // Friction at the panes holds back part of what would run out, and slopes are steeper.
-  EXPECT_GT(smooth.value, rough.value + 2);
+  EXPECT_GT(smooth.value.value(), rough.value.value() + 2);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST_P(PendulumBalls, SwingAsHighAsMomentumAndRestitutionSay) {
   EXPECT_NEAR(repeat.readings.at("height_ratio"), ratio, .005);
   const double fall_mm = 300 * (1 - std::cos(std::numbers::pi / 6));
   EXPECT_NEAR(repeat.readings.at("rise_mm"), ratio * fall_mm, .005 * fall_mm);
-  EXPECT_NEAR(300 * (1 - std::cos(repeat.value * std::numbers::pi / 180)),
+  EXPECT_NEAR(300 * (1 - std::cos(repeat.value.value() * std::numbers::pi / 180)),
               repeat.readings.at("rise_mm"), 1e-6);
 }
 
@@ -27,23 +27,25 @@ INSTANTIATE_TEST_SUITE_P(Pendulum, PendulumBalls, ::testing::Values(.05, .3, .5,
 
 TEST(Pendulum, FrictionBetweenBallsHasNoEffect) {
   Model model = test::sphere_bench();
-  const double usual = run_pendulum(model, {.pairs = 1}, 1).value;
+  const double usual = run_pendulum(model, {.pairs = 1}, 1).value.value();
   model.grain_grain.sliding_friction = .8;
   model.grain_grain.rolling_friction = .3;
-  EXPECT_NEAR(run_pendulum(model, {.pairs = 1}, 1).value, usual, 1e-6);
+  EXPECT_NEAR(run_pendulum(model, {.pairs = 1}, 1).value.value(), usual, 1e-6);
 }
 
 TEST(Pendulum, GrainsThatAreNoBallsSwingLessFarSinceTheySpin) {
   Model clump = test::clump_bench(), ball = test::sphere_bench();
-  EXPECT_LT(run_pendulum(clump, {}, 1).value, run_pendulum(ball, {}, 1).value);
+  EXPECT_LT(run_pendulum(clump, {}, 1).value.value(), run_pendulum(ball, {}, 1).value.value());
   clump.grain_grain.restitution = .9;
-  EXPECT_GT(run_pendulum(clump, {}, 1).value, run_pendulum(test::clump_bench(), {}, 1).value + 3);
+  EXPECT_GT(run_pendulum(clump, {}, 1).value.value(),
+            run_pendulum(test::clump_bench(), {}, 1).value.value() + 3);
 }
 
 TEST(Pendulum, WallsHaveNoEffectOnIt) {
   Model other = test::clump_bench();
   other.grain_wall = {.9, .05, .3};
-  EXPECT_EQ(run_pendulum(other, {}, 1).value, run_pendulum(test::clump_bench(), {}, 1).value);
+  EXPECT_EQ(run_pendulum(other, {}, 1).value.value(),
+            run_pendulum(test::clump_bench(), {}, 1).value.value());
 }
 
 TEST(Pendulum, IsTheSameAtAnyNumberOfThreads) {

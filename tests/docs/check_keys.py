@@ -27,7 +27,9 @@ OUTPUTS = {
     "simulate": [f"simulate {name} study.toml --repeats 2 --json -"
                  for name in ("drop", "roll", "tilt", "tilt_on_grains", "pendulum", "draw_down")]
     + ["simulate fill study.toml --repeats 2 --set experiment.fill.taps=1 --json -"]
-    + ["simulate heap study.toml --views 2 --json -"],
+    + ["simulate drop study.toml --set contact.particle_wall.restitution_exponent=0.1 "
+       "--set contact.particle_wall.restitution_speed_m_s=1 --json -",
+       "simulate heap study.toml --views 2 --json -"],
     "render": ["render state/heap_seed_1.vtp --size 640,360 --out heap.png --truth -"],
     "bench": ["bench sliding --set angle_deg=22.1,22.9 --json -"],
     "regress": ["regress runs.csv --response angle_deg --target 23 --json -"],

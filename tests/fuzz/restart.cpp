@@ -1,4 +1,4 @@
-#include "calibrate/experiment/restart_text.h"
+#include "calibrate/experiment/run_folder.h"
 #include "tests/fuzz/scratch_file.h"
 
 namespace repose::fuzz {

@@ -10,8 +10,8 @@
 #include <repose/calibrate/report/study_report.h>
 #include <repose/calibrate/result/result.h>
 #include <repose/calibrate/statistics/bench/formulas.h>
+#include <repose/calibrate/study/executor.h>
 #include <repose/calibrate/study/study_run.h>
-#include <repose/calibrate/study/thread_executor.h>
 #include <repose/dem/engine/simulation.h>
 #include <repose/dem/study/grain_source.h>
 #include <repose/vision/measure/repose_angle.h>

@@ -45,7 +45,7 @@ dem::Model model_of(const dem::Study& study, const dem::ClumpShape& grain) {
 
 double our_swing_deg(const dem::Study& study, const dem::ClumpShape& grain) {
   return run_pendulum(model_of(study, grain), study.protocol<dem::PendulumProtocol>(), study.seed)
-      .value;
+      .value.value();
 }
 
 double their_swing_deg(const dem::Study& study, const dem::ClumpShape& grain) {
@@ -77,7 +77,8 @@ TEST_F(BetweenGrains, ClumpsOnStringsSwingAlike) {
 }
 
 double our_bulk_density(const dem::Study& study, const dem::ClumpShape& grain) {
-  return run_fill(model_of(study, grain), study.protocol<dem::FillProtocol>(), study.seed).value;
+  return run_fill(model_of(study, grain), study.protocol<dem::FillProtocol>(), study.seed)
+      .value.value();
 }
 
 void expect_filled_alike(const dem::FillProtocol& tube, const dem::ClumpShape& grain) {
@@ -112,7 +113,7 @@ DrawDowns draw_downs_of(const dem::DrawDownProtocol& boxes, const dem::ClumpShap
   const auto runs = static_cast<double>(seeds.size());
   DrawDowns means;
   for (std::size_t k = 0; k < seeds.size(); ++k) {
-    means.ours_percent += run_draw_down(model_of(study, grain), boxes, k + 1).value / runs;
+    means.ours_percent += run_draw_down(model_of(study, grain), boxes, k + 1).value.value() / runs;
     means.theirs_percent += reading_of(study, grain, ExportTarget::liggghts, "draw_down",
                                        "discharged_percent", {"-var", "seed", seeds[k]}) /
                             runs;
@@ -145,7 +146,8 @@ TEST_F(BetweenGrains, ADrawDownOfClumpsRunsOutAlike) {
 void expect_rebound_alike(const dem::ClumpShape& grain, double limit) {
   const dem::GrainDropProtocol protocol{.height_m = .1, .grains = 6};
   const dem::Study study = study_of(protocol, .6);
-  const double ours = run_drop_on_grains(model_of(study, grain), protocol, study.seed).value;
+  const double ours =
+      run_drop_on_grains(model_of(study, grain), protocol, study.seed).value.value();
   const double theirs =
       rebound_mm_of(study, grain, ExportTarget::liggghts, "drop_on_grains", protocol.grains);
   EXPECT_NEAR(theirs, ours, limit * ours);
@@ -168,14 +170,16 @@ void expect_rows_leave_alike(const dem::ClumpShape& grain) {
   const dem::GrainTiltProtocol row{.rate_deg_s = kRate_deg_s, .places = kPlaces};
   const dem::Study study = study_of(row, .5);
   EXPECT_NEAR(reading_of(study, grain, ExportTarget::liggghts, "tilt_on_grains", "angle_deg"),
-              run_tilt_on_grains(model_of(study, grain), row, study.seed).value, kLeave_deg);
+              run_tilt_on_grains(model_of(study, grain), row, study.seed).value.value(),
+              kLeave_deg);
 }
 
 void expect_grains_leave_alike(const dem::ClumpShape& grain) {
   const dem::GrainRollProtocol single{.rate_deg_s = kRate_deg_s, .places = kPlaces};
   const dem::Study study = study_of(single, .5);
   EXPECT_NEAR(reading_of(study, grain, ExportTarget::liggghts, "roll_on_grains", "angle_deg"),
-              run_roll_on_grains(model_of(study, grain), single, study.seed).value, kLeave_deg);
+              run_roll_on_grains(model_of(study, grain), single, study.seed).value.value(),
+              kLeave_deg);
 }
 
 TEST_F(BetweenGrains, RowsOfBallsLeaveAlike) { expect_rows_leave_alike(dem::sphere_shape(.01)); }

@@ -122,10 +122,11 @@ Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain) {
   dem::Model model = study.model;
   model.grain = grain;
   model.grain_grain = model.grain_wall;  // of no effect
-  return {.drop_mm = run_drop(model, study.protocol<dem::DropProtocol>(), study.seed).value,
-          .tilt_deg = run_tilt(model, study.protocol<dem::TiltProtocol>(), study.seed)
-                          .readings.at("half_mm_slip_deg"),
-          .roll_mm = run_roll(model, study.protocol<dem::RollProtocol>(), study.seed).value};
+  return {
+      .drop_mm = run_drop(model, study.protocol<dem::DropProtocol>(), study.seed).value.value(),
+      .tilt_deg = run_tilt(model, study.protocol<dem::TiltProtocol>(), study.seed)
+                      .readings.at("half_mm_slip_deg"),
+      .roll_mm = run_roll(model, study.protocol<dem::RollProtocol>(), study.seed).value.value()};
 }
 
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, ExportTarget target) {

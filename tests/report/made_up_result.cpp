@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "calibrate/experiment/stored_run.h"
+#include "calibrate/experiment/run_result.h"
 #include "calibrate/result/result.h"
 
 namespace repose::calibrate {
@@ -221,15 +221,15 @@ StudyResult result() {
   return result;
 }
 
-StoredRun run() {
+RunResult run() {
   const nlohmann::json description = {{"experiment", kHostile},
                                       {"particle_wall", {{"restitution", .1}}}};
-  StoredRun stored;
-  stored.description = description.dump();
-  stored.run.value = 1;
-  stored.run.timestep_s = 1e-6;
-  stored.run.readings = {{"value", 1}};
-  return stored;
+  RunResult run;
+  run.simulated = description.dump();
+  run.value = 1;
+  run.timestep_s = 1e-6;
+  run.readings = {{"sd_mm", std::nullopt}};
+  return run;
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
-#include "cli/simulate/simulate_warnings.h"
+#include "cli/simulate/simulate_summary.h"
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -10,17 +9,83 @@
 #include "base/angle_definition.h"
 #include "base/units.h"
 #include "calibrate/study/study_problem.h"
-#include "cli/simulate/simulate_values.h"
 #include "dem/contact/adhesion.h"
 
 namespace repose::cli {
-namespace {
 
-std::optional<double> reading_of(const Run& run, const std::string& name) {
-  const auto found = run.result.readings.find(name);
-  if (found == run.result.readings.end() || !std::isfinite(found->second)) return std::nullopt;
-  return found->second;
+std::string source_of(const std::vector<calibrate::RunResult>& runs) {
+  const auto pictured = std::count_if(
+      runs.begin(), runs.end(),
+      [](const calibrate::RunResult& run) { return calibrate::is_from_pictures(run); });
+  if (pictured == 0) return "positions";
+  return pictured == static_cast<std::ptrdiff_t>(runs.size()) ? "pictures" : "mixed";
 }
+
+std::optional<std::vector<double>> values_of(const std::vector<calibrate::RunResult>& runs) {
+  std::vector<double> values;
+  values.reserve(runs.size());
+  for (const calibrate::RunResult& run : runs) {
+    const auto value = calibrate::value_of(run);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::vector<double> readings_named(const std::vector<calibrate::RunResult>& runs,
+                                   const std::string& name) {
+  std::vector<double> readings;
+  for (const calibrate::RunResult& run : runs) {
+    if (const auto reading = run.readings.number(name)) readings.push_back(*reading);
+  }
+  return readings;
+}
+
+std::optional<calibrate::Summary> summarise(const std::vector<calibrate::RunResult>& runs) {
+  const std::optional<std::vector<double>> values = values_of(runs);
+  if (!values || values->empty()) return std::nullopt;
+  calibrate::Summary repeats = calibrate::summarise(*values);
+  if (std::equal(values->begin() + 1, values->end(), values->begin())) {
+    repeats.sd.reset();
+    repeats.mean_uncertainty.reset();
+  }
+  return repeats;
+}
+
+std::optional<HeapAngles> heap_angles(const std::vector<calibrate::RunResult>& runs) {
+  if (runs.empty() || !values_of(runs)) return std::nullopt;
+  HeapAngles angles;
+  std::vector<double> positions, pictures, scatters;
+  for (const calibrate::RunResult& run : runs) {
+    if (run.views.empty()) return std::nullopt;
+    if (const auto angle = calibrate::position_value(run)) positions.push_back(*angle);
+    const calibrate::PictureMean seen = calibrate::picture_mean(run);
+    angles.views += static_cast<int>(run.views.size());
+    angles.refused += seen.refused;
+    angles.flagged += seen.flagged;
+    angles.pictured += calibrate::is_from_pictures(run) ? 1 : 0;
+    if (seen.angle_deg) pictures.push_back(seen.angle_deg->mean);
+    if (seen.angle_deg && seen.angle_deg->sd) scatters.push_back(*seen.angle_deg->sd);
+  }
+  const auto of_all = [&](const std::vector<double>& numbers) {
+    return numbers.size() == runs.size() ? std::optional(calibrate::summarise(numbers))
+                                         : std::nullopt;
+  };
+  const auto mean_of_all = [&](const std::vector<double>& numbers) {
+    const auto summary = of_all(numbers);
+    return summary ? std::optional(summary->mean) : std::nullopt;
+  };
+  angles.positions = of_all(positions);
+  angles.pictures = of_all(pictures);
+  // The reading is of the usual definition.
+  if (base::is_usual_definition(runs.front().definition)) {
+    angles.between_views_positions = mean_of_all(readings_named(runs, "between_views_deg"));
+  }
+  angles.between_views_pictures = mean_of_all(scatters);
+  return angles;
+}
+
+namespace {
 
 RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
   std::string message = fmt::format(
@@ -39,16 +104,16 @@ RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
 /// The stretch that is fitted matters more than chance does: than the interval of the mean, or for
 /// a single heap, which has none, than its scatter between directions.
 std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
-                                         const std::vector<Run>& runs) {
+                                         const std::vector<calibrate::RunResult>& runs) {
   double usual = 0, inner = 0;
   std::optional<double> between_views = 0;
-  for (const Run& run : runs) {
+  for (const calibrate::RunResult& run : runs) {
     const auto count = static_cast<double>(runs.size());
-    const auto of_inner = reading_of(run, "inner_window_deg");
-    if (!run.result.value || !of_inner) return std::nullopt;  // nothing to compare
-    usual += *run.result.value / count;
+    const auto of_inner = run.readings.number("inner_window_deg");
+    if (!run.value || !of_inner) return std::nullopt;  // nothing to compare
+    usual += *run.value / count;
     inner += *of_inner / count;
-    const auto scatter = reading_of(run, "between_views_deg");
+    const auto scatter = run.readings.number("between_views_deg");
     between_views =
         between_views && scatter ? std::optional(*between_views + *scatter / count) : std::nullopt;
   }
@@ -69,22 +134,22 @@ std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
 }
 
 /// Repeats whose value is not the angle in their pictures.
-void add_picture_warnings(const std::vector<Run>& runs, std::vector<RunWarning>& warnings) {
-  if (!runs.empty() && !runs.front().result.picture_error.empty()) {
+void add_picture_warnings(const std::vector<calibrate::RunResult>& runs,
+                          std::vector<RunWarning>& warnings) {
+  if (!runs.empty() && !runs.front().picture_error.empty()) {
     warnings.push_back({"no_pictures",
                         {},
                         fmt::format("no pictures could be drawn: {}. The value is the angle from "
                                     "the grains' positions.",
-                                    runs.front().result.picture_error)});
+                                    runs.front().picture_error)});
     return;
   }
-  for (const Run& run : runs) {
-    const calibrate::SimulatedRun& result = run.result;
-    if (result.views.empty() || calibrate::is_from_pictures(result)) continue;
-    warnings.push_back({"pictures_refused", result.seed,
+  for (const calibrate::RunResult& run : runs) {
+    if (run.views.empty() || calibrate::is_from_pictures(run)) continue;
+    warnings.push_back({"pictures_refused", run.seed,
                         fmt::format("{} of {} pictures could not be measured: its value is the "
                                     "angle from the grains' positions.",
-                                    calibrate::picture_mean(result).refused, result.views.size())});
+                                    calibrate::picture_mean(run).refused, run.views.size())});
   }
   const auto angles = heap_angles(runs);
   if (!angles || !angles->positions || source_of(runs) != "mixed") return;
@@ -100,13 +165,13 @@ void add_picture_warnings(const std::vector<Run>& runs, std::vector<RunWarning>&
 }
 
 /// What the bench's angle may be off by where nobody says how it was measured.
-void add_definition_warning(const SimulatePlan& plan, const std::vector<Run>& runs,
+void add_definition_warning(const SimulatePlan& plan, const std::vector<calibrate::RunResult>& runs,
                             std::vector<RunWarning>& warnings) {
   const dem::StudyExperiment& described = plan.study.experiments.at(plan.experiment);
   if (!calibrate::is_definition_assumed(plan.spec.entry(), described)) return;
   std::string others;
   double used = 0;
-  for (const auto& [name, mean] : means_by_definition(runs)) {
+  for (const auto& [name, mean] : calibrate::means_by_definition(runs)) {
     if (name == base::kUsualDefinition.name) {
       used = mean;
     } else {
@@ -123,30 +188,31 @@ void add_definition_warning(const SimulatePlan& plan, const std::vector<Run>& ru
 }
 
 /// Heaps of fewer grains than the study asks for, since no more fit into the tube.
-void add_grain_warning(const SimulatePlan& plan, const Run& run,
+void add_grain_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                        std::vector<RunWarning>& warnings) {
   const auto* heap = std::get_if<dem::HeapProtocol>(&plan.spec.protocol);
   if (heap == nullptr || !heap->grains) return;
-  const auto grains = reading_of(run, "grains");
+  const auto grains = run.readings.number("grains");
   if (!grains || *grains >= *heap->grains) return;
   warnings.push_back(
-      {"fewer_grains", run.result.seed,
+      {"fewer_grains", run.seed,
        fmt::format("only {1:g} of {0} grains fit into the tube. Fix: use fewer grains, "
                    "or a taller or wider tube.",
                    *heap->grains, *grains)});
 }
 
 /// A roll that hopped, or stayed on the incline.
-void add_roll_warning(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
+void add_roll_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
+                      std::vector<RunWarning>& warnings) {
   const auto* roll = std::get_if<dem::RollProtocol>(&plan.spec.protocol);
   if (roll == nullptr) return;
   const std::string hops = calibrate::warning_of_hops(
-      plan.spec.model.rolling, plan.spec.model.grain, reading_of(run, "hop_mm").value_or(0));
-  if (!hops.empty()) warnings.push_back({"hops", run.result.seed, hops});
-  if (reading_of(run, "stopped_on_incline").value_or(0) == 0 || !run.result.value) return;
-  const double releases = reading_of(run, "releases").value_or(1);
+      plan.spec.model.rolling, plan.spec.model.grain, run.readings.number("hop_mm").value_or(0));
+  if (!hops.empty()) warnings.push_back({"hops", run.seed, hops});
+  if (run.readings.number("stopped_on_incline").value_or(0) == 0 || !run.value) return;
+  const double releases = run.readings.number("releases").value_or(1);
   warnings.push_back(
-      {"stayed_on_incline", run.result.seed,
+      {"stayed_on_incline", run.seed,
        fmt::format("the grain stayed on the incline in {:g} {}: it counts as 0, as on a bench's "
                    "sheet. Fix: a steeper incline, as on the bench; or less rolling friction, if "
                    "the bench's grains roll.",
@@ -166,12 +232,13 @@ std::string unrest_text(dem::RollingModel rolling) {
 }
 
 /// What single repeats tell against their values.
-void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunWarning>& warnings) {
-  const std::uint64_t seed = run.result.seed;
-  if (reading_of(run, "at_rest") == 0) {
+void add_run_warnings(const SimulatePlan& plan, const calibrate::RunResult& run,
+                      std::vector<RunWarning>& warnings) {
+  const std::uint64_t seed = run.seed;
+  if (run.readings.number("at_rest") == 0) {
     warnings.push_back({"not_at_rest", seed, unrest_text(plan.spec.model.rolling)});
   }
-  const double never_rose = reading_of(run, "never_rose").value_or(0);
+  const double never_rose = run.readings.number("never_rose").value_or(0);
   auto* const grains_per_run = dem::entry_of(plan.experiment).readings_per_run;
   if (grains_per_run != nullptr && never_rose > 0) {
     warnings.push_back(
@@ -185,7 +252,8 @@ void add_run_warnings(const SimulatePlan& plan, const Run& run, std::vector<RunW
 
 }  // namespace
 
-std::vector<RunWarning> warnings_of(const SimulatePlan& plan, const std::vector<Run>& runs) {
+std::vector<RunWarning> warnings_of(const SimulatePlan& plan,
+                                    const std::vector<calibrate::RunResult>& runs) {
   std::vector<RunWarning> warnings;
   if (auto sticky = dem::adhesion_warning(plan.grain.shape.volume_m3,
                                           plan.study.model.grain_material.density_kg_m3)) {
@@ -208,8 +276,8 @@ std::vector<RunWarning> warnings_of(const SimulatePlan& plan, const std::vector<
                         "fast as grains fall: slower ones are up to 6 % denser. Fix: pour_g_s in "
                         "[experiment.fill], what was poured by the time that it took."});
   }
-  for (const Run& run : runs) {
-    if (run.outcome == RunOutcome::done) add_run_warnings(plan, run, warnings);
+  for (const calibrate::RunResult& run : runs) {
+    if (run.failure.empty()) add_run_warnings(plan, run, warnings);
   }
   return warnings;
 }

@@ -7,8 +7,12 @@
 
 namespace repose::cli {
 
+/// The result, as a JSON object.
+std::string simulate_json(const SimulatePlan& plan, const Repeats& repeats);
+
 /// For people: each repeat, their mean, the other readings, what the bench gave, and what the
 /// numbers belong to.
-std::string simulate_table(const SimulatePlan& plan, const std::vector<Run>& runs, int columns);
+std::string simulate_table(const SimulatePlan& plan, const std::vector<calibrate::RunResult>& runs,
+                           int columns);
 
 }  // namespace repose::cli

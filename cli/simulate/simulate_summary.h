@@ -1,27 +1,27 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "calibrate/statistics/summary.h"
 #include "cli/simulate/simulate_runs.h"
 
-/// Which number of a repeat is its value.
+/// What all repeats say together: which number of each is its value, and what tells against it.
 namespace repose::cli {
 
 /// Where the repeats' values are from: "pictures", "positions", or "mixed" (see
 /// calibrate::is_from_pictures, which each repeat decides on its own).
-std::string source_of(const std::vector<Run>& runs);
+std::string source_of(const std::vector<calibrate::RunResult>& runs);
 
 /// The repeats' values, in their order; none when one of them has none.
-std::optional<std::vector<double>> values_of(const std::vector<Run>& runs);
+std::optional<std::vector<double>> values_of(const std::vector<calibrate::RunResult>& runs);
 
 /// Mean and scatter of the repeats' values; none when one of them has none. Values that are all
 /// the same to the last bit, as where nothing is left to chance, have a mean but no scatter: an
 /// interval of no width would claim what was not found out.
-std::optional<calibrate::Summary> summarise(const std::vector<Run>& runs);
+std::optional<calibrate::Summary> summarise(const std::vector<calibrate::RunResult>& runs);
 
 /// The two sources of a heap's angle beside each other, in degrees.
 struct HeapAngles {
@@ -38,13 +38,21 @@ struct HeapAngles {
 };
 
 /// None when a repeat has no value or no pictures were taken.
-std::optional<HeapAngles> heap_angles(const std::vector<Run>& runs);
-
-/// Means over the repeats of a heap's angle by each definition that all of them allow; of other
-/// experiments none.
-std::vector<std::pair<std::string, double>> means_by_definition(const std::vector<Run>& runs);
+std::optional<HeapAngles> heap_angles(const std::vector<calibrate::RunResult>& runs);
 
 /// A reading of the repeats that have it, and only of those.
-std::vector<double> readings_named(const std::vector<Run>& runs, const std::string& name);
+std::vector<double> readings_named(const std::vector<calibrate::RunResult>& runs,
+                                   const std::string& name);
+
+/// A value that a person must look at before using it.
+struct RunWarning {
+  std::string code;                   ///< fixed word
+  std::optional<std::uint64_t> seed;  ///< none: of all repeats together
+  std::string message;                ///< sentence
+};
+
+/// What the readings of finished repeats tell against their values.
+std::vector<RunWarning> warnings_of(const SimulatePlan& plan,
+                                    const std::vector<calibrate::RunResult>& runs);
 
 }  // namespace repose::cli

@@ -47,10 +47,11 @@ inline constexpr bool kIsArray<std::array<T, kSize>> = true;
 /// Two numbers, written as a list of them.
 template <typename T>
 inline constexpr bool kIsPair = false;
-/// Numbers by name.
+/// Numbers by name; those that may be none are null then.
 template <typename T>
 inline constexpr bool kIsNamed = std::is_same_v<T, std::map<std::string, double>> ||
-                                 std::is_same_v<T, std::vector<std::pair<std::string, double>>>;
+                                 std::is_same_v<T, std::vector<std::pair<std::string, double>>> ||
+                                 std::is_base_of_v<std::map<std::string, std::optional<double>>, T>;
 
 /// Makes an object of the fields that it is told.
 class JsonWriter {
@@ -230,7 +231,7 @@ class JsonReader {
     if (!json.is_object()) refuse(path, "must be an object");
     value.clear();
     for (const auto& [name, item] : json.items()) {
-      double number = 0;
+      decltype(value.begin()->second) number{};
       read(item, path + '.' + name, number);
       value.insert(value.end(), {name, number});
     }
@@ -252,6 +253,22 @@ class JsonReader {
   std::string path_;
   NamesInUse& names_;
 };
+
+/// A struct without places as JSON, and read from it.
+template <typename T>
+Json json_of_fields(const T& value) {
+  NamesInUse none;
+  JsonWriter writer(none);
+  fields(writer, value);
+  return writer.take();
+}
+/// @throws WrongField  a field is absent or not what it must be.
+template <typename T>
+void read_fields(const Json& json, T& value) {
+  NamesInUse none;
+  JsonReader reader(json, "", none);
+  fields(reader, value);
+}
 
 /// The items of `values` as fields of those names.
 template <typename Io, typename Values>

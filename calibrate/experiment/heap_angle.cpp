@@ -1,8 +1,9 @@
-#include "calibrate/experiment/heap_views.h"
+#include "calibrate/experiment/heap_angle.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 
@@ -10,11 +11,57 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "base/angle_definition.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/placing.h"
 #include "vision/drawing/overlay.h"
+#include "vision/measure/status_name.h"
 
 namespace repose::calibrate {
+
+// Simulated views say the same as photographs: of six small heaps seen from 18 sides, the views
+// without a flag read 1.3 degrees (sd .7) lower than all, and one heap had none.
+bool counts_in_mean(vision::MeasureStatus status) {
+  return status != vision::MeasureStatus::refused;
+}
+
+bool counts_in_mean(std::string_view status) {
+  return status != name_of(vision::MeasureStatus::refused);
+}
+
+PictureAngle picture_angle_of(const vision::ReposeAngle& measured) {
+  PictureAngle picture{.status = measured.status, .angle_rad = measured.angle_rad};
+  for (const base::AngleDefinition& other : base::kAngleDefinitions) {
+    if (base::is_usual_definition(other.name)) continue;
+    const auto angle_rad = vision::angle_by(measured, other.name);
+    if (angle_rad) picture.other_rad.emplace(other.name, *angle_rad);
+  }
+  return picture;
+}
+
+std::optional<double> angle_by(const PictureAngle& picture, const std::string& definition) {
+  if (!counts_in_mean(picture.status)) return std::nullopt;
+  if (base::is_usual_definition(definition)) return picture.angle_rad;
+  const auto found = picture.other_rad.find(definition);
+  return found == picture.other_rad.end() ? std::nullopt : std::optional(found->second);
+}
+
+PictureMean mean_of_pictures(std::span<const PictureAngle> pictures,
+                             const std::string& definition) {
+  PictureMean mean;
+  std::vector<double> angles_deg;
+  for (const PictureAngle& picture : pictures) {
+    const auto angle_rad = angle_by(picture, definition);
+    if (!angle_rad) {
+      ++mean.refused;
+      continue;
+    }
+    if (picture.status == vision::MeasureStatus::flagged) ++mean.flagged;
+    angles_deg.push_back(*angle_rad * 180 / std::numbers::pi);
+  }
+  if (!angles_deg.empty()) mean.angle_deg = summarise(angles_deg);
+  return mean;
+}
 
 std::optional<HeapCamera> camera_of(const dem::HeapProtocol& protocol) {
   if (!protocol.camera_distance_m) return std::nullopt;
@@ -106,6 +153,56 @@ PictureMean mean_of_views(std::span<const HeapView> views, const std::string& de
 bool is_well_pictured(std::span<const HeapView> views, const std::string& definition) {
   return !views.empty() &&
          2 * mean_of_views(views, definition).refused <= static_cast<int>(views.size());
+}
+
+namespace {
+
+vision::Outline outline_of(const dem::HeapEnvelope& envelope) {
+  vision::Outline outline{.along = {}, .height = envelope.height_m};
+  for (std::size_t k = 0; k < envelope.height_m.size(); ++k) {
+    outline.along.push_back(static_cast<double>(k) * envelope.column_m);
+  }
+  return outline;
+}
+
+}  // namespace
+
+PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
+                             const vision::OutlineOptions& options) {
+  PositionAngle result;
+  std::vector<double> angles;
+  std::vector<double> feet;
+  std::optional<double> first_view_deg;
+  std::map<std::string, std::vector<double>> others;
+  for (const dem::HeapEnvelope& envelope : envelopes) {
+    const vision::OutlineAngle view = vision::measure_outline(outline_of(envelope), options);
+    const auto angle_rad = view.angle_rad();
+    if (!angle_rad) continue;
+    angles.push_back(*angle_rad * 180 / std::numbers::pi);
+    for (const vision::NamedAngle& other : view.definitions) {
+      others[other.name].push_back(other.angle_rad * 180 / std::numbers::pi);
+    }
+    if (&envelope == &envelopes.front()) first_view_deg = angles.back();
+    double foot = 0;
+    int sides = 0;
+    for (const auto& flank : {view.left, view.right}) {
+      if (!flank) continue;
+      foot += flank->foot;
+      ++sides;
+    }
+    feet.push_back(foot / sides);
+    result.flanks += sides;
+  }
+  if (angles.empty() || result.flanks < static_cast<int>(envelopes.size())) return result;
+  const Summary views = summarise(angles);
+  result.angle_deg = views.mean;
+  result.between_views_deg = views.sd;
+  result.first_view_deg = first_view_deg;
+  result.base_radius_m = summarise(feet).mean;
+  for (const auto& [name, of_views] : others) {
+    if (2 * of_views.size() >= envelopes.size()) result.other_deg[name] = summarise(of_views).mean;
+  }
+  return result;
 }
 
 }  // namespace repose::calibrate
