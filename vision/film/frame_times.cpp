@@ -80,7 +80,7 @@ struct EvenSteps {
 
 EvenSteps even_steps(const std::vector<double>& times_s, std::size_t from) {
   constexpr double kAlike = .02;
-  std::array<double, kPartSteps> steps;
+  std::array<double, kPartSteps> steps{};
   for (std::size_t k = 0; k < kPartSteps; ++k) steps[k] = times_s[from + k + 1] - times_s[from + k];
   const auto middle = steps.begin() + kPartSteps / 2;
   std::nth_element(steps.begin(), middle, steps.end());
