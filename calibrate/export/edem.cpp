@@ -13,9 +13,8 @@ double shear_modulus_pa(const dem::Material& material) {
   return material.young_modulus_pa / (2 * (1 + material.poisson_ratio));
 }
 
-/// What EDEM calls the rolling model, and what its coefficient multiplies.
+/// What the rolling model's coefficient multiplies.
 struct EdemRolling {
-  const char* name = "";
   const char* meaning = "";
   bool has_damping_ratio = false;
 };
@@ -23,17 +22,16 @@ struct EdemRolling {
 EdemRolling rolling_in_edem(dem::RollingModel model) {
   switch (model) {
     case dem::RollingModel::relative_constant_torque:
-      return {"RVD Rolling Friction", "torque per normal force and R*, against the relative spin"};
+      return {"torque per normal force and R*, against the relative spin"};
     case dem::RollingModel::elastic_plastic:
-      return {"Type C Rolling Friction",
-              "torque at which the spring yields, per normal force and R*", true};
+      return {"torque at which the spring yields, per normal force and R*", true};
     case dem::RollingModel::none:
     case dem::RollingModel::constant_torque:
       break;
   }
-  return {"Standard Rolling Friction",
-          "torque per normal force and distance from the centre of mass to the contact, against "
-          "the particle's own spin"};
+  return {
+      "torque per normal force and distance from the centre of mass to the contact, against "
+      "the particle's own spin"};
 }
 
 /// Of the damper of `elastic_plastic`, as a fraction of the critical one: dem/engine/rolling.h.
@@ -67,7 +65,7 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   fields.set("WALL_SHEAR", shear_modulus_pa(wall));
   fields.set("WALL_POISSON", wall.poisson_ratio);
   const EdemRolling rolling = rolling_in_edem(facts.study().model.rolling);
-  fields.set("ROLLING_MODEL_NAME", rolling.name);
+  fields.set("ROLLING_MODEL_NAME", edem_rolling_name(facts.study().model.rolling));
   add_interaction("contact.particle_wall.", sanitized(wall.name), conversions, rolling, fields);
   if (facts.has_grain_contacts()) {
     add_interaction("contact.particle_particle.", "itself", conversions, rolling, fields);
@@ -145,6 +143,19 @@ ExportedFile clump_table(const dem::ClumpShape& grain) {
 }
 
 }  // namespace
+
+const char* edem_rolling_name(dem::RollingModel model) {
+  switch (model) {
+    case dem::RollingModel::relative_constant_torque:
+      return "RVD Rolling Friction";
+    case dem::RollingModel::elastic_plastic:
+      return "Type C Rolling Friction";
+    case dem::RollingModel::none:
+    case dem::RollingModel::constant_torque:
+      break;
+  }
+  return "Standard Rolling Friction";
+}
 
 std::vector<ExportedFile> edem_files(const ExportFacts& facts, const Conversions& conversions) {
   return {values_text(facts, conversions), values_table(facts, conversions),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/export/targets.h"
 #include "dem/contact/rolling_name.h"
 #include "dem/study/experiment_table.h"
 
@@ -9,7 +10,7 @@ namespace repose::calibrate {
 namespace {
 
 /// As its makers write it, and the version that the decks are written for.
-const char* program_of(ExportTarget target) {
+std::string program_of(ExportTarget target, dem::RollingModel rolling) {
   switch (target) {
     case ExportTarget::liggghts:
       return "LIGGGHTS-PUBLIC 3.8";
@@ -20,7 +21,7 @@ const char* program_of(ExportTarget target) {
     case ExportTarget::edem:
       break;
   }
-  return "EDEM: Hertz-Mindlin (no slip), with the rolling friction named below";
+  return fmt::format("EDEM: Hertz-Mindlin (no slip), {}", edem_rolling_name(rolling));
 }
 
 /// A text of the target's own, without its last line break.
@@ -111,7 +112,7 @@ ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
   const ExportTarget target = request.target;
   DeckFields fields = common_fields(facts);
   add_sets(facts, request, sets, fields);
-  fields.set("TARGET", program_of(target));
+  fields.set("TARGET", program_of(target, facts.study().model.rolling));
   fields.set("ROLLING_MODEL", dem::name_of(facts.study().model.rolling));
   fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
   fields.set("HEAP_STIFFNESS", heap_stiffness_text(facts));

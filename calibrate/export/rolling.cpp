@@ -125,6 +125,11 @@ void add_spring_limits(ExportTarget target, dem::RollingModel model, RollingConv
         "Their torque comes from a spring that yields at the limit: the same while the grain rolls "
         "one way. Its stiffness is fixed, that of our elastic-plastic spring on a wall under the "
         "grain's own weight. ";
+  } else if (model == dem::RollingModel::relative_constant_torque &&
+             target == ExportTarget::liggghts) {
+    converted.limits +=
+        "Theirs trembles about rest, and lets what it should hold creep, the slower the shorter "
+        "the time step; ours holds it. ";
   } else if (model == dem::RollingModel::constant_torque && target == ExportTarget::liggghts) {
     converted.limits +=
         "Theirs leaves out spin about the contact's normal, and trembles about rest where ours "

@@ -15,4 +15,7 @@ std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversio
 std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions& conversions);
 std::vector<ExportedFile> edem_files(const ExportFacts& facts, const Conversions& conversions);
 
+/// What EDEM calls it.
+const char* edem_rolling_name(dem::RollingModel model);
+
 }  // namespace repose::calibrate

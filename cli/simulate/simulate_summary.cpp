@@ -219,24 +219,13 @@ void add_roll_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                    releases, releases == 1 ? "release" : "releases")});
 }
 
-/// Why grains still move 5 s after the tube is away, and what would let them rest.
-std::string unrest_text(dem::RollingModel rolling) {
-  const std::string text = "grains were still moving when the time limit was reached";
-  if (rolling == dem::RollingModel::relative_constant_torque) {
-    return text +
-           ": with relative_constant_torque what it holds creeps, the slower the shorter the time "
-           "step. Fix: compare with simulation.timestep_fraction = 0.2; or take rolling_model = "
-           "\"elastic_plastic\", which comes to rest, with coefficients calibrated for it.";
-  }
-  return text + '.';
-}
-
 /// What single repeats tell against their values.
 void add_run_warnings(const SimulatePlan& plan, const calibrate::RunResult& run,
                       std::vector<RunWarning>& warnings) {
   const std::uint64_t seed = run.seed;
   if (run.readings.number("at_rest") == 0) {
-    warnings.push_back({"not_at_rest", seed, unrest_text(plan.spec.model.rolling)});
+    warnings.push_back(
+        {"not_at_rest", seed, "grains were still moving when the time limit was reached."});
   }
   const double never_rose = run.readings.number("never_rose").value_or(0);
   auto* const grains_per_run = dem::entry_of(plan.experiment).readings_per_run;

@@ -21,7 +21,7 @@ struct FourTouching {
 
 /// PairMotion, in lanes.
 struct Motions {
-  Columns apart;
+  Vec3<Lanes> apart;
   Columns velocity;
   Columns spin;
   Columns velocity_kick;
@@ -37,7 +37,6 @@ struct Contacts {
   Vec3<Lanes> apart;  ///< from a's centre of mass to b's
   Vec3<Lanes> spin;   ///< of b against a
   Lanes smaller_radius;
-  Lanes reduced_inertia;  ///< see Roll
 };
 
 /// Four contacts on their way from pass to pass.

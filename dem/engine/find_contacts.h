@@ -46,7 +46,7 @@ REPOSE_INLINE Columns gather(const FourTouching<Other>& four, Row PairMotion::*r
 
 template <typename Other>
 REPOSE_INLINE Motions motions_of(const FourTouching<Other>& four) {
-  return {.apart = gather(four, &PairMotion::apart),
+  return {.apart = gather(four, &PairMotion::apart).xyz,
           .velocity = gather(four, &PairMotion::velocity),
           .spin = gather(four, &PairMotion::spin),
           .velocity_kick = gather(four, &PairMotion::velocity_kick),
@@ -84,7 +84,7 @@ REPOSE_INLINE Motions motions_of_round(const FourTouching<PlacedSphere>& four,
   const auto of_pairs = [&](double TouchingPair::*number) __attribute__((always_inline)) {
     return each([&](std::size_t k) { return four.pair[k]->*number; });
   };
-  return {.apart = {apart, of_pairs(&TouchingPair::reduced_inertia)},
+  return {.apart = apart,
           .velocity = {b.velocity.xyz - a.velocity.xyz - b.spin.xyz.cross(apart),
                        of_pairs(&TouchingPair::reduced_mass)},
           .spin = {b.spin.xyz - a.spin.xyz,
@@ -107,9 +107,8 @@ REPOSE_INLINE void set_contacts(const Motions& motions, const Columns& to_a, Con
   c.spin = motions.spin.xyz;
   c.touch.shared_limit = motions.spin.w;
   c.arm_a = to_a.xyz + c.touch.normal * (to_a.w - c.touch.overlap * .5);
-  c.arm_b = c.arm_a - motions.apart.xyz;
-  c.apart = motions.apart.xyz;
-  c.reduced_inertia = motions.apart.w;
+  c.arm_b = c.arm_a - motions.apart;
+  c.apart = motions.apart;
   c.touch.reduced_mass = motions.velocity.w;
   c.touch.damper_limit = motions.velocity_kick.w;
   c.touch.half_velocity = motions.velocity.xyz + c.spin.cross(c.arm_a);

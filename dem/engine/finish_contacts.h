@@ -30,6 +30,23 @@ REPOSE_INLINE Lanes contact_inertia(const Four<Other>& of, const Sides<Other>& s
   return reduced(a, b);
 }
 
+/// The moment of inertia that a contact's torques may act on as if alone: of each body the smallest
+/// one, shared by all that it touches; a wall has no end of it.
+template <typename Other>
+REPOSE_INLINE Lanes inertia_share(const Four<Other>& of, const Sides<Other>& sides) {
+  const auto& pair = of.touching.pair;
+  const auto contacts_per_inertia = [&](const auto& motion) __attribute__((always_inline)) {
+    return each([&](std::size_t k) { return contacts_of(*pair[k], motion(k)); }) /
+           each([&](std::size_t k) { return motion(k).spin_kick.w; });
+  };
+  const Lanes a = contacts_per_inertia(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_a[pair[k]->a]; });
+  if constexpr (std::is_same_v<Other, FacetContact>) return 1 / a;
+  const Lanes b = contacts_per_inertia(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_b[pair[k]->b]; });
+  return 1 / (a + b);
+}
+
 /// The torque on a of the models that work on the relative spin.
 template <RollingModel model, typename Other>
 REPOSE_INLINE Vec3<Lanes> rolling_torque(const Four<Other>& of, const Sides<Other>& sides,
@@ -41,16 +58,19 @@ REPOSE_INLINE Vec3<Lanes> rolling_torque(const Four<Other>& of, const Sides<Othe
                       .last_force = of.last_push,
                       .overlap = c.touch.overlap,
                       .reduced_radius = c.touch.reduced_radius,
-                      .reduced_inertia = c.reduced_inertia,
+                      .inertia_share = {},
                       .contact_inertia = {}};
-  if constexpr (model == RollingModel::relative_constant_torque) {
-    return relative_constant_torque(roll, law, timestep);
-  }
-  roll.contact_inertia = contact_inertia(of, sides);
   const auto& memory = of.touching.memory;
   // The row's w is the push: read, and left alone.
   Vec3<Lanes> spring = gather([&](std::size_t k) { return load(memory[k]->rolling.data()); }).xyz;
-  const Vec3<Lanes> torque = elastic_plastic_torque(roll, law, timestep, spring);
+  Vec3<Lanes> torque;
+  if constexpr (model == RollingModel::relative_constant_torque) {
+    roll.inertia_share = inertia_share(of, sides);
+    torque = relative_constant_torque(roll, law, timestep, spring);
+  } else {
+    roll.contact_inertia = contact_inertia(of, sides);
+    torque = elastic_plastic_torque(roll, law, timestep, spring);
+  }
   for (std::size_t k = 0; k < kLanes; ++k) {
     memory[k]->rolling = {spring.x[k], spring.y[k], spring.z[k]};
   }

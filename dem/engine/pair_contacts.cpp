@@ -74,8 +74,7 @@ TouchingPair touching_pair(const ContactStep& step, const NearGrains& near, std:
       .number = static_cast<int>(number),
       .touching = static_cast<int>(touching),
       .reduced_mass = reduced_mass,
-      .damper_limit = damper_limit(reduced_mass, step.timestep_s, static_cast<double>(touching)),
-      .reduced_inertia = reduced(a.spin_kick.w, b.spin_kick.w)};
+      .damper_limit = damper_limit(reduced_mass, step.timestep_s, static_cast<double>(touching))};
 }
 
 Sides<PlacedSphere> sides_of(const Bodies& bodies, std::vector<ContactMemory>& memories) {

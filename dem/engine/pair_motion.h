@@ -37,7 +37,7 @@ struct PairLoad {
 /// A TouchingPair in the step at hand.
 struct PairMotion {
   Row position_a;
-  Row apart;          ///< from a's centre of mass to b's; w: reduced inertia
+  Row apart;          ///< from a's centre of mass to b's
   Row velocity;       ///< of b against a, both as rigid as they are, at a's centre; w: reduced mass
   Row spin;           ///< of b against a; w: shared_limit(), N s/m
   Row velocity_kick;  ///< see BodyMotion; w: damper limit
@@ -46,8 +46,12 @@ struct PairMotion {
 };
 
 /// Those of the last step, or of this pair when it has more.
+REPOSE_INLINE double contacts_of(const TouchingPair& pair, const BodyMotion& body) {
+  return std::max(static_cast<double>(pair.touching), body.velocity.w);
+}
+
 REPOSE_INLINE double contacts_per_kg(const TouchingPair& pair, const BodyMotion& body) {
-  return std::max(static_cast<double>(pair.touching), body.velocity.w) / body.spin.w;
+  return contacts_of(pair, body) / body.spin.w;
 }
 
 /// Contacts' velocities are those at a's centre and, for their arms, the difference of both spins.
@@ -68,7 +72,7 @@ REPOSE_INLINE void set_motion(const TouchingPair& pair, const Sides<Other>& side
   const double limit =
       shared_limit(contacts_per_kg(pair, a), is_wall ? 0. : contacts_per_kg(pair, b), timestep);
   store_row(position_a, motion.position_a);
-  store_row(with_w(apart, pair.reduced_inertia), motion.apart);
+  store_row(apart, motion.apart);
   store_row(with_w(velocity - cross_of_rows(spin_b, apart), pair.reduced_mass), motion.velocity);
   store_row(with_w(spin_b - spin_a, limit), motion.spin);
   store_row(with_w(velocity_kick - cross_of_rows(kick_b, apart), pair.damper_limit),

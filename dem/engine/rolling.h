@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "dem/engine/contact_force.h"
 
 namespace repose::dem {
@@ -13,21 +15,36 @@ struct Roll {
   Number last_force = {};  ///< normal, of the step before
   Number overlap = {};
   Number reduced_radius = {};
-  Number reduced_inertia = {};  ///< of both bodies about their centres, kg m^2
+  Number inertia_share = {};    ///< see inertia_share(), kg m^2
   Number contact_inertia = {};  ///< of both bodies about the contact, kg m^2
 };
 
+template <typename Number>
+REPOSE_INLINE Vec3<Number> limited(const Vec3<Number>& torque, const Number& limit) {
+  const Number size = sqrt(torque.squared_norm());
+  return torque * select(size > limit, Number(limit / size), Number(1));
+}
+
 /// LIGGGHTS's `cdt`: mu_r F_n R* against the relative spin, less its part about the normal
-/// (LIGGGHTS-PUBLIC manual, "rolling_friction cdt"). It never takes more spin than there is.
-/// Proved by Rolling.* in tests/dem/rolling_test.cpp.
+/// (LIGGGHTS-PUBLIC manual, "rolling_friction cdt").
+///
+/// What does not spin is held by a spring up to that limit, as in Coulomb friction (Cundall and
+/// Strack 1979, Geotechnique 29). It only stands for a law that is rigid, and so is as stiff as a
+/// step allows, kStiffness J / step^2 with J the contact's share of the inertia; a damper of
+/// kDamping of the critical one stops its oscillation. Both stay stable however many contacts a
+/// body has (dem/THEORY.md). Proved by Rolling.* in tests/dem/rolling_test.cpp.
+/// @param spring  torque on a, N m, from step to step, with its part about the normal
 template <typename Number>
 REPOSE_INLINE Vec3<Number> relative_constant_torque(const Roll<Number>& roll,
-                                                    const Law<Number>& law, double timestep) {
-  const Number size = sqrt(roll.spin.squared_norm());
-  const Number torque = law.rolling_friction * roll.normal_force * roll.reduced_radius;
-  const Number most = .5 * roll.reduced_inertia * size / timestep;
-  const Number fraction = select(size > Number(0), Number(-least(torque, most) / size), Number{});
-  const Vec3<Number> full = roll.spin * fraction;
+                                                    const Law<Number>& law, double timestep,
+                                                    Vec3<Number>& spring) {
+  constexpr double kStiffness = .1;
+  constexpr double kDamping = .5;
+  const Number limit = law.rolling_friction * roll.normal_force * roll.reduced_radius;
+  const Number per_spin = roll.inertia_share * (kStiffness / timestep);
+  const Number damper = roll.inertia_share * (2 * kDamping * std::sqrt(kStiffness) / timestep);
+  spring = limited(spring - roll.spin * per_spin, limit);
+  const Vec3<Number> full = limited(spring - roll.spin * damper, limit);
   return full - roll.normal * roll.normal.dot(full);
 }
 

@@ -21,11 +21,10 @@ struct TouchingPair {
   int a = 0;  ///< a body
   int b = 0;  ///< a body, or a wall
   const ContactLaw* law = nullptr;
-  int number = 0;              ///< among the pairs that are worked on together
-  int touching = 0;            ///< how many spheres
-  double reduced_mass = 0;     ///< of both bodies, kg
-  double damper_limit = 0;     ///< see damper_limit(), N s/m
-  double reduced_inertia = 0;  ///< of both bodies about their centres, kg m^2
+  int number = 0;           ///< among the pairs that are worked on together
+  int touching = 0;         ///< how many spheres
+  double reduced_mass = 0;  ///< of both bodies, kg
+  double damper_limit = 0;  ///< see damper_limit(), N s/m
 };
 
 /// A sphere of body a that touches something: numbers.

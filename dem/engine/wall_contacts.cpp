@@ -51,8 +51,7 @@ TouchingPair touching_pair(const ContactStep& step, const NearWall& near, std::s
           .number = static_cast<int>(number),
           .touching = static_cast<int>(touching),
           .reduced_mass = mass,
-          .damper_limit = damper_limit(mass, step.timestep_s, static_cast<double>(touching)),
-          .reduced_inertia = motion.spin_kick.w};
+          .damper_limit = damper_limit(mass, step.timestep_s, static_cast<double>(touching))};
 }
 
 Sides<FacetContact> sides_of(const Bodies& bodies, const WallMotions& wall_motions,

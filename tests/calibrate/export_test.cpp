@@ -278,6 +278,9 @@ TEST(ExportStudy, EdemIsToldItsOwnNameOfTheRollingModel) {
                                     {RollingModel::elastic_plastic, "Type C"}}) {
     const StudyExport made = exported(hazelnuts(model), ExportTarget::edem, false);
     EXPECT_THAT(file_text(made, "values.txt"), HasSubstr(std::string(name) + " Rolling Friction."));
+    EXPECT_THAT(file_text(made, "README.txt"),
+                HasSubstr("for EDEM: Hertz-Mindlin (no slip), " + std::string(name) +
+                          " Rolling Friction\n"));
     const bool is_damped = model == RollingModel::elastic_plastic;
     for (const char* file : {"values.txt", "values.csv"}) {
       EXPECT_EQ(file_text(made, file).find("Rolling Viscous Damping Ratio") != std::string::npos,

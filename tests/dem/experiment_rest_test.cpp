@@ -69,5 +69,23 @@ TEST(RestTest, SpinThatMovesAGrainShowsInItsVelocity) {
   }
 }
 
+/// Heaps of all laws that resist rolling come to rest, and stay as they are.
+TEST(RestTest, HeapOfRelativeConstantTorqueRestsForGood) {
+  Model model = test::soft_bench();
+  model.grain = sphere_shape(kRestingRadius_m);
+  model.rolling = RollingModel::relative_constant_torque;
+  model.grain_wall = model.grain_grain = {.5, .5, .5};
+  const HeapProtocol protocol = {
+      .tube_diameter_m = .05, .tube_height_m = .12, .plate_m = .3, .grains = 40};
+  const Repeat heap = run_heap(model, protocol, 1);
+  EXPECT_EQ(heap.readings.at("at_rest"), 1);
+  EXPECT_GT(heap.readings.at("height_mm"), 4e3 * kRestingRadius_m) << "no layer";
+  Simulation later(heap.state->setup(), heap.state->checkpoint());
+  while (later.time_s() < heap.state->time_s() + .2) later.advance(100);
+  for (int k = 0; k < later.grain_count(); ++k) {
+    EXPECT_LT((later.grain(k).position - heap.state->grain(k).position).norm(), 1e-6) << k;
+  }
+}
+
 }  // namespace
 }  // namespace repose::dem

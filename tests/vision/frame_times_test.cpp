@@ -1,5 +1,6 @@
 #include "vision/film/frame_times.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -45,6 +46,38 @@ TEST(UnroundedTimes, LeaveWhatIsUnevenByItself) {
   EXPECT_EQ(unrounded_times(stamps_s, .001), stamps_s);
   const std::vector<double> fine_s = even_times(100, 512 / 15360.);
   EXPECT_EQ(unrounded_times(fine_s, 1 / 15360.), fine_s);
+}
+
+/// One after the other, each some time after the last.
+std::vector<double> times_of(const std::vector<double>& steps_s) {
+  std::vector<double> times_s = {0};
+  for (const double step_s : steps_s) times_s.push_back(times_s.back() + step_s);
+  return times_s;
+}
+
+TEST(RateChanges, AreFoundWhereStepsGrowOrShrinkForAWhile) {
+  std::vector<double> steps_s(60, .01);
+  std::fill(steps_s.begin() + 20, steps_s.begin() + 40, .015);
+  const std::vector<RateChange> changes = rate_changes(times_of(steps_s));
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[0].frame, 20U);
+  EXPECT_NEAR(changes[0].before_s, .01, 1e-12);
+  EXPECT_NEAR(changes[0].after_s, .015, 1e-12);
+  EXPECT_EQ(changes[1].frame, 40U);
+  EXPECT_NEAR(changes[1].after_s, .01, 1e-12);
+}
+
+TEST(RateChanges, AreNeitherGapsNorJitterNorPatterns) {
+  std::vector<double> gaps(60, .01), jitter(60, .01), pattern(60, .01);
+  gaps[10] = gaps[30] = .2;
+  for (std::size_t k = 0; k < jitter.size(); ++k) {
+    jitter[k] += .003 * std::sin(12.9898 * static_cast<double>(k * k));
+    if (k % 4 == 0) pattern[k] = .02;
+  }
+  EXPECT_TRUE(rate_changes(times_of(gaps)).empty());
+  EXPECT_TRUE(rate_changes(times_of(jitter)).empty());
+  EXPECT_TRUE(rate_changes(times_of(pattern)).empty());
+  EXPECT_TRUE(rate_changes({}).empty());
 }
 
 TEST(FrameGrid, CountsTheStepsBehindUnsteadyStamps) {

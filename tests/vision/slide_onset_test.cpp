@@ -69,6 +69,21 @@ TEST(SlideOnset, IsTheSameFromWhereverTheGrainLay) {
   EXPECT_NEAR(slide_onset(moved, 4, 40)->time_s, slide_onset(slide(900, 800), 4, 40)->time_s, .004);
 }
 
+// Frames are missing from before the onset until after it.
+TEST(SlideOnset, MayBeAnywhereInAGapAroundIt) {
+  std::vector<SlidAt> gap;
+  for (const SlidAt& one : slide(900, 800)) {
+    if (one.time_s < kOnset_s - .12 || one.time_s > kOnset_s + .1) gap.push_back(one);
+  }
+  const auto onset = slide_onset(gap, 4, 40);
+  ASSERT_TRUE(onset);
+  EXPECT_NEAR(onset->unseen_s, .22, 2 * kInterval_s);
+  EXPECT_LT(onset->earliest_s, kOnset_s - .1);
+  EXPECT_GT(onset->latest_s, kOnset_s + .08);
+  EXPECT_NEAR(onset->time_s, kOnset_s, .02);
+  EXPECT_EQ(slide_onset(slide(900, 800), 4, 40)->unseen_s, 0);
+}
+
 TEST(SlideOnset, IsNotFoundWhereNothingSlidesOrHardlyAnythingIsSeen) {
   EXPECT_FALSE(slide_onset({}, 4, 40));
   EXPECT_FALSE(slide_onset(slide(900, 800, 1.9), 4, 40));

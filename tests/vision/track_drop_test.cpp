@@ -293,6 +293,37 @@ TEST(TrackDrop, AFolderOfItsFramesIsTheSameFilm) {
   EXPECT_THAT(track.warnings, has_warning("dropped_frames"));
 }
 
+/// Half of the frames from then on, or all of them with time stamps that are twice as far apart.
+DropTrack tracked_from(const DrawnDrop& drop, int from, bool is_stretched) {
+  const TemporaryFolder folder;
+  const cv::Mat scene = drop.scene();
+  for (int frame = 0; frame < drop.frames(); ++frame) {
+    if (!is_stretched && frame > from && (frame - from) % 2 == 1) continue;
+    const int number = is_stretched ? std::max(frame, 2 * frame - from) : frame;
+    write_picture(folder.path() / ("frame" + std::to_string(number) + ".png"),
+                  drop.picture(frame, scene));
+  }
+  return track_drop({folder.path(), drop.frames_per_s});
+}
+
+TEST(TrackDrop, HeightsByGravityAreFlaggedWhereItsFramesBeginToComeMoreSlowlyBeforeTheFall) {
+  DrawnDrop drop = small_drop();
+  drop.frames_per_s = 120;
+  const int before_fall = static_cast<int>(.1 * drop.frames_per_s);
+  const DropTrack track = tracked_from(drop, before_fall, true);
+  ASSERT_FALSE(track.bounces.empty()) << track.reason;
+  EXPECT_NEAR(track.bounces.front().restitution.value, drop.restitution, .02);
+  EXPECT_GT(track.bounces.front().drop_mm.value, 3 * drop.drop_mm) << "as slow motion makes it";
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  EXPECT_THAT(track.warnings, has_warning("speed_changes"));
+  // Flights before and after show that the time stamps are true.
+  const DropTrack fewer =
+      tracked_from(drop, static_cast<int>(.5 * drop.seconds * drop.frames_per_s), false);
+  ASSERT_FALSE(fewer.bounces.empty()) << fewer.reason;
+  EXPECT_THAT(fewer.warnings, Not(has_warning("speed_changes")));
+  EXPECT_NEAR(fewer.bounces.front().drop_mm.value, drop.drop_mm, .1 * drop.drop_mm);
+}
+
 /// A film of some of a drop's frames, whatever the camera did, at even time stamps.
 DropTrack tracked_frames(const DrawnDrop& drop, const std::vector<int>& frames, double plays_at) {
   const TemporaryFolder folder;

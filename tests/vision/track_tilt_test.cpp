@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include <gmock/gmock.h>
 
@@ -168,6 +171,54 @@ TEST(TrackTilt, FlagsATableWhoseEdgeLiesBehindTheLevelPlate) {
   EXPECT_THAT(track.warnings, has_warning("level_hidden"));
   EXPECT_EQ(track.status, MeasureStatus::flagged);
   EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, track.angle_deg.uncertainty);
+}
+
+/// A folder of frames, each with its number in it: what is not numbered was not taken.
+TiltTrack tracked_frames(const DrawnTilt& tilt, const std::function<int(int)>& number_of) {
+  const TemporaryFolder folder;
+  const cv::Mat scene = tilt.scene();
+  for (int frame = 0; frame < tilt.frames(); ++frame) {
+    const int number = number_of(frame);
+    if (number < 0) continue;
+    write_picture(folder.path() / ("frame" + std::to_string(number) + ".png"),
+                  tilt.picture(frame, scene));
+  }
+  return track_tilt({folder.path(), tilt.frames_per_s});
+}
+
+TEST(TrackTilt, FramesThatAreMissingAboutTheOnsetWidenItsInterval) {
+  const DrawnTilt tilt = small_tilt();
+  const auto at = [&](double time_s) { return static_cast<int>(time_s * tilt.frames_per_s); };
+  const int from = at(tilt.onset_s() - .25), to = at(tilt.onset_s() + .12);
+  const TiltTrack track =
+      tracked_frames(tilt, [=](int frame) { return frame >= from && frame < to ? -1 : frame; });
+  ASSERT_TRUE(track.has_reading) << track.reason;
+  EXPECT_EQ(track.status, MeasureStatus::flagged);
+  EXPECT_THAT(track.warnings, has_warning("onset_unseen"));
+  EXPECT_THAT(track.warnings, Not(has_warning("jerks")));
+  EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, track.angle_deg.uncertainty);
+  EXPECT_GT(track.angle_deg.uncertainty, .15 * tilt.rate_deg_s);
+  // Long before it they do no harm.
+  expect_slide(
+      tracked_frames(tilt,
+                     [&](int frame) { return frame >= at(.7) && frame < at(1.2) ? -1 : frame; }),
+      tilt);
+}
+
+TEST(TrackTilt, FlagsAPartWhoseTimeStampsAreStretched) {
+  const DrawnTilt tilt = small_tilt();
+  const int from = static_cast<int>(.7 * tilt.onset_s() * tilt.frames_per_s);
+  const TiltTrack stretched =
+      tracked_frames(tilt, [=](int frame) { return std::max(frame, 2 * frame - from); });
+  ASSERT_TRUE(stretched.has_reading) << stretched.reason;
+  EXPECT_EQ(stretched.status, MeasureStatus::flagged);
+  EXPECT_THAT(stretched.warnings, has_warning("speed_changes"));
+  // A camera that takes fewer frames from then on has true time stamps.
+  const TiltTrack fewer = tracked_frames(
+      tilt, [=](int frame) { return frame > from && (frame - from) % 2 == 1 ? -1 : frame; });
+  ASSERT_TRUE(fewer.has_reading) << fewer.reason;
+  EXPECT_THAT(fewer.warnings, Not(has_warning("speed_changes")));
+  EXPECT_NEAR(fewer.angle_deg.value, tilt.onset_deg, .5);
 }
 
 TEST(TrackTilt, WarnsOfAnUnevenRate) {

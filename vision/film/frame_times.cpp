@@ -1,6 +1,7 @@
 #include "vision/film/frame_times.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -69,7 +70,48 @@ std::vector<double> whole_steps(const std::vector<double>& stamps_s, double step
   return steps;
 }
 
+constexpr std::size_t kPartSteps = 8;
+
+/// Some steps from one frame to the next: how long they are, and how many of them are as long.
+struct EvenSteps {
+  double step_s = 0;
+  int alike = 0;
+};
+
+EvenSteps even_steps(const std::vector<double>& times_s, std::size_t from) {
+  constexpr double kAlike = .02;
+  std::array<double, kPartSteps> steps{};
+  for (std::size_t k = 0; k < kPartSteps; ++k) steps[k] = times_s[from + k + 1] - times_s[from + k];
+  const auto middle = steps.begin() + kPartSteps / 2;
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double step_s = *middle;
+  const auto is_alike = [=](double one) { return std::abs(one - step_s) <= kAlike * step_s; };
+  return {step_s, static_cast<int>(std::count_if(steps.begin(), steps.end(), is_alike))};
+}
+
 }  // namespace
+
+std::vector<RateChange> rate_changes(const std::vector<double>& times_s) {
+  constexpr double kChange = .04;
+  constexpr int kMostOdd = 2;
+  std::vector<RateChange> changes;
+  int best = 0;  // alike of the change that was found last; 0: it is behind
+  for (std::size_t k = kPartSteps; k + kPartSteps < times_s.size(); ++k) {
+    const EvenSteps before = even_steps(times_s, k - kPartSteps);
+    const EvenSteps after = even_steps(times_s, k);
+    const int odd = static_cast<int>(kPartSteps) - std::min(before.alike, after.alike);
+    if (odd > kMostOdd || std::abs(std::log(after.step_s / before.step_s)) < kChange) {
+      best = 0;
+      continue;
+    }
+    const RateChange change = {k, before.step_s, after.step_s};
+    if (best == 0) changes.push_back(change);
+    if (before.alike + after.alike <= best) continue;
+    best = before.alike + after.alike;
+    changes.back() = change;
+  }
+  return changes;
+}
 
 std::optional<FrameGrid> grid_of(const std::vector<double>& stamps_s) {
   if (stamps_s.size() < kFewest) return std::nullopt;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -21,5 +22,16 @@ struct FrameGrid {
 
 /// None of fewer than 8 frames.
 std::optional<FrameGrid> grid_of(const std::vector<double>& stamps_s);
+
+/// Where frames begin to follow each other faster or more slowly: in poor light a camera takes
+/// fewer, and slow motion in a part of a film stretches its time stamps.
+struct RateChange {
+  std::size_t frame = 0;  ///< the first that others follow at the new rate
+  double before_s = 0;    ///< between frames
+  double after_s = 0;
+};
+
+/// Changes by 4 % or more between parts of 8 even steps or more; gaps of some frames are none.
+std::vector<RateChange> rate_changes(const std::vector<double>& times_s);
 
 }  // namespace repose::vision

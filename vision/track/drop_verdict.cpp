@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "vision/film/frame_times.h"
 #include "vision/track/film_verdict.h"
 
 namespace repose::vision {
@@ -121,6 +122,38 @@ void check_times(const TimedDrop& drop, DropTrack& track) {
   }
 }
 
+/// How many of the sightings in flight were taken before and after a time, whichever are fewer.
+int flown_beside(double time_s, const DropCandidate& grain) {
+  int before = 0, after = 0;
+  for (const FlightSpan& span : grain.flights.spans) {
+    for (std::size_t k = span.from; k < span.to; ++k) {
+      ++(grain.seen[k].time_s < time_s ? before : after);
+    }
+  }
+  return std::min(before, after);
+}
+
+/// Heights by gravity rest on the time stamps. Where those of a part of the film are longer,
+/// flights on both sides show by their common gravity that the camera took them so; else nothing
+/// does.
+void check_even_rate(const TimedDrop& drop, DropTrack& track) {
+  constexpr int kEnough = 6;
+  const DropCandidate& grain = drop.candidates.front();
+  if (track.has_scale || drop.speed_change) return;
+  for (const RateChange& change : rate_changes(drop.film.survey.times_s)) {
+    const double at_s = drop.film.survey.times_s[change.frame];
+    if (at_s > grain.seen.back().time_s) break;
+    if (flown_beside(at_s, grain) >= kEnough) continue;
+    warn(track, "speed_changes",
+         fmt::format("from {:.2f} s on the film's frames follow every {:.3g} ms, and every {:.3g} "
+                     "ms before: if a part of it was slowed down, heights by gravity are wrong by "
+                     "the square of that. Restitution is not. Give a scale, or the film as the "
+                     "camera stored it",
+                     at_s, 1e3 * change.after_s, 1e3 * change.before_s));
+    return;
+  }
+}
+
 std::string joined_numbers(const std::vector<UnreadBounce>& bounces) {
   std::vector<int> numbers;
   for (const UnreadBounce& one : bounces) numbers.push_back(one.number);
@@ -191,6 +224,7 @@ void judge_drop(const TimedDrop& drop, const FilmScale& scale, DropTrack& track)
   check_size(track);
   const bool is_doubtful_film = warn_of_film(drop.film, track.warnings);
   check_times(drop, track);
+  check_even_rate(drop, track);
   check_numbers(track);
   check_lean(track);
   check_bounces(track);

@@ -140,6 +140,26 @@ double crept_before(const std::vector<SlidAt>& places, double onset_s) {
   return most - least;
 }
 
+/// A time without places around another one: longer than three usual steps, or none.
+struct Unseen {
+  double from_s = 0;
+  double to_s = 0;
+};
+
+std::optional<Unseen> unseen_around(std::span<const SlidAt> places, double time_s) {
+  constexpr double kUsualSteps = 3;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    steps.push_back(places[k].time_s - places[k - 1].time_s);
+  }
+  const auto after = std::find_if(places.begin(), places.end(),
+                                  [=](const SlidAt& one) { return one.time_s > time_s; });
+  if (after == places.begin() || after == places.end()) return std::nullopt;
+  const Unseen gap = {std::prev(after)->time_s, after->time_s};
+  if (gap.to_s - gap.from_s < kUsualSteps * median(steps)) return std::nullopt;
+  return gap;
+}
+
 }  // namespace
 
 std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double least_px,
@@ -165,7 +185,8 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
   constexpr double kParts = 20;  // of the time between frames
   const FitColumn slid(fitted, [](const SlidAt& one) { return one.slid_px; });
   std::vector<std::pair<double, double>> profile;
-  for (double t = fitted.front().time_s; t <= seen_s + 2 * interval_s; t += interval_s / kParts) {
+  const double until_s = std::max(seen_s + 2 * interval_s, places[rest + 1].time_s);
+  for (double t = fitted.front().time_s; t <= until_s; t += interval_s / kParts) {
     profile.emplace_back(t, squares_left(fitted, slid, t));
   }
   const auto best =
@@ -178,9 +199,12 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
   while (earliest != profile.begin() && std::prev(earliest)->second <= limit) --earliest;
   while (std::next(latest) != profile.end() && std::next(latest)->second <= limit) ++latest;
   if (earliest == profile.begin()) return std::nullopt;
+  const Unseen unseen =
+      unseen_around(fitted, best->first).value_or(Unseen{earliest->first, earliest->first});
   return SlideOnset{.time_s = best->first,
-                    .earliest_s = earliest->first,
-                    .latest_s = latest->first,
+                    .earliest_s = std::min(earliest->first, unseen.from_s),
+                    .latest_s = std::max(latest->first, unseen.to_s),
+                    .unseen_s = unseen.to_s - unseen.from_s,
                     .rms_px = std::sqrt(best->second / free),
                     .rest_noise_px = noise,
                     .crept_px = crept_before(places, best->first)};

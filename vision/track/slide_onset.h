@@ -17,6 +17,7 @@ struct SlideOnset {
   double time_s = 0;
   double earliest_s = 0;  ///< of its 95 % interval
   double latest_s = 0;
+  double unseen_s = 0;       ///< how long nothing is seen about the onset, where frames are missing
   double rms_px = 0;         ///< of the places from what was fitted
   double rest_noise_px = 0;  ///< standard deviation of a place at rest
   /// Before the onset, beside what a hinge off its place lets all that lies still seem to move.

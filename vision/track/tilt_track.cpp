@@ -28,7 +28,9 @@ struct AngleLine {
   double rate_error_deg_s = 0;
 };
 
-AngleLine angle_between(const PlateMotion& motion, double from_s, double to_s, double at_s) {
+/// None where the plate is seen in fewer than three frames in between.
+std::optional<AngleLine> angle_between(const PlateMotion& motion, double from_s, double to_s,
+                                       double at_s) {
   double count = 0, mean_t = 0, mean_a = 0, tt = 0, ta = 0, aa = 0;
   for (const PlateSighting& one : motion.seen) {
     if (one.time_s < from_s || one.time_s > to_s) continue;
@@ -42,7 +44,7 @@ AngleLine angle_between(const PlateMotion& motion, double from_s, double to_s, d
     aa += a * (angle - mean_a);
   }
   AngleLine line{.angle_deg = mean_a};
-  if (count < 3 || tt <= 0) return line;
+  if (count < 3 || tt <= 0) return std::nullopt;
   line.rate_deg_s = ta / tt;
   line.angle_deg += line.rate_deg_s * (at_s - mean_t);
   const double variance = kFramesAlike * std::max(0.0, aa - ta * ta / tt) / (count - 2);
@@ -90,21 +92,25 @@ void read_plate(const PlateMotion& motion, TiltTrack& track) {
   }
 }
 
-void read_onset(const PlateMotion& motion, const PlateGrains& grains, const OnPlateTrack& grain,
+/// False where the plate is not seen about it.
+bool read_onset(const PlateMotion& motion, const PlateGrains& grains, const OnPlateTrack& grain,
                 const SlideOnset& onset, TiltTrack& track) {
-  constexpr double kAround_s = .2;
+  constexpr double kAround_s = .2, kFramesAround = 2.5;
   const double at_s = onset.time_s;
-  const AngleLine near = angle_between(motion, at_s - kAround_s, at_s + kAround_s, at_s);
+  const double around_s =
+      std::max(kAround_s, kFramesAround / track.film.frames_per_s) + onset.unseen_s;
+  const auto near = angle_between(motion, at_s - around_s, at_s + around_s, at_s);
   const double begins_s = motion.seen.front().time_s + motion.rest_s;
-  const AngleLine whole = angle_between(motion, begins_s, at_s, at_s);
+  const auto whole = angle_between(motion, begins_s, at_s, at_s);
+  if (!near || !whole) return false;
   const double late_s = onset.latest_s - at_s, early_s = at_s - onset.earliest_s;
   const double level_error_deg =
       std::hypot(base::kNormal95 * motion.noise_rad, motion.level_error_rad) / kDegree;
   track.angle_deg = {
-      near.angle_deg,
-      std::hypot(kLeast_deg, base::kNormal95 * near.angle_error_deg,
-                 std::hypot(level_error_deg, near.rate_deg_s * std::max(late_s, early_s)))};
-  track.rate_deg_s = {whole.rate_deg_s, base::kNormal95 * whole.rate_error_deg_s};
+      near->angle_deg,
+      std::hypot(kLeast_deg, base::kNormal95 * near->angle_error_deg,
+                 std::hypot(level_error_deg, near->rate_deg_s * std::max(late_s, early_s)))};
+  track.rate_deg_s = {whole->rate_deg_s, base::kNormal95 * whole->rate_error_deg_s};
   track.onset_s = at_s;
   track.noise_px = motion.reduction * onset.rest_noise_px;
   track.grain_px = motion.reduction * grain.thing.width_px;
@@ -113,6 +119,7 @@ void read_onset(const PlateMotion& motion, const PlateGrains& grains, const OnPl
   track.onset_edge = edge_at(motion, plate.line);
   track.onset = point_of(in_frame(grain.thing.centre, motion, plate.line, grains.strip), motion);
   track.has_reading = true;
+  return true;
 }
 
 std::vector<std::size_t> sliding_among(const PlateGrains& grains) {
@@ -144,9 +151,13 @@ std::string read_slide(const PlateMotion& motion, const PlateGrains& grains,
            "begin the film earlier, show more of the plate below the grain, and take more frames "
            "per second.";
   }
-  read_onset(motion, grains, grain, *onset, track);
+  if (!read_onset(motion, grains, grain, *onset, track)) {
+    return "the plate is seen in fewer than three frames about the onset of the slide, or before "
+           "it. Fix: give the film as the camera stored it, or take more frames per second.";
+  }
   const bool is_doubtful_film = warn_of_film(survey, grains.moved_px, track.warnings);
-  const bool is_doubtful = warn_of_tilt(motion, grain, *onset, track) || is_doubtful_film;
+  const bool is_doubtful =
+      warn_of_tilt(motion, grain, *onset, survey.times_s, track) || is_doubtful_film;
   track.status = is_doubtful ? MeasureStatus::flagged : MeasureStatus::ok;
   return {};
 }

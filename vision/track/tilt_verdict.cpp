@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "vision/film/frame_times.h"
 
 namespace repose::vision {
 namespace {
@@ -33,7 +34,7 @@ double most_apart_px(const OnPlateTrack& a, const OnPlateTrack& b) {
 /// The greatest change of the tilting rate within a tenth of a second, in the last second before
 /// the onset.
 double jerk_deg_s(const PlateMotion& motion, double onset_s, double interval_s) {
-  constexpr double kWithin_s = .1, kBefore_s = 1;
+  constexpr double kWithin_s = .1, kBefore_s = 1, kGap = 1.5;
   const auto lag = static_cast<std::size_t>(std::max(1L, std::lround(kWithin_s / interval_s)));
   const auto turned = [&](std::size_t k) { return motion.turned_at(motion.seen[k]) / kDegree; };
   double most = 0;
@@ -41,6 +42,10 @@ double jerk_deg_s(const PlateMotion& motion, double onset_s, double interval_s) 
     const double time_s = motion.seen[k].time_s;
     // The first steps from rest are a change of rate too, and long over when a grain slides.
     if (time_s < onset_s - kBefore_s || time_s > onset_s || turned(k - lag) < 1) continue;
+    // Where frames are missing it turns more in as many.
+    const double took_s =
+        std::max(motion.seen[k + lag].time_s - time_s, time_s - motion.seen[k - lag].time_s);
+    if (took_s > kGap * static_cast<double>(lag) * interval_s) continue;
     const double change = turned(k + lag) - 2 * turned(k) + turned(k - lag);
     most = std::max(most, std::abs(change) / kWithin_s);
   }
@@ -138,6 +143,46 @@ void warn_of_rate(const PlateMotion& motion, const TiltTrack& track, TiltWarning
   }
 }
 
+/// Whether the plate turns on as before by frames where their rate changes, and not by their time
+/// stamps: then these were stretched. None where it does not turn on both sides.
+bool is_retimed_at(const RateChange& change, const PlateMotion& motion,
+                   const std::vector<double>& times_s) {
+  constexpr double kSide_s = .5, kSigmas = 10;
+  const double at_s = times_s[change.frame];
+  const double least_deg = kSigmas * motion.noise_rad / kDegree;
+  constexpr double kFrames = 6;
+  const double before_s = std::max(kSide_s, kFrames * change.before_s);
+  const double after_s = std::max(kSide_s, kFrames * change.after_s);
+  const double before = rate_deg_s(motion, at_s - before_s, at_s);
+  const double after = rate_deg_s(motion, at_s, at_s + after_s);
+  if (before * before_s < least_deg || after * after_s < least_deg) return false;
+  const double by_stamps = std::abs(std::log(after / before));
+  const double by_frames = std::abs(std::log(after * change.after_s / (before * change.before_s)));
+  return by_frames < by_stamps;
+}
+
+void warn_of_times(const PlateMotion& motion, const OnPlateTrack& grain, const SlideOnset& onset,
+                   const std::vector<double>& times_s, TiltWarnings& warnings) {
+  if (onset.unseen_s > 0) {
+    warnings.flag("onset_unseen",
+                  fmt::format("for {:.2f} s about the onset nothing is seen, since frames are "
+                              "missing: it may be at any time in them, as the interval says. Give "
+                              "the film as the camera stored it",
+                              onset.unseen_s));
+  }
+  for (const RateChange& change : rate_changes(times_s)) {
+    const double at_s = times_s[change.frame];
+    if (at_s > grain.seen.back().time_s || !is_retimed_at(change, motion, times_s)) continue;
+    warnings.flag("speed_changes",
+                  fmt::format("the film changes its speed: from {:.2f} s on its frames follow "
+                              "every {:.3g} ms and not every {:.3g}, while the plate turns on as "
+                              "far from frame to frame. The rate is wrong, and the angle where "
+                              "that is near the onset. Give the film as the camera stored it",
+                              at_s, 1e3 * change.after_s, 1e3 * change.before_s));
+    return;
+  }
+}
+
 }  // namespace
 
 std::string fault_of_plate(const std::optional<PlateMotion>& motion) {
@@ -212,10 +257,11 @@ std::string fault_of_slide(const OnPlateTrack& grain, const PlateMotion& motion)
 }
 
 bool warn_of_tilt(const PlateMotion& motion, const OnPlateTrack& grain, const SlideOnset& onset,
-                  TiltTrack& track) {
+                  const std::vector<double>& times_s, TiltTrack& track) {
   TiltWarnings warnings(track);
   warn_of_level(motion, warnings);
   warn_of_rate(motion, track, warnings);
+  warn_of_times(motion, grain, onset, times_s, warnings);
   constexpr double kCrept_px = .4, kSigmas = 5, kUnlike_px = .6;
   if (onset.crept_px > std::max(kCrept_px, kSigmas * onset.rest_noise_px)) {
     warnings.flag("creeps", fmt::format("the grain has moved by {:.1f} pixels or more along the "

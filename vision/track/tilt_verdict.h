@@ -22,8 +22,9 @@ std::string fault_of_grains(const PlateGrains& grains, const std::vector<std::si
 std::string fault_of_slide(const OnPlateTrack& grain, const PlateMotion& motion);
 
 /// Adds what is to be known.
+/// @param times_s  of all frames
 /// @returns whether a person must look at something first
 bool warn_of_tilt(const PlateMotion& motion, const OnPlateTrack& grain, const SlideOnset& onset,
-                  TiltTrack& track);
+                  const std::vector<double>& times_s, TiltTrack& track);
 
 }  // namespace repose::vision
