@@ -135,8 +135,8 @@ fi
 if [ $# -gt 0 ]; then set -- --target "$@"; fi
 first_time=
 [ -e "$build/.ninja_log" ] || first_time=" (this takes some minutes the first time)"
-# As many compilers as there are cores, and 3 GB for each.
-jobs=$(awk -v cores="$(nproc)" '/^MemAvailable/ { most = int($2 / 3e6) }
+# As many compilers as there are cores, and 2 GB for each.
+jobs=$(awk -v cores="$(nproc)" '/^MemAvailable/ { most = int($2 / 2e6) }
   END { print most < 1 ? 1 : most < cores ? most : cores }' /proc/meminfo)
 # -k 0: a failing build names every error, not only the first.
 step "building $build$first_time" cmake --build "$build" --parallel "$jobs" "$@" -- -k 0

@@ -7,6 +7,9 @@ namespace repose::base {
 /// A normal variable lies within so many standard deviations of its mean 95 times in 100.
 inline constexpr double kNormal95 = 1.959963984540054;
 
+/// Degrees of freedom of what counts as known: Student's t is normal with so many.
+inline constexpr double kManyDf = 1e6;
+
 /// The t below which a variable of `df` > 0 degrees of freedom lies with `probability` (0 ... 1).
 double student_t_quantile(double probability, double df);
 

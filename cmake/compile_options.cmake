@@ -11,13 +11,9 @@ add_compile_options(-ffp-contract=off)
 
 # Presets for developers turn these into errors. -Wfloat-conversion: a pixel position silently cut to
 # an int is a wrong angle. (All of -Wconversion objects to how OpenCV assigns its expressions.)
-add_compile_options(-Wall -Wextra -Wpedantic -Wfloat-conversion -Wnon-virtual-dtor)
-if(CMAKE_UNITY_BUILD)
-  # Of two sources compiled as one, a function of one that hides the other's leaves that unused.
-  add_compile_options(-Werror=unused-function)
-else()
-  add_compile_options(-Wshadow)
-endif()
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor)
+# Of two sources compiled as one, a function of one that hides the other's leaves that unused.
+add_compile_options(-Werror=unused-function)
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
   # In the standard library's own stable_sort.
   add_compile_options(-Wno-deprecated-declarations)

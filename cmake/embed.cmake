@@ -30,7 +30,9 @@ function(repose_embed target namespace)
     DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
     COMMENT "Embedding files as ${namespace}"
     VERBATIM)
-  target_sources(${target} PRIVATE ${output})
+  # On its own: what is generated for a library waits for all libraries that it links.
+  add_library(${stem} OBJECT ${output})
+  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${stem}>)
 endfunction()
 
 function(repose_write_embedded)

@@ -17,8 +17,6 @@
 namespace repose::calibrate {
 namespace {
 
-/// More pixels to a grain than these tell nothing more.
-constexpr double kGrain_px = 40;
 constexpr int kLongest_px = 2400;
 constexpr double kMargin_m = .002;
 
@@ -38,6 +36,7 @@ class Front {
     const double grain_m = dem::diameter_m(scene.shapes.front());
     // Grains that were struck level stand out of the fill by half of their length at most.
     height_m_ = dem::upper_floor_m(boxes) + boxes.fill_m + grain_m + 2 * kMargin_m;
+    constexpr double kGrain_px = 40;  // more to a grain tell nothing more
     m_per_px_ = std::max(grain_m / kGrain_px, std::max(width_m_, height_m_) / kLongest_px);
     const render::PictureSize size{.width = pixels(width_m_), .height = pixels(height_m_)};
     const render::OrthographicCamera camera{

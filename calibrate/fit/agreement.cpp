@@ -9,7 +9,6 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kKnown = 1e6;     // degrees of freedom: as good as normal
 constexpr double kOneSided = .95;  // of each of the two tests of equivalence
 constexpr double kPower = .8;      // four of five
 constexpr double kMostRuns = 1e5;  // more is never
@@ -17,7 +16,9 @@ constexpr double kSmallestChance = 1e-300;
 constexpr double kAngle_deg = 2;
 constexpr double kFraction = .1;  // of a reading, and of the range that it may have
 
-double normal_quantile(double probability) { return base::student_t_quantile(probability, kKnown); }
+double normal_quantile(double probability) {
+  return base::student_t_quantile(probability, base::kManyDf);
+}
 
 }  // namespace
 
@@ -26,7 +27,7 @@ UncertainMean difference_of(const UncertainMean& simulated, const UncertainMean&
     return base::EstimatedVariance{mean.uncertainty * mean.uncertainty, mean.df};
   };
   return {simulated.value - measured.value, std::hypot(simulated.uncertainty, measured.uncertainty),
-          std::min(base::df_of_sum(variance_of(simulated), variance_of(measured)), kKnown)};
+          std::min(base::df_of_sum(variance_of(simulated), variance_of(measured)), base::kManyDf)};
 }
 
 UncertainMean with_known(const UncertainMean& mean, double sd) {

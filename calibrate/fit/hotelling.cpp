@@ -10,7 +10,6 @@ namespace repose::calibrate {
 
 double chance_of(const Eigen::VectorXd& difference, const MeanCovariance& one,
                  const MeanCovariance& other) {
-  constexpr double kKnown = 1e6;
   const auto count = static_cast<double>(difference.size());
   const Eigen::LLT<Eigen::MatrixXd> both(one.matrix + other.matrix);
   double spread = 0;
@@ -19,7 +18,7 @@ double chance_of(const Eigen::VectorXd& difference, const MeanCovariance& one,
     const double trace = fraction.trace();
     spread += ((fraction * fraction).trace() + trace * trace) / each->df;
   }
-  const double df = std::min(count * (count + 1) / std::max(spread, 1e-300), kKnown);
+  const double df = std::min(count * (count + 1) / std::max(spread, 1e-300), base::kManyDf);
   const double t2 = difference.dot(both.solve(difference));
   const double left = std::max(df - count + 1, 1.);
   return base::fisher_f_above(t2 * left / (std::max(df, count) * count), count, left);

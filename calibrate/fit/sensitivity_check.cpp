@@ -97,9 +97,8 @@ struct Asked {
 
 /// Of the measured mean; a scatter that is only assumed counts as known.
 double half_width_95(const Asked& asked) {
-  constexpr double kKnown = 1e6;  // degrees of freedom: as good as normal
   const Observable& observable = asked.observable;
-  return base::student_t_quantile(kInterval, observable.sd ? observable.n - 1 : kKnown) *
+  return base::student_t_quantile(kInterval, observable.sd ? observable.n - 1 : base::kManyDf) *
          (asked.fit != nullptr ? asked.fit->observables[asked.number].measured_uncertainty
                                : with_systematic(observable, standard_uncertainty(observable)));
 }

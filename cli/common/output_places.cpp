@@ -113,8 +113,8 @@ void check_output_places(const std::vector<OutputPlace>& places,
     if (!error.empty()) errors.push_back(fmt::format("{} {}: {}", option, file, error));
     try {
       base::check_can_write(file);
-    } catch (const std::invalid_argument& error) {
-      errors.push_back(fmt::format("{} {}", option, error.what()));
+    } catch (const std::invalid_argument& refused) {
+      errors.push_back(fmt::format("{} {}", option, refused.what()));
     }
   }
 }

@@ -13,7 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
-constexpr double kMsPerS = 1e3;
 
 Json vector_mm(const dem::Vector& vector_m) {
   return {kMmPerM * vector_m.x(), kMmPerM * vector_m.y(), kMmPerM * vector_m.z()};

@@ -141,7 +141,7 @@ void read_turntable(const RenderArguments& arguments, RenderPlan& plan) {
 
 /// How a trajectory is filmed in real time.
 void read_shutter(const RenderArguments& arguments, RenderPlan& plan) {
-  constexpr double kMostPerS = 10'000, kLongest_s = 60, kMsPerS = 1e3;
+  constexpr double kMostPerS = 10'000, kLongest_s = 60;
   const auto fps =
       read_positive({"--fps", arguments.fps, plan.errors}, "a number of frames per second", "60");
   const auto exposure_ms = read_number_within({"--exposure-ms", arguments.exposure_ms, plan.errors},

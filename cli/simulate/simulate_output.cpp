@@ -219,12 +219,12 @@ void add_sources_table(const std::vector<calibrate::RunResult>& runs, Page& page
                {}});
   const auto add = [&](const char* source, const std::optional<calibrate::Summary>& repeats,
                        const std::optional<double>& between_views, std::size_t count) {
-    const auto mean = repeats ? std::optional(repeats->mean) : std::nullopt;
-    const auto sd = repeats ? repeats->sd : std::nullopt;
+    const std::string mean = repeats ? cell(repeats->mean) : kNothing;
+    const std::string sd = repeats ? cell(repeats->sd) : kNothing;
     const std::string use = count == 0             ? ""
                             : count == runs.size() ? "the value"
                                                    : fmt::format("the value of {}", count);
-    table.add_row({source, cell(mean), cell(sd), cell(between_views), use});
+    table.add_row({source, mean, sd, cell(between_views), use});
   };
   const auto pictured = static_cast<std::size_t>(angles->pictured);
   add("  pictures", angles->pictures, angles->between_views_pictures, pictured);

@@ -85,12 +85,12 @@ void check(const Model& model, const FillProtocol& protocol) {
 
 /// The same tube for the pouring, which stands on a plate as wide as itself.
 HeapProtocol tube_of(const FillProtocol& protocol) {
-  constexpr double kThickness_m = .002;
+  constexpr double kTubeWall_m = .002;
   return {.tube_diameter_m = protocol.tube_diameter_m,
           .tube_height_m = protocol.tube_height_m,
-          .tube_thickness_m = kThickness_m,
-          .plate_m = protocol.tube_diameter_m + 2 * kThickness_m,
-          .plate_thickness_m = kThickness_m,
+          .tube_thickness_m = kTubeWall_m,
+          .plate_m = protocol.tube_diameter_m + 2 * kTubeWall_m,
+          .plate_thickness_m = kTubeWall_m,
           .grains = {}};
 }
 

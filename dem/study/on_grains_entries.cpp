@@ -6,8 +6,6 @@
 namespace repose::dem {
 namespace {
 
-constexpr int kMaxBonded = 10;
-
 ProtocolKey coverage_key(double& coverage) {
   return number_key("coverage", "0.75", from_to(kLeastCoverage, kMostCoverage), coverage);
 }
@@ -19,6 +17,7 @@ std::vector<ProtocolKey> drop_keys(Protocol& protocol) {
 }
 
 std::vector<ProtocolKey> tilt_keys(Protocol& protocol) {
+  constexpr int kMaxBonded = 10;
   auto& tilt = std::get<GrainTiltProtocol>(protocol);
   return {count_key("bonded", "3", kMaxBonded, tilt.bonded),
           number_key("rate_deg_s", "5", above(0, 10), tilt.rate_deg_s),

@@ -15,12 +15,10 @@ namespace {
 const Material kSteel{
     .name = "steel", .density_kg_m3 = 7850, .young_modulus_pa = 208e9, .poisson_ratio = .3};
 
-constexpr double kRadius = .005;
-constexpr double kSpeed = 2;
-
 /// A ball that strikes a wall, or a ball like itself, at `angle` from the normal; first contact
 /// falls `late` of a step after the start.
 struct Impact {
+  static constexpr double kRadius = .005, kSpeed = 2;
   bool on_ball;
   double angle;
   double late;
@@ -53,15 +51,15 @@ void energy_of_oblique_impacts(Trial& trial) {
     for (const auto& [poisson, friction] : {std::pair{0.0, .3}, {0.0, 3.0}, {.3, .3}, {.3, 1.0}}) {
       Material material = kSteel;
       material.poisson_ratio = poisson;
-      const SimulationSetup setup =
-          scene_of(sphere_shape(kRadius), material, material, {.sliding_friction = friction});
+      const SimulationSetup setup = scene_of(sphere_shape(Impact::kRadius), material, material,
+                                             {.sliding_friction = friction});
       double most = 0;
       for (int k = 0; k < 90 + kPhases; ++k) {
         const int angle_deg = std::max(0, k - kPhases);  // 0: at every phase
         const Impact impact{on_ball, angle_deg * kDegree, k % kPhases / double{kPhases}};
-        Simulation simulation = impact.start(trial, setup, kSpeed, kSpeed);
-        collide(simulation, Vector::UnitZ(), kRadius);
-        const double start = .5 * simulation.mass_kg(0) * kSpeed * kSpeed;
+        Simulation simulation = impact.start(trial, setup, Impact::kSpeed, Impact::kSpeed);
+        collide(simulation, Vector::UnitZ(), Impact::kRadius);
+        const double start = .5 * simulation.mass_kg(0) * Impact::kSpeed * Impact::kSpeed;
         most = std::max(most, simulation.energies().kinetic_j / start - 1);
       }
       trial.expect(fmt::format("energy made on a {}, nu {:.1f}, mu {:.1f}, J/J",
@@ -78,11 +76,12 @@ void restitution_at_any_step(Trial& trial) {
     double pull = 0;
     for (const double e : {.05, .1, .2, .3, .5, .7, .9, 1.0}) {
       const SimulationSetup setup =
-          scene_of(sphere_shape(kRadius), kSteel, kSteel, {.restitution = e});
+          scene_of(sphere_shape(Impact::kRadius), kSteel, kSteel, {.restitution = e});
       for (const double speed : {2.0, .05}) {
         for (const double late : {0.0, .2, .4, .6, .8}) {
-          Simulation simulation = Impact{on_ball, 0, late}.start(trial, setup, speed, kSpeed);
-          const Collision hit = collide(simulation, Vector::UnitZ(), kRadius);
+          Simulation simulation =
+              Impact{on_ball, 0, late}.start(trial, setup, speed, Impact::kSpeed);
+          const Collision hit = collide(simulation, Vector::UnitZ(), Impact::kRadius);
           const double other = on_ball ? simulation.grain(1).velocity.z() : 0;
           const double out = (hit.after.velocity.z() - other) / speed;
           worst = std::max(worst, std::abs(out - e));

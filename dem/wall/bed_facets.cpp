@@ -9,7 +9,6 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kEndless = 1e300;
 constexpr int kMostCells = 512;
 
 void check(const SphereBed& bed) {

@@ -5,6 +5,9 @@
 
 namespace repose::dem {
 
+/// The distance of what is nowhere near.
+inline constexpr double kEndless = 1e300;
+
 /// The nearest spot of a surface, seen from a point. In the wall's frame.
 struct Closest {
   double distance = 0;             ///< m; negative inside a solid

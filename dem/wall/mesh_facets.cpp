@@ -78,7 +78,6 @@ TrianglePoint MeshFacets::nearest(int facet, const Vector& point) const {
 }
 
 Closest MeshFacets::closest(int facet, const Vector& point) const {
-  constexpr double kEndless = 1e300;
   const TrianglePoint spot = nearest(facet, point);
   const Vector away = point - spot.point;
   const double distance = away.norm();

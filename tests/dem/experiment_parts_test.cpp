@@ -112,15 +112,15 @@ TEST(WallParts, AFrictionlessTubeLeavesAnotherHeapThanARoughOne) {
 }
 
 TEST(WallParts, PanesCarryGrainsAndFloorsDoNotKnowIt) {
-  constexpr DrawDownProtocol kBoxes{
+  constexpr DrawDownProtocol boxes{
       .length_m = .26, .depth_m = .08, .slot_m = .1, .fill_m = .08, .drop_m = .14};
   Model model = test::sphere_bench();
   model.grain = sphere_shape(.01);
   model.grain_material = {"ball", 1000, 1e6, .3};
   model.grain_wall = {.1, .4, .1};
   model.grain_grain = {.1, .4, .1};
-  const Repeat smooth = run_draw_down(with_part(model, WallPart::pane, {.1, 0, 0}), kBoxes, 1);
-  const Repeat rough = run_draw_down(with_part(model, WallPart::pane, {.1, 1, .3}), kBoxes, 1);
+  const Repeat smooth = run_draw_down(with_part(model, WallPart::pane, {.1, 0, 0}), boxes, 1);
+  const Repeat rough = run_draw_down(with_part(model, WallPart::pane, {.1, 1, .3}), boxes, 1);
   // Friction at the panes holds back part of what would run out, and slopes are steeper.
   EXPECT_GT(smooth.value.value(), rough.value.value() + 2);
 }

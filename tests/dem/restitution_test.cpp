@@ -15,8 +15,8 @@
 namespace repose::dem {
 namespace {
 
-constexpr double kRadius = .004;
-constexpr double kSpeed = 1.5;
+constexpr double kBallRadius = .004;
+constexpr double kSpeed_m_s = 1.5;
 
 SimulationSetup glass_on_wall(double restitution, double poisson_ratio = .24) {
   const Material glass{.name = "glass",
@@ -24,7 +24,7 @@ SimulationSetup glass_on_wall(double restitution, double poisson_ratio = .24) {
                        .young_modulus_pa = 6e10,
                        .poisson_ratio = poisson_ratio};
   SimulationSetup setup =
-      scene_of(sphere_shape(kRadius), glass, glass, {.restitution = restitution});
+      scene_of(sphere_shape(kBallRadius), glass, glass, {.restitution = restitution});
   setup.walls = {tilted_plane(0)};
   return setup;
 }
@@ -34,16 +34,16 @@ SimulationSetup glass_on_wall(double restitution, double poisson_ratio = .24) {
 Collision impact(const SimulationSetup& setup, double late) {
   Simulation simulation(setup);
   Grain grain;
-  grain.position.z() = kRadius + late * setup.timestep_s * kSpeed;
-  grain.velocity.z() = -kSpeed;
+  grain.position.z() = kBallRadius + late * setup.timestep_s * kSpeed_m_s;
+  grain.velocity.z() = -kSpeed_m_s;
   simulation.add(grain);
-  if (setup.walls.empty()) simulation.add({.position = {0, 0, -kRadius}});
-  return collide(simulation, Vector::UnitZ(), kRadius);
+  if (setup.walls.empty()) simulation.add({.position = {0, 0, -kBallRadius}});
+  return collide(simulation, Vector::UnitZ(), kBallRadius);
 }
 
 /// Speed apart over that of approach.
 double restitution_seen(const SimulationSetup& setup, double late) {
-  const double after = impact(setup, late).after.velocity.z() / kSpeed;
+  const double after = impact(setup, late).after.velocity.z() / kSpeed_m_s;
   return setup.walls.empty() ? 1 + 2 * after : after;
 }
 
@@ -95,7 +95,7 @@ struct WorstError {
 WorstError worst_error(SimulationSetup setup, double restitution, double timestep_fraction,
                        bool on_ball) {
   constexpr int kPhases = 8;
-  const double longest = accurate_timestep_s(setup, kSpeed, timestep_fraction);
+  const double longest = accurate_timestep_s(setup, kSpeed_m_s, timestep_fraction);
   if (on_ball) setup.walls.clear();
   WorstError worst;
   for (const double share : {1.0, .97, .94, .9, .8, .6, .3}) {
@@ -131,8 +131,8 @@ TEST(Restitution, ComesOutAtEveryAcceptedTimestep) {
 TEST(Restitution, ConvergesWithTheTimestep) {
   for (const double e : {.05, .3, .7}) {
     SimulationSetup setup = glass_on_wall(e);
-    setup.timestep_s = .01 * accurate_timestep_s(setup, kSpeed);
-    EXPECT_NEAR(impact(setup, .5).after.velocity.z() / kSpeed, e, 1e-4);
+    setup.timestep_s = .01 * accurate_timestep_s(setup, kSpeed_m_s);
+    EXPECT_NEAR(impact(setup, .5).after.velocity.z() / kSpeed_m_s, e, 1e-4);
   }
 }
 
@@ -160,7 +160,7 @@ TEST(Restitution, ContactNeverPulls) {
   for (const double e : {.05, .2, .5, .9, 1.0}) {
     SimulationSetup setup = glass_on_wall(e);
     for (const double fraction : {1.0, .3}) {
-      setup.timestep_s = fraction * accurate_timestep_s(setup, kSpeed);
+      setup.timestep_s = fraction * accurate_timestep_s(setup, kSpeed_m_s);
       EXPECT_EQ(impact(setup, .3).pull_n, 0) << e;
     }
   }
@@ -170,12 +170,12 @@ TEST(Restitution, ContactNeverPulls) {
 SimulationSetup by_speed(double restitution, double exponent, double young_pa = 1e9) {
   const Material wood{
       .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = young_pa, .poisson_ratio = .3};
-  SimulationSetup setup = scene_of(sphere_shape(kRadius), wood, wood,
+  SimulationSetup setup = scene_of(sphere_shape(kBallRadius), wood, wood,
                                    {.restitution = restitution,
                                     .restitution_exponent = exponent,
-                                    .restitution_speed_m_s = kSpeed});
+                                    .restitution_speed_m_s = kSpeed_m_s});
   setup.walls = {tilted_plane(0)};
-  setup.timestep_s = .5 * accurate_timestep_s(setup, kSpeed, kImpactFraction);
+  setup.timestep_s = .5 * accurate_timestep_s(setup, kSpeed_m_s, kImpactFraction);
   return setup;
 }
 
@@ -198,7 +198,7 @@ TEST(RestitutionBySpeed, DoesNotDependOnTheStiffness) {
 
 TEST(RestitutionBySpeed, WithoutAnExponentIsTheSameToTheBit) {
   SimulationSetup plain = glass_on_wall(.4);
-  plain.timestep_s = accurate_timestep_s(plain, kSpeed);
+  plain.timestep_s = accurate_timestep_s(plain, kSpeed_m_s);
   SimulationSetup zero = plain;
   PairCoefficients pair = plain.contacts.pair(0, 0);
   pair.restitution_speed_m_s = 3;

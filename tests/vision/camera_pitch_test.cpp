@@ -123,9 +123,9 @@ double near_bow(double angle_rad, double pitch_rad, double distance, double rise
   const double eye_z = std::tan(angle_rad) - rise + distance * std::tan(pitch_rad);
   const double widest = std::asin(1 / (distance + eye_z * std::tan(pitch_rad)));
   std::vector<Point> rim;
-  constexpr int kPoints = 20'000;
-  for (int i = 0; i <= kPoints; ++i) {
-    const double around = std::numbers::pi + widest + (std::numbers::pi - 2 * widest) * i / kPoints;
+  constexpr int kPlaces = 20'000;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double around = std::numbers::pi + widest + (std::numbers::pi - 2 * widest) * i / kPlaces;
     const double away = std::sin(around) + distance;
     const double depth = away * std::cos(pitch_rad) + eye_z * std::sin(pitch_rad);
     const double down = eye_z * std::cos(pitch_rad) - away * std::sin(pitch_rad);
@@ -196,9 +196,9 @@ TEST(CameraPitch, LookingUpIsLookingDown) {
 double bow_of_half_ellipse(double depth) {
   double product = 0;
   double squares = 0;
-  constexpr int kPoints = 200'000;
-  for (int i = 0; i < kPoints; ++i) {
-    const double u = 2 * (i + 0.5) / kPoints - 1;
+  constexpr int kPlaces = 200'000;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double u = 2 * (i + 0.5) / kPlaces - 1;
     const double centred = u * u - 1.0 / 3;
     product += depth * std::sqrt(1 - u * u) * centred;
     squares += centred * centred;

@@ -132,18 +132,18 @@ TEST(FitFlank, AHollowToeBelowTheWindowDoesNotMatter) {
 
 TEST(FitFlank, AnApronInTheWindowIsLeftOut) {
   const double slope = std::tan(26 * kDegree);
-  constexpr double kGrain = 12;
+  constexpr double kGrain_px = 12;
   const auto with_apron = [&](double u, double h) {  // two grains thick, twice the flank's length
     const double end = 3 * 100 / slope;
-    return u < end ? std::max(h, 2 * kGrain + std::sin(u / 4)) : 0;
+    return u < end ? std::max(h, 2 * kGrain_px + std::sin(u / 4)) : 0;
   };
   const Profile profile = right_flank(slope, with_apron);
-  const FlankFit without = fit(profile, Side::right, {.grain = kGrain});
+  const FlankFit without = fit(profile, Side::right, {.grain = kGrain_px});
   EXPECT_TRUE(without.apron_cut);
   EXPECT_FALSE(without.high_apron);
   EXPECT_NEAR(without.window_from, 0.24, 0.02);
   EXPECT_NEAR(without.angle_rad, 26 * kDegree, 0.25 * kDegree);
-  const FlankFit with = fit(profile, Side::right, {.leave_apron_out = false, .grain = kGrain});
+  const FlankFit with = fit(profile, Side::right, {.leave_apron_out = false, .grain = kGrain_px});
   EXPECT_FALSE(with.apron_cut);
   EXPECT_LT(std::atan(-with.least_squares.slope), 23 * kDegree);
 }

@@ -97,19 +97,19 @@ TEST(SupportLine, PointsInOneColumnAreNoLine) {
 /// Bases are ragged over a grain's length: neighbours belong together.
 TEST(SupportLine, DeviationIsTheTiltsError) {
   constexpr int kTrials = 200;
-  constexpr int kGrain = 10;
+  constexpr int kGrain_px = 10;
   testing::Random random(11);
   int held = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<double> white;
-    for (int i = 0; i < 400 + kGrain; ++i) white.push_back(random.normal(0, 1.5));
+    for (int i = 0; i < 400 + kGrain_px; ++i) white.push_back(random.normal(0, 1.5));
     const auto ground = support_line(points_of(400,
                                                [&](double x) {
                                                  double sum = 0;
-                                                 for (int k = 0; k < kGrain; ++k) {
+                                                 for (int k = 0; k < kGrain_px; ++k) {
                                                    sum += white[static_cast<std::size_t>(x) + k];
                                                  }
-                                                 return 60 + sum / std::sqrt(kGrain) / 2;
+                                                 return 60 + sum / std::sqrt(kGrain_px) / 2;
                                                }),
                                      kTolerance);
     ASSERT_TRUE(ground);

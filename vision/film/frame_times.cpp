@@ -8,7 +8,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr std::size_t kFewest = 8;
+constexpr std::size_t kFewestStamps = 8;
 
 /// By frames that are many apart, so that rounding hardly counts; the few gaps do not either.
 double typical_step_s(const std::vector<double>& stamps_s) {
@@ -114,7 +114,7 @@ std::vector<RateChange> rate_changes(const std::vector<double>& times_s) {
 }
 
 std::optional<FrameGrid> grid_of(const std::vector<double>& stamps_s) {
-  if (stamps_s.size() < kFewest) return std::nullopt;
+  if (stamps_s.size() < kFewestStamps) return std::nullopt;
   const double typical_s = typical_step_s(stamps_s);
   if (typical_s <= 0) return std::nullopt;
   FrameGrid grid{.steps = whole_steps(stamps_s, typical_s)};
@@ -125,7 +125,7 @@ std::optional<FrameGrid> grid_of(const std::vector<double>& stamps_s) {
 }
 
 std::vector<double> unrounded_times(std::vector<double> stamps_s, double unit_s) {
-  if (stamps_s.size() < kFewest || unit_s <= 0) return stamps_s;
+  if (stamps_s.size() < kFewestStamps || unit_s <= 0) return stamps_s;
   const double typical_s = typical_step_s(stamps_s);
   constexpr double kFine = .02, kCoarse = .5, kRounding = 1.02;
   // Of a fine unit nothing is to be gained; of one as long as the step itself, as AVI has it, no

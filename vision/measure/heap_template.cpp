@@ -15,7 +15,7 @@ constexpr double kUsualOfBox = 0.75;  // part of all places that show less contr
 constexpr double kLevelCost = 0.06;   // what a column of level crest costs: a box may cut it off
 constexpr double kAside = 0.015;      // of the height: how far bumps lie from the rough flank
 constexpr std::array kBows = {-0.08, 0., 0.08};  // real flanks are hollow, or a little round
-constexpr int kStep = 3;                         // px between the places that are tried
+constexpr int kSearchStep = 3;                   // px between the places that are tried
 constexpr double kFlattest = 0.1;                // rise a column
 constexpr double kLeastHeight = 0.75;            // of the box: it is drawn close around the heap
 
@@ -43,9 +43,9 @@ class Search {
   /// @param inwards  1: a left flank, -1: a right one
   std::vector<Candidate> flanks(int height, int inwards) const {
     std::vector<Candidate> best;
-    for (int top = 0; top < cols_; top += kStep) {
+    for (int top = 0; top < cols_; top += kSearchStep) {
       Candidate here;
-      for (int foot = top - inwards; foot >= 0 && foot < cols_; foot -= inwards * kStep) {
+      for (int foot = top - inwards; foot >= 0 && foot < cols_; foot -= inwards * kSearchStep) {
         const double rise = static_cast<double>(height) / std::abs(top - foot);
         if (rise > SideContrast::kSteepest) continue;
         if (rise < kFlattest) break;
@@ -83,7 +83,7 @@ class Search {
 /// The best flank that ends at or before each column, seen in the order of `candidates`.
 std::vector<Candidate> best_so_far(std::vector<Candidate> candidates) {
   for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const double levelled = candidates[i - 1].worth - kLevelCost * kStep;
+    const double levelled = candidates[i - 1].worth - kLevelCost * kSearchStep;
     if (levelled <= candidates[i].worth) continue;
     candidates[i] = candidates[i - 1];
     candidates[i].worth = levelled;
@@ -118,7 +118,7 @@ HeapTemplate best_template(const SideContrast& contrast, const std::vector<int>&
   const int deepest = *std::min_element(ground.begin(), ground.end());
   HeapTemplate best;
   double most = 0;
-  for (int height = deepest; height > kLeastHeight * deepest; height -= kStep) {
+  for (int height = deepest; height > kLeastHeight * deepest; height -= kSearchStep) {
     const auto left = best_so_far(search.flanks(height, 1));
     auto right = search.flanks(height, -1);
     std::reverse(right.begin(), right.end());

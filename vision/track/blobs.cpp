@@ -9,8 +9,6 @@ namespace repose::vision {
 namespace {
 
 constexpr int kReducedSide_px = 960;
-constexpr double kLeastDifference = 12;  ///< grey levels; films' compression leaves less
-constexpr double kSigmas = 5;
 constexpr std::size_t kMostBlobs = 24;
 
 /// Of the channel that differs most.
@@ -102,6 +100,8 @@ std::vector<cv::Rect> BlobFinder::rough_places(const cv::Mat& small, cv::Mat& la
                                                std::vector<int>& numbers) const {
   cv::Mat difference = colour_difference(small, reduced_);
   cv::GaussianBlur(difference, difference, {3, 3}, 0);
+  // In grey levels; films' compression leaves less.
+  constexpr double kLeastDifference = 12, kSigmas = 5;
   const double least = std::max(kLeastDifference, kSigmas * background_.noise);
   const cv::Mat mask = difference > least;
   cv::Mat stats, centres;

@@ -23,13 +23,13 @@ Parabola parabola_through(const std::vector<SeenAt>& path, std::size_t from, std
   }
   const cv::Matx33d inverse = normal.inv();
   const cv::Vec3d solution = inverse * right;
-  constexpr double kLeastNoise_px = .1;
+  constexpr double kLeastRms_px = .1;
   const double left = std::max(0.0, squares - solution.dot(right));
   const double rms = std::sqrt(left / static_cast<double>(count - 3));
   const double per_s2 = 1 / (length_s * length_s);
   return {.acceleration = per_s2 * solution[2],
           .rms_px = rms,
-          .error = per_s2 * std::max(rms, kLeastNoise_px) * std::sqrt(inverse(2, 2))};
+          .error = per_s2 * std::max(rms, kLeastRms_px) * std::sqrt(inverse(2, 2))};
 }
 
 }  // namespace repose::vision

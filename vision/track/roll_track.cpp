@@ -18,8 +18,6 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kStep_px = 1;   ///< places nearer to each other count once
-constexpr double kStill_px = 1;  ///< a grain at rest moves less
 constexpr double kRollStill_s = .3;
 /// A bend is no foot beyond these.
 constexpr double kGentlest_rad = 3 * kDegree, kSteepestRoll_rad = 70 * kDegree;
@@ -44,6 +42,7 @@ struct Rest {
 cv::Point2d crest_of(const Blob& blob) { return {blob.centre.x, blob.crest_px}; }
 
 std::vector<cv::Point2d> moving_places(const GrainPath& path) {
+  constexpr double kStep_px = 1;  // places nearer to each other count once
   std::vector<cv::Point2d> places;
   for (const Sighting& one : path) {
     if (one.blob.touches_edge) continue;
@@ -95,6 +94,7 @@ std::optional<Roll> roll_in(const FilmGrains& film) {
 /// Where a path begins, or backwards where it ends: for as long as it stays there.
 template <typename Sightings>
 Rest rest_at(const Sightings& begin, const Sightings& end) {
+  constexpr double kStill_px = 1;  // a grain at rest moves less
   Rest rest{.crest = {}, .begins_s = begin->time_s};
   double count = 0;
   for (auto one = begin; one != end; ++one) {

@@ -14,8 +14,6 @@ namespace {
 
 /// Of a place between whole pixels, as drawn films show it.
 constexpr double kLeastSlideNoise_px = .1;
-/// So long before the slide is seen the rest is looked at, and the onset is sought.
-constexpr double kBefore_s = 1.5;
 /// Neighbouring places err alike: so many count as one.
 constexpr double kAlikeInSlide = 3;
 constexpr double kChiSquare95 = 3.84;
@@ -90,6 +88,7 @@ std::size_t last_at_rest(std::span<const SlidAt> places, double still_px) {
 
 /// The first of the places before that one, up to a while before, between which it stands still.
 std::size_t first_at_rest(std::span<const SlidAt> places, std::size_t last, double still_px) {
+  constexpr double kBefore_s = 1.5;  // before the slide is seen
   std::size_t first = last;
   while (first > 0 && places[first - 1].time_s > places[last].time_s - kBefore_s &&
          std::abs(places[first - 1].slid_px - places[shortly_before(places, first)].slid_px) <

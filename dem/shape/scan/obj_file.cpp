@@ -16,10 +16,9 @@
 namespace repose::dem {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
-
 /// Takes the next word from a line; empty at its end.
 std::string_view take_word(std::string_view& line) {
+  constexpr std::string_view kBlanks = " \t\r\v\f";
   line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
   line.remove_prefix(word.size());
