@@ -9,7 +9,7 @@ namespace repose::cli {
 
 /// What `repose simulate` is asked to do, as typed; empty: not given.
 struct SimulateArguments {
-  std::string experiment;  ///< drop, tilt, roll or heap
+  std::string experiment;  ///< one of dem::experiment_names()
   std::string study;
   std::vector<std::string> settings;  ///< key.path=value
   std::string seed;
