@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "base/input_error.h"
+#include "base/units.h"
 #include "dem/experiment/placing.h"
 #include "render/renderer.h"
 #include "vision/measure/outline_angle.h"
@@ -22,12 +22,10 @@ constexpr double kGrain_px = 40;
 constexpr int kLongest_px = 2400;
 constexpr double kMargin_m = .002;
 
-double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
-
 double mean_deg(const std::optional<vision::OutlineFlank>& left,
                 const std::optional<vision::OutlineFlank>& right) {
   const auto angle_rad = vision::OutlineAngle{.left = left, .right = right}.angle_rad();
-  return angle_rad ? degrees(*angle_rad) : std::numeric_limits<double>::quiet_NaN();
+  return angle_rad ? to_degrees(*angle_rad) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// A picture of both boxes from the front, and where their parts are in it.
@@ -96,7 +94,7 @@ class Front {
 
 DrawDownFront draw_down_front(render::Scene scene, const dem::DrawDownProtocol& boxes) {
   if (scene.grains.empty()) {
-    throw std::invalid_argument("draw_down: there are no grains to draw");
+    throw base::InputError({.where = "draw_down", .value = "there are no grains to draw"});
   }
   Front front(std::move(scene), boxes);
   DrawDownFront result;

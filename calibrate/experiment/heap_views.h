@@ -57,7 +57,7 @@ struct TakenView {
 /// A heap, and how all pictures of it are taken: at one scale, with bare ground beside the grains.
 class HeapViewSession {
  public:
-  /// @throws std::invalid_argument  the scene has no grains, or some reach as far as the camera.
+  /// @throws base::InputError  the scene has no grains, or some reach as far as the camera.
   HeapViewSession(render::Scene scene, const HeapViewing& viewing);
 
   int views() const { return views_; }

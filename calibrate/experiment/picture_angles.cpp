@@ -1,9 +1,9 @@
 #include "calibrate/experiment/picture_angles.h"
 
-#include <numbers>
 #include <vector>
 
 #include "base/angle_definition.h"
+#include "base/units.h"
 #include "vision/measure/status_name.h"
 
 namespace repose::calibrate {
@@ -46,7 +46,7 @@ PictureMean mean_of_pictures(std::span<const PictureAngle> pictures,
       continue;
     }
     if (picture.status == vision::MeasureStatus::flagged) ++mean.flagged;
-    angles_deg.push_back(*angle_rad * 180 / std::numbers::pi);
+    angles_deg.push_back(to_degrees(*angle_rad));
   }
   if (!angles_deg.empty()) mean.angle_deg = summarise(angles_deg);
   return mean;

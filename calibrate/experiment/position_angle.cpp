@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/units.h"
 #include "calibrate/statistics/summary.h"
 
 namespace repose::calibrate {
@@ -33,9 +33,9 @@ PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
     const vision::OutlineAngle view = vision::measure_outline(outline_of(envelope), options);
     const auto angle_rad = view.angle_rad();
     if (!angle_rad) continue;
-    angles.push_back(*angle_rad * 180 / std::numbers::pi);
+    angles.push_back(to_degrees(*angle_rad));
     for (const vision::NamedAngle& other : view.definitions) {
-      others[other.name].push_back(other.angle_rad * 180 / std::numbers::pi);
+      others[other.name].push_back(to_degrees(other.angle_rad));
     }
     if (&envelope == &envelopes.front()) first_view_deg = angles.back();
     double foot = 0;

@@ -1,11 +1,12 @@
 #include "calibrate/experiment/restart_text.h"
 
 #include <array>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
 
 namespace repose::calibrate {
 namespace {
@@ -36,7 +37,7 @@ dem::HeapStage stage_named(const std::string& name) {
   for (std::size_t k = 0; k < kStages.size(); ++k) {
     if (kStages[k] == name) return static_cast<dem::HeapStage>(k);
   }
-  throw std::invalid_argument("its stage is unknown");
+  throw base::InputError({.value = "its stage is unknown"});
 }
 
 dem::HeapProgress progress_in(const Json& json) {
@@ -73,7 +74,7 @@ RestartRecord restart_in(const std::string& text, const std::string& description
   try {
     const Json json = Json::parse(text);
     if (json.at("simulated") != Json::parse(description)) {
-      throw std::invalid_argument("it belongs to another run");
+      throw base::InputError({.value = "it belongs to another run"});
     }
     const Json& film = json.at("film");
     RestartRecord restart;
@@ -84,7 +85,7 @@ RestartRecord restart_in(const std::string& text, const std::string& description
     restart.wall_s = json.at("wall_s");
     return restart;
   } catch (const nlohmann::json::exception&) {
-    throw std::invalid_argument("it is cut short or was changed");
+    throw base::InputError({.value = "it is cut short or was changed"});
   }
 }
 

@@ -9,7 +9,7 @@ namespace repose::calibrate {
 
 std::string restart_text(const std::string& description, const RestartRecord& record);
 
-/// @throws std::invalid_argument  the text is damaged or of a run with another description; says
+/// @throws base::InputError  the text is damaged or of a run with another description; says
 /// what is wrong.
 RestartRecord restart_in(const std::string& text, const std::string& description);
 

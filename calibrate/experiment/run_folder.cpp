@@ -4,13 +4,13 @@
 #include <optional>
 #include <regex>
 #include <set>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/restart_text.h"
 #include "calibrate/experiment/stored_run.h"
@@ -43,8 +43,7 @@ bool has_stored(const fs::path& folder, const IsMeant& is_meant) {
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-  throw std::invalid_argument(
-      fmt::format("{}: {}. Fix: delete it, and its run starts again.", file.string(), what));
+  base::refuse(file, what, "delete it, and its run starts again.");
 }
 
 }  // namespace
@@ -60,9 +59,8 @@ RunFolder::RunFolder(fs::path folder)
   std::error_code error;
   fs::create_directories(runs(), error);
   if (error) {
-    throw std::invalid_argument(
-        fmt::format("{}: the folder cannot be created ({}). Fix: choose a writable place.",
-                    runs().string(), error.message()));
+    base::refuse(runs(), fmt::format("the folder cannot be created ({})", error.message()),
+                 "choose a writable place.");
   }
   base::check_can_write(runs() / "run.json");
   base::remove_leftovers_in(runs());
@@ -71,9 +69,7 @@ RunFolder::RunFolder(fs::path folder)
 fs::path RunFolder::file(const RunSpec& spec, std::uint64_t seed, const char* ending) const {
   fs::path place = runs() / (key_of(spec, seed) + ending);
   if (std::error_code ignored; fs::is_directory(place, ignored)) {
-    throw std::invalid_argument(
-        fmt::format("{}: is a folder, and a stored run is a file of that name. Fix: move it away.",
-                    place.string()));
+    base::refuse(place, "is a folder, and a stored run is a file of that name", "move it away.");
   }
   return place;
 }
@@ -86,11 +82,11 @@ std::optional<SimulatedRun> RunFolder::find(const RunSpec& spec, std::uint64_t s
     StoredRun stored = stored_run_in(*text);
     if (stored.run.seed != seed ||
         Json::parse(stored.description) != Json::parse(description_of(spec, seed))) {
-      throw std::invalid_argument("it is of another run");
+      throw base::InputError({.value = "it is of another run"});
     }
     stored.run.definition = spec.definition;
     return std::move(stored.run);
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     note_damaged(place, error.what());
     return std::nullopt;
   }
@@ -155,14 +151,14 @@ std::optional<SavedRestart> RunFolder::find_restart(const RunSpec& spec, std::ui
   dem::SavedState state = [&] {
     try {
       return dem::read_state(place);
-    } catch (const std::invalid_argument&) {
+    } catch (const base::InputError&) {
       refuse(place, kChanged);
     }
   }();
   const RestartRecord record = [&] {
     try {
       return restart_in(state.provenance_json, description_of(spec, seed));
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       refuse(place, error.what());
     }
   }();

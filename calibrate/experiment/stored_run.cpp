@@ -1,12 +1,12 @@
 #include "calibrate/experiment/stored_run.h"
 
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "base/fingerprint.h"
+#include "base/input_error.h"
 
 namespace repose::calibrate {
 namespace {
@@ -30,16 +30,16 @@ std::string text_of(const StoredRun& stored) {
 
 StoredRun stored_run_in(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) throw std::invalid_argument("it is cut short or was changed");
+  if (!json.is_object()) throw base::InputError({.value = "it is cut short or was changed"});
   const Json fingerprint = json.value(kFingerprint, Json());
   if (fingerprint.is_null()) {
-    throw std::invalid_argument("it has no fingerprint, as of an earlier version");
+    throw base::InputError({.value = "it has no fingerprint, as of an earlier version"});
   }
   json.erase(kFingerprint);
   std::optional<SimulatedRun> run;
   if (fingerprint == fingerprint_of(json)) run = run_in(text);
   if (!run || !json.contains(kSimulated)) {
-    throw std::invalid_argument("it was changed since it was written");
+    throw base::InputError({.value = "it was changed since it was written"});
   }
   return {.description = json.at(kSimulated).dump(), .run = *std::move(run)};
 }

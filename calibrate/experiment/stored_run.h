@@ -15,7 +15,7 @@ struct StoredRun {
 /// As JSON. The same run gives the same bytes.
 std::string text_of(const StoredRun& stored);
 
-/// @throws std::invalid_argument  the text is not as it was written: what is wrong with it.
+/// @throws base::InputError  the text is not as it was written: what is wrong with it.
 StoredRun stored_run_in(const std::string& text);
 
 }  // namespace repose::calibrate

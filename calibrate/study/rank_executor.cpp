@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include "base/input_error.h"
 #include "calibrate/study/job_text.h"
 
 namespace repose::calibrate {
@@ -62,7 +63,7 @@ class Farm {
       const bool has_heard = look_at_others();
       if (!has_begun && !has_finished && !has_heard) std::this_thread::sleep_for(kBetweenLooks);
     }
-    if (!error_.empty()) throw std::invalid_argument(error_);
+    if (!error_.empty()) throw base::InputError({.value = error_});
   }
 
  private:
@@ -101,7 +102,7 @@ class Farm {
       finish(0, own_.get());
     } catch (const dem::Interrupted&) {
       release(0);
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       error_ = error.what();
       release(0);
     }

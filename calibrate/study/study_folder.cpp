@@ -1,8 +1,8 @@
 #include "calibrate/study/study_folder.h"
 
-#include <stdexcept>
 #include <system_error>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/run_folder.h"
 
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 bool has_notes(const fs::path& folder) {
   try {
     return read_study_notes(folder).has_value();
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     return false;
   }
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <exception>
 #include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/draw_down_front.h"
 #include "calibrate/experiment/simulate_experiment.h"
 #include "cli/simulate/simulate_folder.h"
@@ -65,7 +65,7 @@ class Batch {
       simulate(index, run);
     } catch (const dem::Interrupted&) {
       run.outcome = RunOutcome::not_run;
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       fail(run, RunOutcome::bad_input, error.what());
     } catch (const std::exception& error) {
       fail(run, RunOutcome::internal_error, error.what());
@@ -118,9 +118,10 @@ class Batch {
   /// The same, with a picture of it.
   void name_files(Run& run, const std::string& place) {
     if (!name_state(run, place)) {
-      throw std::invalid_argument(fmt::format(
-          "{}: its run in {} was changed in the meantime. Fix: run the same command again.",
-          place + ".vtp", folder_->runs().string()));
+      throw base::InputError({.where = fmt::format("{}", place + ".vtp"),
+                              .value = fmt::format("its run in {} was changed in the meantime",
+                                                   folder_->runs().string()),
+                              .fix = "run the same command again."});
     }
     const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol);
     if (run.result.views.empty() && boxes == nullptr) return;

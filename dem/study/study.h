@@ -119,7 +119,7 @@ struct Study {
   /// Fingerprint of the text, the settings, the scan or clump file and the sheets of readings: a
   /// UUID made from their bytes (RFC 4122, version 5). The same study, the same fingerprint.
   std::string hash;
-  /// Coefficients that are to be found are NaN in it. `grain` is empty: reading takes no
+  /// Coefficients that are to be found are NaN in it. `model.grain` is empty: reading takes no
   /// time, making spheres does; `study.model.grain = build_grain(study.grain).shape` when needed.
   Model model;
   GrainSource grain;
