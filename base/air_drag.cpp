@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.h"
+
 namespace repose::base {
 namespace {
 
-constexpr double kGravity_m_s2 = 9.80665;
 constexpr double kAir_kg_m3 = 1.204;  // dry, 20 C, 1013.25 hPa
 constexpr double kAirViscosity_pa_s = 1.82e-5;
 constexpr double kSphere = .999;  // sphericity from which on it is one
@@ -29,7 +30,7 @@ double haider_levenspiel(double reynolds, double phi) {
 
 /// d(v^2)/dz / 2 on the way down (`along` 1) or up (-1), taken from the highest point on, m/s2.
 double acceleration_m_s2(const FallingGrain& grain, double speed2, double along) {
-  const double own_m_s2 = kGravity_m_s2 * (1 - kAir_kg_m3 / grain.density_kg_m3);
+  const double own_m_s2 = kStandardGravity_m_s2 * (1 - kAir_kg_m3 / grain.density_kg_m3);
   const double speed = std::sqrt(std::max(0., speed2));
   if (speed == 0) return own_m_s2;
   const double reynolds = kAir_kg_m3 * speed * grain.diameter_m / kAirViscosity_pa_s;
@@ -84,8 +85,8 @@ double speed_after_fall_m_s(const FallingGrain& grain, double fall_m) {
   // From a fall of so many times v^2 / g on the speed does not change any more.
   constexpr double kLongFall = 40;
   const double terminal_m_s = terminal_speed_m_s(grain);
-  return speed_m_s(grain, std::min(fall_m, kLongFall * terminal_m_s * terminal_m_s / kGravity_m_s2),
-                   1);
+  return speed_m_s(
+      grain, std::min(fall_m, kLongFall * terminal_m_s * terminal_m_s / kStandardGravity_m_s2), 1);
 }
 
 double speed_before_rise_m_s(const FallingGrain& grain, double rise_m) {

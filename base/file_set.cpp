@@ -3,7 +3,6 @@
 #include <map>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -65,10 +64,10 @@ void check_nothing_is_lost(const fs::path& folder, const std::vector<NamedText>&
     if (!is_as_listed(folder, file.name, earlier, unlisted)) lost.push_back(file.name);
   }
   if (lost.empty()) return;
-  throw std::invalid_argument(
-      fmt::format("{}: these files are not as written by repose, and would be lost: {}. Fix: "
-                  "choose another folder, or move them away.",
-                  folder.string(), fmt::join(lost, ", ")));
+  refuse(folder,
+         fmt::format("these files are not as written by repose, and would be lost: {}",
+                     fmt::join(lost, ", ")),
+         "choose another folder, or move them away.");
 }
 
 }  // namespace
@@ -77,9 +76,10 @@ void check_file_set(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (std::error_code ignored; error || !fs::is_directory(folder, ignored)) {
-    throw std::invalid_argument(
-        fmt::format("{}: the folder cannot be created ({}). Fix: choose a writable place.",
-                    folder.string(), error ? error.message() : "there is a file of that name"));
+    refuse(folder,
+           fmt::format("the folder cannot be created ({})",
+                       error ? error.message() : "there is a file of that name"),
+           "choose a writable place.");
   }
   check_can_write(folder / kList);
 }

@@ -21,13 +21,13 @@ enum class Unlisted {
 /// Writes each file whole or not at all; makes the folder. FOLDER/.repose-files lists them with
 /// their fingerprints: the next time they are replaced, and removed where they are not among the
 /// new ones.
-/// @throws std::invalid_argument  the folder or a file cannot be written, or files there are not
+/// @throws base::InputError  the folder or a file cannot be written, or files there are not
 /// as they were written and would be lost: all of those. Nothing is written then.
 void write_file_set(const std::filesystem::path& folder, const std::vector<NamedText>& files,
                     Unlisted unlisted);
 
 /// Finds out before long work whether the folder can be made and written to.
-/// @throws std::invalid_argument  it cannot.
+/// @throws base::InputError  it cannot.
 void check_file_set(const std::filesystem::path& folder);
 
 }  // namespace repose::base

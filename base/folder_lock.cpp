@@ -1,7 +1,6 @@
 #include "base/folder_lock.h"
 
 #include <cerrno>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -34,20 +33,15 @@ std::string owner_of(int descriptor) {
 FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file)
     : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kForAll)) {
   if (descriptor_ < 0) {
-    throw std::invalid_argument(
-        fmt::format("{}: cannot be written ({}). Fix: choose a writable folder, or free "
-                    "some space there.",
-                    file.string(), std::generic_category().message(errno)));
+    refuse(file, fmt::format("cannot be written ({})", std::generic_category().message(errno)),
+           "choose a writable folder, or free some space there.");
   }
   const struct flock lock = whole_file();
   if (::fcntl(descriptor_, F_SETLK, &lock) == 0) return;
   if (errno != EACCES && errno != EAGAIN) return;  // a file system that knows no locks
   const std::string owner = owner_of(descriptor_);
   ::close(descriptor_);
-  throw std::invalid_argument(
-      fmt::format("{}: {} is using it. Fix: wait until it has finished, or choose "
-                  "another folder.",
-                  folder.string(), owner));
+  refuse(folder, owner + " is using it", "wait until it has finished, or choose another folder.");
 }
 
 FolderLock::~FolderLock() {

@@ -9,7 +9,7 @@ namespace repose::base {
 class FolderLock {
  public:
   /// @param file  whose lock stands for the folder; it may be deeper in it
-  /// @throws std::invalid_argument  another process has it, which is named.
+  /// @throws base::InputError  another process has it, which is named.
   FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;

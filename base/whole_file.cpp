@@ -2,12 +2,12 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/input_error.h"
 #include "base/part_file.h"
 
 namespace repose::base {
@@ -60,7 +60,7 @@ std::error_code write_to_device(const fs::path& file, std::span<const std::byte>
 }  // namespace
 
 void refuse(const fs::path& file, const std::string& what, const std::string& fix) {
-  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
+  throw InputError({.where = file.string(), .value = what, .fix = fix});
 }
 
 std::unique_ptr<PartFile> part_of(const fs::path& file) {

@@ -1,6 +1,5 @@
 #include <array>
 #include <cerrno>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 
 namespace repose::base {
@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_large(const fs::path& file, std::uintmax_t bytes, std::uintmax_t largest) {
   constexpr double kMebibyte = 1 << 20;
-  refuse(
-      file,
-      fmt::format("has {:.1f} MiB. Rule: at most {:.0f} MiB",
-                  static_cast<double>(bytes) / kMebibyte, static_cast<double>(largest) / kMebibyte),
-      "give the right file, or make it smaller.");
+  throw InputError(
+      {.where = file.string(),
+       .value = fmt::format("has {:.1f} MiB", static_cast<double>(bytes) / kMebibyte),
+       .rule = fmt::format("at most {:.0f} MiB", static_cast<double>(largest) / kMebibyte),
+       .fix = "give the right file, or make it smaller."});
 }
 
 /// A file opened for reading.

@@ -126,7 +126,7 @@ Arguments parse_arguments(int count, const char* const* words) {
     if (const Registered* found = parsed()) {
       arguments.error = empty_value(*found);
       arguments.run = found->command.run;
-      arguments.option_names = found->command.option_names;
+      arguments.fields = found->command.fields;
     } else {
       arguments.text = app.help();
     }

@@ -1,7 +1,6 @@
 #include "cli/program.h"
 
 #include <exception>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,25 +16,6 @@
 namespace repose::cli {
 namespace {
 
-ExitCode run(int count, const char* const* words) {
-  const Arguments arguments = parse_arguments(count, words);
-  if (!arguments.error.empty()) {
-    print_line(arguments.error);
-    return ExitCode::bad_input;
-  }
-  if (arguments.run) {
-    try {
-      return arguments.run();
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(naming_options(error.what(), arguments.option_names));
-    }
-  }
-  Outputs outputs;
-  outputs.show(arguments.text);
-  outputs.write();
-  return ExitCode::done;
-}
-
 /// Says what nobody has foreseen.
 ExitCode report(const std::exception& error, const std::string& command) {
   if (is_out_of_memory(error)) {
@@ -50,23 +30,40 @@ ExitCode report(const std::exception& error, const std::string& command) {
   return ExitCode::internal_error;
 }
 
+ExitCode run(int count, const char* const* words) {
+  const Arguments arguments = parse_arguments(count, words);
+  if (!arguments.error.empty()) {
+    print_line(arguments.error);
+    return ExitCode::bad_input;
+  }
+  if (arguments.run) return carry_out(arguments.run, words[1], arguments.fields);
+  Outputs outputs;
+  outputs.show(arguments.text);
+  outputs.write();
+  return ExitCode::done;
+}
+
 }  // namespace
+
+ExitCode carry_out(const std::function<ExitCode()>& work, const std::string& command,
+                   base::FieldNames fields) {
+  try {
+    return work();
+  } catch (const base::InputError& error) {
+    std::vector<std::string> lines;
+    add_faults(error, lines, fields);
+    print_lines(lines);
+    return ExitCode::bad_input;
+  } catch (const std::exception& error) {
+    return report(error, command);
+  }
+}
 
 int run_program(int count, const char* const* words) {
   prepare_streams();
   base::keep_freed_memory();
-  ExitCode code = ExitCode::internal_error;
-  try {
-    code = run(count, words);
-  } catch (const std::invalid_argument& error) {
-    std::vector<std::string> lines;
-    add_lines(error.what(), lines);
-    print_lines(lines);
-    code = ExitCode::bad_input;
-  } catch (const std::exception& error) {
-    code = report(error, count > 1 ? words[1] : "repose");
-  }
-  return static_cast<int>(code);
+  return static_cast<int>(
+      carry_out([&] { return run(count, words); }, count > 1 ? words[1] : "repose", {}));
 }
 
 }  // namespace repose::cli

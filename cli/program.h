@@ -1,6 +1,17 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
+#include "base/input_error.h"
+#include "cli/common/exit_code.h"
+
 namespace repose::cli {
+
+/// Does a command's work, and says what it throws: an input's faults, a line each, with the options
+/// of their fields; all else, a library's std::invalid_argument too, as an internal error.
+ExitCode carry_out(const std::function<ExitCode()>& work, const std::string& command,
+                   base::FieldNames fields);
 
 /// The program, from its command line to its exit code: what main() does.
 int run_program(int count, const char* const* words);

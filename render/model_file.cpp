@@ -9,6 +9,7 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+#include "base/input_error.h"
 #include "render/scene/extent.h"
 #include "render/scene/surface.h"
 
@@ -143,8 +144,9 @@ void add_walls(Assembly& assembly, const Scene& scene) {
 
 std::vector<std::byte> glb_of(const Scene& scene, Shown shown) {
   if (scene.grains.empty()) {
-    throw std::invalid_argument(
-        "scene: it has no grains to be seen. Fix: a state in which some are left.");
+    throw base::InputError({.where = "scene",
+                            .value = "it has no grains to be seen",
+                            .fix = "a state in which some are left."});
   }
   Assembly assembly;
   for (std::size_t k = 0; k < scene.shapes.size(); ++k) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <functional>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "render/gl/context.h"
 #include "render/gl/scene_uploader.h"
 #include "render/photo/photo.h"
@@ -20,13 +20,15 @@ namespace repose::render {
 
 namespace {
 
-/// @throws std::invalid_argument
+/// @throws base::InputError
 void check(const PhotoStyle& style) {
   const auto require = [](const char* name, double value, double least, double most) {
     if (value >= least && value <= most) return;
-    throw std::invalid_argument(
-        fmt::format("photo: {} is {:g}. Rule: from {:g} to {:g}. Fix: leave it as it is.", name,
-                    value, least, most));
+    throw base::InputError({.where = "photo",
+                            .subject = name,
+                            .value = fmt::format("is {:g}", value),
+                            .rule = fmt::format("from {:g} to {:g}", least, most),
+                            .fix = "leave it as it is."});
   };
   for (const Colour& colour : {style.grain, style.spot, style.plate, style.table, style.backdrop}) {
     for (const double channel : colour) require("a colour's channel", channel, 0, 1);
@@ -35,7 +37,7 @@ void check(const PhotoStyle& style) {
   require("pattern", style.pattern, 0, 2);
   require("gloss", style.gloss, 0, 1);
   require("key_softness_rad", style.key_softness_rad, 0, 1);
-  require("key_share", style.key_fraction, 0, 1);
+  require("key_fraction", style.key_fraction, 0, 1);
   require("aperture_mm", style.aperture_mm, 0, 1000);
   require("blur_px", style.blur_px, 0, 100);
   require("noise", style.noise, 0, 1);
@@ -74,7 +76,8 @@ class Renderer::Studio {
 
   vision::Picture expose(const std::vector<Scene>& moments, const Camera& camera,
                          const PictureSize& size, const PhotoStyle& style) {
-    if (moments.empty()) throw std::invalid_argument("photo: nothing is exposed. Fix: a scene.");
+    if (moments.empty())
+      throw base::InputError({.where = "photo", .value = "nothing is exposed", .fix = "a scene."});
     const View view = view_of(moments.front(), camera, size);
     const InUse in_use(context_);
     check(style);

@@ -32,7 +32,7 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// @throws std::invalid_argument  the picture cannot be taken: its size, the camera's numbers, a
+  /// @throws base::InputError  the picture cannot be taken: its size, the camera's numbers, a
   /// camera inside the heap, a scene without grains.
   Rendered draw(const Scene& scene, const Camera& camera, const PictureSize& size,
                 const Style& style);
@@ -40,7 +40,7 @@ class Renderer {
   /// A photo of grains that move while it is exposed.
   /// @param moments  of one scene, evenly spread over the exposure, with one setting; at least one,
   ///   and no more than the style's passes are seen
-  /// @throws std::invalid_argument  as draw(), or without moments.
+  /// @throws base::InputError  as draw(), or without moments.
   vision::Picture expose(const std::vector<Scene>& moments, const Camera& camera,
                          const PictureSize& size, const PhotoStyle& style);
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "base/input_error.h"
+#include "base/units.h"
 #include "dem/experiment/placing.h"
 #include "render/renderer.h"
 #include "vision/measure/outline_angle.h"
@@ -95,7 +95,7 @@ class Front {
 
 DrawDownFront draw_down_front(render::Scene scene, const dem::DrawDownProtocol& boxes) {
   if (scene.grains.empty()) {
-    throw std::invalid_argument("draw_down: there are no grains to draw");
+    throw base::InputError({.where = "draw_down", .value = "there are no grains to draw"});
   }
   Front front(std::move(scene), boxes);
   DrawDownFront result;

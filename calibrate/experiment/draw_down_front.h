@@ -28,7 +28,7 @@ struct DrawDownFront {
 /// through it that photographs are measured with, but without their verdict, so that steep and
 /// round slopes have their number too. Proved by DrawDownFront.* in
 /// tests/calibrate/draw_down_front_test.cpp.
-/// @throws std::invalid_argument  the scene has no grains.
+/// @throws base::InputError  the scene has no grains.
 /// @throws std::runtime_error  this machine cannot draw.
 DrawDownFront draw_down_front(render::Scene scene, const dem::DrawDownProtocol& boxes);
 

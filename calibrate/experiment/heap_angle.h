@@ -94,7 +94,7 @@ struct TakenView {
 /// A heap, and how all pictures of it are taken: at one scale, with bare ground beside the grains.
 class HeapViewSession {
  public:
-  /// @throws std::invalid_argument  the scene has no grains, or some reach as far as the camera.
+  /// @throws base::InputError  the scene has no grains, or some reach as far as the camera.
   HeapViewSession(render::Scene scene, const HeapViewing& viewing);
 
   int views() const { return views_; }
@@ -152,7 +152,7 @@ struct PositionAngle {
 /// same view is measured: of 26 views of 8 simulated heaps 23 lay within .11 degrees, the worst 2.4
 /// off. A silhouette does not show its grains either: with their known size 19 did, the worst 3.5
 /// off.
-/// @throws std::invalid_argument  as vision::measure_outline().
+/// @throws base::InputError  as vision::measure_outline().
 PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
                              const vision::OutlineOptions& options = {});
 

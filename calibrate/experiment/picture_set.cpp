@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "base/distributions.h"
+#include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "vision/measure/status_name.h"
 
@@ -17,8 +17,6 @@ namespace {
 constexpr double kOutlying = 3.5;
 constexpr double kMadToSd = 1.4826;  // of normal values
 constexpr std::size_t kFewestForOutliers = 3;
-
-double degrees_of(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
 
 double middle_of(std::vector<double> values) {
   std::ranges::sort(values);
@@ -128,10 +126,10 @@ SetPicture set_picture_of(const vision::ReposeAngle& measured, std::string_view 
                           const std::string& heap) {
   SetPicture picture{.status = measured.status, .angle_deg = {}, .heap = heap};
   if (const auto angle_rad = vision::angle_by(measured, definition)) {
-    picture.angle_deg = degrees_of(*angle_rad);
+    picture.angle_deg = to_degrees(*angle_rad);
   }
-  picture.own_deg = degrees_of(measured.own_uncertainty_rad.value_or(0));
-  picture.camera_deg = degrees_of(measured.camera_uncertainty_rad.value_or(0));
+  picture.own_deg = to_degrees(measured.own_uncertainty_rad.value_or(0));
+  picture.camera_deg = to_degrees(measured.camera_uncertainty_rad.value_or(0));
   return picture;
 }
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "dem/state/state_file.h"
 
@@ -66,7 +67,7 @@ dem::HeapStage stage_named(const std::string& name) {
   for (std::size_t k = 0; k < kStages.size(); ++k) {
     if (kStages[k] == name) return static_cast<dem::HeapStage>(k);
   }
-  throw std::invalid_argument("its stage is unknown");
+  throw base::InputError({.value = "its stage is unknown"});
 }
 
 dem::HeapProgress progress_in(const Json& json) {
@@ -87,8 +88,7 @@ dem::HeapProgress progress_in(const Json& json) {
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-  throw std::invalid_argument(
-      fmt::format("{}: {}. Fix: delete it, and its run starts again.", file.string(), what));
+  base::refuse(file, what, "delete it, and its run starts again.");
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ RestartRecord restart_in(const std::string& text, const std::string& description
   try {
     const Json json = Json::parse(text);
     if (json.at("simulated") != Json::parse(description)) {
-      throw std::invalid_argument("it belongs to another run");
+      throw base::InputError({.value = "it belongs to another run"});
     }
     const Json& film = json.at("film");
     RestartRecord restart;
@@ -119,7 +119,7 @@ RestartRecord restart_in(const std::string& text, const std::string& description
     restart.wall_s = json.at("wall_s");
     return restart;
   } catch (const nlohmann::json::exception&) {
-    throw std::invalid_argument("it is cut short or was changed");
+    throw base::InputError({.value = "it is cut short or was changed"});
   }
 }
 
@@ -134,9 +134,8 @@ RunFolder::RunFolder(fs::path folder)
   std::error_code error;
   fs::create_directories(runs(), error);
   if (error) {
-    throw std::invalid_argument(
-        fmt::format("{}: the folder cannot be created ({}). Fix: choose a writable place.",
-                    runs().string(), error.message()));
+    base::refuse(runs(), fmt::format("the folder cannot be created ({})", error.message()),
+                 "choose a writable place.");
   }
   base::check_can_write(runs() / "run.json");
   base::remove_leftovers_in(runs());
@@ -145,9 +144,7 @@ RunFolder::RunFolder(fs::path folder)
 fs::path RunFolder::file(const RunSpec& spec, std::uint64_t seed, const char* ending) const {
   fs::path place = runs() / (key_of(spec, seed) + ending);
   if (std::error_code ignored; fs::is_directory(place, ignored)) {
-    throw std::invalid_argument(
-        fmt::format("{}: is a folder, and a stored run is a file of that name. Fix: move it away.",
-                    place.string()));
+    base::refuse(place, "is a folder, and a stored run is a file of that name", "move it away.");
   }
   return place;
 }
@@ -159,11 +156,11 @@ std::optional<RunResult> RunFolder::find(const RunSpec& spec, std::uint64_t seed
   try {
     RunResult run = run_in(*text);
     if (run.seed != seed || run.simulated != description_of(spec, seed)) {
-      throw std::invalid_argument("it is of another run");
+      throw base::InputError({.value = "it is of another run"});
     }
     run.definition = spec.definition;
     return run;
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     note_damaged(place, error.what());
     return std::nullopt;
   }
@@ -227,14 +224,14 @@ std::optional<SavedRestart> RunFolder::find_restart(const RunSpec& spec, std::ui
   dem::SavedState state = [&] {
     try {
       return dem::read_state(place);
-    } catch (const std::invalid_argument&) {
+    } catch (const base::InputError&) {
       refuse(place, kChanged);
     }
   }();
   const RestartRecord record = [&] {
     try {
       return restart_in(state.provenance_json, description_of(spec, seed));
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       refuse(place, error.what());
     }
   }();

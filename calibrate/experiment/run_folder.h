@@ -23,7 +23,7 @@ struct RestartRecord {
 
 /// What a restart file holds beside the state, as JSON in the state's provenance.
 std::string restart_text(const std::string& description, const RestartRecord& record);
-/// @throws std::invalid_argument  the text is damaged or of a run with another description; says
+/// @throws base::InputError  the text is damaged or of a run with another description; says
 /// what is wrong.
 RestartRecord restart_in(const std::string& text, const std::string& description);
 
@@ -38,7 +38,7 @@ struct SavedRestart {
 /// runs are found again by any command and study that asks for the same.
 class RunFolder {
  public:
-  /// @throws std::invalid_argument  the folder cannot be made or written.
+  /// @throws base::InputError  the folder cannot be made or written.
   explicit RunFolder(std::filesystem::path folder);
 
   std::filesystem::path runs() const { return folder_ / "runs"; }
@@ -51,7 +51,7 @@ class RunFolder {
   /// The same, but none when something is missing that was asked for: its pictures.
   std::optional<RunResult> find_whole(const RunSpec& spec, std::uint64_t seed) const;
 
-  /// @throws std::invalid_argument  it cannot be written; what was saved before stays.
+  /// @throws base::InputError  it cannot be written; what was saved before stays.
   void save(const RunSpec& spec, const RunResult& run) const;
 
   /// What was found damaged so far and counts as not saved ("FILE: what ..."), and what was noted
@@ -64,12 +64,12 @@ class RunFolder {
   /// Whether it is there and as it was written.
   bool has_state(const RunSpec& spec, std::uint64_t seed) const;
   /// Copies the final state of a run to FOLDER/NAME, over an older one; false when has_state is.
-  /// @throws std::invalid_argument  it cannot be written.
+  /// @throws base::InputError  it cannot be written.
   bool copy_state(const RunSpec& spec, std::uint64_t seed, const std::string& name) const;
 
   bool has_restart(const RunSpec& spec, std::uint64_t seed) const;
   /// None when the run was not begun.
-  /// @throws std::invalid_argument  the file was changed, or belongs to another run.
+  /// @throws base::InputError  the file was changed, or belongs to another run.
   std::optional<SavedRestart> find_restart(const RunSpec& spec, std::uint64_t seed) const;
   void save_restart(const RunSpec& spec, std::uint64_t seed, const dem::Simulation& simulation,
                     const RestartRecord& record) const;

@@ -9,6 +9,7 @@
 
 #include "base/angle_definition.h"
 #include "base/fingerprint.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/json_fields.h"
 #include "vision/measure/status_name.h"
@@ -233,10 +234,10 @@ std::string text_of(const RunResult& run) {
 
 RunResult run_in(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) throw std::invalid_argument("it is cut short or was changed");
+  if (!json.is_object()) throw base::InputError({.value = "it is cut short or was changed"});
   const Json fingerprint = json.value(kFingerprint, Json());
   if (fingerprint.is_null()) {
-    throw std::invalid_argument("it has no fingerprint, as of an earlier version");
+    throw base::InputError({.value = "it has no fingerprint, as of an earlier version"});
   }
   json.erase(kFingerprint);
   RunResult run;
@@ -248,7 +249,7 @@ RunResult run_in(const std::string& text) {
     run = {};  // which does not hold together
   }
   if (fingerprint != fingerprint_of(json) || !json.contains(kSimulated) || !holds_together(run)) {
-    throw std::invalid_argument("it was changed since it was written");
+    throw base::InputError({.value = "it was changed since it was written"});
   }
   run.simulated = json.at(kSimulated).dump();
   return run;

@@ -93,7 +93,7 @@ std::string text_of(const RunResult& run);
 
 /// Versions up to 8 of the simulator wrote 0 for each angle that a heap does not have, and gave
 /// layers theirs: such runs come back with a failure.
-/// @throws std::invalid_argument  the text is not as it was written, or has numbers that no run
+/// @throws base::InputError  the text is not as it was written, or has numbers that no run
 /// gives: what is wrong with it.
 RunResult run_in(const std::string& text);
 

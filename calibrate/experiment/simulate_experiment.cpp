@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/draw_down_front.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "dem/engine/unstable_run.h"
@@ -74,8 +75,8 @@ class ExperimentRunner {
       if (const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol)) {
         measure_front(*boxes, run);
       }
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(dem::with_study_keys(error.what(), spec_.protocol));
+    } catch (const base::InputError& error) {
+      throw dem::with_study_keys(error, spec_.protocol);
     } catch (const dem::NoReading& error) {
       run.failure = error.what();
     } catch (const dem::UnstableRun& error) {

@@ -32,7 +32,7 @@ struct SimulateOptions {
 /// of grains that make no heap (no_heap_reason) the final state is saved all the same. A machine
 /// that cannot draw gives heaps without views and with a picture_error.
 /// @throws dem::Interrupted  `report` asked for it.
-/// @throws std::invalid_argument  the protocol cannot be run, a file cannot be written, or a
+/// @throws base::InputError  the protocol cannot be run, a file cannot be written, or a
 /// restart file is damaged.
 /// @throws std::runtime_error  this machine cannot draw a draw-down, which has readings in its
 /// picture alone.

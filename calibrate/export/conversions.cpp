@@ -200,36 +200,44 @@ double exported(const std::vector<Conversion>& conversions, const std::string& c
   return std::nan("");
 }
 
-std::vector<std::string> refusals(const ExportFacts& facts, const ExportRequest& request,
+std::vector<base::Fault> refusals(const ExportFacts& facts, const ExportRequest& request,
                                   const std::vector<Conversion>& conversions) {
-  std::vector<std::string> errors;
+  std::vector<base::Fault> errors;
   const std::size_t spheres = facts.grain().spheres.size();
   if (facts.study().model.damping == dem::DampingModel::shared && spheres > 1) {
-    errors.push_back(fmt::format(
-        "contact.damping = \"shared\" has no counterpart in {}, where each contact of the clump's "
-        "{} "
-        "spheres damps with the whole mass: the more of them touch at once, the less it would "
-        "rebound than here. No single factor makes up for that, so --approximate does not help. "
-        "Fix: calibrate with damping = \"per_contact\", whose restitution belongs to this clump.",
-        name_of(request.target), spheres));
+    errors.push_back(
+        {.subject = "contact.damping",
+         .value = fmt::format(
+             "= \"shared\" has no counterpart in {}, where each contact of the clump's {} spheres "
+             "damps with the whole mass: the more of them touch at once, the less it would rebound "
+             "than here. No single factor makes up for that, so --approximate does not help",
+             name_of(request.target), spheres),
+         .fix =
+             "calibrate with damping = \"per_contact\", whose restitution belongs to this clump."});
   }
   for (const auto& [other, pair] : pairs_of(facts)) {
     if (pair->restitution_exponent == 0) continue;
-    errors.push_back(fmt::format(
-        "contact.particle_{0}.restitution_exponent = {1:g} has no counterpart in {2}, where "
-        "restitution is the same at all speeds: impacts slower or faster than {3:g} m/s would "
-        "rebound otherwise than here, so --approximate does not help. Fix: calibrate without it, "
-        "with drops whose impacts are as fast as those of the process.",
-        other, pair->restitution_exponent, name_of(request.target), pair->restitution_speed_m_s));
+    errors.push_back(
+        {.value = fmt::format(
+             "contact.particle_{0}.restitution_exponent = {1:g} has no counterpart in {2}, where "
+             "restitution is the same at all speeds: impacts slower or faster than {3:g} m/s would "
+             "rebound otherwise than here, so --approximate does not help",
+             other, pair->restitution_exponent, name_of(request.target),
+             pair->restitution_speed_m_s),
+         .fix = "calibrate without it, with drops whose impacts are as fast as those of the "
+                "process."});
   }
   if (request.takes_approximate) return errors;
   for (const Conversion& conversion : conversions) {
     if (conversion.fidelity != Fidelity::approximate) continue;
-    errors.push_back(fmt::format(
-        "{} = {:.4g} ({}) has no exact counterpart in {}. {} Fix: --approximate exports {:.4g}; or "
-        "calibrate with a rolling_model that {} has.",
-        conversion.coefficient, conversion.value, dem::name_of(facts.study().model.rolling),
-        name_of(request.target), conversion.limits, conversion.exported, name_of(request.target)));
+    const std::string target = name_of(request.target);
+    errors.push_back(
+        {.subject = conversion.coefficient,
+         .value = fmt::format("= {:.4g} ({}) has no exact counterpart in {}. {}", conversion.value,
+                              dem::name_of(facts.study().model.rolling), target, conversion.limits),
+         .fix = fmt::format("--approximate exports {:.4g}; or calibrate with a rolling_model that "
+                            "{} has.",
+                            conversion.exported, target)});
   }
   return errors;
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/export/export.h"
 #include "calibrate/export/facts.h"
 
@@ -14,7 +15,7 @@ std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget ta
 double exported(const std::vector<Conversion>& conversions, const std::string& coefficient);
 
 /// What keeps a conversion from being written, a line each; empty: nothing does.
-std::vector<std::string> refusals(const ExportFacts& facts, const ExportRequest& request,
+std::vector<base::Fault> refusals(const ExportFacts& facts, const ExportRequest& request,
                                   const std::vector<Conversion>& conversions);
 
 }  // namespace repose::calibrate

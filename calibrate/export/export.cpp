@@ -1,12 +1,11 @@
 #include "calibrate/export/export.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "base/error_list.h"
 #include "base/file_set.h"
+#include "base/input_error.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/facts.h"
 #include "calibrate/export/readme.h"
@@ -53,11 +52,12 @@ std::vector<FittedValue> of_set(std::vector<FittedValue> fitted,
                                 const std::vector<std::vector<double>>& sets, std::size_t number) {
   const std::size_t known = std::max<std::size_t>(1, sets.size());
   if (number < 1 || number > known) {
-    throw std::invalid_argument(fmt::format(
-        "--set-number {}: {}. Fix: leave it out for set 1, the best one.", number,
-        known == 1
-            ? "this study has one set of coefficients"
-            : fmt::format("this study has {} equally good sets, from 1 to {}", known, known)));
+    throw base::InputError(
+        {.where = fmt::format("--set-number {}", number),
+         .value = known == 1 ? "this study has one set of coefficients"
+                             : fmt::format("this study has {} equally good sets, from 1 to {}",
+                                           known, known),
+         .fix = "leave it out for set 1, the best one."});
   }
   if (sets.empty()) return fitted;
   for (std::size_t k = 0; k < fitted.size(); ++k) fitted[k].value = sets[number - 1].at(k);
@@ -97,9 +97,9 @@ StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<std::vector<double>>& sets) {
   const ExportFacts facts(study, grain, of_set(fitted, sets, request.set_number), request.target);
   StudyExport made{.conversions = conversions_of(facts, request.target)};
-  base::ErrorList errors;
-  for (const std::string& line : refusals(facts, request, made.conversions)) errors.add(line);
-  errors.throw_if_any();
+  base::Faults faults;
+  faults.add_all(refusals(facts, request, made.conversions));
+  faults.throw_if_any();
   made.files = files_for(request.target, facts, made.conversions);
   made.files.push_back(readme_of(facts, request, made.conversions, sets));
   made.warnings = warnings_of(facts);

@@ -90,7 +90,7 @@ struct ExportRequest {
 /// @param study   as simulated; coefficients that were sought are NaN in it, or have their value
 /// @param fitted  names and intervals, and the values unless there are sets
 /// @param sets    of exported_sets(): request.set_number says which one; or none
-/// @throws std::invalid_argument  there is no set of that number; or a coefficient without a value,
+/// @throws base::InputError  there is no set of that number; or a coefficient without a value,
 ///   or one that the target cannot have or has only approximately: all of them, a line each.
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<FittedValue>& fitted, const ExportRequest& request,
@@ -98,7 +98,7 @@ StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
 
 /// Writes each file whole or not at all, in place of those of an earlier export; makes the folder.
 /// @param is_ours  files of these names that are there are of an earlier version of repose
-/// @throws std::invalid_argument  the folder or a file cannot be written, or files of a user's
+/// @throws base::InputError  the folder or a file cannot be written, or files of a user's
 ///   would be lost. Nothing is written then.
 void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files,
                   bool is_ours = false);

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "base/version.h"
 #include "calibrate/export/decks.h"
@@ -46,7 +46,7 @@ ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<Fi
   for (const FittedValue& value : fitted_) {
     coefficient_named(value.name, study_.model) = value.value;
   }
-  base::ErrorList errors;
+  base::Faults errors;
   const auto is_needed_in = [this](const std::string& name) {
     if (name.starts_with("contact.particle_wall.")) return true;
     if (name.starts_with("contact.particle_particle.")) return has_grain_contacts();
@@ -56,15 +56,17 @@ ExportFacts::ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<Fi
   };
   for (const NamedCoefficient& named : coefficients_of(study_)) {
     const bool is_needed = is_needed_in(named.name);
-    errors.require(!is_needed || std::isfinite(coefficient_named(named.name, study_.model)),
-                   fmt::format("{}: has no value in the result. Fix: give the study a value for "
-                               "it, or bounds and a measurement that determines it.",
-                               named.name));
+    errors.require(
+        !is_needed || std::isfinite(coefficient_named(named.name, study_.model)),
+        {.where = named.name,
+         .value = "has no value in the result",
+         .fix = "give the study a value for it, or bounds and a measurement that determines it."});
   }
-  errors.require(!experiments().empty(),
-                 fmt::format("the study has no experiment that {} has a deck for. Rule: one of {} "
-                             "at least. Fix: add a section for one, such as [experiment.drop].",
-                             name_of(target), names_with_decks(target)));
+  errors.require(
+      !experiments().empty(),
+      {.value = fmt::format("the study has no experiment that {} has a deck for", name_of(target)),
+       .rule = fmt::format("one of {} at least", names_with_decks(target)),
+       .fix = "add a section for one, such as [experiment.drop]."});
   errors.throw_if_any();
 }
 
@@ -144,8 +146,8 @@ std::vector<TouchingPose> ExportFacts::drop_poses() const {
 }
 
 double ExportFacts::longest_drop_s(dem::Experiment drop) const {
-  return 2 * speed_m_s(drop) / dem::kStandardGravity_m_s2 +
-         4 * std::sqrt(2 * grain().reach_m() / dem::kStandardGravity_m_s2);
+  return 2 * speed_m_s(drop) / kStandardGravity_m_s2 +
+         4 * std::sqrt(2 * grain().reach_m() / kStandardGravity_m_s2);
 }
 
 dem::ClumpShape ExportFacts::tilt_body() const {
@@ -190,7 +192,7 @@ LikeMaterial like_material(const dem::ContactLaw& pair) {
 }
 
 double rolling_stiffness(const dem::ContactLaw& pair, double mass_kg, double radius_m) {
-  const double weight = mass_kg * dem::kStandardGravity_m_s2;
+  const double weight = mass_kg * kStandardGravity_m_s2;
   const double spring = 4.0 / 3 * pair.reduced_young_pa * std::sqrt(radius_m);
   const double overlap = std::pow(weight / spring, 2.0 / 3);
   const double arm = pair.rolling_friction * radius_m;
@@ -205,7 +207,7 @@ DeckFields common_fields(const ExportFacts& facts) {
   fields.set("HASH", sanitized(study.hash));
   fields.set("GRAIN_NAME", sanitized(study.model.grain_material.name));
   fields.set("WALL_NAME", sanitized(study.model.wall_material.name));
-  fields.set("GRAVITY", dem::kStandardGravity_m_s2);
+  fields.set("GRAVITY", kStandardGravity_m_s2);
   fields.set("MASS", facts.mass_kg());
   for (const FittedValue& value : facts.fitted()) {
     DeckFields& fitted = fields.add_section("FITTED");

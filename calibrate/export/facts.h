@@ -19,7 +19,7 @@ struct TouchingPose {
 /// What the exports are made from: a study with a value for each coefficient that it needs.
 class ExportFacts {
  public:
-  /// @throws std::invalid_argument  coefficients have no value: all of them.
+  /// @throws base::InputError  coefficients have no value: all of them.
   ExportFacts(dem::Study study, dem::ClumpShape grain, std::vector<FittedValue> fitted,
               ExportTarget target);
 

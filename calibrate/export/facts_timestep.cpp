@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "calibrate/export/facts.h"
 #include "dem/experiment/bonded.h"
 #include "dem/experiment/hanging_pair.h"
@@ -50,7 +51,7 @@ double fall_m(const ExportFacts& facts, dem::Experiment experiment) {
 }  // namespace
 
 double ExportFacts::speed_m_s(dem::Experiment experiment) const {
-  return std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m(*this, experiment));
+  return std::sqrt(2 * kStandardGravity_m_s2 * fall_m(*this, experiment));
 }
 
 double ExportFacts::timestep_s(dem::Experiment experiment) const {

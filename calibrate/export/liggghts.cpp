@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/liggghts_decks.h"
 #include "calibrate/export/stl.h"
@@ -199,7 +200,7 @@ ExportedFile heap_file(const ExportFacts& facts) {
   fields.set("ROOM", .5 * protocol.plate_m + 4 * reach);
   fields.set("BELOW", protocol.plate_thickness_m + 5 * reach);
   fields.set("TOP", column + 2 * protocol.tube_height_m);
-  fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / 9.8), timestep));
+  fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / kStandardGravity_m_s2), timestep));
   fields.set("LIFT_STEPS", steps(lift_s(protocol), timestep));
   fields.set("REST_STEPS", steps(kHeapRest_s, timestep));
   return {.name = "heap.lig", .text = filled("liggghts/heap.lig", fields)};

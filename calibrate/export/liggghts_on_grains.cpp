@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/units.h"
 #include "calibrate/export/liggghts_decks.h"
 #include "dem/experiment/bonded.h"
 #include "dem/experiment/glued_bed.h"
@@ -110,7 +111,7 @@ ExportedFile tilt_on_grains_file(const ExportFacts& facts, const TiltDeck& deck,
   fields.set("HEIGHT", height_m);
   fields.set("ROOM", body.reach_m() + 2 * kAround * facts.grain().reach_m());
   fields.set("DIAMETER", diameter);
-  fields.set("STILL", kStill * std::sqrt(dem::kStandardGravity_m_s2 * diameter) * kLook_s);
+  fields.set("STILL", kStill * std::sqrt(kStandardGravity_m_s2 * diameter) * kLook_s);
   fields.set("SETTLE_STEPS", steps(kSettle_s, timestep));
   fields.set("EVERY", steps(kLook_s, timestep));
   for (int k = 1; k <= deck.places; ++k) fields.add_section("PLACE").set("NUMBER", k);

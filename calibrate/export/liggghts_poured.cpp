@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "calibrate/export/liggghts_decks.h"
 #include "calibrate/export/stl.h"
 #include "dem/experiment/draw_down_boxes.h"
@@ -42,7 +43,7 @@ Pouring pouring_of(const Vessel& vessel, const dem::ClumpShape& grain) {
   pouring.grains =
       std::ceil(kPacked * vessel.section_m2 * (pouring.from_m - vessel.floor_m) / grain.volume_m3);
   const double fall_m = std::max(reach, vessel.spout_m - pouring.from_m);
-  pouring.speed_m_s = std::sqrt(2 * dem::kStandardGravity_m_s2 * fall_m);
+  pouring.speed_m_s = std::sqrt(2 * kStandardGravity_m_s2 * fall_m);
   pouring.layer_s = kApart * reach / pouring.speed_m_s;
   pouring.rate_s = std::ceil(kCovered * vessel.section_m2 / (std::numbers::pi * reach * reach)) /
                    pouring.layer_s;
@@ -52,7 +53,7 @@ Pouring pouring_of(const Vessel& vessel, const dem::ClumpShape& grain) {
 /// What pour.lig reads, and where grains may be.
 void set_pouring(const Pouring& pouring, double reach_m, double timestep_s, DeckFields& fields) {
   constexpr double kRest_s = .5;  // in which grains that have landed come to rest
-  const double landed_s = std::sqrt(2 * pouring.from_m / dem::kStandardGravity_m_s2);
+  const double landed_s = std::sqrt(2 * pouring.from_m / kStandardGravity_m_s2);
   fields.set("GRAINS", static_cast<int>(pouring.grains));
   fields.set("RATE", pouring.rate_s);
   fields.set("SPEED", pouring.speed_m_s);

@@ -1,8 +1,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "base/units.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/rolling.h"
@@ -154,7 +152,7 @@ ExportedFile yade_heap_file(const ExportFacts& facts) {
   // A layer holds at least one grain.
   const double column = 2.02 * reach * grains;
   fields.set("COLUMN", column);
-  fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / dem::kStandardGravity_m_s2), timestep));
+  fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / kStandardGravity_m_s2), timestep));
   fields.set("LIFT_STEPS", steps(lift_s(protocol), timestep));
   fields.set("REST_STEPS", steps(kHeapRest_s, timestep));
   return {.name = "heap.py", .text = filled("yade/heap.py", fields)};

@@ -151,7 +151,7 @@ struct JointFit {
 /// Each observable gets a surrogate of its runs (see THEORY.md), the fit minimises the sum of
 /// ((simulated - measured) / sigma)^2 within the bounds. All runs count, proposed by propose() or
 /// not; their order does not matter. `asked`: sets of parameters to be looked at, too. Throws
-/// std::invalid_argument with every error of the problem, and when fewer than three runs of an
+/// base::InputError with every error of the problem, and when fewer than three runs of an
 /// experiment have the reading.
 JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
                      const std::vector<std::vector<double>>& asked = {});

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/core.h>
 
 #include "base/distributions.h"
+#include "base/input_error.h"
 #include "calibrate/fit/reading_correlation.h"
 #include "calibrate/fit/training_set.h"
 #include "calibrate/fit/unit_box.h"
@@ -42,7 +42,7 @@ double explained_fraction(const Surrogate& surrogate, double w, double bench_var
   return std::min(1., simulated / bench_variance);
 }
 
-std::string too_few(const Observable& observable, std::size_t readings,
+base::Fault too_few(const Observable& observable, std::size_t readings,
                     const std::vector<Run>& runs) {
   int attempts = 0;
   std::string failure;
@@ -56,12 +56,13 @@ std::string too_few(const Observable& observable, std::size_t readings,
       if (names.find(quoted) == std::string::npos) names += quoted;
     }
   }
-  std::string text =
-      fmt::format("{}: {} of {} runs of {} have the reading \"{}\": too few.", observable.name,
-                  readings, attempts, observable.experiment, observable.reading);
+  std::string text = fmt::format("{} of {} runs of {} have the reading \"{}\": too few.", readings,
+                                 attempts, observable.experiment, observable.reading);
   if (!names.empty()) text += " Available readings:" + names + ".";
   if (!failure.empty()) text += " Some failed: " + failure + ".";
-  return text + " Fix: change the bounds, or use another reading";
+  return {.where = observable.name,
+          .value = std::move(text),
+          .fix = "change the bounds, or use another reading"};
 }
 
 }  // namespace
@@ -80,15 +81,14 @@ double few_readings_factor(const Observable& observable) {
 Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
                const std::optional<Misfit>& before, bool thorough)
     : parameters_(problem.parameters), robust_(problem.settings.robust) {
-  std::string errors;
+  base::Faults errors;
   std::vector<double> explained;  // parts of the variances of measured means
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     const Observable& observable = problem.observables[i];
     const TrainingSet training_set = training_set_of(
         problem, experiment_named(problem, observable.experiment), observable.reading, runs);
     if (training_set.readings.size() < kFewestToLearn) {
-      if (!errors.empty()) errors += '\n';
-      errors += too_few(observable, training_set.readings.size(), runs);
+      errors.add(too_few(observable, training_set.readings.size(), runs));
       continue;
     }
     std::optional<Surrogate> start;
@@ -108,7 +108,7 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
                         std::pow(observable.systematic_sd / warp.slope(w), 2),
                         observable.model_sd / warp.slope(w)});
   }
-  if (!errors.empty()) throw std::invalid_argument(errors);
+  errors.throw_if_any();
   correlation_.expected = reading_correlation_of(problem, surrogates_);
   correlation_.measured = correlation_.expected;
   for (std::size_t i = 0; i < explained.size(); ++i) {

@@ -18,7 +18,7 @@ namespace repose::calibrate {
 class Misfit {
  public:
   /// Learns surrogates of all observables from `runs` (in_order). `before`: of fewer runs, to start
-  /// from. Throws std::invalid_argument where an observable has too few readings.
+  /// from. Throws base::InputError where an observable has too few readings.
   Misfit(const Problem& problem, const std::vector<Run>& runs, const std::optional<Misfit>& before,
          bool thorough);
 

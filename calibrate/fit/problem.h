@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
+
 namespace repose::calibrate {
 
 /// What is known of a parameter beforehand: a normal distribution.
@@ -194,10 +196,10 @@ struct Problem {
   std::vector<FixedInput> fixed_inputs = {};
 };
 
-/// Every error of a problem, a line each: where, the value, the rule, "Fix: ...". Empty: none.
-std::vector<std::string> errors_of(const Problem& problem);
+/// Every fault of a problem. Empty: none.
+std::vector<base::Fault> errors_of(const Problem& problem);
 
-/// Throws std::invalid_argument with every error of the problem, a line each.
+/// Throws base::InputError with every error of the problem, a line each.
 void require_sound(const Problem& problem);
 
 /// Whether a 95 % interval of this half-width leaves one value: at most a quarter of it, or what

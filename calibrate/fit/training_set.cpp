@@ -4,12 +4,12 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/unit_box.h"
 
 namespace repose::calibrate {
@@ -25,23 +25,27 @@ void require_of(const Problem& problem, const Run& run) {
   const bool known = std::any_of(problem.experiments.begin(), problem.experiments.end(),
                                  [&](const Experiment& e) { return e.name == job.experiment; });
   if (!known) {
-    throw std::invalid_argument(fmt::format(
-        "a run of \"{}\": no experiment is called so. Fix: leave the run out", job.experiment));
+    throw base::InputError(
+        {.value = fmt::format("a run of \"{}\": no experiment is called so", job.experiment),
+         .fix = "leave the run out"});
   }
   const bool numbers = std::all_of(job.values.begin(), job.values.end(),
                                    [](double value) { return std::isfinite(value); });
   if (job.values.size() != problem.parameters.size() || !numbers) {
-    throw std::invalid_argument(fmt::format(
-        "a run of {} with seed {}: has {} values, {}, for {} parameters. Fix: leave the run out",
-        job.experiment, job.seed, job.values.size(), numbers ? "all numbers" : "some not numbers",
-        problem.parameters.size()));
+    throw base::InputError(
+        {.value =
+             fmt::format("a run of {} with seed {}: has {} values, {}, for {} parameters",
+                         job.experiment, job.seed, job.values.size(),
+                         numbers ? "all numbers" : "some not numbers", problem.parameters.size()),
+         .fix = "leave the run out"});
   }
   for (const auto& [name, reading] : run.readings) {
     if (!(std::abs(reading) > kMostReading)) continue;
-    throw std::invalid_argument(fmt::format(
-        "a run of {} with seed {}: its reading \"{}\" is {:g}. Rule: at most {:g}. Fix: leave the "
-        "run out",
-        job.experiment, job.seed, name, reading, kMostReading));
+    throw base::InputError(
+        {.value = fmt::format("a run of {} with seed {}: its reading \"{}\" is {:g}",
+                              job.experiment, job.seed, name, reading),
+         .rule = fmt::format("at most {:g}", kMostReading),
+         .fix = "leave the run out"});
   }
 }
 

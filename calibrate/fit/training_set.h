@@ -10,7 +10,7 @@
 namespace repose::calibrate {
 
 /// Runs in an order of their own (experiment, values, seed), each job once: sums over them come out
-/// the same to the last bit in whatever order they were done. Throws std::invalid_argument for runs
+/// the same to the last bit in whatever order they were done. Throws base::InputError for runs
 /// of another problem.
 std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs);
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 #include <Eigen/Cholesky>
 #include <fmt/core.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/check_sample.h"
 #include "calibrate/fit/hotelling.h"
 #include "calibrate/fit/reading_correlation.h"
@@ -256,10 +256,10 @@ std::vector<Job> verification_jobs(const Problem& problem, const std::vector<dou
                                    int repeats, int set) {
   require_sound(problem);
   if (values.size() != problem.parameters.size() || repeats < 2 || set < 0) {
-    throw std::invalid_argument(
-        fmt::format("verification of {} values for {} parameters, {} repeats, set {}. Fix: a value "
-                    "each, 2 repeats or more, sets from 0",
-                    values.size(), problem.parameters.size(), repeats, set));
+    throw base::InputError(
+        {.value = fmt::format("verification of {} values for {} parameters, {} repeats, set {}",
+                              values.size(), problem.parameters.size(), repeats, set),
+         .fix = "a value each, 2 repeats or more, sets from 0"});
   }
   const std::vector<Experiment> experiments = measured_experiments(problem);
   double dearest_s = 0;

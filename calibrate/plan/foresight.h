@@ -49,7 +49,7 @@ class Foresight {
  public:
   /// @param problem  with all experiments; observables are those of the ones that were measured
   /// @param runs  spread over the box, of every experiment
-  /// @throws std::invalid_argument  too few runs of a measured experiment have a reading.
+  /// @throws base::InputError  too few runs of a measured experiment have a reading.
   Foresight(const Problem& problem, const std::vector<Run>& runs, int readings);
 
   /// In the problem's order.

@@ -29,7 +29,7 @@ struct OfferedStudy {
 /// @param possible  those that could be done beside the study's
 /// @param study  as measured (as_measured), what was measured included
 /// @param budget  of the runs
-/// @throws std::invalid_argument  nothing is sought, or the problem is not sound: every error.
+/// @throws base::InputError  nothing is sought, or the problem is not sound: every error.
 OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
                            const Budget& budget, const std::set<dem::Experiment>& possible);
 

@@ -1,10 +1,10 @@
 #include "calibrate/plan/plan.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/first_round.h"
 #include "calibrate/fit/fit_watch.h"
@@ -45,7 +45,7 @@ class PlanRuns {
       if (!done) return false;
       runs_.insert(runs_.end(), done->begin(), done->end());
       plan.run_s[experiment.name] = mean_wall_s(jobs);
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       if (!offered_.added.contains(dem::experiment_named(experiment.name).experiment)) throw;
       plan.notes.push_back(
           fmt::format("{} is left out: as it is usually done it cannot be run with "

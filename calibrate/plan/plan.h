@@ -35,7 +35,7 @@ std::vector<Job> plan_jobs(const OfferedStudy& offered);
 
 /// Simulates each experiment over the whole box, and says what it tells. Runs are kept: a
 /// calibration in the same folder begins with them. None when it was interrupted.
-/// @throws std::invalid_argument  the study has a protocol that cannot be run; a measured
+/// @throws base::InputError  the study has a protocol that cannot be run; a measured
 /// experiment has too few readings; the folder cannot be written.
 std::optional<Plan> make_plan(const OfferedStudy& offered, const StudyContext& context,
                               int readings);

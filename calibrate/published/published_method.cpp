@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/unit_box.h"
 #include "calibrate/statistics/design/design.h"
 #include "calibrate/study/job_runner.h"
@@ -28,10 +28,11 @@ const Observable& observable_of(const Problem& problem, const std::string& exper
   for (const Observable& observable : problem.observables) {
     if (observable.experiment == experiment && observable.reading == "value") return observable;
   }
-  throw std::invalid_argument(fmt::format(
-      "the published method: [experiment.{}] has no measured value, and every step needs its own. "
-      "Fix: add it, or use the joint method.",
-      experiment));
+  throw base::InputError(
+      {.where = "the published method",
+       .value = fmt::format("[experiment.{}] has no measured value, and every step needs its own",
+                            experiment),
+       .fix = fmt::format("add it, or use {}.", base::field("the joint method"))});
 }
 
 void require_all_sought(const Problem& problem) {
@@ -44,10 +45,12 @@ void require_all_sought(const Problem& problem) {
       std::ranges::all_of(problem.parameters, is_of_six)) {
     return;
   }
-  throw std::invalid_argument(
-      "the published method: finds restitution, sliding and rolling friction of both pairs and "
-      "nothing else, and some of the six have no bounds, or others have. Fix: give bounds to all "
-      "of these and to no others, or use the joint method.");
+  throw base::InputError(
+      {.where = "the published method",
+       .value = "finds restitution, sliding and rolling friction of both pairs and nothing else, "
+                "and some of the six have no bounds, or others have",
+       .fix = fmt::format("give bounds to all of these and to no others, or use {}.",
+                          base::field("the joint method"))});
 }
 
 /// The values of a job: those of the set that the experiment does not depend on stay in the middle,

@@ -47,7 +47,7 @@ struct PublishedOutcome {
 
 /// Runs it. All six coefficients must be sought and all four experiments measured.
 /// None when it was interrupted.
-/// @throws std::invalid_argument  the study lacks something, or too few runs gave a reading.
+/// @throws base::InputError  the study lacks something, or too few runs gave a reading.
 std::optional<PublishedOutcome> calibrate_as_published(const Problem& problem,
                                                        const StudyContext& context);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/angle_definition.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/report/figures.h"
@@ -99,7 +99,7 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
                       name, shown(picture.angle_deg, 2)));
     }
     return heap;
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     remarks.push_back(
         fmt::format("The photograph {} cannot be shown: {}", name, shortened(error.what(), 400)));
     return std::nullopt;

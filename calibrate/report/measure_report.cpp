@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "base/version.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/report/document.h"
@@ -26,7 +26,7 @@ using vision::MeasureStatus;
 
 std::optional<double> degrees(const std::optional<double>& angle_rad) {
   if (!angle_rad) return std::nullopt;
-  return *angle_rad * 180 / std::numbers::pi;
+  return to_degrees(*angle_rad);
 }
 
 std::string name_of_file(const MeasuredPhotograph& picture) {

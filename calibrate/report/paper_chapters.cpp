@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/figures.h"
 #include "calibrate/report/wording.h"
@@ -52,7 +52,7 @@ std::optional<Regression> regression_of(const std::string& name, const std::vect
                     .response_name = name,
                     .responses = responses},
                    SurfaceModel::quadratic);
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     return std::nullopt;
   }
 }

@@ -2,13 +2,13 @@
 // measured, and which of it the study does not state.
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/angle_definition.h"
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
@@ -28,7 +28,7 @@ dem::ConfigValue stated_in(const ReportedStudy& study) {
     const std::string file = (study.folder / kStudyCopy).string();
     dem::StudyErrors ignored;
     return dem::parse_config(file, base::read_whole_file(file), study.record->settings, ignored);
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     return {};
   }
 }

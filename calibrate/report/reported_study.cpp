@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/run_result.h"
 #include "calibrate/study/study_problem.h"
@@ -71,7 +71,7 @@ std::optional<SavedRun> saved_run_in(const fs::path& file) {
     return run;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
-  } catch (const std::invalid_argument&) {  // no file that can be read
+  } catch (const base::InputError&) {  // no file that can be read
     return std::nullopt;
   }
 }
@@ -94,7 +94,7 @@ std::vector<SavedRun> runs_in(const fs::path& folder) {
 std::optional<StudyRecord> record_in(const fs::path& folder) {
   try {
     return read_study_record(folder);
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     return std::nullopt;  // a page without it is worth having
   }
 }
@@ -115,7 +115,7 @@ std::vector<MeasuredNumber> measured_of(const StudyRecord& record) {
         numbers.back().uncertainty = with_systematic(observable, standard_uncertainty(observable));
       }
     }
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     // A page about the runs is worth having without it.
     numbers.clear();
   }
@@ -151,7 +151,7 @@ bool is_heap_of(const fs::path& heap, const StudyResult& result) {
     }
   } catch (const nlohmann::json::exception&) {
     return true;
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     return true;  // who draws it says what is wrong with it
   }
   return true;
@@ -179,17 +179,14 @@ ReportedStudy reported(const StudyResult& result, const std::vector<PictureReadi
 ReportedStudy read_reported_study(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
-    throw std::invalid_argument(fmt::format(
-        "{}: there is no such folder. Fix: name the folder that repose calibrate --out wrote.",
-        folder.string()));
+    base::refuse(folder, "there is no such folder",
+                 "name the folder that repose calibrate --out wrote.");
   }
   const std::optional<StudyNotes> notes = read_study_notes(folder);
   const std::optional<StudyResult> result = read_result(folder);
   if (!notes && !result && !fs::is_directory(folder / "runs", ignored)) {
-    throw std::invalid_argument(
-        fmt::format("{}: there is no study in it (no study.json, result.json or runs). Fix: name "
-                    "the folder that repose calibrate --out wrote.",
-                    folder.string()));
+    base::refuse(folder, "there is no study in it (no study.json, result.json or runs)",
+                 "name the folder that repose calibrate --out wrote.");
   }
   const std::vector<PictureReading> pictures =
       notes ? notes->pictures : decltype(notes->pictures){};

@@ -46,7 +46,7 @@ struct ReportedStudy {
 ReportedStudy reported(const StudyResult& result, const std::vector<PictureReading>& pictures,
                        const std::filesystem::path& heap);
 
-/// @throws std::invalid_argument  no such folder, no study in it, or a damaged file.
+/// @throws base::InputError  no such folder, no study in it, or a damaged file.
 ReportedStudy read_reported_study(const std::filesystem::path& folder);
 
 }  // namespace repose::calibrate::report

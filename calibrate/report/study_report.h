@@ -29,7 +29,7 @@ Report study_report(const StudyResult& result, const std::vector<PictureReading>
 /// What the folder of `repose calibrate --out` has to say, half-finished or not. Photographs that
 /// the study names are measured again, and those that are gone are said. The same folder and
 /// photographs give the same bytes.
-/// @throws std::invalid_argument  no such folder, no study in it, or a damaged file.
+/// @throws base::InputError  no such folder, no study in it, or a damaged file.
 Report study_report(const std::filesystem::path& folder);
 
 }  // namespace repose::calibrate::report

@@ -216,11 +216,11 @@ bool operator==(const StudyResult& one, const StudyResult& other);
 std::string to_json(const StudyResult& result);
 
 /// @param name  what errors call the text
-/// @throws std::invalid_argument  it is no result: which part, and why.
+/// @throws base::InputError  it is no result: which part, and why.
 StudyResult result_from_json(const std::string& json, const std::string& name);
 
 /// FOLDER/result.json. None where there is no such file.
-/// @throws std::invalid_argument  it is no result: which part, and why.
+/// @throws base::InputError  it is no result: which part, and why.
 std::optional<StudyResult> read_result(const std::filesystem::path& folder);
 
 /// Of which study a result is, whatever else is in it. None where the text does not say.

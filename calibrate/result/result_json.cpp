@@ -1,3 +1,4 @@
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "calibrate/result/result.h"
 #include "calibrate/result/result_fields.h"
@@ -132,11 +133,11 @@ StudyResult result_from_json(const std::string& json, const std::string& name) {
   } catch (const WrongField& error) {
     reason = error.what();
   }
-  throw std::invalid_argument(
-      fmt::format("{}: is not a result of this version of repose calibrate ({}). Fix: repose "
-                  "calibrate with the same study and folder writes it anew; what was simulated is "
-                  "used again.",
-                  name, reason));
+  throw base::InputError(
+      {.where = name,
+       .value = fmt::format("is not a result of this version of repose calibrate ({})", reason),
+       .fix = "repose calibrate with the same study and folder writes it anew; what was simulated "
+              "is used again."});
 }
 
 std::optional<StudyResult> read_result(const std::filesystem::path& folder) {

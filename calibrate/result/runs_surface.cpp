@@ -1,7 +1,8 @@
 #include "calibrate/result/runs_surface.h"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "base/input_error.h"
 
 namespace repose::calibrate {
 namespace {
@@ -42,7 +43,7 @@ std::optional<SurfaceReport> surface_of_runs(const Problem& problem, const Obser
        {SurfaceModel::quadratic, SurfaceModel::interaction, SurfaceModel::linear}) {
     try {
       return report_on(regress(table, model), WantedValue{observable.mean});
-    } catch (const std::invalid_argument&) {
+    } catch (const base::InputError&) {
       continue;  // too few runs for these terms
     }
   }

@@ -53,12 +53,12 @@ std::string study_text(const NewStudy& study, const std::string& folder);
 /// FOLDER/soybean for FOLDER/soybean.toml.
 std::filesystem::path sheet_folder_of(const std::filesystem::path& file);
 
-/// @throws std::invalid_argument  the study or its folder is there already, or there is no place
+/// @throws base::InputError  the study or its folder is there already, or there is no place
 /// for them: every error.
 void check_new_places(const std::filesystem::path& file);
 
 /// Writes the study and its folder of sheets, all or nothing.
-/// @throws std::invalid_argument  as check_new_places; or one of them cannot be written.
+/// @throws base::InputError  as check_new_places; or one of them cannot be written.
 void write_new_study(const NewStudy& study, const std::filesystem::path& file);
 
 }  // namespace repose::calibrate

@@ -1,12 +1,11 @@
 #include <cerrno>
 #include <cstdlib>
-#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/csv.h"
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "base/part_file.h"
 #include "base/whole_file.h"
 #include "calibrate/start/new_study.h"
@@ -23,9 +22,8 @@ class FolderToBe {
     std::string name = (base::folder_of(folder) / ".repose-new-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
       const std::error_code error(errno, std::generic_category());
-      throw std::invalid_argument(
-          fmt::format("{}: cannot be created ({}). Fix: choose a writable place.", folder.string(),
-                      error.message()));
+      base::refuse(folder, fmt::format("cannot be created ({})", error.message()),
+                   "choose a writable place.");
     }
     path_ = name;
     fs::permissions(path_,
@@ -60,17 +58,18 @@ class FolderToBe {
 fs::path sheet_folder_of(const fs::path& file) { return file.parent_path() / file.stem(); }
 
 void check_new_places(const fs::path& file) {
-  base::ErrorList errors;
+  base::Faults errors;
   std::error_code ignored;
   for (const fs::path& place : {file, sheet_folder_of(file)}) {
     errors.require(!fs::exists(fs::symlink_status(place, ignored)),
-                   fmt::format("{}: already exists, and nothing is overwritten. Fix: choose "
-                               "another name for the study, or move it away.",
-                               place.string()));
+                   {.where = place.string(),
+                    .value = "already exists, and nothing is overwritten",
+                    .fix = "choose another name for the study, or move it away."});
   }
   errors.require(fs::is_directory(base::folder_of(file), ignored),
-                 fmt::format("{}: there is no folder {}. Fix: make it, or correct the name.",
-                             file.string(), base::folder_of(file).string()));
+                 {.where = file.string(),
+                  .value = fmt::format("there is no folder {}", base::folder_of(file).string()),
+                  .fix = "make it, or correct the name."});
   errors.throw_if_any();
 }
 

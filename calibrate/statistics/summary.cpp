@@ -2,15 +2,16 @@
 
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 #include "base/distributions.h"
+#include "base/input_error.h"
 
 namespace repose::calibrate {
 
 Summary summarise(std::span<const double> values) {
   if (values.empty()) {
-    throw std::invalid_argument("repeats: 0 values have no mean. Fix: give at least one.");
+    throw base::InputError(
+        {.where = "repeats", .value = "0 values have no mean", .fix = "give at least one."});
   }
   const auto n = static_cast<double>(values.size());
   Summary repeats{.n = static_cast<int>(values.size()),

@@ -23,7 +23,7 @@ struct Summary {
 ///
 /// Source: JCGM 100:2008 (GUM), 4.2.1 to 4.2.3 and G.3.2. Checked by
 /// tests/calibrate/summary_test.cpp.
-/// @throws std::invalid_argument  there is no value.
+/// @throws base::InputError  there is no value.
 Summary summarise(std::span<const double> values);
 
 }  // namespace repose::calibrate

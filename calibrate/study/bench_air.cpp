@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/air_drag.h"
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/statistics/summary.h"
 #include "dem/study/experiment_table.h"
@@ -41,12 +41,13 @@ class Evacuation {
   void check(double read_mm) {
     errors_.require(
         rise_mm(read_mm) <= kMmPerM * fall_m_,
-        fmt::format("[experiment.{}]: a rebound of {:g} mm after a fall of {:g} mm. Rule: no "
-                    "higher than the grain, of {:.3g} mm and {:g} kg/m3, fell, less what the drag "
-                    "of the air takes. Fix: check the grain's size and density; in_air = false "
-                    "beside readings that are free of drag already.",
-                    experiment_, read_mm, kMmPerM * fall_m_, kMmPerM * grain_.diameter_m,
-                    grain_.density_kg_m3));
+        {.value = fmt::format("[experiment.{}]: a rebound of {:g} mm after a fall of {:g} mm",
+                              experiment_, read_mm, kMmPerM * fall_m_),
+         .rule = fmt::format("no higher than the grain, of {:.3g} mm and {:g} kg/m3, fell, less "
+                             "what the drag of the air takes",
+                             kMmPerM * grain_.diameter_m, grain_.density_kg_m3),
+         .fix = "check the grain's size and density; in_air = false beside readings that are free "
+                "of drag already."});
   }
 
   /// How much the rise changes with what is read.
@@ -102,7 +103,7 @@ class Evacuation {
   std::string experiment_;
   base::FallingGrain grain_;
   double fall_m_;
-  base::ErrorList errors_;
+  base::Faults errors_;
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ base::FallingGrain falling_grain(const dem::ClumpShape& grain, double density_kg
 /// the bench is raised by what the drag of the air takes (base::rise_without_air_m), its
 /// uncertainty and what was done are in Measured::systematic. Not those that are free of it
 /// already (Measured::in_air).
-/// @throws std::invalid_argument  a rebound that no such grain could have in air.
+/// @throws base::InputError  a rebound that no such grain could have in air.
 dem::Study without_air(dem::Study study, const dem::ClumpShape& grain);
 
 }  // namespace repose::calibrate

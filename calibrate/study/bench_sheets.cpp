@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "calibrate/statistics/bench/sheet.h"
 #include "calibrate/study/bench_setting.h"
 #include "dem/study/experiment_table.h"
@@ -18,9 +17,9 @@ namespace {
 
 /// Readings taken in another way are no readings of this experiment.
 void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
-                    const std::vector<BenchReading>& readings, base::ErrorList& errors) {
+                    const std::vector<BenchReading>& readings, base::Faults& errors) {
   const std::vector<std::string> names = column_names(bench_test_named(entry.sheet.test));
-  base::ErrorList rows(kMostRowErrors);
+  base::Faults rows(kMostRowErrors);
   for (const auto& [column, key] : entry.sheet.protocol) {
     const auto index =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
@@ -28,34 +27,37 @@ void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& prot
     for (const BenchReading& reading : readings) {
       const double value = reading.values[index];
       if (std::abs(value - meant) <= kSameSetting * meant) continue;
-      rows.add(fmt::format(
-          "{0}: {1} = {2:g}, and the study has {3} = {4:g} in [experiment.{5}]. Rule: the same "
-          "within {6:g} %. Fix: write {3} = {2:g} there if all readings were taken so, or leave "
-          "the reading out.",
-          reading.place, column, value, key, meant, entry.name, 100 * kSameSetting));
+      rows.add(
+          {.where = reading.place,
+           .value = fmt::format("{0} = {1:g}, and the study has {2} = {3:g} in [experiment.{4}]",
+                                column, value, key, meant, entry.name),
+           .rule = fmt::format("the same within {0:g} %", 100 * kSameSetting),
+           .fix = fmt::format(
+               "write {0} = {1:g} there if all readings were taken so, or leave the reading out.",
+               key, value)});
     }
   }
-  errors.add(rows);
+  errors.add_all(rows.all());
 }
 
 /// Heights with and without air have no common mean.
 void check_one_air(const std::string& sheet, const std::vector<BenchReading>& readings,
-                   base::ErrorList& errors) {
+                   base::Faults& errors) {
   std::set<double> answers;
   for (const BenchReading& reading : readings) {
     const auto given = reading.optional.find(std::string(kInAirColumn));
     if (given != reading.optional.end()) answers.insert(given->second);
   }
-  errors.require(
-      answers.size() <= 1,
-      fmt::format("{}: {} differs from row to row. Rule: all heights read in air (1), or "
-                  "all free of its drag (0). Fix: make two sheets, of two studies.",
-                  sheet, kInAirColumn));
+  errors.require(answers.size() <= 1,
+                 {.where = sheet,
+                  .value = fmt::format("{} differs from row to row", kInAirColumn),
+                  .rule = "all heights read in air (1), or all free of its drag (0)",
+                  .fix = "make two sheets, of two studies."});
 }
 
 SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
                             const dem::StudyExperiment& described, NoRows no_rows,
-                            base::ErrorList& errors) {
+                            base::Faults& errors) {
   SheetReadings sheet{.experiment = std::string(entry.name),
                       .file = *described.measured.sheet,
                       .rows = 0,
@@ -82,13 +84,13 @@ SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
 
 std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows) {
   std::vector<SheetReadings> sheets;
-  base::ErrorList errors;
+  base::Faults errors;
   for (const auto& [experiment, described] : study.experiments) {
     if (!described.measured.sheet) continue;
     try {
       sheets.push_back(read_sheet_of(dem::entry_of(experiment), described, no_rows, errors));
-    } catch (const std::invalid_argument& error) {
-      errors.add(error.what());
+    } catch (const base::InputError& error) {
+      errors.add_all(error.faults());
     }
   }
   errors.throw_if_any();

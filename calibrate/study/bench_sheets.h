@@ -24,7 +24,7 @@ struct SheetReadings {
 
 /// Reads all of them, in the order of the experiments. A sheet without rows has no values, or is an
 /// error.
-/// @throws std::invalid_argument  every error of every sheet, "FILE:LINE: ..." each: see read_sheet
+/// @throws base::InputError  every error of every sheet, "FILE:LINE: ..." each: see read_sheet
 /// and check_readings; or another height of fall or incline than that of the study.
 std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows);
 

@@ -1,9 +1,8 @@
 #include "calibrate/study/coefficients.h"
 
 #include <array>
-#include <stdexcept>
 
-#include <fmt/format.h>
+#include "base/input_error.h"
 
 namespace repose::calibrate {
 namespace {
@@ -61,7 +60,7 @@ double* find_coefficient(const std::string& name, dem::Model& model) {
 double& coefficient_named(const std::string& name, dem::Model& model) {
   double* found = find_coefficient(name, model);
   if (found != nullptr) return *found;
-  throw std::invalid_argument(fmt::format("{}: there is no such coefficient", name));
+  throw base::InputError({.where = name, .value = "there is no such coefficient"});
 }
 
 }  // namespace repose::calibrate

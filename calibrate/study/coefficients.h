@@ -19,7 +19,7 @@ std::vector<NamedCoefficient> coefficients_of(const dem::Study& study);
 
 /// Where a bench has it; null where it does not.
 double* find_coefficient(const std::string& name, dem::Model& model);
-/// Likewise. Throws std::invalid_argument for a name that there is not.
+/// Likewise. Throws base::InputError for a name that there is not.
 double& coefficient_named(const std::string& name, dem::Model& model);
 
 }  // namespace repose::calibrate

@@ -45,7 +45,7 @@ class JobRunner {
 
   /// In the order of the jobs. None when it was interrupted. `later_s` is the work of the stages
   /// that follow, for those who watch.
-  /// @throws std::invalid_argument  a protocol that cannot be run, a folder that cannot be written.
+  /// @throws base::InputError  a protocol that cannot be run, a folder that cannot be written.
   std::optional<std::vector<Run>> get(const std::string& stage, const std::vector<Job>& jobs,
                                       std::optional<double> later_s = {});
 

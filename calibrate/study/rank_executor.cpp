@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include "base/input_error.h"
 #include "calibrate/study/executor.h"
 
 namespace repose::calibrate {
@@ -46,7 +47,7 @@ std::optional<Message> receive() {
 RunResult run_of_rank(const std::string& text) {
   try {
     return run_in(text);
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     throw std::runtime_error(
         fmt::format("another process sent a run that cannot be read: {}. Fix: start the same "
                     "version everywhere.",
@@ -72,7 +73,7 @@ class Farm {
       const bool has_heard = look_at_others();
       if (!has_begun && !has_finished && !has_heard) std::this_thread::sleep_for(kBetweenLooks);
     }
-    if (!error_.empty()) throw std::invalid_argument(error_);
+    if (!error_.empty()) throw base::InputError({.value = error_});
   }
 
  private:
@@ -111,7 +112,7 @@ class Farm {
       finish(0, own_.get());
     } catch (const dem::Interrupted&) {
       release(0);
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       error_ = error.what();
       release(0);
     }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/angle_definition.h"
+#include "base/whole_file.h"
 #include "calibrate/experiment/run_result.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/unit_box.h"
@@ -208,11 +208,8 @@ class Maker {
     made_.problem.spheres = spheres_of(study_.grain, grain_.shape);
     made_.problem.spheres.share_damping = study_.model.damping == dem::DampingModel::shared;
     if (made_.problem.parameters.empty()) {
-      throw std::invalid_argument(
-          fmt::format("{}: every coefficient has a value, so there is nothing to fit. Fix: give "
-                      "bounds to what you "
-                      "seek, as in restitution = {{ min = 0.1, max = 0.6 }}.",
-                      study_.file.string()));
+      base::refuse(study_.file, "every coefficient has a value, so there is nothing to fit",
+                   "give bounds to what you seek, as in restitution = { min = 0.1, max = 0.6 }.");
     }
     if (auto sticky = dem::adhesion_warning(grain_.shape.volume_m3,
                                             study_.model.grain_material.density_kg_m3)) {
@@ -220,12 +217,11 @@ class Maker {
     }
     for (const dem::ExperimentEntry& entry : dem::all_experiments()) add(entry);
     if (made_.problem.observables.empty()) {
-      throw std::invalid_argument(fmt::format(
-          "{}: no experiment that depends on a fitted coefficient has readings{}. Fix: "
-          "give one or more experiments their bench readings, as in measured = {{ mean "
-          "= 9.42, sd = "
-          "0.5, n = 10 }}.",
-          study_.file.string(), made_.problem.held_out.empty() ? "" : ", but for those held out"));
+      base::refuse(study_.file,
+                   fmt::format("no experiment that depends on a fitted coefficient has readings{}",
+                               made_.problem.held_out.empty() ? "" : ", but for those held out"),
+                   "give one or more experiments their bench readings, as in measured = { mean = "
+                   "9.42, sd = 0.5, n = 10 }.");
     }
     allow_a_fit();
     made_.problem.fixed_inputs = fixed_inputs_of(study_, grain_.shape, made_.problem);
@@ -386,19 +382,23 @@ double stated_bias(const std::vector<dem::Systematic>& parts) {
   return stated == parts.end() ? 0 : stated->sd;
 }
 
-std::string too_large_bias(const dem::Study& study, const std::string& where, double bias,
+base::Fault too_large_bias(const dem::Study& study, const std::string& where, double bias,
                            double most, std::string_view unit) {
-  return fmt::format(
-      "{}: {}.{} = {:.4g} {}. Rule: a standard uncertainty that all readings share, no larger than "
-      "they are themselves: {:.4g} {} at most. Fix: give it in the unit of the readings; of a "
-      "ruler, a protractor or a board at most a few percent of them.",
-      study.file.string(), where, dem::kBiasKey, bias, unit, most, unit);
+  return {.where = study.file.string(),
+          .subject = fmt::format("{}.{}", where, dem::kBiasKey),
+          .value = fmt::format("= {:.4g} {}", bias, unit),
+          .rule = fmt::format("a standard uncertainty that all readings share, no larger than they "
+                              "are themselves: {:.4g} {} at most",
+                              most, unit),
+          .fix =
+              "give it in the unit of the readings; of a ruler, a protractor or a board at most a "
+              "few percent of them."};
 }
 
 /// Readings near 0 may be as uncertain as a hundredth of what there is to read.
 void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
                 const dem::Measured& measured, const dem::Range& range,
-                std::vector<std::string>& errors) {
+                std::vector<base::Fault>& errors) {
   constexpr double kLeastOfRange = .01;
   const std::string where = fmt::format("[experiment.{}]", entry.name);
   double largest = kLeastOfRange * (range.to - range.from);
@@ -420,25 +420,28 @@ void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
 /// A rebound from the lower height of a drop that is higher than that.
 void find_impossible_low_rebound(const dem::Study& study, const dem::ClumpShape& grain,
                                  const dem::StudyExperiment& described,
-                                 std::vector<std::string>& errors) {
+                                 std::vector<base::Fault>& errors) {
   const auto* drop = std::get_if<dem::DropProtocol>(&described.protocol);
   if (drop == nullptr || !drop->low_height_m) return;
   const double most_mm = 1e3 * (*drop->low_height_m + 2 * grain.reach_m());
   for (const dem::MeasuredReading& reading : described.measured.also) {
     if (reading.name != "low_rebound_mm" || reading.mean <= most_mm) continue;
-    errors.push_back(fmt::format(
-        "{}: [experiment.drop.also_measured] low_rebound_mm = {:.10g} mm. Rule: at most {:.4g} mm, "
-        "low_height_mm = {:.4g} and from lying to standing with this grain. Fix: correct the "
-        "reading, or the study.",
-        study.file.string(), reading.mean, most_mm, 1e3 * *drop->low_height_m));
+    errors.push_back(
+        {.where = study.file.string(),
+         .value = fmt::format("[experiment.drop.also_measured] low_rebound_mm = {:.10g} mm",
+                              reading.mean),
+         .rule = fmt::format(
+             "at most {:.4g} mm, low_height_mm = {:.4g} and from lying to standing with this grain",
+             most_mm, 1e3 * *drop->low_height_m),
+         .fix = "correct the reading, or the study."});
   }
 }
 
 }  // namespace
 
-std::vector<std::string> impossible_readings(const dem::Study& study,
+std::vector<base::Fault> impossible_readings(const dem::Study& study,
                                              const dem::ClumpShape& grain) {
-  std::vector<std::string> errors;
+  std::vector<base::Fault> errors;
   for (const auto& [experiment, described] : study.experiments) {
     find_impossible_low_rebound(study, grain, described, errors);
     const dem::ExperimentEntry& entry = dem::entry_of(experiment);
@@ -455,11 +458,13 @@ std::vector<std::string> impossible_readings(const dem::Study& study,
             ? fmt::format("{:.10g} if a point parts thousands or the unit is another one; ",
                           kThousand * *impossible)
             : "";
-    errors.push_back(fmt::format(
-        "{}: [experiment.{}] measured = {:.10g} {}. Rule: its {} is from {:.4g} to {:.4g} {} with "
-        "this grain and protocol. Fix: {}correct the reading, or the study.",
-        study.file.string(), entry.name, *impossible, entry.unit, entry.value_name, range.from,
-        range.to, entry.unit, thousands));
+    errors.push_back(
+        {.where = study.file.string(),
+         .value = fmt::format("[experiment.{}] measured = {:.10g} {}", entry.name, *impossible,
+                              entry.unit),
+         .rule = fmt::format("its {} is from {:.4g} to {:.4g} {} with this grain and protocol",
+                             entry.value_name, range.from, range.to, entry.unit),
+         .fix = thousands + "correct the reading, or the study."});
   }
   return errors;
 }
@@ -490,8 +495,10 @@ Budget budget_named(const std::string& name) {
             .verification_repeats = 24,
             .family_sets = 0};
   }
-  throw std::invalid_argument(
-      fmt::format("budget = {}: must be quick, standard or paper. Fix: choose quick.", name));
+  throw base::InputError({.subject = "budget",
+                          .value = fmt::format("= {}:", name),
+                          .rule = "must be quick, standard or paper",
+                          .fix = "choose quick."});
 }
 
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/fit/problem.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/experiment_table.h"
@@ -20,7 +21,7 @@ struct Budget {
   int family_sets = 2;           ///< sets of the equivalence family that are checked
 };
 
-/// "quick", "standard" or "paper". Throws std::invalid_argument for another name.
+/// "quick", "standard" or "paper". Throws base::InputError for another name.
 Budget budget_named(const std::string& name);
 
 /// The bench's angle is given as a number, and not by which definition it was measured. Pictures,
@@ -38,14 +39,14 @@ struct StudyProblem {
 /// one: a bulk density of 1.403 kg/m3, a rebound above the drop. Files of readings must have been
 /// read before. Proved by BenchSheets.ImpossibleReadings* in
 /// tests/calibrate.
-std::vector<std::string> impossible_readings(const dem::Study& study, const dem::ClumpShape& grain);
+std::vector<base::Fault> impossible_readings(const dem::Study& study, const dem::ClumpShape& grain);
 
 /// Unknowns are the coefficients with bounds; observables what each experiment measured. Where
 /// nobody measured how its readings scatter, the usual scatter of the experiment is assumed, or
 /// what chance does in the simulation where that is more (Misfit::measured_uncertainty), which is
 /// said in JointFit::warnings. Pictures
 /// must have been measured before: `measured.values` then holds their angles.
-/// @throws std::invalid_argument  nothing is to be found, nothing was measured, or the problem is
+/// @throws base::InputError  nothing is to be found, nothing was measured, or the problem is
 /// not sound: every error.
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain, const Budget& budget);
 

@@ -1,6 +1,5 @@
 #include "calibrate/study/study_record.h"
 
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fingerprint.h"
+#include "base/input_error.h"
 #include "base/version.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/run_folder.h"
@@ -171,11 +171,12 @@ fs::path kept(const fs::path& folder, const char* name, const StudyNotes& notes)
   const auto fingerprint = notes.fingerprints.find(name);
   if (fingerprint == notes.fingerprints.end()) return folder / name;
   if (base::fingerprint({base::read_whole_file(folder / name)}) != fingerprint->second) {
-    throw std::invalid_argument(
-        fmt::format("{}: does not belong to {} in the same folder: it was changed, or its writing "
-                    "was interrupted. Fix: the same repose calibrate again writes both anew; what "
-                    "was simulated is kept.",
-                    (folder / name).string(), kNotesFile));
+    throw base::InputError(
+        {.where = (folder / name).string(),
+         .value = fmt::format("does not belong to {} in the same folder: it was changed, or its "
+                              "writing was interrupted",
+                              kNotesFile),
+         .fix = "the same repose calibrate again writes both anew; what was simulated is kept."});
   }
   return folder / name;
 }
@@ -208,20 +209,16 @@ std::optional<StudyNotes> read_study_notes(const fs::path& folder) {
   try {
     return notes_in(Json::parse(base::read_whole_file(file)));
   } catch (const nlohmann::json::exception& error) {
-    throw std::invalid_argument(
-        fmt::format("{}: damaged ({}). Fix: the same repose calibrate again writes it anew; what "
-                    "was simulated is kept.",
-                    file.string(), error.what()));
+    base::refuse(file, fmt::format("damaged ({})", error.what()),
+                 "the same repose calibrate again writes it anew; what was simulated is kept.");
   }
 }
 
 StudyRecord read_study_record(const fs::path& folder) {
   const std::optional<StudyNotes> notes = read_study_notes(folder);
   if (!notes) {
-    throw std::invalid_argument(
-        fmt::format("{}: is not the folder of a study: it contains no {}. Fix: name the output "
-                    "folder of repose calibrate.",
-                    folder.string(), kNotesFile));
+    base::refuse(folder, fmt::format("is not the folder of a study: it contains no {}", kNotesFile),
+                 "name the output folder of repose calibrate.");
   }
   StudyRecord record;
   record.settings = notes->study.settings;
@@ -244,7 +241,7 @@ namespace {
 bool has_notes(const fs::path& folder) {
   try {
     return read_study_notes(folder).has_value();
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     return false;
   }
 }

@@ -66,22 +66,22 @@ StudyIdentity identity_of(const StudyRecord& record);
 
 /// The study as measured, from the study as read: readings of its sheets and films and angles of
 /// its pictures are its measured values, those of drops as without air (without_air).
-/// @throws std::invalid_argument  see without_air.
+/// @throws base::InputError  see without_air.
 dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
                        const std::vector<PictureReading>& pictures,
                        const std::vector<SheetReadings>& sheets,
                        const std::vector<FilmReading>& films);
 
 /// Writes FOLDER/study.toml (a copy), clump.json and study.json. The study's file must be there.
-/// @throws std::invalid_argument  they cannot be written.
+/// @throws base::InputError  they cannot be written.
 void write_study_record(const std::filesystem::path& folder, const StudyRecord& record);
 
 /// FOLDER/study.json alone. None where there is no such file.
-/// @throws std::invalid_argument  it is damaged.
+/// @throws base::InputError  it is damaged.
 std::optional<StudyNotes> read_study_notes(const std::filesystem::path& folder);
 
 /// Reads them back. Scans and pictures that the study names need not be there any more.
-/// @throws std::invalid_argument  the folder is none of a study, a file is damaged, or they do not
+/// @throws base::InputError  the folder is none of a study, a file is damaged, or they do not
 /// belong together.
 StudyRecord read_study_record(const std::filesystem::path& folder);
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/distributions.h"
+#include "base/input_error.h"
 #include "calibrate/fit/first_round.h"
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/profile.h"
@@ -279,7 +279,7 @@ bool refine(const Problem& problem, const Budget& budget, const StudySimulator& 
       const dem::ClumpFile& finer = simulator.finer_grain(varied->inputs.spheres);
       shape.finer_spheres = static_cast<int>(finer.shape.spheres.size());
       shape.finer_volume_error = finer.errors.volume_error;
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       shape.not_made = fmt::format("more spheres cannot be made: {}", error.what());
       return true;
     }
@@ -302,7 +302,7 @@ bool vary_inputs(const Problem& problem, JobRunner& runner, StudyOutcome& outcom
       const auto runs = runner.get("varying " + input.name, jobs, 0);
       if (!runs) return false;
       varied = joined(std::move(varied), *runs);
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       plan.inputs[k].not_varied = input.experiments;
       outcome.notes.push_back(fmt::format("{} cannot be varied by its uncertainty, {:g} {}: {}",
                                           input.name, input.sd, input.unit, error.what()));

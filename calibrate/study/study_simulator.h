@@ -24,12 +24,12 @@ class StudySimulator {
                  int heap_views = kHeapViews);
 
   /// What a job asks for but its seed.
-  /// @throws std::invalid_argument  its grain cannot be made (see finer_grain).
+  /// @throws base::InputError  its grain cannot be made (see finer_grain).
   RunSpec spec(const Job& job) const;
 
   /// The study's grain of so many times its spheres, made when it is first asked for, which may
   /// take some seconds; may be called from several threads.
-  /// @throws std::invalid_argument  so many spheres do not follow the surface, or there is none.
+  /// @throws base::InputError  so many spheres do not follow the surface, or there is none.
   const dem::ClumpFile& finer_grain(double multiple) const;
 
   /// Where runs are found and saved, with the final states of heaps; to be there as long as this.
@@ -38,7 +38,7 @@ class StudySimulator {
   /// Runs it on one thread; may be called from several. An experiment in which nothing can be read,
   /// or that becomes unstable, is a run with a failure.
   /// @throws dem::Interrupted  `is_interrupted` became true.
-  /// @throws std::invalid_argument  as simulate_experiment.
+  /// @throws base::InputError  as simulate_experiment.
   /// @throws std::runtime_error  this machine cannot draw: heaps without pictures must not be
   /// fitted together with those that have them.
   RunResult simulate(const Job& job, const std::atomic<bool>& is_interrupted) const;

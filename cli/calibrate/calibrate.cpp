@@ -3,7 +3,6 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -57,10 +56,11 @@ void set_aside_old_result(const CalibratePlan& plan) {
   }
   if (!error) fs::rename(file, plan.out_folder / name, error);
   if (error) {
-    throw std::invalid_argument(
-        fmt::format("{}: belongs to another study and cannot be renamed ({}). Fix: choose another "
-                    "folder.",
-                    file.string(), error.message()));
+    throw base::InputError(
+        {.where = file.string(),
+         .value =
+             fmt::format("belongs to another study and cannot be renamed ({})", error.message()),
+         .fix = "choose another folder."});
   }
   print_line(fmt::format("{}: belonged to another study, settings or budget; renamed to {}",
                          file.string(), name));

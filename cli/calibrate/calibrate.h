@@ -1,11 +1,17 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "cli/common/exit_code.h"
 
 namespace repose::cli {
+
+/// Its options by the fields that the library finds fault with.
+inline constexpr std::array<base::FieldName, 3> kCalibrateFields{
+    {{"budget", "--budget"}, {"setting", "--set"}, {"the joint method", "--method joint"}}};
 
 /// `repose calibrate`, as typed.
 struct CalibrateArguments {

@@ -65,7 +65,7 @@ Command calibrate_command() {
                   {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kCalibrateNotes,
       .missing = "no study file given. Fix: repose calibrate STUDY.toml.",
-      .option_names = {{"the joint method", "--method joint"}},
+      .fields = kCalibrateFields,
       .run = [given] { return run_calibrate(*given); }};
 }
 

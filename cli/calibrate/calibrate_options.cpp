@@ -2,11 +2,11 @@
 
 #include <array>
 #include <map>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/bench_films.h"
@@ -14,7 +14,6 @@
 #include "cli/common/cores.h"
 #include "cli/common/degrees.h"
 #include "cli/common/number.h"
-#include "cli/common/option_names.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
@@ -28,8 +27,6 @@ namespace repose::cli {
 namespace {
 
 constexpr int kMaxJobs = 1024;
-constexpr std::array kCalibrateNames{OptionName{.value = "budget", .option = "--budget"},
-                                     OptionName{.value = "setting", .option = "--set"}};
 
 /// Does `work`; what it refuses becomes errors.
 template <typename Work>
@@ -37,8 +34,8 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
   try {
     work();
     return true;
-  } catch (const std::invalid_argument& error) {
-    add_lines(naming_options(error.what(), kCalibrateNames), errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, errors, kCalibrateFields);
     return false;
   }
 }
@@ -246,9 +243,9 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
     plan.record.study =
         calibrate::as_measured(std::move(plan.record.study), plan.record.grain.shape,
                                plan.record.pictures, plan.record.sheets, plan.record.films);
-    for (std::string& error :
+    for (const base::Fault& fault :
          calibrate::impossible_readings(plan.record.study, plan.record.grain.shape)) {
-      plan.errors.push_back(std::move(error));
+      plan.errors.push_back(fault.text());
     }
   });
   for (const std::string& repair : plan.record.grain.repairs) {

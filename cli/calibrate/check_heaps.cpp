@@ -4,12 +4,12 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/whole_file.h"
 #include "calibrate/study/study_record.h"
 #include "dem/state/state_file.h"
 
@@ -39,10 +39,8 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) return;
-  throw std::invalid_argument(fmt::format(
-      "{}: cannot be created ({}). Fix: get permission to write there, or move away what "
-      "has that name.",
-      folder.string(), error.message()));
+  base::refuse(folder, fmt::format("cannot be created ({})", error.message()),
+               "get permission to write there, or move away what has that name.");
 }
 
 }  // namespace

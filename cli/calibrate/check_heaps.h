@@ -15,7 +15,7 @@ std::size_t most_typical(const std::vector<double>& values);
 /// Leaves the heaps of the last check in the study's folder, to look at and to compare with
 /// photographs: all in `heaps`, that of the most typical angle also as `heap.vtp`. Those of an
 /// earlier result go away: what is of other coefficients must not stand for these.
-/// @throws std::invalid_argument  the folder cannot be written.
+/// @throws base::InputError  the folder cannot be written.
 void save_check_heaps(const CalibratePlan& plan, const calibrate::StudyContext& context,
                       const std::vector<calibrate::Run>& checks);
 

@@ -4,13 +4,12 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "base/input_error.h"
 #include "cli/camera/camera_result.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/memory.h"
@@ -78,7 +77,7 @@ Looks look_at_all(const CameraPlan& plan, const std::atomic<bool>& is_interrupte
       if (is_interrupted) return;
       try {
         looks.pictures[i] = look_at(plan.pictures[i]);
-      } catch (const std::invalid_argument& error) {
+      } catch (const base::InputError& error) {
         looks.errors[i] = error.what();
       } catch (const std::exception& error) {
         if (!is_out_of_memory(error)) throw;

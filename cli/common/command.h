@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/input_error.h"
 #include "cli/common/exit_code.h"
-#include "cli/common/option_names.h"
 
 namespace repose::cli {
 
@@ -29,8 +29,8 @@ struct Command {
   std::vector<CommandOption> options;
   std::string notes = {};    ///< below the options in its help
   std::string missing = {};  ///< said when something required is not given
-  /// How libraries call its options in what they throw.
-  std::vector<OptionName> option_names = {};
+  /// Its options by the fields that libraries find fault with; lives as long as the program.
+  base::FieldNames fields = {};
   std::function<ExitCode()> run = {};
 };
 

@@ -4,14 +4,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "base/error_list.h"
 #include "base/printable.h"
 #include "base/whole_file.h"
 
@@ -21,9 +18,10 @@ namespace {
 void print(std::string_view text) {
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (is_written && std::fflush(stdout) == 0) return;
-  throw std::invalid_argument(
-      "standard output: cannot be written. Fix: check whether the disk is full or the program "
-      "reading it has ended.");
+  throw base::InputError(
+      {.where = "standard output",
+       .value = "cannot be written",
+       .fix = "check whether the disk is full or the program reading it has ended."});
 }
 
 }  // namespace
@@ -55,8 +53,8 @@ void Outputs::write_files() {
   for (const auto& [file, text] : std::exchange(files_, {})) {
     try {
       base::write_whole_file(file, text);
-    } catch (const std::invalid_argument& error) {
-      errors_.emplace_back(error.what());
+    } catch (const base::InputError& error) {
+      errors_.insert(errors_.end(), error.faults().begin(), error.faults().end());
     }
   }
 }
@@ -65,17 +63,15 @@ void Outputs::write() {
   write_files();
   try {
     print(has_printed_ ? printed_ : shown_);
-  } catch (const std::invalid_argument& error) {
-    errors_.emplace_back(error.what());
+  } catch (const base::InputError& error) {
+    errors_.insert(errors_.end(), error.faults().begin(), error.faults().end());
   }
-  base::ErrorList errors;
-  for (const std::string& error : std::exchange(errors_, {})) errors.add(error);
-  errors.throw_if_any();
+  if (!errors_.empty()) throw base::InputError(std::exchange(errors_, {}));
 }
 
-void add_lines(const std::string& text, std::vector<std::string>& lines) {
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+void add_faults(const base::InputError& error, std::vector<std::string>& lines,
+                base::FieldNames names) {
+  for (const base::Fault& fault : error.faults()) lines.push_back(fault.text(names));
 }
 
 void print_error_text(std::string_view text) noexcept {

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/input_error.h"
+
 namespace repose::cli {
 
 /// The name that stands for standard output.
@@ -27,7 +29,7 @@ class Outputs {
   void write_files();
 
   /// The files, if they were not yet written, then standard output.
-  /// @throws std::invalid_argument  what could not be written, a line each.
+  /// @throws base::InputError  what could not be written, a line each.
   void write();
 
  private:
@@ -39,11 +41,12 @@ class Outputs {
   std::string shown_;
   std::string printed_;
   bool has_printed_ = false;
-  std::vector<std::string> errors_;
+  std::vector<base::Fault> errors_;
 };
 
-/// Adds each line of a text, such as an exception's that tells several errors.
-void add_lines(const std::string& text, std::vector<std::string>& lines);
+/// Adds a line for each fault, with the options of the fields that `names` has.
+void add_faults(const base::InputError& error, std::vector<std::string>& lines,
+                base::FieldNames names = {});
 
 /// To standard error, as it is. Where that is closed or full, nothing happens: what a command
 /// measured does not depend on who listens.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
@@ -71,7 +71,7 @@ std::string error_of_earlier(const OutputPlace& place) {
       fmt::format("already exists, and is not what this option writes. {}", kFix);
   try {
     return is_of_its_kind(base::read_whole_file(place.file), place) ? "" : other;
-  } catch (const std::invalid_argument&) {
+  } catch (const base::InputError&) {
     return other;  // what cannot be read is not ours either
   }
 }
@@ -113,7 +113,7 @@ void check_output_places(const std::vector<OutputPlace>& places,
     if (!error.empty()) errors.push_back(fmt::format("{} {}: {}", option, file, error));
     try {
       base::check_can_write(file);
-    } catch (const std::invalid_argument& refused) {
+    } catch (const base::InputError& refused) {
       errors.push_back(fmt::format("{} {}", option, refused.what()));
     }
   }
@@ -132,7 +132,7 @@ bool make_output_folder(const char* option, const fs::path& folder,
   try {
     base::check_can_write(folder / "file");
     return true;
-  } catch (const std::invalid_argument& unwritable) {
+  } catch (const base::InputError& unwritable) {
     errors.push_back(fmt::format("{} {}", option, unwritable.what()));
     return false;
   }

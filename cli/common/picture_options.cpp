@@ -1,6 +1,6 @@
 #include "cli/common/picture_options.h"
 
-#include <utility>
+#include <array>
 
 #include "cli/common/option_value.h"
 
@@ -26,27 +26,12 @@ vision::MeasureOptions read_measuring(const TypedMeasuring& typed,
     const auto [x, y, width, height] = *box;
     options.excluded.push_back({.x = x, .y = y, .width = width, .height = height});
   }
-  constexpr OptionName kWindow{.value = "window", .option = "--window"};
-  const auto [box, pitch] = measuring_names(typed.exclude_option);
-  for (std::string& problem : options.problems()) {
-    errors.push_back(naming_options(std::move(problem), std::array{kWindow, box, pitch}));
-  }
+  const std::array<base::FieldName, 3> names{{{"window", "--window"},
+                                              {"excluded box", typed.exclude_option},
+                                              {"camera pitch", "--pitch-deg"}}};
+  for (const base::Fault& problem : options.problems()) errors.push_back(problem.text(names));
+  options.names = typed.fields;
   return options;
-}
-
-std::array<OptionName, 2> measuring_names(const char* exclude_option) {
-  return {OptionName{.value = "excluded box", .option = exclude_option},
-          OptionName{.value = "camera pitch", .option = "--pitch-deg"}};
-}
-
-void name_options(vision::ReposeAngle& angle, std::span<const OptionName> names) {
-  angle.reason = naming_options(std::move(angle.reason), names);
-  for (vision::Warning& warning : angle.warnings) {
-    warning.message = naming_options(std::move(warning.message), names);
-  }
-  for (vision::Flank* flank : {&angle.left, &angle.right}) {
-    flank->reason = naming_options(std::move(flank->reason), names);
-  }
 }
 
 }  // namespace repose::cli

@@ -1,11 +1,11 @@
 #include "cli/common/scale_option.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "cli/common/number.h"
 #include "cli/common/output.h"
 #include "vision/camera/lens_file.h"
@@ -26,10 +26,11 @@ std::optional<vision::ScaleBar> read_scale_bar(const Typed& typed, std::string_v
   }
   const auto& [x1, y1, x2, y2, length_mm] = *numbers;
   const vision::ScaleBar bar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
-  const std::string problem = problem_of(bar);
-  if (problem.empty()) return bar;
-  typed.errors.push_back(
-      fmt::format("{} {}: {}. Fix: give the distance in mm.", typed.option, typed.text, problem));
+  auto fault = problem_of(bar);
+  if (!fault) return bar;
+  fault->where = fmt::format("{} {}", typed.option, typed.text);
+  fault->fix = "give the distance in mm.";
+  typed.errors.push_back(fault->text());
   return std::nullopt;
 }
 
@@ -50,8 +51,9 @@ vision::ScaleOptions read_scale(const ScaleArguments& arguments, std::string_vie
   if (!arguments.camera_file.empty()) {
     try {
       scale.lens = vision::read_lens_file(arguments.camera_file);
-    } catch (const std::invalid_argument& error) {
-      add_lines(fmt::format("--camera-file {}", error.what()), errors);
+    } catch (const base::InputError& error) {
+      for (const base::Fault& fault : error.faults())
+        errors.push_back("--camera-file " + fault.text());
     }
   }
   if (scale.finds_board && scale.scale) {

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "base/input_error.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
-#include "cli/common/picture_options.h"
 #include "cli/common/terminal.h"
 #include "cli/compare/compare_json.h"
 #include "cli/compare/compare_options.h"
@@ -46,12 +45,11 @@ MeasuredHeap measured(const std::filesystem::path& file, const vision::MeasureOp
 std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
   std::array<MeasuredHeap, 2> heaps;
   tbb::parallel_for(std::size_t{0}, heaps.size(), [&](std::size_t i) {
-    const auto names = measuring_names(kExcludeOptions[i]);
     try {
       heaps[i] = measured(plan.sources[i].pictures.front(), plan.measuring[i]);
-      name_options(heaps[i].angle, names);
-    } catch (const std::invalid_argument& error) {
-      heaps[i].error = naming_options(naming_file(plan.sources[i].name, error.what()), names);
+    } catch (const base::InputError& error) {
+      heaps[i].error =
+          naming_file(plan.sources[i].name, base::text_of(error.faults(), kCompareFields[i]));
     }
   });
   return heaps;

@@ -124,6 +124,7 @@ void read_measuring_of_both(const CompareArguments& arguments, ComparePlan& plan
                                         .window = arguments.window,
                                         .pitch_deg = pitches[i],
                                         .exclude = exclude,
+                                        .fields = kCompareFields[i],
                                         .exclude_option = kExcludeOptions[i]},
                                        errors);
     for (std::string& error : errors) {  // what is typed for both need not be said twice
@@ -185,9 +186,9 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
   read_grain(arguments, plan);
   read_margin(arguments.margin_deg, plan);
   read_camera(arguments.camera_mm, plan);
-  constexpr std::array kMargin{OptionName{.value = "margin", .option = "--margin-deg"}};
-  for (std::string& problem : plan.comparing.problems()) {
-    plan.errors.push_back(naming_options(std::move(problem), kMargin));
+  constexpr std::array kFields{base::FieldName{"margin", "--margin-deg"}};
+  for (const base::Fault& problem : plan.comparing.problems()) {
+    plan.errors.push_back(problem.text(kFields));
   }
   read_measuring_of_both(arguments, plan);
   plan.overlay_file = arguments.overlay_file;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "cli/compare/compare.h"
 #include "cli/compare/heap_source.h"
@@ -15,6 +16,10 @@ namespace repose::cli {
 
 /// The option with which each picture's boxes are left out.
 inline constexpr std::array kExcludeOptions = {"--exclude-first", "--exclude-second"};
+/// The options of each side by the fields that a measurement advises to give.
+inline constexpr std::array<std::array<base::FieldName, 2>, 2> kCompareFields{
+    {{{{"excluded box", kExcludeOptions[0]}, {"camera pitch", "--pitch-deg"}}},
+     {{{"excluded box", kExcludeOptions[1]}, {"camera pitch", "--pitch-deg"}}}}};
 
 /// A `repose compare` that can be carried out.
 struct ComparePlan {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,12 +12,12 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "cli/common/copies.h"
 #include "cli/common/heap_names.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
-#include "cli/common/picture_options.h"
 #include "cli/common/progress.h"
 #include "cli/common/terminal.h"
 #include "cli/compare/sets_json.h"
@@ -68,7 +67,7 @@ void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
       work.sessions.push_back(std::make_unique<calibrate::HeapViewSession>(
           render::scene_of(dem::read_state(states[heap])),
           calibrate::HeapViewing{.camera = plan.camera}));
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       work.errors.push_back(naming_file(states[heap].string(), error.what()));
       continue;
     }
@@ -109,18 +108,17 @@ void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupte
   tbb::parallel_for(std::size_t{0}, work.tasks.size(), [&](std::size_t i) {
     if (is_interrupted) return;
     const Task& task = work.tasks[i];
-    const auto names = measuring_names(kExcludeOptions[task.set]);
     try {
       std::unique_ptr<render::Renderer>& renderer = renderers.local();
       if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
       SeenHeap& seen = work.sets[task.set][task.heap];
       vision::ReposeAngle& angle = seen.views[task.view];
       angle = measured(plan, task, renderer.get(), seen, work);
-      name_options(angle, names);
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       const HeapSource& source = plan.sources[task.set];
       const auto& files = task.session != nullptr ? source.states : source.pictures;
-      errors[i] = naming_options(naming_file(files[task.heap].string(), error.what()), names);
+      errors[i] = naming_file(files[task.heap].string(),
+                              base::text_of(error.faults(), kCompareFields[task.set]));
     }
     progress.advance();
   });

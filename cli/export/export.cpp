@@ -3,13 +3,14 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/input_error.h"
 #include "base/printable.h"
+#include "base/whole_file.h"
 #include "calibrate/export/export.h"
 #include "calibrate/result/result.h"
 #include "calibrate/study/study_record.h"
@@ -51,17 +52,16 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
   const calibrate::StudyRecord record = calibrate::read_study_record(folder);
   const auto result = calibrate::read_result(folder);
   if (result && !is_same_study(result->provenance.study, identity_of(record))) {
-    throw std::invalid_argument(
-        fmt::format("{}: {} does not belong to the study in {}: the study was changed, and is "
-                    "unfinished. Fix: run "
-                    "the same repose calibrate command again; it resumes.",
-                    folder.string(), calibrate::kResultFile, calibrate::kNotesFile));
+    base::refuse(
+        folder,
+        fmt::format(
+            "{} does not belong to the study in {}: the study was changed, and is unfinished",
+            calibrate::kResultFile, calibrate::kNotesFile),
+        "run the same repose calibrate command again; it resumes.");
   }
   if (!result) {
-    throw std::invalid_argument(
-        fmt::format("{}: contains no result.json: the study is unfinished. Fix: run "
-                    "the same repose calibrate command again; it resumes.",
-                    folder.string()));
+    base::refuse(folder, "contains no result.json: the study is unfinished",
+                 "run the same repose calibrate command again; it resumes.");
   }
   sets = calibrate::exported_sets(*result);
   StudyExport made = calibrate::export_study(record.study, record.grain.shape,
@@ -96,8 +96,8 @@ ExportPlan plan_export(const ExportArguments& arguments) {
                         : fs::path(arguments.out_folder);
   try {
     plan.made = export_of(arguments.folder, plan.request, plan.sets);
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors);
   }
   return plan;
 }

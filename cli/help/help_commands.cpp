@@ -2,11 +2,12 @@
 
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
+#include "base/whole_file.h"
 #include "cli/common/output.h"
 #include "cli/help/completion.h"
 #include "cli/help/manual.h"
@@ -31,10 +32,11 @@ Installing repose does it for all users.
 
 ExitCode print_completion(const std::string& shell, const std::vector<Command>& commands) {
   if (shell != "bash" && shell != "zsh") {
-    throw std::invalid_argument(
-        fmt::format("completion: shell is {}, but must be bash or zsh. Fix: repose completion "
-                    "bash, or repose completion zsh.",
-                    shell));
+    throw base::InputError({.where = "completion",
+                            .subject = "shell",
+                            .value = fmt::format("is {}, but", shell),
+                            .rule = "must be bash or zsh",
+                            .fix = "repose completion bash, or repose completion zsh."});
   }
   Outputs outputs;
   outputs.show(shell == "bash" ? bash_completion(commands) : zsh_completion(commands));
@@ -46,9 +48,8 @@ ExitCode write_manual(const std::filesystem::path& folder, const std::vector<Com
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    throw std::invalid_argument(
-        fmt::format("{}: cannot create the folder ({}). Fix: choose a writable folder.",
-                    folder.string(), error.message()));
+    base::refuse(folder, fmt::format("cannot create the folder ({})", error.message()),
+                 "choose a writable folder.");
   }
   Outputs outputs;
   for (const ManualPage& page : manual_pages(commands)) {

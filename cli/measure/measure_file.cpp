@@ -4,16 +4,15 @@
 #include <exception>
 #include <iterator>
 #include <memory>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
 
+#include "base/input_error.h"
 #include "cli/common/copies.h"
 #include "cli/common/memory.h"
 #include "cli/common/picture_list.h"
-#include "cli/common/picture_options.h"
 #include "vision/drawing/overlay.h"
 #include "vision/film/frame_series.h"
 #include "vision/hints/hint_file.h"
@@ -53,30 +52,19 @@ void draw(const Seen& seen, const fs::path& file, const fs::path& overlay,
   try {
     vision::write_picture(overlay, vision::draw_overlay(seen.picture, measured.angle,
                                                         notes_for(file, measured, seen)));
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     measured.overlay_error = error.what();
   }
 }
-
-const std::vector<OptionName> kMeasureNames = [] {
-  const auto common = measuring_names("--exclude X,Y,W,H");
-  std::vector<OptionName> names(common.begin(), common.end());
-  names.push_back({.value = "heap box", .option = "--heap"});
-  names.push_back({.value = "ground points", .option = "--ground"});
-  names.push_back({.value = "place to keep", .option = "--keep"});
-  names.push_back({.value = "place to drop", .option = "--drop"});
-  names.push_back({.value = "camera file", .option = "--camera-file"});
-  return names;
-}();
 
 /// Does `work`; what it throws becomes the picture's error.
 template <typename Work>
 void attempt(MeasuredPicture& measured, const Work& work) {
   try {
     work();
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     measured.outcome = Outcome::bad_input;
-    measured.error = naming_options(naming_file(measured.file, error.what()), kMeasureNames);
+    measured.error = naming_file(measured.file, base::text_of(error.faults(), kMeasureFields));
   } catch (const std::exception& error) {
     const bool is_too_large = is_out_of_memory(error);
     measured.outcome = is_too_large ? Outcome::bad_input : Outcome::internal_error;
@@ -130,8 +118,6 @@ void finish(const MeasurePlan& plan, std::size_t index, const Seen& seen,
     measured.proposal = vision::propose_hint(picture, seen.options);
     if (measured.proposal && measured.lens) move_back(*measured.lens, *measured.proposal);
   }
-  name_options(measured.angle, kMeasureNames);
-  measured.sizes.reason = naming_options(std::move(measured.sizes.reason), kMeasureNames);
   if (plan.saves_hints) vision::save_hints(measured.told, file);
   if (!plan.overlays.empty() && !picture.empty()) {
     draw(seen, file, plan.overlays[index], measured);
@@ -178,7 +164,6 @@ MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
     vision::SizedHeap heap =
         vision::measure_sized_heap(timed.picture, measured.told.measuring, measured.told.scale);
     take(heap, measured);
-    name_options(measured.angle, kMeasureNames);
     if (!plan.overlays.empty()) {
       const double length_s = rest.filmed->film.length_s;
       draw({seen_in(timed.picture, heap), heap.options}, plan.pictures[index],
@@ -219,10 +204,10 @@ void measure_series(const MeasurePlan& plan, std::size_t index, vision::FrameSer
 
 void check_step(double step_s, const vision::FilmAngle& film) {
   if (step_s <= film.film.length_s || film.film.frames < 2) return;
-  throw std::invalid_argument(
-      fmt::format("--every {:g} is longer than the film, which lasts {:.3g} s. Fix: take a smaller "
-                  "step.",
-                  step_s, film.film.length_s));
+  throw base::InputError(
+      {.value = fmt::format("--every {:g} is longer than the film, which lasts {:.3g} s", step_s,
+                            film.film.length_s),
+       .fix = "take a smaller step."});
 }
 
 std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size_t index,

@@ -1,7 +1,6 @@
 #include "cli/measure/measure_options.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,7 +63,7 @@ void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
   hints.mask_file = arguments.mask_file;
   try {
     hints.mask = vision::read_picture(arguments.mask_file);
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     plan.errors.push_back(fmt::format("--mask {}", error.what()));
   }
 }
@@ -90,7 +89,8 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   plan.options = read_measuring({.method = arguments.method,
                                  .window = arguments.window,
                                  .pitch_deg = arguments.pitch_deg,
-                                 .exclude = arguments.exclude},
+                                 .exclude = arguments.exclude,
+                                 .fields = kMeasureFields},
                                 plan.errors);
   read_hints(arguments, plan);
   plan.scale = read_scale(arguments.scale,

@@ -1,15 +1,27 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "cli/measure/measure.h"
 #include "vision/camera/sized_heap.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
+
+/// Its options by the fields that a measurement finds fault with, or advises to give.
+inline constexpr std::array<base::FieldName, 7> kMeasureFields{
+    {{"excluded box", "--exclude X,Y,W,H"},
+     {"camera pitch", "--pitch-deg"},
+     {"heap box", "--heap"},
+     {"ground points", "--ground"},
+     {"point to keep", "--keep"},
+     {"point to drop", "--drop"},
+     {"camera file", "--camera-file"}}};
 
 /// A `repose measure` that can be carried out.
 struct MeasurePlan {

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "calibrate/start/usual_experiment.h"
 #include "cli/common/number.h"
-#include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "dem/shape/scan/calliper.h"
@@ -22,7 +21,7 @@
 namespace repose::cli {
 namespace {
 
-constexpr std::array kNewNames{OptionName{.value = "size", .option = "--grain-mm"}};
+constexpr std::array kNewFields{base::FieldName{"size", "--grain-mm"}};
 constexpr const char* kUsualPlate = "steel";
 constexpr double kMostGrains = 100'000;  // of an experiment
 
@@ -86,8 +85,8 @@ void read_grain(const NewArguments& arguments, NewPlan& plan) {
   const dem::CalliperSizes sizes{.length_m = study.sizes_mm[0] * kMPerMm,
                                  .width_m = study.sizes_mm[1] * kMPerMm,
                                  .thickness_m = study.sizes_mm[2] * kMPerMm};
-  for (const std::string& problem : sizes.problems()) {
-    plan.errors.push_back(naming_options(problem, kNewNames));
+  for (const base::Fault& problem : sizes.problems()) {
+    plan.errors.push_back(problem.text(kNewFields));
   }
   constexpr double kLightest = 10, kHeaviest = 25000;  // foam, osmium; g/cm3 lie below
   const auto density =
@@ -186,8 +185,8 @@ void read_file(const NewArguments& arguments, NewPlan& plan) {
   }
   try {
     calibrate::check_new_places(plan.file);
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors);
   }
 }
 

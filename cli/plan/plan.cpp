@@ -2,11 +2,11 @@
 
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "base/folder_lock.h"
+#include "base/input_error.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/plan/plan.h"
 #include "calibrate/study/executor.h"
@@ -48,8 +48,8 @@ void offer(double core_s, const std::set<dem::Experiment>& possible, PlanOptions
   try {
     options.offered = calibrate::offered_study(record.study, record.grain,
                                                calibrate::plan_budget(core_s), possible);
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), options.study.errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, options.study.errors);
   }
 }
 

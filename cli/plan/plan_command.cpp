@@ -44,7 +44,6 @@ Command plan_command() {
            {"--json", "FILE|-", "The plan, for programs", &given->json_file}},
       .notes = kPlanNotes,
       .missing = "no study file given. Fix: repose plan STUDY.toml.",
-      .option_names = {},
       .run = [given] { return run_plan(*given); }};
 }
 

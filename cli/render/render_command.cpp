@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/render/render.h"
+#include "cli/render/render_options.h"
 
 namespace repose::cli {
 namespace {
@@ -68,7 +69,7 @@ Command render_command() {
                    &given->out_file}},
       .notes = kRenderNotes,
       .missing = "no state given. Fix: repose render STATE.vtp --out heap.png.",
-      .option_names = {{"picture size", "--size"}},
+      .fields = kRenderFields,
       .run = [given] { return run_render(*given); }};
 }
 

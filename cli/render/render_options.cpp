@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -10,8 +9,8 @@
 
 #include "base/units.h"
 #include "cli/common/number.h"
-#include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
+#include "cli/common/output.h"
 #include "cli/common/output_places.h"
 #include "dem/study/study.h"
 #include "vision/picture/made_here.h"
@@ -32,8 +31,8 @@ std::optional<render::Colour> grain_colour(const RenderArguments& arguments, Ren
   if (arguments.study.empty()) return std::nullopt;
   try {
     return dem::read_study_copy(arguments.study).grain_colour;
-  } catch (const std::invalid_argument& error) {
-    plan.errors.emplace_back(error.what());
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors);
     return std::nullopt;
   }
 }
@@ -236,9 +235,8 @@ RenderPlan plan_render(const RenderArguments& arguments) {
   read_view(arguments.view, plan);
   if (const auto size = read_size({"--size", arguments.size, plan.errors})) {
     plan.size = {.width = (*size)[0], .height = (*size)[1]};
-    constexpr std::array kSize{OptionName{.value = "picture size", .option = "--size"}};
-    for (const std::string& problem : plan.size.problems()) {
-      plan.errors.push_back(naming_options(problem, kSize));
+    for (const base::Fault& problem : plan.size.problems()) {
+      plan.errors.push_back(problem.text(kRenderFields));
     }
   }
   plan.level.mm_per_px = read_positive({"--mm-per-px", arguments.mm_per_px, plan.errors},

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "cli/render/render.h"
 #include "render/run/filmed_run.h"
 #include "render/scene/camera.h"
@@ -11,6 +13,9 @@
 #include "render/scene/style.h"
 
 namespace repose::cli {
+
+/// Its options by the fields that the library finds fault with.
+inline constexpr std::array kRenderFields{base::FieldName{"picture size", "--size"}};
 
 /// A lens on a stand, from --camera.
 struct LensPlan {
@@ -36,7 +41,7 @@ struct RenderPlan {
 };
 
 /// The camera of the plan before a scene.
-/// @throws std::invalid_argument  see render::camera_on().
+/// @throws base::InputError  see render::camera_on().
 render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene);
 
 RenderPlan plan_render(const RenderArguments& arguments);

@@ -6,7 +6,7 @@
 namespace repose::cli {
 
 /// Draws the film of a run, and writes what is exact about it where that is asked for.
-/// @throws std::invalid_argument  the trajectory cannot be read, or a file cannot be written.
+/// @throws base::InputError  the trajectory cannot be read, or a file cannot be written.
 void render_run_film(const RenderArguments& arguments, const RenderPlan& plan);
 
 }  // namespace repose::cli

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <vector>
 
-#include "base/error_list.h"
 #include "base/file_set.h"
+#include "base/input_error.h"
 #include "base/printable.h"
 #include "base/whole_file.h"
 #include "calibrate/report/study_report.h"
@@ -45,9 +45,9 @@ void check_places(const fs::path& folder, const fs::path& page, const fs::path& 
   std::vector<std::string> errors;
   check_output_places({page_place("--out", page.string())}, files_read(folder), errors);
   if (!tables.empty()) make_output_folder("--tables", tables, errors);
-  base::ErrorList all;
-  for (const std::string& error : errors) all.add(error);
-  all.throw_if_any();
+  base::Faults faults;
+  for (const std::string& error : errors) faults.add({.value = error});
+  faults.throw_if_any();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/shape/shape.h"
+#include "cli/shape/shape_options.h"
 
 namespace repose::cli {
 namespace {
@@ -40,9 +41,7 @@ Command shape_command() {
            {"--mesh", "FILE.glb|FILE.stl", "Surface and spheres, for viewing", &given->mesh_file},
            {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kShapeNotes,
-      .option_names = {{"its unit", "--unit"},
-                       {"more spheres", "--spheres"},
-                       {"smaller volume error", "--volume-error"}},
+      .fields = kShapeFields,
       .run = [given] { return run_shape(*given); }};
 }
 

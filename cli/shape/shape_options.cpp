@@ -3,25 +3,15 @@
 #include <array>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "cli/common/number.h"
-#include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output_places.h"
 
 namespace repose::cli {
 namespace {
 
-/// How the library calls the options.
-constexpr std::array kShapeNames{OptionName{.value = "size", .option = "--size-mm"},
-                                 OptionName{.value = "tip", .option = "--tip"},
-                                 OptionName{.value = "volume error", .option = "--volume-error"}};
-
-void add_problems(const std::vector<std::string>& problems, ShapePlan& plan) {
-  for (const std::string& problem : problems) {
-    plan.errors.push_back(naming_options(problem, kShapeNames));
-  }
+void add_problems(const std::vector<base::Fault>& problems, ShapePlan& plan) {
+  for (const base::Fault& problem : problems) plan.errors.push_back(problem.text(kShapeFields));
 }
 
 void read_sizes(const ShapeArguments& arguments, ShapePlan& plan) {

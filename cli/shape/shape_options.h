@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "cli/shape/shape.h"
 #include "dem/shape/clump/fill.h"
 #include "dem/shape/clump/shape_export.h"
@@ -11,6 +13,15 @@
 #include "dem/shape/scan/scan.h"
 
 namespace repose::cli {
+
+/// Its options by the fields that the library finds fault with.
+inline constexpr std::array<base::FieldName, 6> kShapeFields{
+    {{"size", "--size-mm"},
+     {"tip", "--tip"},
+     {"volume error", "--volume-error"},
+     {"its unit", "--unit"},
+     {"more spheres", "--spheres"},
+     {"smaller volume error", "--volume-error"}}};
 
 /// What the words of `repose shape` come down to.
 struct ShapePlan {

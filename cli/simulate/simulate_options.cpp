@@ -2,12 +2,12 @@
 
 #include <array>
 #include <limits>
-#include <stdexcept>
 #include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/statistics/summary.h"
@@ -16,7 +16,6 @@
 #include "calibrate/study/study_problem.h"
 #include "cli/common/cores.h"
 #include "cli/common/number.h"
-#include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
@@ -26,7 +25,7 @@ namespace repose::cli {
 namespace {
 
 constexpr int kMaxRepeats = 100'000;
-constexpr std::array kSimulateNames{OptionName{.value = "setting", .option = "--set"}};
+constexpr std::array kSimulateFields{base::FieldName{"setting", "--set"}};
 constexpr int kMaxViews = 360;
 
 /// The whole text as a number from `least` to `most`; an error otherwise. None when it is empty.
@@ -113,7 +112,7 @@ void lock_folder(SimulatePlan& plan) {
   try {
     const calibrate::RunFolder folder(plan.out_folder);
     plan.lock.emplace(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     plan.errors.push_back(fmt::format("--out {}", error.what()));
   }
 }
@@ -136,8 +135,8 @@ std::optional<double> mean_without_air(SimulatePlan& plan) {
     };
     if (std::ranges::none_of(measured.systematic, is_of_air)) return std::nullopt;
     return measured.mean ? measured.mean : calibrate::summarise(measured.values).mean;
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.notes);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.notes);
     return std::nullopt;
   }
 }
@@ -146,12 +145,12 @@ void build_bench(SimulatePlan& plan) {
   try {
     plan.grain = dem::build_grain(plan.study.grain);
     plan.mean_without_air = mean_without_air(plan);
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors);
     return;
   }
-  for (std::string& error : calibrate::impossible_readings(plan.study, plan.grain.shape)) {
-    plan.errors.push_back(std::move(error));
+  for (const base::Fault& fault : calibrate::impossible_readings(plan.study, plan.grain.shape)) {
+    plan.errors.push_back(fault.text());
   }
   for (const std::string& repair : plan.grain.repairs) {
     plan.notes.push_back(fmt::format("{}: {}", plan.grain.source, repair));
@@ -188,8 +187,8 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
       plan.notes.insert(plan.notes.end(), sheet.notes.begin(), sheet.notes.end());
     }
     plan.study = with_readings(plan.study, sheets);
-  } catch (const std::invalid_argument& error) {
-    add_lines(naming_options(error.what(), kSimulateNames), plan.errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors, kSimulateFields);
   }
   read_numbers(arguments, plan);
   if (experiment != nullptr) read_views(arguments, plan);

@@ -16,6 +16,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "calibrate/experiment/draw_down_front.h"
 #include "calibrate/experiment/simulate_experiment.h"
@@ -171,7 +172,7 @@ class Batch {
       simulate(index);
     } catch (const dem::Interrupted&) {
       return;
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       fail({.seed = plan_.seeds[index], .message = error.what()});
     } catch (const std::exception& error) {
       fail({.seed = plan_.seeds[index], .message = error.what(), .is_internal = true});
@@ -222,9 +223,10 @@ class Batch {
     RunFiles files{.state = place + ".vtp", .overlay = {}};
     if (!folder_->copy_state(spec_, run.seed, fs::path(files.state).filename().string())) {
       if (!run.failure.empty()) return {};
-      throw std::invalid_argument(fmt::format(
-          "{}: its run in {} was changed in the meantime. Fix: run the same command again.",
-          files.state, folder_->runs().string()));
+      throw base::InputError({.where = files.state,
+                              .value = fmt::format("its run in {} was changed in the meantime",
+                                                   folder_->runs().string()),
+                              .fix = "run the same command again."});
     }
     const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol);
     if (!run.failure.empty() || (run.views.empty() && boxes == nullptr)) return files;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -11,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "base/closest_word.h"
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "calibrate/statistics/bench/sheet.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
@@ -106,7 +105,7 @@ std::map<std::string, double> constants_in(const Settings& settings, const std::
 
 /// A table's rows; columns that it lacks come from the settings.
 void add_table_readings(const std::string& file, const Settings& settings, BenchPlan& plan) {
-  base::ErrorList errors;
+  base::Faults errors;
   calibrate::Sheet sheet = calibrate::read_sheet(
       file, plan.test, constants_in(settings, file, plan), calibrate::NoRows::refused, errors);
   for (calibrate::BenchReading& reading : sheet.readings) {
@@ -125,8 +124,8 @@ void evaluate(BenchPlan& plan) {
   try {
     plan.result = calibrate::evaluate_bench(plan.test, plan.readings);
     plan.result.notes.insert(plan.result.notes.end(), plan.notes.begin(), plan.notes.end());
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors);
   }
 }
 
@@ -157,8 +156,8 @@ BenchPlan plan_bench(const BenchArguments& arguments) {
     for (const std::string& file : arguments.files) {
       try {
         add_table_readings(file, settings, plan);
-      } catch (const std::invalid_argument& error) {
-        add_lines(error.what(), plan.errors);
+      } catch (const base::InputError& error) {
+        add_faults(error, plan.errors);
       }
     }
   }

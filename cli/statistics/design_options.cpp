@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/design/steepest_ascent.h"
 #include "calibrate/statistics/regress/run_table.h"
 #include "cli/common/number.h"
@@ -243,8 +243,8 @@ DesignPlan plan_design(const DesignArguments& arguments) {
       read_seed({"--random-order", arguments.random_order, plan.errors}).value_or(1);
   try {
     plan.design = make_design(arguments, plan);
-  } catch (const std::invalid_argument& error) {
-    add_lines(error.what(), plan.errors);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors);
   }
   // A table to which results were added has another header.
   const std::string csv = design_csv(plan.design, plan.csv);

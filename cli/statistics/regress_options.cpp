@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/regress/run_table.h"
 #include "cli/common/number.h"
-#include "cli/common/option_names.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/output_places.h"
@@ -19,13 +18,11 @@
 namespace repose::cli {
 namespace {
 
-/// How the library calls the options.
-constexpr std::array kRegressNames{
-    OptionName{.value = "linear model", .option = "--model linear"},
-    OptionName{.value = "blocks column", .option = "--blocks"},
-    OptionName{.value = "choose no blocks", .option = "--blocks none"},
-    OptionName{.value = "factor columns", .option = "--factors A,B,C"}};
-constexpr std::array kTarget{OptionName{.value = "target value", .option = "--target"}};
+constexpr std::array kRegressFields{base::FieldName{"linear model", "--model linear"},
+                                    base::FieldName{"blocks column", "--blocks"},
+                                    base::FieldName{"choose no blocks", "--blocks none"},
+                                    base::FieldName{"factor columns", "--factors A,B,C"},
+                                    base::FieldName{"target value", "--target"}};
 
 std::vector<std::string> names_in(const std::string& text, RegressPlan& plan) {
   std::vector<std::string> names;
@@ -89,17 +86,14 @@ RegressPlan plan_regress(const RegressArguments& arguments) {
         calibrate::runs_in(calibrate::read_table(arguments.table), {.response = arguments.response,
                                                                     .factors = factors,
                                                                     .blocks = arguments.blocks,
-                                                                    .codings = codings});
+                                                                    .codings = codings,
+                                                                    .names = kRegressFields});
     plan.left_out = std::move(table.left_out);
-    for (std::string& note : table.notes) {
-      plan.notes.push_back(naming_options(std::move(note), kRegressNames));
-    }
-    plan.report = report_on(calibrate::regress(table.runs, plan.model), plan.target);
-    for (calibrate::SurfaceDiagnostic& diagnostic : plan.report.diagnostics) {
-      diagnostic.message = naming_options(std::move(diagnostic.message), kTarget);
-    }
-  } catch (const std::invalid_argument& error) {
-    add_lines(naming_options(error.what(), kRegressNames), plan.errors);
+    plan.notes = std::move(table.notes);
+    plan.report =
+        report_on(calibrate::regress(table.runs, plan.model), plan.target, kRegressFields);
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors, kRegressFields);
   }
   return plan;
 }

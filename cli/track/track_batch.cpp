@@ -1,8 +1,8 @@
 #include "cli/track/track_batch.h"
 
 #include <exception>
-#include <stdexcept>
 
+#include "base/input_error.h"
 #include "cli/common/batch.h"
 #include "cli/common/memory.h"
 #include "cli/common/picture_list.h"
@@ -58,7 +58,7 @@ void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
   try {
     const std::string title = plan.videos[index].filename().string();
     vision::write_picture(plan.overlays[index], overlay_of(tracked, title));
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     tracked.overlay_error = error.what();
   }
 }
@@ -79,7 +79,7 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
     tracked.drop.strobe = {};
     tracked.roll.strobe = {};
     tracked.tilt.strobe = {};
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     tracked.error = naming_file(tracked.file, error.what());
   } catch (const std::exception& error) {
     tracked.is_internal_error = !is_out_of_memory(error);

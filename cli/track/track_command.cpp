@@ -28,8 +28,9 @@ with numbers in their names. FILE may be - for standard output.
 Heights of a drop are those of a fall without air to the speed at the impact.
 With a scale they are in its millimetres, and the film's frame rate is checked
 against gravity. The scale is --scale, or with --board the printed board (repose
-board) upright beside the grain's way, in its plane, facing the camera. Without, they follow from gravity and the frame rate, and are
-wrong where a film does not play as fast as it was taken (slow motion).
+board) upright beside the grain's way, in its plane, facing the camera. Without,
+they follow from gravity and the frame rate, and are wrong where a film does not
+play as fast as it was taken (slow motion).
 
 The table for --csv has the columns that repose bench restitution reads, or
 rolling, or sliding, and a film's name as sample.

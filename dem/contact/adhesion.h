@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
+
 /// Whether dry grains would stick to each other, as simulated ones never do.
 namespace repose::dem {
 
@@ -22,8 +24,7 @@ inline constexpr double kSmoothestAdhesion_j_m2 = 6e-4;
 /// Soc. A 324, 301), R* = d / 4, by its weight, pi / 6 q d^3 g: 9 W / (4 q g d^2). Above 1 a grain
 /// hangs from another. Proved by Adhesion.* in tests/dem/adhesion_test.cpp.
 inline double bond_number(double diameter_m, double density_kg_m3, double adhesion_j_m2) {
-  constexpr double kGravity_m_s2 = 9.80665;
-  return 9 * adhesion_j_m2 / (4 * density_kg_m3 * kGravity_m_s2 * diameter_m * diameter_m);
+  return 9 * adhesion_j_m2 / (4 * density_kg_m3 * kStandardGravity_m_s2 * diameter_m * diameter_m);
 }
 
 /// What to know about the results of grains of this volume; none: they are large enough.

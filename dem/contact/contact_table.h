@@ -26,7 +26,7 @@ struct ContactLaw {
 /// Source of the moduli: Johnson, Contact Mechanics (1985), eqs. 4.24 and 7.43-7.44.
 class ContactTable {
  public:
-  /// Throws std::invalid_argument naming every value that is out of range.
+  /// Throws base::InputError naming every value that is out of range.
   /// `pairs` is a full symmetric matrix, row by row.
   ContactTable(std::vector<Material> materials, std::vector<PairCoefficients> pairs,
                RollingModel rolling, DampingModel damping = DampingModel::per_contact);

@@ -3,12 +3,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <unordered_map>
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <boost/numeric/odeint.hpp>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
@@ -22,8 +23,10 @@ double force(const State& state, double factor) {
 
 double solved_damping_factor(double restitution) {
   if (!(restitution >= .01 && restitution <= 1)) {
-    throw std::invalid_argument("restitution is " + std::to_string(restitution) +
-                                ". Rule: .01 to 1. Fix: give the speed ratio of a central impact.");
+    throw base::InputError({.subject = "restitution",
+                            .value = "is " + std::to_string(restitution),
+                            .rule = ".01 to 1",
+                            .fix = "give the speed ratio of a central impact."});
   }
   if (restitution == 1) return 0;
   const auto excess = [restitution](double factor) { return restitution_of(factor) - restitution; };

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <tuple>
 
+#include "base/input_error.h"
 #include "dem/engine/parallel.h"
 
 namespace repose::dem {
@@ -395,9 +395,11 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
   };
   if (touching(list_.memories) + touching(list_.wall_memories) !=
       static_cast<std::ptrdiff_t>(contacts.size())) {
-    throw std::invalid_argument(
-        "checkpoint: some of its contacts are of spheres that are not near each other, or not in "
-        "order. Fix: go on from a checkpoint that was not changed.");
+    throw base::InputError(
+        {.where = "checkpoint",
+         .value =
+             "some of its contacts are of spheres that are not near each other, or not in order",
+         .fix = "go on from a checkpoint that was not changed."});
   }
 }
 

@@ -72,7 +72,7 @@ class Neighbours {
 
   /// The contacts that touched at the last step, in order.
   std::vector<ContactState> touching(const Bodies& bodies) const;
-  /// Gives the contacts of a fresh list the memories that they had. Throws std::invalid_argument
+  /// Gives the contacts of a fresh list the memories that they had. Throws base::InputError
   /// when one of them is of spheres that are not near each other.
   void restore(const Bodies& bodies, const std::vector<ContactState>& contacts);
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "base/input_error.h"
 #include "dem/engine/audit.h"
 #include "dem/engine/bodies.h"
 #include "dem/engine/interactions.h"
@@ -25,39 +26,40 @@ constexpr double kEnergyTolerance = .05;
 
 bool is_time(double timestep_s) { return timestep_s > 0 && std::isfinite(timestep_s); }
 
-std::string timestep_error(double timestep_s) {
-  return fmt::format("timestep_s is {:g}. Rule: above 0.", timestep_s);
+base::Fault timestep_error(double timestep_s) {
+  return {.subject = "timestep_s", .value = fmt::format("is {:g}", timestep_s), .rule = "above 0"};
 }
 
 SimulationSetup checked(SimulationSetup setup) {
-  std::string errors;
-  const auto error = [&errors](const std::string& text) {
-    errors += (errors.empty() ? "" : "\n") + text;
-  };
-  if (!is_time(setup.timestep_s)) error(timestep_error(setup.timestep_s));
-  if (setup.threads < 1) error(fmt::format("threads is {}. Rule: 1 or more.", setup.threads));
-  if (setup.audit_steps < 1) {
-    error(fmt::format("audit_steps is {}. Rule: 1 or more.", setup.audit_steps));
-  }
+  base::Faults faults;
+  faults.require(is_time(setup.timestep_s), timestep_error(setup.timestep_s));
+  faults.require(
+      setup.threads >= 1,
+      {.subject = "threads", .value = fmt::format("is {}", setup.threads), .rule = "1 or more"});
+  faults.require(setup.audit_steps >= 1, {.subject = "audit_steps",
+                                          .value = fmt::format("is {}", setup.audit_steps),
+                                          .rule = "1 or more"});
   const auto is_known = [&setup](int material) {
     return material >= 0 && material < setup.contacts.size();
   };
   for (std::size_t k = 0; k < setup.kinds.size(); ++k) {
     const ClumpShape& shape = setup.kinds[k].shape;
-    if (!is_known(setup.kinds[k].material))
-      error(fmt::format("grain kind {}: no such material", k));
-    if (shape.spheres.empty()) error(fmt::format("grain kind {}: it has no spheres", k));
-    if (!(shape.volume_m3 > 0) || !(shape.gyration_m2.minCoeff() > 0)) {
-      error(fmt::format("grain kind {}: volume and moments of inertia must be above 0", k));
-    }
+    const auto require = [&](bool holds, const char* what) {
+      faults.require(holds, {.where = fmt::format("grain kind {}", k), .value = what});
+    };
+    require(is_known(setup.kinds[k].material), "no such material");
+    require(!shape.spheres.empty(), "it has no spheres");
+    require(shape.volume_m3 > 0 && shape.gyration_m2.minCoeff() > 0,
+            "volume and moments of inertia must be above 0");
     for (const ClumpSphere& sphere : shape.spheres) {
-      if (!(sphere.radius > 0)) error(fmt::format("grain kind {}: a radius is not above 0", k));
+      require(sphere.radius > 0, "a radius is not above 0");
     }
   }
   for (std::size_t k = 0; k < setup.walls.size(); ++k) {
-    if (!is_known(setup.walls[k].material)) error(fmt::format("wall {}: no such material", k));
+    faults.require(is_known(setup.walls[k].material),
+                   {.where = fmt::format("wall {}", k), .value = "no such material"});
   }
-  if (!errors.empty()) throw std::invalid_argument(errors);
+  faults.throw_if_any();
   return setup;
 }
 
@@ -198,10 +200,11 @@ Simulation::Simulation(SimulationSetup setup, const Checkpoint& from)
        {from.angular_momentum.size(), from.force.size(), from.torque.size(),
         from.rolling_limit.size(), from.is_present.size()}) {
     if (size == count) continue;
-    throw std::invalid_argument(fmt::format(
-        "checkpoint: it has {} grains, but {} entries of one of their fields. Fix: go on "
-        "from a checkpoint that was not changed.",
-        count, size));
+    throw base::InputError(
+        {.where = "checkpoint",
+         .value =
+             fmt::format("it has {} grains, but {} entries of one of their fields", count, size),
+         .fix = "go on from a checkpoint that was not changed."});
   }
   State& s = *state_;
   for (const Grain& grain : from.grains) add(grain);
@@ -229,14 +232,14 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 int Simulation::add(const Grain& grain) {
   State& s = *state_;
   if (grain.kind < 0 || static_cast<std::size_t>(grain.kind) >= s.setup.kinds.size()) {
-    throw std::invalid_argument(fmt::format("grain kind {} does not exist", grain.kind));
+    throw base::InputError({.value = fmt::format("grain kind {} does not exist", grain.kind)});
   }
   if (!grain.position.allFinite() || !grain.velocity.allFinite() || !grain.spin.allFinite() ||
       !(std::abs(grain.orientation.norm() - 1) < 1e-6)) {
-    throw std::invalid_argument(
-        fmt::format("grain {}: position, velocity and spin must be numbers, and the orientation a "
-                    "quaternion of length 1. Fix: check what placed it.",
-                    grain_count()));
+    throw base::InputError({.where = fmt::format("grain {}", grain_count()),
+                            .value = "position, velocity and spin",
+                            .rule = "must be numbers, and the orientation a quaternion of length 1",
+                            .fix = "check what placed it."});
   }
   const GrainKind& kind = s.setup.kinds[static_cast<std::size_t>(grain.kind)];
   add_body(s.bodies, grain, kind, s.setup.contacts.material(kind.material).density_kg_m3);
@@ -269,7 +272,7 @@ void Simulation::remove_wall(int wall) {
 
 void Simulation::set_timestep(double timestep_s) {
   State& s = *state_;
-  if (!is_time(timestep_s)) throw std::invalid_argument(timestep_error(timestep_s));
+  if (!is_time(timestep_s)) throw base::InputError(timestep_error(timestep_s));
   if (timestep_s == s.setup.timestep_s) return;
   s.equal_steps = {.since_step = s.step, .since_s = s.time_s()};
   s.setup.timestep_s = timestep_s;

@@ -91,7 +91,7 @@ struct Checkpoint {
 /// number of threads. Not to be used from two threads at once.
 class Simulation {
  public:
-  /// Throws std::invalid_argument when the setup cannot be simulated.
+  /// Throws base::InputError when the setup cannot be simulated.
   explicit Simulation(SimulationSetup setup);
   Simulation(SimulationSetup setup, const Checkpoint& from);
   ~Simulation();
@@ -109,7 +109,7 @@ class Simulation {
   /// Takes a wall out.
   void remove_wall(int wall);
 
-  /// Of all steps from now on, s. Throws std::invalid_argument unless it is above 0.
+  /// Of all steps from now on, s. Throws base::InputError unless it is above 0.
   void set_timestep(double timestep_s);
 
   /// Throws UnstableRun when the audit finds the run gone wrong.

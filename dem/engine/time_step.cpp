@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/engine/eigenvalues.h"
 
 namespace repose::dem {
@@ -95,17 +95,22 @@ void check_timestep(double timestep_s, const SimulationSetup& setup, double spee
   const double longest = accurate_timestep_s(setup, speed_m_s, fraction);
   constexpr double kLongestDetour = 1000;
   if (timestep_s < longest / kLongestDetour) {
-    throw std::invalid_argument(
-        fmt::format("timestep_s is {:.3g}. Rule: at least {:.3g} s, a thousandth of the longest "
-                    "accurate step; shorter ones take for ever and gain nothing. Fix: {:.2g}, or "
-                    "leave it to the program.",
-                    timestep_s, longest / kLongestDetour, longest));
+    throw base::InputError(
+        {.subject = "timestep_s",
+         .value = fmt::format("is {:.3g}", timestep_s),
+         .rule = fmt::format("at least {:.3g} s, a thousandth of the longest accurate step; "
+                             "shorter ones take for ever and gain nothing",
+                             longest / kLongestDetour),
+         .fix = fmt::format("{:.2g}, or leave it to the program.", longest)});
   }
   if (timestep_s <= longest) return;
-  throw std::invalid_argument(
-      fmt::format("timestep_s is {:.3g}. Rule: at most {:.3g} s for these grains at {:.2g} m/s; "
-                  "longer ones make energy. Fix: {:.2g}, or leave it to the program.",
-                  timestep_s, longest, speed_m_s, longest));
+  throw base::InputError(
+      {.subject = "timestep_s",
+       .value = fmt::format("is {:.3g}", timestep_s),
+       .rule =
+           fmt::format("at most {:.3g} s for these grains at {:.2g} m/s; longer ones make energy",
+                       longest, speed_m_s),
+       .fix = fmt::format("{:.2g}, or leave it to the program.", longest)});
 }
 
 }  // namespace repose::dem

@@ -29,7 +29,7 @@ inline constexpr double kBulkFraction = .3;
 double accurate_timestep_s(const SimulationSetup& setup, double speed_m_s,
                            double fraction = kImpactFraction);
 
-/// Throws std::invalid_argument when `timestep_s` is longer than accurate_timestep_s.
+/// Throws base::InputError when `timestep_s` is longer than accurate_timestep_s.
 void check_timestep(double timestep_s, const SimulationSetup& setup, double speed_m_s,
                     double fraction = kImpactFraction);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/grain_limit.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/rain.h"
@@ -24,12 +25,14 @@ constexpr double kBoxRounding = 1e-9;
 /// Of the upper box's floor and the gate.
 constexpr double kThickness_m = .002;
 
-void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::ErrorList& errors) {
+void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::Faults& errors) {
   const auto at_least = [&](const char* name, double value, double least, const std::string& rule,
                             const char* fix) {
     errors.require(std::isfinite(value) && value >= (1 - kBoxRounding) * least,
-                   fmt::format("draw_down.{} is {:g}. Rule: {}, {:.4g} m or more. Fix: {}.", name,
-                               value, rule, least, fix));
+                   {.subject = fmt::format("draw_down.{}", name),
+                    .value = fmt::format("is {:g}", value),
+                    .rule = fmt::format("{}, {:.4g} m or more", rule, least),
+                    .fix = fmt::format("{}.", fix)});
   };
   at_least("slot_m", protocol.slot_m, kSlot * grain_m,
            fmt::format("{:g} grain lengths, or grains arch over it", kSlot), "a wider slot");
@@ -50,7 +53,7 @@ void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::ErrorLi
 }
 
 void check(const Model& model, const DrawDownProtocol& protocol) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
   check_sizes(protocol, 2 * largest_reach_m(model), errors);
   constexpr double kPacked = .65;
@@ -58,10 +61,12 @@ void check(const Model& model, const DrawDownProtocol& protocol) {
   const double grains = kPacked * box_m3 / model.grain.volume_m3;
   errors.require(
       !(grains > kMaxGrains),
-      fmt::format("draw_down.length_m is {:g}, draw_down.depth_m {:g}, draw_down.fill_m {:g}: the "
-                  "upper box holds about {:.2g} grains. Rule: at most {}. Fix: a smaller box or a "
-                  "lower fill.",
-                  protocol.length_m, protocol.depth_m, protocol.fill_m, grains, kMaxGrains));
+      {.subject = "draw_down.length_m",
+       .value = fmt::format("is {:g}, draw_down.depth_m {:g}, draw_down.fill_m {:g}: the upper box "
+                            "holds about {:.2g} grains",
+                            protocol.length_m, protocol.depth_m, protocol.fill_m, grains),
+       .rule = fmt::format("at most {}", kMaxGrains),
+       .fix = "a smaller box or a lower fill."});
   errors.throw_if_any();
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/free_flight.h"
@@ -23,14 +24,17 @@ namespace {
 constexpr int kStepsBetweenReports = 16;
 
 void find_errors_of(std::string_view experiment, double height_m, int grains,
-                    base::ErrorList& errors) {
+                    base::Faults& errors) {
   errors.require(std::isfinite(height_m) && height_m > 0,
-                 fmt::format("{}.height_m is {:g}. Rule: above 0. Fix: the height of the drop "
-                             "test, such as 0.5.",
-                             experiment, height_m));
-  errors.require(
-      grains >= 1 && grains <= kMaxGrains,
-      fmt::format("{}.grains is {}. Rule: 1 to {}. Fix: 10.", experiment, grains, kMaxGrains));
+                 {.subject = fmt::format("{}.height_m", experiment),
+                  .value = fmt::format("is {:g}", height_m),
+                  .rule = "above 0",
+                  .fix = "the height of the drop test, such as 0.5."});
+  errors.require(grains >= 1 && grains <= kMaxGrains,
+                 {.subject = fmt::format("{}.grains", experiment),
+                  .value = fmt::format("is {}", grains),
+                  .rule = fmt::format("1 to {}", kMaxGrains),
+                  .fix = "10."});
 }
 
 /// What the grains fall on, and how.
@@ -180,12 +184,14 @@ Repeat dropped(const Model& model, const Dropping& dropping, Random random, std:
   return run.finish(mean_mm(bounces, &Bounce::rise_m), seed, readings_of(bounces));
 }
 
-void find_low_error(const DropProtocol& protocol, base::ErrorList& errors) {
+void find_low_error(const DropProtocol& protocol, base::Faults& errors) {
   if (!protocol.low_height_m) return;
   errors.require(*protocol.low_height_m > 0 && *protocol.low_height_m < protocol.height_m,
-                 fmt::format("drop.low_height_m is {:g}, drop.height_m {:g}. Rule: above 0, and "
-                             "below the other. Fix: the lower of the two heights, such as 0.05.",
-                             *protocol.low_height_m, protocol.height_m));
+                 {.subject = "drop.low_height_m",
+                  .value = fmt::format("is {:g}, drop.height_m {:g}", *protocol.low_height_m,
+                                       protocol.height_m),
+                  .rule = "above 0, and below the other",
+                  .fix = "the lower of the two heights, such as 0.05."});
 }
 
 /// Adds to a drop what the second one gives.
@@ -200,7 +206,7 @@ void add_low(const Repeat& low, Repeat& repeat) {
 
 Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
   find_errors_of("drop", protocol.height_m, protocol.grains, errors);
   find_low_error(protocol, errors);
@@ -217,7 +223,7 @@ Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t 
 
 Repeat run_drop_on_grains(const Model& model, const GrainDropProtocol& protocol, std::uint64_t seed,
                           const ProgressReport& report, const RunRecord& record) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
   find_errors_of("drop_on_grains", protocol.height_m, protocol.grains, errors);
   find_coverage_error("drop_on_grains", protocol.coverage, errors);

@@ -100,7 +100,7 @@ class NoReading : public std::runtime_error {
 std::string damping_definition(const Model& model);
 
 // Each runs one repeat. The same seed gives the same bytes at any number of threads. They throw
-// std::invalid_argument for a protocol that cannot be run (every error at once), UnstableRun for a
+// base::InputError for a protocol that cannot be run (every error at once), UnstableRun for a
 // run that went wrong, NoReading and Interrupted as said there.
 Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});

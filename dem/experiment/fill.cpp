@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/filling_height.h"
@@ -26,49 +27,60 @@ double volume_m3(const FillProtocol& protocol) {
   return std::numbers::pi * radius * radius * protocol.tube_height_m;
 }
 
-void check_sizes(const FillProtocol& protocol, double grain_m, base::ErrorList& errors) {
+void check_sizes(const FillProtocol& protocol, double grain_m, base::Faults& errors) {
   const auto at_least = [&](const char* name, double value, double least, const char* fix) {
     errors.require(std::isfinite(value) && value >= least,
-                   fmt::format("fill.{} is {:g}. Rule: {:g} grains or more, {:.4g} m: narrower and "
-                               "lower tubes hold grains at their walls alone. Fix: {}.",
-                               name, value, kFewestInTube, least, fix));
+                   {.subject = fmt::format("fill.{}", name),
+                    .value = fmt::format("is {:g}", value),
+                    .rule = fmt::format("{:g} grains or more, {:.4g} m: narrower and lower tubes "
+                                        "hold grains at their walls alone",
+                                        kFewestInTube, least),
+                    .fix = fmt::format("{}.", fix)});
   };
   at_least("tube_diameter_m", protocol.tube_diameter_m, kFewestInTube * grain_m, "a wider tube");
   at_least("tube_height_m", protocol.tube_height_m, kFewestInTube * grain_m, "a taller tube");
-  errors.require(
-      std::isfinite(protocol.pour_m) && protocol.pour_m > 0,
-      fmt::format("fill.pour_m is {:g}. Rule: above 0. Fix: the height of the spout over "
-                  "the rim, such as 0.05.",
-                  protocol.pour_m));
+  errors.require(std::isfinite(protocol.pour_m) && protocol.pour_m > 0,
+                 {.subject = "fill.pour_m",
+                  .value = fmt::format("is {:g}", protocol.pour_m),
+                  .rule = "above 0",
+                  .fix = "the height of the spout over the rim, such as 0.05."});
 }
 
-void check_taps(const FillProtocol& protocol, base::ErrorList& errors) {
+void check_taps(const FillProtocol& protocol, base::Faults& errors) {
   if (!protocol.taps) return;
   errors.require(*protocol.taps >= 1 && *protocol.taps <= kMostTaps,
-                 fmt::format("fill.taps is {}. Rule: 1 to {}. Fix: leave it out not to tap.",
-                             *protocol.taps, kMostTaps));
-  errors.require(protocol.tap_m > 0 && protocol.tap_m <= protocol.tube_height_m,
-                 fmt::format("fill.tap_m is {:g}. Rule: above 0, and at most the tube's height, "
-                             "{:g}. Fix: how far the tube drops at each tap, such as 0.003.",
-                             protocol.tap_m, protocol.tube_height_m));
+                 {.subject = "fill.taps",
+                  .value = fmt::format("is {}", *protocol.taps),
+                  .rule = fmt::format("1 to {}", kMostTaps),
+                  .fix = "leave it out not to tap."});
+  errors.require(
+      protocol.tap_m > 0 && protocol.tap_m <= protocol.tube_height_m,
+      {.subject = "fill.tap_m",
+       .value = fmt::format("is {:g}", protocol.tap_m),
+       .rule = fmt::format("above 0, and at most the tube's height, {:g}", protocol.tube_height_m),
+       .fix = "how far the tube drops at each tap, such as 0.003."});
 }
 
 /// Of grains that fill the tube, heaped over its rim or its collar's.
-void check_rate(const Model& model, const FillProtocol& protocol, base::ErrorList& errors) {
+void check_rate(const Model& model, const FillProtocol& protocol, base::Faults& errors) {
   if (!protocol.pour_kg_s) return;
   constexpr double kPacked = .65;
   const double mass_kg = kPacked * volume_m3(protocol) * model.grain_material.density_kg_m3;
   const double slowest_kg_s = mass_kg / kLongestPour_s;
   errors.require(
       std::isfinite(*protocol.pour_kg_s) && *protocol.pour_kg_s >= slowest_kg_s,
-      fmt::format("fill.pour_kg_s is {:g}. Rule: {:.3g} or more, which fills the tube in {:g} s: "
-                  "longer runs take too long. Fix: {:.3g}, since what is poured so slowly is "
-                  "hardly denser than that; or a smaller tube.",
-                  *protocol.pour_kg_s, slowest_kg_s, kLongestPour_s, slowest_kg_s));
+      {.subject = "fill.pour_kg_s",
+       .value = fmt::format("is {:g}", *protocol.pour_kg_s),
+       .rule =
+           fmt::format("{:.3g} or more, which fills the tube in {:g} s: longer runs take too long",
+                       slowest_kg_s, kLongestPour_s),
+       .fix = fmt::format(
+           "{:.3g}, since what is poured so slowly is hardly denser than that; or a smaller tube.",
+           slowest_kg_s)});
 }
 
 void check(const Model& model, const FillProtocol& protocol) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
   check_sizes(protocol, 2 * largest_reach_m(model), errors);
   check_taps(protocol, errors);
@@ -77,9 +89,11 @@ void check(const Model& model, const FillProtocol& protocol) {
   const double grains = kPacked * volume_m3(protocol) / model.grain.volume_m3;
   errors.require(
       !(grains > kMaxGrains),
-      fmt::format("fill.tube_diameter_m is {:g}, fill.tube_height_m {:g}: the tube holds "
-                  "about {:.2g} grains. Rule: at most {}. Fix: a smaller tube.",
-                  protocol.tube_diameter_m, protocol.tube_height_m, grains, kMaxGrains));
+      {.subject = "fill.tube_diameter_m",
+       .value = fmt::format("is {:g}, fill.tube_height_m {:g}: the tube holds about {:.2g} grains",
+                            protocol.tube_diameter_m, protocol.tube_height_m, grains),
+       .rule = fmt::format("at most {}", kMaxGrains),
+       .fix = "a smaller tube."});
   errors.throw_if_any();
 }
 

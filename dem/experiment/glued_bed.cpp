@@ -136,13 +136,14 @@ class Spreading {
 
 }  // namespace
 
-void find_coverage_error(std::string_view experiment, double coverage, base::ErrorList& errors) {
-  errors.require(
-      coverage >= kLeastCoverage && coverage <= kMostCoverage,
-      fmt::format("{}.coverage is {:g}. Rule: {:g} to {:g}: below, the bed has holes that "
-                  "a grain falls into; above, glued grains would lie on each other. Fix: "
-                  "0.75.",
-                  experiment, coverage, kLeastCoverage, kMostCoverage));
+void find_coverage_error(std::string_view experiment, double coverage, base::Faults& errors) {
+  errors.require(coverage >= kLeastCoverage && coverage <= kMostCoverage,
+                 {.subject = fmt::format("{}.coverage", experiment),
+                  .value = fmt::format("is {:g}", coverage),
+                  .rule = fmt::format("{:g} to {:g}: below, the bed has holes that a grain falls "
+                                      "into; above, glued grains would lie on each other",
+                                      kLeastCoverage, kMostCoverage),
+                  .fix = "0.75."});
 }
 
 SphereBed glued_bed(const ClumpShape& grain, double coverage, Random& random) {

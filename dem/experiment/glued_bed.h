@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "dem/experiment/random.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/wall/wall.h"
@@ -15,7 +15,7 @@ inline constexpr double kLeastCoverage = .65;
 inline constexpr double kMostCoverage = .85;
 
 /// Notes a coverage that is not between them, by the name of the experiment.
-void find_coverage_error(std::string_view experiment, double coverage, base::ErrorList& errors);
+void find_coverage_error(std::string_view experiment, double coverage, base::Faults& errors);
 
 /// A board (z = 0 of its frame) covered with one layer of grains that are glued on as they lie:
 /// on their flattest side, turned anyhow about the vertical, at random places.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/grain_limit.h"
@@ -28,11 +29,12 @@ constexpr int kViews = 18;
 constexpr double kLiftFrom = .35;
 constexpr double kLiftTo = .9;
 
-void check_sizes(const HeapProtocol& protocol, base::ErrorList& errors) {
+void check_sizes(const HeapProtocol& protocol, base::Faults& errors) {
   const auto above_0 = [&errors](const char* name, double value) {
-    errors.require(
-        std::isfinite(value) && value > 0,
-        fmt::format("heap.{} is {:g}. Rule: above 0. Fix: the size on the bench.", name, value));
+    errors.require(std::isfinite(value) && value > 0, {.subject = fmt::format("heap.{}", name),
+                                                       .value = fmt::format("is {:g}", value),
+                                                       .rule = "above 0",
+                                                       .fix = "the size on the bench."});
   };
   above_0("tube_diameter_m", protocol.tube_diameter_m);
   above_0("tube_height_m", protocol.tube_height_m);
@@ -42,23 +44,27 @@ void check_sizes(const HeapProtocol& protocol, base::ErrorList& errors) {
   above_0("camera_height_m", protocol.camera_height_m);
   errors.require(
       !(protocol.camera_height_m > protocol.camera_distance_m.value_or(kInfinity)),
-      fmt::format("heap.camera_height_m is {:g}, heap.camera_distance_m {:g}. Rule: a level "
-                  "camera is no higher than it is far away. Fix: the height of the lens "
-                  "over the plate on the bench.",
-                  protocol.camera_height_m, protocol.camera_distance_m.value_or(0)));
-  errors.require(!protocol.camera_distance_m || *protocol.camera_distance_m >= protocol.plate_m,
-                 fmt::format("heap.camera_distance_m is {:g}, heap.plate_m {:g}. Rule: the camera "
-                             "stands beside the plate, at least as far away as the plate is wide. "
-                             "Fix: the distance from the heap's middle to the lens on the bench.",
-                             protocol.camera_distance_m.value_or(0), protocol.plate_m));
+      {.subject = "heap.camera_height_m",
+       .value = fmt::format("is {:g}, heap.camera_distance_m {:g}", protocol.camera_height_m,
+                            protocol.camera_distance_m.value_or(0)),
+       .rule = "a level camera is no higher than it is far away",
+       .fix = "the height of the lens over the plate on the bench."});
+  errors.require(
+      !protocol.camera_distance_m || *protocol.camera_distance_m >= protocol.plate_m,
+      {.subject = "heap.camera_distance_m",
+       .value = fmt::format("is {:g}, heap.plate_m {:g}", protocol.camera_distance_m.value_or(0),
+                            protocol.plate_m),
+       .rule = "the camera stands beside the plate, at least as far away as the plate is wide",
+       .fix = "the distance from the heap's middle to the lens on the bench."});
 }
 
-void check_grains(const Model& model, const HeapProtocol& protocol, base::ErrorList& errors) {
+void check_grains(const Model& model, const HeapProtocol& protocol, base::Faults& errors) {
   if (protocol.grains) {
     errors.require(*protocol.grains >= 1 && *protocol.grains <= kMaxGrains,
-                   fmt::format("heap.grains is {}. Rule: 1 to {}. Fix: leave it out to fill the "
-                               "tube.",
-                               *protocol.grains, kMaxGrains));
+                   {.subject = "heap.grains",
+                    .value = fmt::format("is {}", *protocol.grains),
+                    .rule = fmt::format("1 to {}", kMaxGrains),
+                    .fix = "leave it out to fill the tube."});
     return;
   }
   constexpr double kPacked = .6;
@@ -67,38 +73,43 @@ void check_grains(const Model& model, const HeapProtocol& protocol, base::ErrorL
   const double full = kPacked * tube_m3 / model.grain.volume_m3;
   errors.require(
       !(full > kMaxGrains),
-      fmt::format(
-          "heap.tube_diameter_m is {:g}, heap.tube_height_m {:g}: the tube holds about "
-          "{:.2g} grains. Rule: at most {}. Fix: a smaller tube, or fewer grains by number.",
-          protocol.tube_diameter_m, protocol.tube_height_m, full, kMaxGrains));
+      {.subject = "heap.tube_diameter_m",
+       .value = fmt::format("is {:g}, heap.tube_height_m {:g}: the tube holds about {:.2g} grains",
+                            protocol.tube_diameter_m, protocol.tube_height_m, full),
+       .rule = fmt::format("at most {}", kMaxGrains),
+       .fix = "a smaller tube, or fewer grains by number."});
 }
 
 void check(const Model& model, const HeapProtocol& protocol) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
   check_sizes(protocol, errors);
   const double outer = protocol.tube_diameter_m + 2 * protocol.tube_thickness_m;
-  errors.require(!(outer > protocol.plate_m),
-                 fmt::format("heap.tube_diameter_m is {:g}, with its wall {:g}. Rule: it stands on "
-                             "the plate, {:g} m. Fix: a narrower tube or a larger plate.",
-                             protocol.tube_diameter_m, outer, protocol.plate_m));
+  errors.require(
+      !(outer > protocol.plate_m),
+      {.subject = "heap.tube_diameter_m",
+       .value = fmt::format("is {:g}, with its wall {:g}", protocol.tube_diameter_m, outer),
+       .rule = fmt::format("it stands on the plate, {:g} m", protocol.plate_m),
+       .fix = "a narrower tube or a larger plate."});
   const double grain = 2 * largest_reach_m(model);
-  errors.require(
-      !(protocol.tube_diameter_m < 1.05 * grain),
-      fmt::format("heap.tube_diameter_m is {:g}. Rule: wider than a grain is long, {:.4g} "
-                  "m. Fix: a wider tube.",
-                  protocol.tube_diameter_m, grain));
-  errors.require(
-      !(protocol.tube_height_m < grain),
-      fmt::format("heap.tube_height_m is {:g}. Rule: higher than a grain is long, {:.4g} "
-                  "m. Fix: a taller tube.",
-                  protocol.tube_height_m, grain));
+  errors.require(!(protocol.tube_diameter_m < 1.05 * grain),
+                 {.subject = "heap.tube_diameter_m",
+                  .value = fmt::format("is {:g}", protocol.tube_diameter_m),
+                  .rule = fmt::format("wider than a grain is long, {:.4g} m", grain),
+                  .fix = "a wider tube."});
+  errors.require(!(protocol.tube_height_m < grain),
+                 {.subject = "heap.tube_height_m",
+                  .value = fmt::format("is {:g}", protocol.tube_height_m),
+                  .rule = fmt::format("higher than a grain is long, {:.4g} m", grain),
+                  .fix = "a taller tube."});
   errors.require(
       protocol.lift_speed_m_s > 0 &&
           protocol.tube_height_m / protocol.lift_speed_m_s <= kLongestLift_s,
-      fmt::format("heap.lift_speed_m_s is {:g}. Rule: above 0, and fast enough to lift the tube "
-                  "by its height in {:g} s. Fix: the speed on the bench, such as 0.03.",
-                  protocol.lift_speed_m_s, kLongestLift_s));
+      {.subject = "heap.lift_speed_m_s",
+       .value = fmt::format("is {:g}", protocol.lift_speed_m_s),
+       .rule = fmt::format("above 0, and fast enough to lift the tube by its height in {:g} s",
+                           kLongestLift_s),
+       .fix = "the speed on the bench, such as 0.03."});
   check_grains(model, protocol, errors);
   errors.throw_if_any();
 }

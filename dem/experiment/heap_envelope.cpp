@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
@@ -16,12 +16,15 @@ namespace {
 constexpr double kColumnsPerRadius = 20;
 
 void check(const std::vector<ClumpSphere>& spheres, int views) {
-  base::ErrorList errors;
-  errors.require(views >= 1, fmt::format("views is {}. Rule: 1 or more. Fix: 18.", views));
+  base::Faults errors;
+  errors.require(views >= 1, {.subject = "views",
+                              .value = fmt::format("is {}", views),
+                              .rule = "1 or more",
+                              .fix = "18."});
   const bool is_above = std::any_of(spheres.begin(), spheres.end(), [](const ClumpSphere& sphere) {
     return sphere.centre.z() + sphere.radius > 0;
   });
-  errors.require(is_above, "there is no heap: no sphere reaches above the ground");
+  errors.require(is_above, {.value = "there is no heap: no sphere reaches above the ground"});
   errors.throw_if_any();
 }
 

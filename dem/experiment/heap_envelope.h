@@ -21,7 +21,7 @@ struct HeapEnvelope {
 /// highest column: grains beyond a gap are not part of it. Proved by HeapEnvelope.* in
 /// tests/dem/experiment_envelope_test.cpp.
 ///
-/// Throws std::invalid_argument for less than one view and where no sphere reaches above the
+/// Throws base::InputError for less than one view and where no sphere reaches above the
 /// ground.
 std::vector<HeapEnvelope> heap_envelopes(const std::vector<ClumpSphere>& spheres, int views);
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/placing.h"
 #include "dem/experiment/rain.h"
@@ -108,10 +108,12 @@ ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapPro
   pour(filling, protocol, seed);
   const auto over = above_rim(filling.simulation(), protocol.tube_height_m).size();
   if (protocol.grains && !protocol.may_be_fewer && over > 0) {
-    throw std::invalid_argument(fmt::format(
-        "heap.grains is {}. Rule: at most what fits into the tube, {}. Fix: fewer grains, a taller "
-        "or wider tube, or leave the number out to fill it.",
-        *protocol.grains, static_cast<std::size_t>(filling.simulation().grain_count()) - over));
+    throw base::InputError(
+        {.subject = "heap.grains",
+         .value = fmt::format("is {}", *protocol.grains),
+         .rule = fmt::format("at most what fits into the tube, {}",
+                             static_cast<std::size_t>(filling.simulation().grain_count()) - over),
+         .fix = "fewer grains, a taller or wider tube, or leave the number out to fill it."});
   }
   return struck_level(filling, model, protocol);
 }

@@ -32,7 +32,7 @@ ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
 
 /// The tube, full of grains at rest, its time set back to 0: poured and struck level.
 ///
-/// Throws std::invalid_argument when `protocol.grains` are more than fit.
+/// Throws base::InputError when `protocol.grains` are more than fit.
 ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
                         std::uint64_t seed);
 

@@ -57,37 +57,46 @@ SimulationSetup setup_of(const Model& model, std::vector<ClumpShape> shapes,
 
 }  // namespace
 
-void find_errors(const Model& model, base::ErrorList& errors) {
+void find_errors(const Model& model, base::Faults& errors) {
   bool has_radii = !model.grain.spheres.empty();
   for (const ClumpSphere& sphere : model.grain.spheres) {
     has_radii = has_radii && is_positive(sphere.radius) && sphere.centre.allFinite();
   }
   errors.require(has_radii && is_positive(model.grain.volume_m3) &&
                      model.grain.gyration_m2.allFinite() && model.grain.gyration_m2.minCoeff() > 0,
-                 "grain: it has no spheres, volume or inertia. Fix: make it from a scan or from "
-                 "its sizes.");
-  errors.require(model.size_sd_fraction >= 0 && model.size_sd_fraction <= kMaxSizeSd,
-                 fmt::format("size_sd_fraction is {:g}. Rule: 0 to {:g}. Fix: the standard "
-                             "deviation of the sizes by their mean; 0 for grains that are alike.",
-                             model.size_sd_fraction, kMaxSizeSd));
+                 {.where = "grain",
+                  .value = "it has no spheres, volume or inertia",
+                  .fix = "make it from a scan or from its sizes."});
+  errors.require(
+      model.size_sd_fraction >= 0 && model.size_sd_fraction <= kMaxSizeSd,
+      {.subject = "size_sd_fraction",
+       .value = fmt::format("is {:g}", model.size_sd_fraction),
+       .rule = fmt::format("0 to {:g}", kMaxSizeSd),
+       .fix = "the standard deviation of the sizes by their mean; 0 for grains that are alike."});
   const bool has_stiffness = is_positive(model.stiffness_factor);
-  errors.require(has_stiffness,
-                 fmt::format("stiffness_factor is {:g}. Rule: above 0. Fix: 1 for the real "
-                             "material.",
-                             model.stiffness_factor));
+  errors.require(has_stiffness, {.subject = "stiffness_factor",
+                                 .value = fmt::format("is {:g}", model.stiffness_factor),
+                                 .rule = "above 0",
+                                 .fix = "1 for the real material."});
   errors.require(model.timestep_fraction > 0 && model.timestep_fraction <= 1,
-                 fmt::format("timestep_fraction is {:g}. Rule: above 0, at most 1. Fix: 1.",
-                             model.timestep_fraction));
+                 {.subject = "timestep_fraction",
+                  .value = fmt::format("is {:g}", model.timestep_fraction),
+                  .rule = "above 0, at most 1",
+                  .fix = "1."});
   errors.require(!model.timestep_s || is_positive(*model.timestep_s),
-                 fmt::format("timestep_s is {:g}. Rule: above 0. Fix: leave it to the program.",
-                             model.timestep_s.value_or(0)));
-  errors.require(model.threads >= 1,
-                 fmt::format("threads is {}. Rule: 1 or more. Fix: 1.", model.threads));
+                 {.subject = "timestep_s",
+                  .value = fmt::format("is {:g}", model.timestep_s.value_or(0)),
+                  .rule = "above 0",
+                  .fix = "leave it to the program."});
+  errors.require(model.threads >= 1, {.subject = "threads",
+                                      .value = fmt::format("is {}", model.threads),
+                                      .rule = "1 or more",
+                                      .fix = "1."});
   if (!has_stiffness) return;
   try {
     contact_table(model);
-  } catch (const std::invalid_argument& error) {
-    errors.add(error.what());
+  } catch (const base::InputError& error) {
+    errors.add_all(error.faults());
   }
 }
 

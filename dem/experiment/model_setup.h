@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "dem/engine/time_step.h"
 #include "dem/experiment/experiment.h"
 
@@ -13,7 +13,7 @@ inline constexpr int kGrainMaterial = 0;
 inline constexpr int kWallMaterial = 1;
 
 /// Notes what is wrong with the bench itself.
-void find_errors(const Model& model, base::ErrorList& errors);
+void find_errors(const Model& model, base::Faults& errors);
 
 /// A wall of the plate's material, at rest.
 Wall study_wall(WallShape shape, const Pose& pose = {});
@@ -25,7 +25,7 @@ Wall part_wall(const Model& model, WallPart part, WallShape shape, const Pose& p
 
 /// Grains of one shape among walls, with the bench's materials and a time step for impacts at up to
 /// `speed_m_s`: the bench's own, or its share of the longest accurate one, `fraction` of the stable
-/// one (time_step.h). Throws std::invalid_argument for a time step asked for that is not safe.
+/// one (time_step.h). Throws base::InputError for a time step asked for that is not safe.
 SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
                             double speed_m_s, double fraction = kImpactFraction);
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/grain_limit.h"
@@ -19,21 +20,24 @@ constexpr double kLongestString_m = 100;
 constexpr double kSpacing = 20;
 
 void check(const Model& model, const PendulumProtocol& protocol) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
-  errors.require(
-      protocol.string_m > model.grain.reach_m() && protocol.string_m <= kLongestString_m,
-      fmt::format("pendulum.string_m is {:g}. Rule: longer than half a grain, {:.4g}, at "
-                  "most {:g}. Fix: the distance from the hinge to the grain's middle, "
-                  "such as 0.3.",
-                  protocol.string_m, model.grain.reach_m(), kLongestString_m));
+  errors.require(protocol.string_m > model.grain.reach_m() && protocol.string_m <= kLongestString_m,
+                 {.subject = "pendulum.string_m",
+                  .value = fmt::format("is {:g}", protocol.string_m),
+                  .rule = fmt::format("longer than half a grain, {:.4g}, at most {:g}",
+                                      model.grain.reach_m(), kLongestString_m),
+                  .fix = "the distance from the hinge to the grain's middle, such as 0.3."});
   errors.require(protocol.release_deg > 0 && protocol.release_deg <= 90,
-                 fmt::format("pendulum.release_deg is {:g}. Rule: above 0, at most 90: higher, "
-                             "strings are slack. Fix: 30.",
-                             protocol.release_deg));
-  errors.require(
-      protocol.pairs >= 1 && protocol.pairs <= kMaxGrains / 2,
-      fmt::format("pendulum.pairs is {}. Rule: 1 to {}. Fix: 10.", protocol.pairs, kMaxGrains / 2));
+                 {.subject = "pendulum.release_deg",
+                  .value = fmt::format("is {:g}", protocol.release_deg),
+                  .rule = "above 0, at most 90: higher, strings are slack",
+                  .fix = "30."});
+  errors.require(protocol.pairs >= 1 && protocol.pairs <= kMaxGrains / 2,
+                 {.subject = "pendulum.pairs",
+                  .value = fmt::format("is {}", protocol.pairs),
+                  .rule = fmt::format("1 to {}", kMaxGrains / 2),
+                  .fix = "10."});
   errors.throw_if_any();
 }
 

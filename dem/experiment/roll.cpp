@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/incline.h"
@@ -20,22 +21,24 @@ constexpr double kLongestRun_s = 60;
 constexpr int kMostReleases = 10;
 
 void check(const Model& model, const RollProtocol& protocol) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
   errors.require(protocol.incline_deg > 0 && protocol.incline_deg < 90,
-                 fmt::format("roll.incline_deg is {:g}. Rule: above 0, below 90. Fix: the slope of "
-                             "the bench, such as 20.",
-                             protocol.incline_deg));
-  errors.require(
-      std::isfinite(protocol.release_m) && protocol.release_m > 0,
-      fmt::format("roll.release_m is {:g}. Rule: above 0. Fix: the distance of the grain "
-                  "from the foot of the incline, such as 0.15.",
-                  protocol.release_m));
+                 {.subject = "roll.incline_deg",
+                  .value = fmt::format("is {:g}", protocol.incline_deg),
+                  .rule = "above 0, below 90",
+                  .fix = "the slope of the bench, such as 20."});
+  errors.require(std::isfinite(protocol.release_m) && protocol.release_m > 0,
+                 {.subject = "roll.release_m",
+                  .value = fmt::format("is {:g}", protocol.release_m),
+                  .rule = "above 0",
+                  .fix = "the distance of the grain from the foot of the incline, such as 0.15."});
   errors.require(
       protocol.release_turn_deg >= 0 && protocol.release_turn_deg <= 90,
-      fmt::format("roll.release_turn_deg is {:g}. Rule: 0 to 90. Fix: 10 for grains that are laid "
-                  "across the slope, 90 for grains that lie anyhow.",
-                  protocol.release_turn_deg));
+      {.subject = "roll.release_turn_deg",
+       .value = fmt::format("is {:g}", protocol.release_turn_deg),
+       .rule = "0 to 90",
+       .fix = "10 for grains that are laid across the slope, 90 for grains that lie anyhow."});
   errors.throw_if_any();
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/bonded.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
@@ -39,18 +40,24 @@ constexpr double kMostRestitution = .5;
 constexpr double kMostCreep = .2;
 
 void check(const Model& model, const TiltProtocol& protocol) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
-  errors.require(protocol.bonded >= 1,
-                 fmt::format("tilt.bonded is {}. Rule: 1 or more. Fix: 2.", protocol.bonded));
+  errors.require(protocol.bonded >= 1, {.subject = "tilt.bonded",
+                                        .value = fmt::format("is {}", protocol.bonded),
+                                        .rule = "1 or more",
+                                        .fix = "2."});
   errors.require(protocol.rate_deg_s > 0 && protocol.rate_deg_s <= kFastest_deg_s,
-                 fmt::format("tilt.rate_deg_s is {:g}. Rule: above 0, at most {:g}: faster, the "
-                             "plate's own motion throws the grains. Fix: the rate of the bench, "
-                             "such as 2.",
-                             protocol.rate_deg_s, kFastest_deg_s));
+                 {.subject = "tilt.rate_deg_s",
+                  .value = fmt::format("is {:g}", protocol.rate_deg_s),
+                  .rule = fmt::format(
+                      "above 0, at most {:g}: faster, the plate's own motion throws the grains",
+                      kFastest_deg_s),
+                  .fix = "the rate of the bench, such as 2."});
   errors.require(protocol.start_deg >= 0 && protocol.start_deg < kSteepest_deg,
-                 fmt::format("tilt.start_deg is {:g}. Rule: 0 or more, below {:g}. Fix: 0.",
-                             protocol.start_deg, kSteepest_deg));
+                 {.subject = "tilt.start_deg",
+                  .value = fmt::format("is {:g}", protocol.start_deg),
+                  .rule = fmt::format("0 or more, below {:g}", kSteepest_deg),
+                  .fix = "0."});
   errors.throw_if_any();
 }
 

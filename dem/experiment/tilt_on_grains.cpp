@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/bonded.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
@@ -40,20 +41,26 @@ struct Tilting {
 };
 
 void check(const Model& model, const Tilting& tilting) {
-  base::ErrorList errors;
+  base::Faults errors;
   find_errors(model, errors);
   find_coverage_error(tilting.name, tilting.coverage, errors);
   errors.require(tilting.bonded >= 1 && tilting.bonded <= kMostBonded,
-                 fmt::format("{}.bonded is {}. Rule: 1 to {}. Fix: 3.", tilting.name,
-                             tilting.bonded, kMostBonded));
+                 {.subject = fmt::format("{}.bonded", tilting.name),
+                  .value = fmt::format("is {}", tilting.bonded),
+                  .rule = fmt::format("1 to {}", kMostBonded),
+                  .fix = "3."});
   errors.require(tilting.places >= 1 && tilting.places <= kMaxGrains,
-                 fmt::format("{}.places is {}. Rule: 1 to {}. Fix: 10.", tilting.name,
-                             tilting.places, kMaxGrains));
+                 {.subject = fmt::format("{}.places", tilting.name),
+                  .value = fmt::format("is {}", tilting.places),
+                  .rule = fmt::format("1 to {}", kMaxGrains),
+                  .fix = "10."});
   errors.require(tilting.rate_deg_s > 0 && tilting.rate_deg_s <= kFastest_deg_s,
-                 fmt::format("{}.rate_deg_s is {:g}. Rule: above 0, at most {:g}: faster, the "
-                             "plate's own motion throws the grains. Fix: the rate of the bench, "
-                             "such as 5.",
-                             tilting.name, tilting.rate_deg_s, kFastest_deg_s));
+                 {.subject = fmt::format("{}.rate_deg_s", tilting.name),
+                  .value = fmt::format("is {:g}", tilting.rate_deg_s),
+                  .rule = fmt::format(
+                      "above 0, at most {:g}: faster, the plate's own motion throws the grains",
+                      kFastest_deg_s),
+                  .fix = "the rate of the bench, such as 5."});
   errors.throw_if_any();
 }
 

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
 
 [[noreturn]] void refuse_array(const std::string& array, const std::string& what) {
-  throw std::invalid_argument(fmt::format("array {} {}", array, what));
+  throw base::InputError({.value = fmt::format("array {} {}", array, what)});
 }
 
 }  // namespace

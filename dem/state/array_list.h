@@ -41,7 +41,7 @@ class ArrayStream {
   std::size_t left() const { return values_.size() - at_; }
   bool is_at_end() const { return left() == 0; }
   const std::string& name() const { return name_; }
-  /// @throws std::invalid_argument  there is none left.
+  /// @throws base::InputError  there is none left.
   Number take();
 
  private:
@@ -53,16 +53,16 @@ class ArrayStream {
 using NumberStream = ArrayStream<double>;
 using IntegerStream = ArrayStream<std::int64_t>;
 
-/// None of its numbers beyond 1e12. @throws std::invalid_argument
+/// None of its numbers beyond 1e12. @throws base::InputError
 Vector take_vector(NumberStream& numbers);
-/// @throws std::invalid_argument  it is not of unit length.
+/// @throws base::InputError  it is not of unit length.
 Quaternion take_quaternion(NumberStream& numbers);
 /// A whole number from 0 to below `end`.
 int take_index(IntegerStream& integers, std::size_t end);
-/// All values must have been used. @throws std::invalid_argument
+/// All values must have been used. @throws base::InputError
 void check_end(bool is_at_end, const std::string& name);
 
-/// Finds arrays by name; every error names the array. Throws std::invalid_argument.
+/// Finds arrays by name; every error names the array. Throws base::InputError.
 class ArrayReader {
  public:
   explicit ArrayReader(const std::vector<VtkArray>& arrays, std::string prefix = {})

@@ -2,10 +2,11 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
@@ -70,7 +71,7 @@ void take_grains(const ArrayReader& arrays, NumberStream position, std::size_t k
   while (!number.is_at_end()) {
     const auto k = static_cast<std::size_t>(take_index(number, checkpoint.grains.size()));
     if (is_filled[k]) {
-      throw std::invalid_argument(fmt::format("array {} holds {} twice", number.name(), k));
+      throw base::InputError({.value = fmt::format("array {} holds {} twice", number.name(), k)});
     }
     is_filled[k] = true;
     Grain& grain = checkpoint.grains[k];
@@ -116,8 +117,9 @@ int take_partner(IntegerStream& integers, std::size_t grains, std::size_t walls)
   const bool is_known =
       number >= 0 ? std::cmp_less(number, grains) : std::cmp_less(-(number + 1), walls);
   if (!is_known) {
-    throw std::invalid_argument(fmt::format(
-        "array {} holds {}, which is neither a grain nor a wall", integers.name(), number));
+    throw base::InputError(
+        {.value = fmt::format("array {} holds {}, which is neither a grain nor a wall",
+                              integers.name(), number)});
   }
   return static_cast<int>(number);
 }
@@ -155,10 +157,10 @@ EqualSteps equal_steps_in(const ArrayReader& fields, std::int64_t step) {
   const EqualSteps equal = {.since_step = fields.integers(kEqualSince, 1).take(),
                             .since_s = fields.numbers(kEqualSince_s, 1).take()};
   if (equal.since_step >= 0 && equal.since_step <= step && equal.since_s >= 0) return equal;
-  throw std::invalid_argument(
-      fmt::format("arrays {} and {} hold {} and {:g}, must be from 0 to the "
-                  "step, {}, and 0 or more",
-                  kEqualSince, kEqualSince_s, equal.since_step, equal.since_s, step));
+  throw base::InputError(
+      {.value = fmt::format(
+           "arrays {} and {} hold {} and {:g}, must be from 0 to the step, {}, and 0 or more",
+           kEqualSince, kEqualSince_s, equal.since_step, equal.since_s, step)});
 }
 
 Checkpoint with_room_for(std::size_t grains) {
@@ -208,7 +210,7 @@ Checkpoint checkpoint_in(const VtkPoints& points, const SimulationSetup& setup) 
   take_grains(absent, absent.numbers("position", 3), kinds, false, checkpoint, is_filled);
   checkpoint.contacts = contacts_in(fields, checkpoint, setup);
   checkpoint.step = fields.integers("step", 1).take();
-  if (checkpoint.step < 0) throw std::invalid_argument("array step is below 0");
+  if (checkpoint.step < 0) throw base::InputError({.value = "array step is below 0"});
   if (fields.has(kEqualSince)) checkpoint.equal_steps = equal_steps_in(fields, checkpoint.step);
   return checkpoint;
 }

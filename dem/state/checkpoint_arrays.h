@@ -12,7 +12,7 @@ void add_checkpoint(const Checkpoint& checkpoint, const Simulation& simulation, 
                     ArrayWriter& fields);
 
 /// `setup` tells which kinds and walls there are.
-/// @throws std::invalid_argument  naming the array that is missing or does not fit.
+/// @throws base::InputError  naming the array that is missing or does not fit.
 Checkpoint checkpoint_in(const VtkPoints& points, const SimulationSetup& setup);
 
 }  // namespace repose::dem

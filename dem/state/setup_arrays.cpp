@@ -1,11 +1,11 @@
 #include "dem/state/setup_arrays.h"
 
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/contact/damping_name.h"
 #include "dem/contact/rolling_name.h"
 
@@ -45,7 +45,7 @@ DampingModel damping_in(const ArrayReader& arrays) {
   const auto& models = arrays.texts(kDamping);
   const auto damping = damping_model_named(models.empty() ? "" : models.front());
   if (!damping) {
-    throw std::invalid_argument(fmt::format("array {} names none that is known", kDamping));
+    throw base::InputError({.value = fmt::format("array {} names none that is known", kDamping)});
   }
   return *damping;
 }
@@ -80,7 +80,7 @@ ContactTable contact_table_in(const ArrayReader& arrays) {
   }
   const auto& models = arrays.texts("rolling_model");
   const auto rolling = rolling_model_named(models.empty() ? "" : models.front());
-  if (!rolling) throw std::invalid_argument("array rolling_model names none that is known");
+  if (!rolling) throw base::InputError({.value = "array rolling_model names none that is known"});
   return {std::move(materials), std::move(pairs), *rolling, damping_in(arrays)};
 }
 
@@ -194,11 +194,12 @@ SimulationSetup setup_in(const ArrayReader& arrays) {
                         .floor_m = floor.take(),
                         .audit_steps = take_index(audit, std::numeric_limits<int>::max())};
   if (setup.audit_steps == 0)
-    throw std::invalid_argument("array audit_steps holds 0, must be more");
+    throw base::InputError({.value = "array audit_steps holds 0, must be more"});
   constexpr double kShortest_s = 1e-15, kLongest_s = 1;
   if (!(setup.timestep_s >= kShortest_s && setup.timestep_s <= kLongest_s)) {
-    throw std::invalid_argument(fmt::format("array timestep holds {:g}, must be from {:g} to {:g}",
-                                            setup.timestep_s, kShortest_s, kLongest_s));
+    throw base::InputError(
+        {.value = fmt::format("array timestep holds {:g}, must be from {:g} to {:g}",
+                              setup.timestep_s, kShortest_s, kLongest_s)});
   }
   return setup;
 }

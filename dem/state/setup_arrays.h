@@ -7,7 +7,7 @@
 namespace repose::dem {
 
 void add_setup(ArrayWriter& arrays, const SimulationSetup& setup);
-/// @throws std::invalid_argument  naming the array that is missing or does not fit.
+/// @throws base::InputError  naming the array that is missing or does not fit.
 SimulationSetup setup_in(const ArrayReader& arrays);
 
 void add_walls(ArrayWriter& arrays, const std::vector<Wall>& walls);

@@ -1,12 +1,12 @@
 #include "dem/state/state_file.h"
 
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/fingerprint.h"
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "dem/state/checkpoint_arrays.h"
 #include "dem/state/setup_arrays.h"
@@ -24,8 +24,8 @@ constexpr const char* kFix = "give a .vtp file that repose wrote, unchanged.";
 void check_format(const ArrayReader& fields) {
   const std::int64_t format = fields.integers("repose_state_format", 1).take();
   if (format != kStateFormat) {
-    throw std::invalid_argument(
-        fmt::format("its format is {}, this program reads format {}", format, kStateFormat));
+    throw base::InputError({.value = fmt::format("its format is {}, this program reads format {}",
+                                                 format, kStateFormat)});
   }
 }
 
@@ -72,8 +72,7 @@ bool is_as_written(const fs::path& file) {
 SavedState read_state(const fs::path& file) {
   const std::string text = base::read_whole_file(file);
   if (seal_in(text) == Seal::broken) {
-    throw std::invalid_argument(
-        fmt::format("{}: was changed since repose wrote it. Fix: {}", file.string(), kFix));
+    base::refuse(file, "was changed since repose wrote it", kFix);
   }
   const VtkPoints points = parse_vtk(file.string(), text);
   try {
@@ -85,10 +84,9 @@ SavedState read_state(const fs::path& file) {
     return {.setup = std::move(setup),
             .checkpoint = std::move(checkpoint),
             .provenance_json = provenance.empty() ? "" : provenance.front()};
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(
-        fmt::format("{}: not a state that repose can resume from: {}. Fix: {}", file.string(),
-                    error.what(), kFix));
+  } catch (const base::InputError& error) {
+    base::refuse(file, fmt::format("not a state that repose can resume from: {}", error.what()),
+                 kFix);
   }
 }
 

@@ -24,7 +24,7 @@ struct SavedState {
 std::string state_text(const Simulation& simulation, const std::string& provenance_json);
 
 /// Writes it whole or not at all.
-/// @throws std::invalid_argument  the place cannot be written.
+/// @throws base::InputError  the place cannot be written.
 void write_state(const std::filesystem::path& file, const Simulation& simulation,
                  const std::string& provenance_json);
 
@@ -33,7 +33,7 @@ void write_state(const std::filesystem::path& file, const Simulation& simulation
 bool is_as_written(const std::filesystem::path& file);
 
 /// `Simulation(state.setup, state.checkpoint)` then goes on bit for bit.
-/// @throws std::invalid_argument  no such file, no state of repose, cut short, or edited so that it
+/// @throws base::InputError  no such file, no state of repose, cut short, or edited so that it
 /// does not hold together.
 SavedState read_state(const std::filesystem::path& file);
 

@@ -1,13 +1,13 @@
 #include "dem/state/trajectory.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "dem/state/state_file.h"
 
@@ -27,15 +27,15 @@ TrajectoryWriter::TrajectoryWriter(fs::path folder, double interval_s, std::stri
       provenance_json_(std::move(provenance_json)),
       film_(std::move(film)) {
   if (!(interval_s > 0) || !std::isfinite(interval_s)) {
-    throw std::invalid_argument(fmt::format(
-        "time between two frames = {:g} s. Rule: above 0. Fix: for example 0.1.", interval_s));
+    throw base::InputError({.value = fmt::format("time between two frames = {:g} s", interval_s),
+                            .rule = "above 0",
+                            .fix = "for example 0.1."});
   }
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) {
-    throw std::invalid_argument(
-        fmt::format("{}: the folder cannot be created ({}). Fix: choose a writable place.",
-                    folder_.string(), error.message()));
+    base::refuse(folder_, fmt::format("the folder cannot be created ({})", error.message()),
+                 "choose a writable place.");
   }
 }
 
@@ -71,10 +71,11 @@ std::vector<TrajectoryFrame> read_trajectory(const fs::path& file) {
         {.time_s = frame.attribute("timestep").as_double(), .file = file.parent_path() / name});
   }
   if (frames.empty()) {
-    throw std::invalid_argument(
-        fmt::format("{}: no film of states ({}). Fix: name the trajectory.pvd of a run that was "
-                    "simulated with one.",
-                    file.string(), parsed ? "it names none" : parsed.description()));
+    throw base::InputError(
+        {.where = file.string(),
+         .value =
+             fmt::format("no film of states ({})", parsed ? "it names none" : parsed.description()),
+         .fix = "name the trajectory.pvd of a run that was simulated with one."});
   }
   return frames;
 }

@@ -20,13 +20,13 @@ struct Film {
 class TrajectoryWriter {
  public:
   /// The folder is made when it is missing. `film`: of a writer that this one goes on from.
-  /// @throws std::invalid_argument  interval_s is not above 0, or the folder cannot be made.
+  /// @throws base::InputError  interval_s is not above 0, or the folder cannot be made.
   TrajectoryWriter(std::filesystem::path folder, double interval_s, std::string provenance_json,
                    Film film = {});
 
   /// Writes a frame. A simulation that starts from time 0 again is shown `interval_s` after the one
   /// before.
-  /// @throws std::invalid_argument  it cannot be written.
+  /// @throws base::InputError  it cannot be written.
   void add(const Simulation& simulation);
 
   const Film& film() const { return film_; }
@@ -47,7 +47,7 @@ struct TrajectoryFrame {
 };
 
 /// The frames that a trajectory.pvd names, in its order; none of them is looked at.
-/// @throws std::invalid_argument  no such file, no collection, or one without frames.
+/// @throws base::InputError  no such file, no collection, or one without frames.
 std::vector<TrajectoryFrame> read_trajectory(const std::filesystem::path& file);
 
 }  // namespace repose::dem

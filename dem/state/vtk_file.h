@@ -31,7 +31,7 @@ struct VtkPoints {
 std::string vtk_text(const VtkPoints& points);
 
 /// Reads what vtk_text writes. `file` is what errors call it.
-/// @throws std::invalid_argument  another kind of file, or one that is cut short or edited.
+/// @throws base::InputError  another kind of file, or one that is cut short or edited.
 VtkPoints parse_vtk(const std::string& file, std::string_view text);
 
 }  // namespace repose::dem

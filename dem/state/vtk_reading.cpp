@@ -2,13 +2,13 @@
 #include <cstring>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include "base/base64.h"
+#include "base/input_error.h"
 #include "dem/state/vtk_file.h"
 
 namespace repose::dem {
@@ -19,7 +19,7 @@ using Bytes = std::vector<std::byte>;
 constexpr const char* kReadingFix = "give a .vtp file that repose wrote, unchanged.";
 
 [[noreturn]] void refuse_file(const std::string& file, const std::string& what) {
-  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file, what, kReadingFix));
+  throw base::InputError({.where = file, .value = what, .fix = kReadingFix});
 }
 
 template <typename Number>

@@ -1,11 +1,11 @@
 #include <limits>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/state/setup_arrays.h"
 
 namespace repose::dem {
@@ -52,10 +52,9 @@ void add_beds(ArrayWriter& arrays, const std::vector<Wall>& walls) {
 double take_length(NumberStream& numbers, double most) {
   const double length = numbers.take();
   if (length > 0 && length <= most) return length;
-  throw std::invalid_argument(
-      fmt::format("array {} holds a length of {:g} m, must be above 0 and at "
-                  "most {:g}",
-                  numbers.name(), length, most));
+  throw base::InputError(
+      {.value = fmt::format("array {} holds a length of {:g} m, must be above 0 and at most {:g}",
+                            numbers.name(), length, most)});
 }
 
 SphereBed take_bed(NumberStream& beds, NumberStream& spheres) {
@@ -154,7 +153,8 @@ std::vector<Wall> walls_in(const ArrayReader& arrays) {
     Wall wall;
     wall.shape = shape_of(shape, take_vector(sizes), std::move(mesh));
     if (shape == kBedShape) {
-      if (next_bed == beds.end()) throw std::invalid_argument("a wall's bed of spheres is missing");
+      if (next_bed == beds.end())
+        throw base::InputError({.value = "a wall's bed of spheres is missing"});
       wall.shape = *next_bed++;
     }
     wall.material = take_index(integers, std::numeric_limits<int>::max());

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -45,8 +43,9 @@ const ExperimentEntry* find_experiment(std::string_view name) {
 const ExperimentEntry& experiment_named(std::string_view name) {
   const ExperimentEntry* found = find_experiment(name);
   if (found != nullptr) return *found;
-  throw std::invalid_argument(
-      fmt::format("experiment {}: unknown experiment. Fix: {}.", name, experiment_names()));
+  throw base::InputError({.where = fmt::format("experiment {}", name),
+                          .value = "unknown experiment",
+                          .fix = experiment_names() + '.'});
 }
 
 std::string experiment_names() {
@@ -62,24 +61,22 @@ std::string experiment_names() {
 
 std::string name_of(Experiment experiment) { return std::string(entry_of(experiment).name); }
 
-std::string with_study_keys(const std::string& errors, const Protocol& protocol) {
+base::InputError with_study_keys(const base::InputError& error, const Protocol& protocol) {
   const ExperimentEntry& entry = entry_of(protocol);
   Protocol asked = protocol, usual = entry.usual;
   const std::vector<ProtocolKey> keys = entry.keys(asked), usual_keys = entry.keys(usual);
-  std::istringstream lines(errors);
-  std::string text;
-  for (std::string line; std::getline(lines, line);) {
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      std::string name = keys[k].name;  // in SI units: tube_diameter_m
-      if (const std::size_t mm = name.find("_mm"); mm != std::string::npos) name.erase(mm + 1, 1);
-      const auto value = value_of(keys[k]);
-      if (!value || !line.starts_with(fmt::format("{}.{} is ", entry.name, name))) continue;
-      line += fmt::format(" ([experiment.{}] {} = {:g}{})", entry.name, keys[k].name, *value,
-                          value == value_of(usual_keys[k]) ? ", the default" : "");
+  std::vector<base::Fault> faults = error.faults();
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    std::string name = keys[k].name;  // in SI units: tube_diameter_m
+    if (const std::size_t mm = name.find("_mm"); mm != std::string::npos) name.erase(mm + 1, 1);
+    const auto value = value_of(keys[k]);
+    for (base::Fault& fault : faults) {
+      if (!value || fault.subject != fmt::format("{}.{}", entry.name, name)) continue;
+      fault.fix += fmt::format(" ([experiment.{}] {} = {:g}{})", entry.name, keys[k].name, *value,
+                               value == value_of(usual_keys[k]) ? ", the default" : "");
     }
-    text += (text.empty() ? "" : "\n") + line;
   }
-  return text;
+  return base::InputError(std::move(faults));
 }
 
 Range readable_in(std::string_view unit) {

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/study/protocol_key.h"
 #include "dem/study/range.h"
@@ -110,17 +111,16 @@ const ExperimentEntry& entry_of(const Protocol& protocol);
 
 /// Null for a name that there is not.
 const ExperimentEntry* find_experiment(std::string_view name);
-/// @throws std::invalid_argument  there is no such experiment.
+/// @throws base::InputError  there is no such experiment.
 const ExperimentEntry& experiment_named(std::string_view name);
-/// "drop, tilt, roll or heap".
+/// All, as in "drop, tilt or roll".
 std::string experiment_names();
 
 std::string name_of(Experiment experiment);
 
-/// What is wrong with a protocol, a line each as run_drop() and the others say it, with the lines
-/// of the study file added: nobody has to guess that a size was never given, or what it is called
-/// there.
-std::string with_study_keys(const std::string& errors, const Protocol& protocol);
+/// What is wrong with a protocol as run_drop() and the others say it, with the keys of the study
+/// file added: nobody has to guess that a size was never given, or what it is called there.
+base::InputError with_study_keys(const base::InputError& error, const Protocol& protocol);
 
 /// What a bench can read in a unit: lengths, angles and counts are 0 or more, angles at most 90.
 Range readable_in(std::string_view unit);

@@ -1,10 +1,10 @@
 #include "dem/study/grain_source.h"
 
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "dem/shape/clump/size_classes.h"
 
 namespace repose::dem {
@@ -33,8 +33,8 @@ ClumpFile unscaled_grain(const GrainSource& source) {
     return clump;
   }
   if (!source.sizes) {
-    throw std::invalid_argument(
-        "the grain has no shape. Fix: give a scan, calliper sizes or a clump file.");
+    throw base::InputError(
+        {.value = "the grain has no shape", .fix = "give a scan, calliper sizes or a clump file."});
   }
   ClumpFile clump = filled(calliper_surface(*source.sizes), source.fill);
   clump.source = text_of(*source.sizes);

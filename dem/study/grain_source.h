@@ -22,7 +22,7 @@ struct GrainSource {
 
 /// Reads the scan, clump file or sizes and fills the surface with spheres: seconds, where reading a
 /// study takes none.
-/// @throws std::invalid_argument  all that is wrong with the file or the surface.
+/// @throws base::InputError  all that is wrong with the file or the surface.
 ClumpFile build_grain(const GrainSource& source);
 
 }  // namespace repose::dem

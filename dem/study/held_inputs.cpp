@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "base/units.h"
 #include "dem/shape/clump/size_classes.h"
 #include "dem/study/experiment_table.h"
@@ -274,7 +274,7 @@ void change_input(Study& study, const std::string& name, double change) {
       return;
     }
   }
-  throw std::invalid_argument(fmt::format("the study has no number {}", name));
+  throw base::InputError({.value = fmt::format("the study has no number {}", name)});
 }
 
 bool has_effect(std::string_view input, Experiment experiment) {

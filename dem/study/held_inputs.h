@@ -36,7 +36,7 @@ std::vector<HeldInput> held_inputs(const Study& study);
 std::vector<std::string> inputs_taken_as_exact(const Study& study);
 
 /// Adds to the value of one of them, in its unit.
-/// @throws std::invalid_argument  the study has no such number.
+/// @throws base::InputError  the study has no such number.
 void change_input(Study& study, const std::string& name, double change);
 
 /// Whether an experiment of the study is simulated otherwise with another value.

@@ -119,7 +119,7 @@ struct Study {
   /// Fingerprint of the text, the settings, the scan or clump file and the sheets of readings: a
   /// UUID made from their bytes (RFC 4122, version 5). The same study, the same fingerprint.
   std::string hash;
-  /// Coefficients that are to be found are NaN in it. `bench.grain` is empty: reading takes no
+  /// Coefficients that are to be found are NaN in it. `model.grain` is empty: reading takes no
   /// time, making spheres does; `study.model.grain = build_grain(study.grain).shape` when needed.
   Model model;
   GrainSource grain;
@@ -154,7 +154,7 @@ struct Study {
 /// Reads a study file (TOML). `settings` are "key.path=value" pairs that replace or add values, the
 /// value as in TOML; files named in them are looked for beside the study file, like all others.
 ///
-/// Throws std::invalid_argument with every error of the file: line, column, value, rule, fix. Those
+/// Throws base::InputError with every error of the file: line, column, value, rule, fix. Those
 /// of a setting are called "setting:N:column", N counting the settings from 1.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 

@@ -1,8 +1,8 @@
 #include "dem/study/study_errors.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,17 +10,16 @@ namespace repose::dem {
 
 std::string Place::text() const {
   return setting == 0 ? fmt::format("{}:{}:{}", file, line, column)
-                      : fmt::format("{}:{}:{}", file, setting, column);
+                      : fmt::format("{}:{}:{}", base::field(file), setting, column);
 }
 
 void StudyErrors::add(const Place& place, const std::string& what, const std::string& rule,
                       const std::string& fix) {
   errors_.push_back(
-      {place, fmt::format("{}: {}. Rule: {}. Fix: {}.", place.text(), what, rule, fix)});
+      {place, {.where = place.text(), .value = what, .rule = rule, .fix = fix + '.'}});
 }
 
 void StudyErrors::throw_if_any() const {
-  if (errors_.empty()) return;
   std::vector<Error> sorted = errors_;
   const auto order = [](const Error& error) {
     return std::tuple(error.place.setting, error.place.line, error.place.column);
@@ -28,15 +27,16 @@ void StudyErrors::throw_if_any() const {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Error& a, const Error& b) { return order(a) < order(b); });
   constexpr std::size_t kMost = 100;  // errors that are listed
-  std::string text;
-  for (std::size_t k = 0; k < std::min(kMost, sorted.size()); ++k) {
-    text += (text.empty() ? "" : "\n") + sorted[k].text;
+  std::vector<base::Fault> faults;
+  for (const Error& error : sorted) {
+    if (faults.size() < kMost) faults.push_back(error.fault);
   }
   if (sorted.size() > kMost) {
-    text += fmt::format("\nand {} more, which are not listed. Fix: correct these first.",
-                        sorted.size() - kMost);
+    faults.push_back(
+        {.value = fmt::format("and {} more, which are not listed", sorted.size() - kMost),
+         .fix = "correct these first."});
   }
-  throw std::invalid_argument(text);
+  if (!faults.empty()) throw base::InputError(std::move(faults));
 }
 
 }  // namespace repose::dem

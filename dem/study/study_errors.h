@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
+
 namespace repose::dem {
 
 /// Where in a study something stands: in the file, or in a setting laid over it.
@@ -12,7 +14,8 @@ struct Place {
   int line = 0;
   int column = 0;
 
-  std::string text() const;  ///< "study.toml:12:5" or "setting:1:5"
+  /// "study.toml:12:5", or "setting:1:5" with "setting" as a base::field().
+  std::string text() const;
 };
 
 /// All that is wrong with a study, told at once.
@@ -22,13 +25,13 @@ class StudyErrors {
   void add(const Place& place, const std::string& what, const std::string& rule,
            const std::string& fix);
 
-  /// @throws std::invalid_argument  a line for each error, in the order of the file.
+  /// @throws base::InputError  a line for each error, in the order of the file.
   void throw_if_any() const;
 
  private:
   struct Error {
     Place place;
-    std::string text;
+    base::Fault fault;
   };
   std::vector<Error> errors_;
 };

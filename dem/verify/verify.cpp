@@ -1,8 +1,8 @@
 #include "dem/verify/verify.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "base/input_error.h"
 #include "dem/verify/cases.h"
 
 namespace repose::dem {
@@ -41,9 +41,9 @@ std::vector<CaseResult> run_case(const std::string& name) {
   const auto found = std::find_if(cases.begin(), cases.end(),
                                   [&name](const VerifyCase& each) { return each.name == name; });
   if (found == cases.end()) {
-    throw std::invalid_argument("case " + name +
-                                ": there is none with this name. Fix: one of those "
-                                "that case_names() lists.");
+    throw base::InputError({.where = "case " + name,
+                            .value = "there is none with this name",
+                            .fix = "one of those that case_names() lists."});
   }
   return run(*found);
 }

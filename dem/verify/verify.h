@@ -26,7 +26,7 @@ using ProgressCallback = std::function<void(std::size_t done, std::size_t count)
 std::vector<std::string> case_names();
 
 /// Runs one case at the longest time step that the program accepts, and at half of it.
-/// Throws std::invalid_argument when there is no case of this name.
+/// Throws base::InputError when there is no case of this name.
 std::vector<CaseResult> run_case(const std::string& name);
 
 /// Runs all of them.

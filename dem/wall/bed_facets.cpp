@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
@@ -12,14 +13,14 @@ namespace {
 constexpr int kMostCells = 512;
 
 void check(const SphereBed& bed) {
-  if (bed.spheres.empty()) throw std::invalid_argument("a bed of spheres has none");
+  if (bed.spheres.empty()) throw base::InputError({.value = "a bed of spheres has none"});
   for (std::size_t k = 0; k < bed.spheres.size(); ++k) {
     const FixedSphere& sphere = bed.spheres[k];
     if (sphere.radius > 0 && 4 * sphere.radius < bed.tile && sphere.centre.allFinite()) continue;
-    throw std::invalid_argument(fmt::format(
-        "a bed's sphere {} has a radius of {:g} m. Rule: above 0, and less than a quarter of the "
-        "tile, {:g} m. Fix: a larger tile.",
-        k, sphere.radius, bed.tile));
+    throw base::InputError(
+        {.value = fmt::format("a bed's sphere {} has a radius of {:g} m", k, sphere.radius),
+         .rule = fmt::format("above 0, and less than a quarter of the tile, {:g} m", bed.tile),
+         .fix = "a larger tile."});
   }
 }
 

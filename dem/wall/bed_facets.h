@@ -13,7 +13,7 @@ namespace repose::dem {
 /// wider than what touches it. Proved by BedWall.* in tests/dem/bed_wall_test.cpp.
 class BedFacets {
  public:
-  /// Throws std::invalid_argument for a bed without spheres, with one without a radius or wider
+  /// Throws base::InputError for a bed without spheres, with one without a radius or wider
   /// than its tile.
   explicit BedFacets(const SphereBed& bed);
 

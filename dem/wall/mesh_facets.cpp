@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
@@ -30,15 +31,14 @@ Mesh with_shared_corners(const Mesh& mesh) {
 }
 
 void check(const Mesh& mesh) {
-  if (mesh.triangles.empty()) throw std::invalid_argument("a mesh wall has no triangles");
+  if (mesh.triangles.empty()) throw base::InputError({.value = "a mesh wall has no triangles"});
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& [a, b, c] = mesh.triangles[k];
     const auto at = [&mesh](int corner) { return mesh.vertices[static_cast<std::size_t>(corner)]; };
     const Vector area = (at(b) - at(a)).cross(at(c) - at(a));
     if (!(area.norm() > 0)) {
-      throw std::invalid_argument(fmt::format(
-          "a mesh wall's triangle {} has no area. Fix: remove degenerate triangles from the file.",
-          k));
+      throw base::InputError({.value = fmt::format("a mesh wall's triangle {} has no area", k),
+                              .fix = "remove degenerate triangles from the file."});
     }
   }
 }

@@ -16,7 +16,7 @@ namespace repose::dem {
 /// Proved by MeshWall.* in tests/dem/mesh_wall_test.cpp.
 class MeshFacets {
  public:
-  /// Throws std::invalid_argument for a mesh without triangles, or with one without area.
+  /// Throws base::InputError for a mesh without triangles, or with one without area.
   explicit MeshFacets(const Mesh& mesh);
   ~MeshFacets() = default;
   MeshFacets(const MeshFacets&) = delete;  // the tree refers to the mesh beside it

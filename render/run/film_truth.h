@@ -34,7 +34,7 @@ struct FilmTruth {
 
 inline constexpr std::size_t kMostPlaced = 100;
 
-/// @throws std::invalid_argument  as FilmedRun and view_of().
+/// @throws base::InputError  as FilmedRun and view_of().
 FilmTruth film_truth_of(FilmedRun& run, const Camera& camera, const PictureSize& size);
 
 }  // namespace repose::render

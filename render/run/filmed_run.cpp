@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "render/run/between.h"
 #include "render/scene/bench.h"
 
@@ -16,26 +16,28 @@ namespace {
 constexpr double kMostFramesPerS = 10000;
 constexpr int kMostFrames = 1'000'000;
 
-/// @throws std::invalid_argument
+/// @throws base::InputError
 void check(const RunStates& states, const Shutter& shutter) {
-  const auto require = [](bool holds, const std::string& what) {
-    if (!holds) throw std::invalid_argument("film: " + what);
+  const auto require = [](bool holds, base::Fault fault) {
+    if (!holds) throw base::InputError(std::move(fault)).in("film");
   };
-  require(!states.times_s.empty(), "it has no states. Fix: those of a run.");
+  require(!states.times_s.empty(), {.value = "it has no states", .fix = "those of a run."});
   require(std::is_sorted(states.times_s.begin(), states.times_s.end()),
-          "its states are not in the order of their times. Fix: simulate the run again.");
+          {.value = "its states are not in the order of their times",
+           .fix = "simulate the run again."});
   require(shutter.frames_per_s > 0 && shutter.frames_per_s <= kMostFramesPerS,
-          fmt::format("{:g} frames per second. Rule: above 0, at most {:g}. Fix: 60.",
-                      shutter.frames_per_s, kMostFramesPerS));
+          {.value = fmt::format("{:g} frames per second", shutter.frames_per_s),
+           .rule = fmt::format("above 0, at most {:g}", kMostFramesPerS),
+           .fix = "60."});
   constexpr double kRounding = 1 + 1e-9;
   require(shutter.exposure_s >= 0 && shutter.exposure_s * shutter.frames_per_s <= kRounding,
-          fmt::format("a frame is exposed for {:g} ms. Rule: 0 to {:.4g}, the time between two. "
-                      "Fix: {:.3g}.",
-                      1e3 * shutter.exposure_s, 1e3 / shutter.frames_per_s,
-                      3e2 / shutter.frames_per_s));
+          {.value = fmt::format("a frame is exposed for {:g} ms", 1e3 * shutter.exposure_s),
+           .rule = fmt::format("0 to {:.4g}, the time between two", 1e3 / shutter.frames_per_s),
+           .fix = fmt::format("{:.3g}.", 3e2 / shutter.frames_per_s)});
   require(shutter.hold_s >= 0 && shutter.hold_s <= 3600,
-          fmt::format("the first and the last state are held for {:g} s. Rule: 0 to 3600. Fix: .5.",
-                      shutter.hold_s));
+          {.value = fmt::format("the first and the last state are held for {:g} s", shutter.hold_s),
+           .rule = "0 to 3600",
+           .fix = ".5."});
 }
 
 }  // namespace
@@ -47,9 +49,10 @@ FilmedRun::FilmedRun(RunStates states, const Shutter& shutter)
   const double lasts_s = states_.times_s.back() - states_.times_s.front() + 2 * shutter_.hold_s;
   const double frames = std::floor(lasts_s * shutter_.frames_per_s) + 1;
   if (!(frames <= kMostFrames)) {
-    throw std::invalid_argument(
-        fmt::format("film: {:.0f} frames. Rule: at most {}. Fix: fewer frames per second.", frames,
-                    kMostFrames));
+    throw base::InputError({.where = "film",
+                            .value = fmt::format("{:.0f} frames", frames),
+                            .rule = fmt::format("at most {}", kMostFrames),
+                            .fix = "fewer frames per second."});
   }
   frames_ = static_cast<int>(frames);
   // Some moments tell where all of them are: what moves far is seen on its way.

@@ -24,7 +24,7 @@ struct Shutter {
 
 class FilmedRun {
  public:
-  /// @throws std::invalid_argument  no states, or a shutter that cannot be.
+  /// @throws base::InputError  no states, or a shutter that cannot be.
   FilmedRun(RunStates states, const Shutter& shutter);
 
   int frames() const { return frames_; }

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/input_error.h"
 #include "dem/vector.h"
 
 /// Where the picture is taken from.
@@ -18,7 +19,7 @@ struct PictureSize {
   int height = 1080;
 
   /// Empty when usable; else what is wrong, the rule, and what to do.
-  std::vector<std::string> problems() const;
+  std::vector<base::Fault> problems() const;
 };
 
 /// Level, parallel rays: all depths have the same scale.
@@ -62,18 +63,18 @@ struct LabStand {
 struct Scene;
 
 /// The camera on that stand.
-/// @throws std::invalid_argument  no grains, or a distance that is not above 0.
+/// @throws base::InputError  no grains, or a distance that is not above 0.
 PerspectiveCamera camera_on(const LabStand& stand, const Scene& scene, const PictureSize& size);
 
 /// The same camera with its scale and middle set, so that all grains fit into the picture from any
 /// azimuth: for pictures of a heap from all around.
-/// @throws std::invalid_argument  no grains.
+/// @throws base::InputError  no grains.
 OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Scene& scene,
                                      const PictureSize& size);
 
 /// The same stand with the focal length set, so that all grains and the ground under them fit into
 /// the picture from any azimuth.
-/// @throws std::invalid_argument  no grains, or some reach as far as the camera.
+/// @throws base::InputError  no grains, or some reach as far as the camera.
 LabStand fitted_stand(const LabStand& stand, const Scene& scene, const PictureSize& size);
 
 }  // namespace repose::render

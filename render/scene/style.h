@@ -25,10 +25,10 @@ struct SilhouetteStyle {
 /// Red, green, blue as on a screen (sRGB), 0 to 1.
 using Colour = std::array<double, 3>;
 
-/// As a camera in a laboratory sees it: soft light from the upper left and from all around,
-/// shadows, a plate on a table before a backdrop, a lens with limited depth of field, sensor noise.
 inline constexpr int kMaxPasses = 1000;
 
+/// As a camera in a laboratory sees it: soft light from the upper left and from all around,
+/// shadows, a plate on a table before a backdrop, a lens with limited depth of field, sensor noise.
 struct PhotoStyle {
   Shown shown = Shown::mesh;
   Colour grain = {0.56, 0.38, 0.24};

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "render/scene/extent.h"
 
 namespace repose::render {
@@ -25,13 +25,17 @@ constexpr double kMargin = .1;
 constexpr double kMinSlope = .1;
 
 void check(const PictureSize& size) {
-  for (const std::string& problem : size.problems()) throw std::invalid_argument(problem);
+  std::vector<base::Fault> problems = size.problems();
+  if (!problems.empty()) throw base::InputError(std::move(problems));
 }
 
 void check_number(const char* name, double value, double least, double most, const char* fix) {
   if (value >= least && value <= most) return;
-  throw std::invalid_argument(fmt::format("camera: {} is {:g}. Rule: from {:g} to {:g}. Fix: {}",
-                                          name, value, least, most, fix));
+  throw base::InputError({.where = "camera",
+                          .subject = name,
+                          .value = fmt::format("is {:g}", value),
+                          .rule = fmt::format("from {:g} to {:g}", least, most),
+                          .fix = fix});
 }
 
 /// Rows: right, down, into the picture.
@@ -46,8 +50,9 @@ Eigen::Matrix3d axes_at(double azimuth_rad, double pitch_rad, double roll_rad) {
 
 void require_grains(bool has_some) {
   if (has_some) return;
-  throw std::invalid_argument(
-      "scene: it has no grains to be seen. Fix: a state in which some are left.");
+  throw base::InputError({.where = "scene",
+                          .value = "it has no grains to be seen",
+                          .fix = "a state in which some are left."});
 }
 
 Eigen::AlignedBox3d bounds_to_fit(const Scene& scene, const Eigen::Matrix3d& axes) {
@@ -105,11 +110,12 @@ void limit_distortion(View& view) {
     break;
   }
   if (distorted_r(view, view.greatest_r) >= corner) return;
-  throw std::invalid_argument(
-      fmt::format("camera: the distortion k1 = {:g}, k2 = {:g} folds the picture before its corner "
-                  "({:.3g} focal lengths from the axis). Fix: smaller numbers, or a longer focal "
-                  "length.",
-                  view.k1, view.k2, corner));
+  throw base::InputError(
+      {.where = "camera",
+       .value = fmt::format("the distortion k1 = {:g}, k2 = {:g} folds the picture before its "
+                            "corner ({:.3g} focal lengths from the axis)",
+                            view.k1, view.k2, corner),
+       .fix = "smaller numbers, or a longer focal length."});
 }
 
 /// Upright, with all grains of a scene in it.
@@ -154,17 +160,18 @@ void check_outside(const Scene& scene, const Vector& eye) {
     (away.z() > 0 ? has_below : has_above) = true;
   }
   if (has_above && has_below) {
-    throw std::invalid_argument(
-        fmt::format("camera: at ({:.4g}, {:.4g}, {:.4g}) m it is inside the heap. Fix: a greater "
-                    "distance.",
-                    eye.x(), eye.y(), eye.z()));
+    throw base::InputError(
+        {.where = "camera",
+         .value = fmt::format("at ({:.4g}, {:.4g}, {:.4g}) m it is inside the heap", eye.x(),
+                              eye.y(), eye.z()),
+         .fix = "a greater distance."});
   }
   const auto ground = ground_m(scene);
   if (ground && eye.z() <= *ground) {
-    throw std::invalid_argument(
-        fmt::format("camera: at z = {:.4g} m it is under the ground, {:.4g} m. Fix: a height above "
-                    "0.",
-                    eye.z(), *ground));
+    throw base::InputError(
+        {.where = "camera",
+         .value = fmt::format("at z = {:.4g} m it is under the ground, {:.4g} m", eye.z(), *ground),
+         .fix = "a height above 0."});
   }
 }
 
@@ -195,15 +202,16 @@ View perspective(const Scene& scene, const PerspectiveCamera& camera, const Pict
 
 }  // namespace
 
-std::vector<std::string> PictureSize::problems() const {
+std::vector<base::Fault> PictureSize::problems() const {
   if (width >= 1 && height >= 1 && width <= kLongestSide && height <= kLongestSide &&
       std::int64_t{width} * height <= kMaxPixels) {
     return {};
   }
-  return {fmt::format(
-      "picture size = {} x {} pixels. Rule: each side from 1 to {}, {} megapixels at most. Fix: "
-      "1920 x 1080 is usual.",
-      width, height, kLongestSide, kMaxPixels / 1'000'000)};
+  return {{.subject = "picture size",
+           .value = fmt::format("= {} x {} pixels", width, height),
+           .rule = fmt::format("each side from 1 to {}, {} megapixels at most", kLongestSide,
+                               kMaxPixels / 1'000'000),
+           .fix = "1920 x 1080 is usual."}};
 }
 
 double distorted_r(const View& view, double r) {
@@ -274,10 +282,13 @@ LabStand fitted_stand(const LabStand& stand, const Scene& scene, const PictureSi
   check(size);
   const Cylinder around = cylinder_around(scene);
   if (!(stand.distance_m > around.radius)) {
-    throw std::invalid_argument(fmt::format(
-        "camera: distance_m is {:g}. Rule: above {:.3g}, as far as grains reach from their middle. "
-        "Fix: the distance from the heap's middle to the lens.",
-        stand.distance_m, around.radius));
+    throw base::InputError(
+        {.where = "camera",
+         .subject = "distance_m",
+         .value = fmt::format("is {:g}", stand.distance_m),
+         .rule =
+             fmt::format("above {:.3g}, as far as grains reach from their middle", around.radius),
+         .fix = "the distance from the heap's middle to the lens."});
   }
   const double bottom = around.middle.z() - around.half_height;
   const double ground = ground_m(scene).value_or(bottom);

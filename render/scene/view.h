@@ -36,7 +36,7 @@ struct View {
 /// Distorted distance from the axis, both in focal lengths.
 double distorted_r(const View& view, double r);
 
-/// @throws std::invalid_argument  a picture without pixels or of too many, no grains to fit into
+/// @throws base::InputError  a picture without pixels or of too many, no grains to fit into
 /// it, numbers that are none, a lens that folds the picture, a camera inside the heap or under the
 /// ground.
 View view_of(const Scene& scene, const Camera& camera, const PictureSize& size);

@@ -1,9 +1,8 @@
 #include "base/file_set.h"
 
-#include <stdexcept>
-
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::base {
@@ -40,7 +39,7 @@ TEST_F(FileSet, FilesOfTheUsersAreNotReplaced) {
       [&] {
         write({{"a.py", "ours"}, {"b.py", "ours"}, {"c.py", "ours"}});
       },
-      ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("a.py, b.py"), HasSubstr("Fix: "))));
+      ThrowsMessage<base::InputError>(AllOf(HasSubstr("a.py, b.py"), HasSubstr("Fix: "))));
   EXPECT_THAT(folder_.names(), UnorderedElementsAre("a.py", "b.py"));
   EXPECT_EQ(text("a.py"), "mine");
   write({{"a.py", "ours"}, {"b.py", "ours"}}, Unlisted::ours);
@@ -54,7 +53,7 @@ TEST_F(FileSet, WhatAUserHasChangedStays) {
       [&] {
         write({{"a.py", "second"}, {"b.py", "second"}}, Unlisted::ours);
       },
-      ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("b.py"), Not(HasSubstr("a.py")))));
+      ThrowsMessage<base::InputError>(AllOf(HasSubstr("b.py"), Not(HasSubstr("a.py")))));
   EXPECT_EQ(text("a.py"), "first");
   write({{"a.py", "second"}});
   EXPECT_EQ(text("b.py"), "first, changed");

@@ -1,7 +1,6 @@
 #include "base/whole_file.h"
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -56,10 +56,10 @@ TEST(WholeFile, MissingFilesAndFoldersAreRefused) {
   const auto missing = folder.path() / "missing";
   EXPECT_EQ(read_file_if_there(missing), std::nullopt);
   EXPECT_THAT([&] { read_whole_file(missing); },
-              ThrowsMessage<std::invalid_argument>(
+              ThrowsMessage<base::InputError>(
                   AllOf(HasSubstr("missing: there is no such file"), HasSubstr("Fix: "))));
   EXPECT_THAT([&] { read_file_if_there(folder.path()); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("is a folder")));
+              ThrowsMessage<base::InputError>(HasSubstr("is a folder")));
 }
 
 TEST(WholeFile, PipesAndDevicesAreRefusedWithoutWaiting) {
@@ -67,10 +67,10 @@ TEST(WholeFile, PipesAndDevicesAreRefusedWithoutWaiting) {
   const auto pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THAT([&] { read_whole_file(pipe); },
-              ThrowsMessage<std::invalid_argument>(
+              ThrowsMessage<base::InputError>(
                   AllOf(HasSubstr("pipe: is a pipe, not a file"), HasSubstr("Fix: "))));
   EXPECT_THAT([] { read_whole_file("/dev/zero"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("/dev/zero: is a device")));
+              ThrowsMessage<base::InputError>(HasSubstr("/dev/zero: is a device")));
 }
 
 TEST(WholeFile, WhatIsTooLargeIsRefusedBeforeItIsRead) {
@@ -78,16 +78,15 @@ TEST(WholeFile, WhatIsTooLargeIsRefusedBeforeItIsRead) {
   const auto file = folder.write("hole", std::string());
   std::filesystem::resize_file(file, std::uintmax_t{100} << 30);
   EXPECT_THAT([&] { read_whole_file(file); },
-              ThrowsMessage<std::invalid_argument>(AllOf(
+              ThrowsMessage<base::InputError>(AllOf(
                   HasSubstr("has 102400.0 MiB. Rule: at most 1024 MiB"), HasSubstr("Fix: "))));
-  EXPECT_THROW(read_whole_file(folder.write("four", std::string("four")), 3),
-               std::invalid_argument);
+  EXPECT_THROW(read_whole_file(folder.write("four", std::string("four")), 3), base::InputError);
   EXPECT_EQ(read_whole_file(folder.path() / "four", 4), "four");
 }
 
 TEST(WholeFile, AFullDiskIsSaidAndTheDeviceStays) {
   EXPECT_THAT([] { write_whole_file("/dev/full", "text"); },
-              ThrowsMessage<std::invalid_argument>(
+              ThrowsMessage<base::InputError>(
                   AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("Fix: "))));
   EXPECT_FALSE(std::filesystem::is_regular_file("/dev/full"));
 }
@@ -128,7 +127,7 @@ TEST(WholeFile, AProtectedFileIsNotReplaced) {
   const auto file = folder.write("table.csv", std::string("old"));
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
   EXPECT_THAT([&] { write_whole_file(file, "new"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("is write-protected")));
+              ThrowsMessage<base::InputError>(HasSubstr("is write-protected")));
   EXPECT_EQ(testing::text_of(file), "old");
 }
 
@@ -156,7 +155,7 @@ TEST(WholeFile, CheckingLeavesNothingBehind) {
 
 TEST(WholeFile, CheckingFindsAMissingFolder) {
   const testing::TemporaryFolder folder;
-  EXPECT_THROW(check_can_write(folder.path() / "no" / "table.csv"), std::invalid_argument);
+  EXPECT_THROW(check_can_write(folder.path() / "no" / "table.csv"), base::InputError);
 }
 
 TEST(WholeFile, CheckingFindsALockedFolder) {
@@ -164,7 +163,7 @@ TEST(WholeFile, CheckingFindsALockedFolder) {
   const testing::TemporaryFolder folder;
   std::filesystem::permissions(
       folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-  EXPECT_THROW(check_can_write(folder.path() / "table.csv"), std::invalid_argument);
+  EXPECT_THROW(check_can_write(folder.path() / "table.csv"), base::InputError);
 }
 
 }  // namespace

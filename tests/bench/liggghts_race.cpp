@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "tests/bench/clock.h"
 #include "tests/bench/packing.h"
 #include "tests/peers/liggghts.h"
@@ -128,7 +129,7 @@ Packing settled_clumps(const testing::TemporaryFolder& folder, int grains) {
   const dem::ClumpShape& shape = packing.setup.kinds[0].shape;
   const double radius = std::get<dem::Tube>(packing.setup.walls.back().shape).inner_radius;
   const double height = .05 + .003 * grains;  // loose enough to find a place for each
-  const double fall_s = std::sqrt(2 * height / dem::kStandardGravity_m_s2);
+  const double fall_s = std::sqrt(2 * height / kStandardGravity_m_s2);
   const auto steps = static_cast<int>((fall_s + .3) / packing.setup.timestep_s);
   folder.write("clump.txt", clump_file(shape));
   testing::DeckOptions options;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <random>
 
+#include "base/units.h"
+
 namespace repose::testing {
 namespace {
 
@@ -61,7 +63,7 @@ dem::Simulation poured(const dem::SimulationSetup& setup, int grains, double spa
     }
   }
   const double height = std::ceil(grains * std::pow(spacing / reach, 2) / 3) * spacing;
-  const double fall_s = std::sqrt(2 * height / dem::kStandardGravity_m_s2);
+  const double fall_s = std::sqrt(2 * height / kStandardGravity_m_s2);
   simulation.advance(static_cast<std::int64_t>((fall_s + .3) / kTimestep_s));
   return simulation;
 }

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "base/units.h"
 #include "dem/experiment/experiment.h"
 #include "render/renderer.h"
 #include "render/run/film_truth.h"
@@ -176,7 +176,7 @@ std::vector<double> restitutions_of(const std::vector<render::Scene>& scenes, do
     const double height = ball.pose.position.z() - radius_m;
     if (height < kAbove_m) continue;
     const double energy =
-        .5 * ball.velocity.z() * ball.velocity.z() + dem::kStandardGravity_m_s2 * height;
+        .5 * ball.velocity.z() * ball.velocity.z() + kStandardGravity_m_s2 * height;
     if (energies.empty() || energy < (1 - kChange) * energies.back()) energies.push_back(energy);
   }
   std::vector<double> restitutions;

@@ -4,13 +4,13 @@
 #include <atomic>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/first_round.h"
 #include "calibrate/fit/random.h"
 #include "calibrate/plan/foresight.h"
@@ -177,7 +177,7 @@ void recover_simulated(const SimulatedRecovery& plan) {
                       plan.seed + static_cast<std::uint64_t>(m));
     try {
       tally.add(material.calibrated(budget), truth, plan.verbose);
-    } catch (const std::invalid_argument& refused) {
+    } catch (const base::InputError& refused) {
       fmt::print("material {} cannot be measured: {}\n", m, refused.what());
     }
   }

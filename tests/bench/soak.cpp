@@ -2,12 +2,12 @@
 #include <exception>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/input_error.h"
 #include "base/random.h"
 #include "dem/contact/rolling_name.h"
 #include "dem/engine/unstable_run.h"
@@ -167,7 +167,7 @@ std::string ending(dem::Experiment experiment, std::uint64_t number, const Soak&
     return "UNSTABLE";
   } catch (const dem::Interrupted&) {
     return "too long";
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     why = error.what();
     return "refused";
   } catch (const std::exception& error) {

@@ -10,6 +10,7 @@
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/texts_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -34,7 +35,7 @@ struct BenchBias : ::testing::Test {
   std::vector<std::string> errors(const std::string& measured,
                                   const std::vector<std::string>& more = {}) {
     const dem::Study read = study(measured, more);
-    return impossible_readings(read, dem::build_grain(read.grain).shape);
+    return texts_of(impossible_readings(read, dem::build_grain(read.grain).shape));
   }
   TemporaryFolder folder_;
 };

@@ -13,6 +13,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/texts_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -104,7 +105,7 @@ TEST_F(BenchSheets, ImpossibleReadingsAreToldByTheStudysGrain) {
   const auto said = [&](const std::string& experiment) {
     const dem::Study read = study(experiment);
     const std::vector<std::string> all =
-        impossible_readings(read, dem::build_grain(read.grain).shape);
+        texts_of(impossible_readings(read, dem::build_grain(read.grain).shape));
     return all.empty() ? std::string() : all.front();
   };
   // Grains of 1000 kg/m3.

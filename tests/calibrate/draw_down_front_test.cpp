@@ -4,12 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "tests/dem/experiment_model.h"
@@ -109,8 +109,8 @@ TEST(DrawDownFront, ASideWithoutASlopeIsLeftOut) {
   EXPECT_TRUE(bare.slopes.back().angle_rad);
   render::Scene empty;
   empty.shapes = {dem::sphere_shape(.002)};
-  EXPECT_THROW(draw_down_front(empty, kDrawn), std::invalid_argument);
-  EXPECT_THROW(draw_down_front({}, kDrawn), std::invalid_argument);
+  EXPECT_THROW(draw_down_front(empty, kDrawn), base::InputError);
+  EXPECT_THROW(draw_down_front({}, kDrawn), base::InputError);
 }
 
 TEST(DrawDownFront, SteepSlopesHaveAnAngleToo) {

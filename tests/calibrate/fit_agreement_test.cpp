@@ -6,6 +6,7 @@
 #include "calibrate/fit/agreement.h"
 #include "calibrate/fit/random.h"
 #include "calibrate/fit/verification.h"
+#include "tests/support/texts_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -184,7 +185,7 @@ TEST(Agreement, ReadingsToDecideDecide) {
 TEST(Agreement, AToleranceMustBeAboveZero) {
   Problem problem = plates({0}, 1).problem;
   problem.observables[0].tolerance = 0;
-  EXPECT_THAT(errors_of(problem),
+  EXPECT_THAT(texts_of(errors_of(problem)),
               ::testing::Contains(::testing::HasSubstr("tolerance = 0 must be a number above 0")));
 }
 

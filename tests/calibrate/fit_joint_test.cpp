@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/fit/verification.h"
@@ -278,7 +279,7 @@ TEST(JointFit, AWideIntervalInsideItsBoundsIsBoundedNotDetermined) {
   EXPECT_EQ(plate_fit(problem).parameters[0].verdict, Verdict::determined);
   EXPECT_EQ(plate_fit(plate(22, 3, 5)).parameters[0].verdict, Verdict::determined);
   problem.parameters[0].useful_half_width = 0;
-  EXPECT_THROW(plate_fit(problem), std::invalid_argument);
+  EXPECT_THROW(plate_fit(problem), base::InputError);
 }
 
 TEST(JointFit, ARobustFitFollowsTheMajority) {

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/first_round.h"
 #include "calibrate/fit/minimum.h"
 #include "calibrate/fit/misfit.h"
@@ -241,10 +241,9 @@ TEST(Misfit, AReadingThatNoRunHasIsNamedWithThoseThereAre) {
 
 TEST(Misfit, RunsOfAnotherProblemAreRefused) {
   const Problem problem = full_problem(false);
-  EXPECT_THROW(in_order(problem, {{{"slump", kTruth, 1}, {}, ""}}), std::invalid_argument);
-  EXPECT_THROW(in_order(problem, {{{"heap", {.1}, 1}, {}, ""}}), std::invalid_argument);
-  EXPECT_THROW(in_order(problem, {{{"heap", {NAN, 0, 0, 0, 0, 0}, 1}, {}, ""}}),
-               std::invalid_argument);
+  EXPECT_THROW(in_order(problem, {{{"slump", kTruth, 1}, {}, ""}}), base::InputError);
+  EXPECT_THROW(in_order(problem, {{{"heap", {.1}, 1}, {}, ""}}), base::InputError);
+  EXPECT_THROW(in_order(problem, {{{"heap", {NAN, 0, 0, 0, 0, 0}, 1}, {}, ""}}), base::InputError);
 }
 
 TEST(Minimum, StaysInTheBoxAndHoldsWhatIsHeld) {

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/problem.h"
 #include "tests/calibrate/fake_simulator.h"
 #include "tests/support/error_of.h"
+#include "tests/support/texts_of.h"
 
 namespace repose::calibrate {
 namespace {
@@ -21,10 +21,11 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Problem sound() { return fake::problem(); }
 
-TEST(Problem, ASoundOneHasNoErrors) { EXPECT_THAT(errors_of(sound()), IsEmpty()); }
+TEST(Problem, ASoundOneHasNoErrors) { EXPECT_THAT(texts_of(errors_of(sound())), IsEmpty()); }
 
 TEST(Problem, AnEmptyOneSaysWhatIsMissing) {
-  EXPECT_THAT(errors_of({}), ElementsAre(HasSubstr("no parameter"), HasSubstr("nothing was")));
+  EXPECT_THAT(texts_of(errors_of({})),
+              ElementsAre(HasSubstr("no parameter"), HasSubstr("nothing was")));
 }
 
 TEST(Problem, EveryErrorIsToldAtOnceWithItsFix) {
@@ -39,7 +40,7 @@ TEST(Problem, EveryErrorIsToldAtOnceWithItsFix) {
   problem.observables[3].sd.reset();
   problem.experiments[3].run_s = -1;
   problem.settings.max_rounds = 0;
-  const std::vector<std::string> errors = errors_of(problem);
+  const std::vector<std::string> errors = texts_of(errors_of(problem));
   EXPECT_EQ(errors.size(), 10);
   EXPECT_THAT(errors, ::testing::Each(HasSubstr("Fix: ")));
   EXPECT_THAT(errors, Contains(AllOf(HasSubstr("particle_wall.restitution"), HasSubstr("min = 0.7"),
@@ -54,7 +55,7 @@ TEST(Problem, EveryErrorIsToldAtOnceWithItsFix) {
 TEST(Problem, AParameterThatNothingMeasuredDependsOnIsNoError) {
   Problem problem = sound();
   problem.observables.pop_back();  // the heap
-  EXPECT_THAT(errors_of(problem), IsEmpty());
+  EXPECT_THAT(texts_of(errors_of(problem)), IsEmpty());
 }
 
 TEST(Problem, NamesMustFitTogether) {
@@ -63,7 +64,7 @@ TEST(Problem, NamesMustFitTogether) {
   problem.observables[2].experiment = "rol";
   problem.experiments[0].parameters.push_back(0);
   problem.experiments[1].parameters.push_back(17);
-  EXPECT_THAT(errors_of(problem),
+  EXPECT_THAT(texts_of(errors_of(problem)),
               AllOf(Contains(HasSubstr("two observables are called \"drop\"")),
                     Contains(HasSubstr("no experiment is called \"rol\"")),
                     Contains(HasSubstr("twice")), Contains(HasSubstr("parameter 17, of 6"))));
@@ -74,7 +75,8 @@ TEST(Problem, AShareOfAMeanOfNothingIsNoScatter) {
   problem.observables[0].mean = 0;
   problem.observables[0].sd.reset();
   problem.observables[0].assumed_sd_fraction = .1;
-  EXPECT_THAT(errors_of(problem), ElementsAre(HasSubstr("drop: a fraction of a mean of 0")));
+  EXPECT_THAT(texts_of(errors_of(problem)),
+              ElementsAre(HasSubstr("drop: a fraction of a mean of 0")));
 }
 
 TEST(Problem, ABudgetThatBuysNoFitIsRefusedWithTheLeast) {
@@ -82,9 +84,10 @@ TEST(Problem, ABudgetThatBuysNoFitIsRefusedWithTheLeast) {
   problem.settings.budget_s = 100;
   problem.settings.max_jobs = 10;
   // 14 heaps of 25 s, 8 each of .6, .5 and 1 s.
-  EXPECT_THAT(errors_of(problem), ElementsAre(HasSubstr("367 s"), HasSubstr("at least 38")));
+  EXPECT_THAT(texts_of(errors_of(problem)),
+              ElementsAre(HasSubstr("367 s"), HasSubstr("at least 38")));
   problem.settings.budget_s = kNaN;
-  EXPECT_THAT(errors_of(problem), Contains(HasSubstr("budget_s = nan")));
+  EXPECT_THAT(texts_of(errors_of(problem)), Contains(HasSubstr("budget_s = nan")));
 }
 
 TEST(Problem, UncertaintyIsOfTheMean) {

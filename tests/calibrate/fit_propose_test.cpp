@@ -2,10 +2,10 @@
 #include <atomic>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/propose.h"
 #include "tests/calibrate/fake_simulator.h"
@@ -205,7 +205,7 @@ TEST(Propose, EndsWhenItIsInterruptedAndOnlyThen) {
   EXPECT_EQ(propose(problem, runs), next);
 }
 
-TEST(Propose, AnErroryProblemIsRefused) { EXPECT_THROW(propose({}, {}), std::invalid_argument); }
+TEST(Propose, AnErroryProblemIsRefused) { EXPECT_THROW(propose({}, {}), base::InputError); }
 
 }  // namespace
 }  // namespace repose::calibrate

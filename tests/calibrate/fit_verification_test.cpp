@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
@@ -168,9 +168,9 @@ TEST(SurrogateCheck, AMissThatTheBenchCouldNotSeeIsNone) {
 
 TEST(Verification, RefusesWhatCannotBeChecked) {
   const Problem problem = fake::problem();
-  EXPECT_THROW(verification_jobs(problem, {.1}, 5, 0), std::invalid_argument);
-  EXPECT_THROW(verification_jobs(problem, kTruth, 1, 0), std::invalid_argument);
-  EXPECT_THROW(verification_jobs(problem, kTruth, 5, -1), std::invalid_argument);
+  EXPECT_THROW(verification_jobs(problem, {.1}, 5, 0), base::InputError);
+  EXPECT_THROW(verification_jobs(problem, kTruth, 1, 0), base::InputError);
+  EXPECT_THROW(verification_jobs(problem, kTruth, 5, -1), base::InputError);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/support/error_of.h"
 
 namespace repose::calibrate {
@@ -24,7 +25,7 @@ struct Left {
 Left left_of(const std::string& text, const std::vector<std::string>& readings = {"angle_deg"}) {
   Left left;
   Table table = parse_table("a.csv", text);
-  base::ErrorList errors;
+  base::Faults errors;
   left.other = take_other_rows(table, readings, Unlabelled::refused, errors);
   for (const TableRow& row : table.rows) left.lines.push_back(row.line);
   left.error = error_of([&] { errors.throw_if_any(); });

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/run_result.h"
 #include "calibrate/report/study_report.h"
 #include "dem/state/state_file.h"
@@ -366,14 +366,14 @@ TEST_F(StudyReport, ThePublishedMethodHasItsOwnChapters) {
 }
 
 TEST_F(StudyReport, FoldersWithoutAStudyAreRefused) {
-  EXPECT_THAT([this] { made(); }, ThrowsMessage<std::invalid_argument>(AllOf(
+  EXPECT_THAT([this] { made(); }, ThrowsMessage<base::InputError>(AllOf(
                                       HasSubstr("there is no study in it"), HasSubstr("Fix: "))));
   EXPECT_THAT([this] { study_report(folder_.path() / "none"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("there is no such folder")));
+              ThrowsMessage<base::InputError>(HasSubstr("there is no such folder")));
   for (const std::string text : {"", "[1]", "{\"method\": "}) {
     folder_.write("result.json", text);
     EXPECT_THAT([this] { made(); },
-                ThrowsMessage<std::invalid_argument>(
+                ThrowsMessage<base::InputError>(
                     AllOf(HasSubstr("result.json: is not a result"), HasSubstr("Fix: "))));
   }
 }

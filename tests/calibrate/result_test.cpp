@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "calibrate/fit/propose.h"
 #include "calibrate/result/agreement_text.h"
 #include "calibrate/result/summary_text.h"
@@ -142,7 +142,7 @@ TEST(Result, ErrorsSayWhatIsWrongAndWhere) {
       {with(published, "\"r2\": 1.0", "\"r3\": 1.0"), "sweeps[0].r2: is missing"}};
   for (const auto& [text, message] : wrong) {
     EXPECT_THAT([&text = text] { result_from_json(text, kName); },
-                ThrowsMessage<std::invalid_argument>(
+                ThrowsMessage<base::InputError>(
                     AllOf(HasSubstr(kName), HasSubstr(message), HasSubstr("Fix: "))));
   }
 }
@@ -157,7 +157,7 @@ TEST(Result, DamagedTextIsNeverMoreThanRefused) {
         damaged.replace(k, 1, instead);
         try {
           result_from_json(damaged, kName);
-        } catch (const std::invalid_argument& refused) {
+        } catch (const base::InputError& refused) {
           EXPECT_THAT(refused.what(), HasSubstr("Fix: "));
         }
       }

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/calibrate/stored_runs.h"
 
 namespace repose::calibrate {
@@ -239,7 +240,7 @@ TEST(RunResult, FilesOfEarlierVersionsAreReadAndWrittenAsTheyWere) {
 std::string refusal(const std::string& text) {
   try {
     run_in(text);
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     return error.what();
   }
   return {};

@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/temporary_folder.h"
@@ -121,9 +121,9 @@ TEST_F(StudyRecordTest, PicturesOfOneHeapCountOnceAndShareTheirCamera) {
 
 TEST_F(StudyRecordTest, OtherFoldersAreRefused) {
   EXPECT_THAT([this] { read_study_record(folder_.path()); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("is not the folder of a study")));
+              ThrowsMessage<base::InputError>(HasSubstr("is not the folder of a study")));
   EXPECT_THAT([this] { read_study_record(saved() / "none"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("is not the folder of a study")));
+              ThrowsMessage<base::InputError>(HasSubstr("is not the folder of a study")));
 }
 
 TEST_F(StudyRecordTest, DamagedRecordsAreNamed) {
@@ -131,7 +131,7 @@ TEST_F(StudyRecordTest, DamagedRecordsAreNamed) {
   for (const std::string text : {"", "{\"study\": 3}", "[[[["}) {
     folder_.write("kept/study.json", text);
     EXPECT_THAT([this] { read_study_record(saved()); },
-                ThrowsMessage<std::invalid_argument>(
+                ThrowsMessage<base::InputError>(
                     AllOf(HasSubstr("study.json: damaged"), HasSubstr("Fix: "))));
   }
 }

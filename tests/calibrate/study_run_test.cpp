@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/run_folder.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_problem.h"
@@ -363,7 +364,7 @@ TEST_F(StudyRun, StudiesInWhichNothingCanBeFoundAreRefused) {
                        "contact.particle_wall.sliding_friction=0.5",
                        "contact.particle_particle.restitution={min=0.1,max=0.5}"}),
               HasSubstr("no experiment that depends on a fitted coefficient has readings"));
-  EXPECT_THROW(budget_named("cheap"), std::invalid_argument);
+  EXPECT_THROW(budget_named("cheap"), base::InputError);
 }
 
 TEST_F(StudyRun, KeysNameWhatIsSimulatedAndNotWhatForWhichStudy) {
@@ -594,7 +595,7 @@ TEST_F(StudyRun, AReadingThatCannotBeCountsAsAFailedRunAndIsNamed) {
 
 TEST_F(StudyRun, AFolderThatCannotBeMadeIsRefused) {
   folder_.write("file", std::string("x"));
-  EXPECT_THROW(RunFolder(folder_.path() / "file"), std::invalid_argument);
+  EXPECT_THROW(RunFolder(folder_.path() / "file"), base::InputError);
 }
 
 }  // namespace

@@ -2,10 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include <gmock/gmock.h>
+
+#include "base/input_error.h"
 
 namespace repose::calibrate {
 namespace {
@@ -43,7 +44,7 @@ TEST(Summary, EqualValuesHaveNoUncertainty) {
 }
 
 TEST(Summary, NoValueIsRefused) {
-  EXPECT_THROW(summarise(std::vector<double>{}), std::invalid_argument);
+  EXPECT_THROW(summarise(std::vector<double>{}), base::InputError);
 }
 
 }  // namespace

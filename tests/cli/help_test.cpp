@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <string>
 
 #include <gmock/gmock.h>
 
+#include "cli/commands.h"
 #include "tests/cli/command_test.h"
 
 namespace repose::testing {
@@ -85,6 +87,15 @@ TEST_F(Completion, AnUnknownShellIsRefused) {
   EXPECT_EQ(done.exit_code, 2);
   EXPECT_THAT(done.err, AllOf(HasSubstr("fish"), HasSubstr("Fix: ")));
   EXPECT_THAT(done.out, IsEmpty());
+}
+
+TEST(Help, HasNoLineWiderThanATerminal) {
+  const auto columns = [](const std::string& line) {
+    return std::ranges::count_if(line, [](char byte) { return (byte & 0xC0) != 0x80; });
+  };
+  for (const cli::Command& command : cli::all_commands()) {
+    for (const std::string& line : lines_of(command.notes)) EXPECT_LE(columns(line), 85) << line;
+  }
 }
 
 TEST(Manual, HasAPageForEveryCommandWithAllItsOptions) {

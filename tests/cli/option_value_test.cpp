@@ -5,8 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include "cli/common/option_names.h"
-
 namespace repose::cli {
 namespace {
 
@@ -56,15 +54,6 @@ TEST_F(OptionValue, WrongValuesAreErrorsThatNameTheOptionAndTheFix) {
   EXPECT_EQ(errors_.front(), "--option 8: must be a whole number from 1 to 7. Fix: use 7.");
   EXPECT_EQ(errors_[6],
             "--option silhuette: unknown. Did you mean silhouette? Fix: silhouette or photo.");
-}
-
-TEST(OptionNames, StandBehindTheFirstMentionInEachLine) {
-  constexpr std::array kNames{OptionName{.value = "budget", .option = "--budget"}};
-  EXPECT_EQ(naming_options("budget_s is less than the budget. A budget", kNames),
-            "budget_s is less than the budget (--budget). A budget");
-  EXPECT_EQ(naming_options("a budget\nno budget", kNames),
-            "a budget (--budget)\nno budget (--budget)");
-  EXPECT_EQ(naming_options("nothing", kNames), "nothing");
 }
 
 }  // namespace

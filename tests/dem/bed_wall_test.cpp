@@ -1,7 +1,7 @@
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "dem/engine/simulation.h"
 #include "dem/wall/bed_facets.h"
 #include "tests/support/error_of.h"
@@ -50,7 +50,7 @@ TEST(BedWall, RefusesSpheresTooWideForItsTile) {
   SphereBed bed = bed_of({{0, 0, 0}, {.01, 0, 0}});
   bed.tile = 3 * kRadius_m;
   EXPECT_NE(error_of([&] { BedFacets{bed}; }).find("less than a quarter"), std::string::npos);
-  EXPECT_THROW(BedFacets{bed_of({})}, std::invalid_argument);
+  EXPECT_THROW(BedFacets{bed_of({})}, base::InputError);
 }
 
 /// What a ball that strikes another one aslant does.

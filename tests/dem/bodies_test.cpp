@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/dem/packing.h"
 #include "tests/support/error_of.h"
 
@@ -174,21 +174,21 @@ TEST(Checkpoint, ThatWasChangedIsRefused) {
 
   Checkpoint short_of_forces = whole;
   short_of_forces.force.pop_back();
-  EXPECT_THROW(Simulation(packing_setup(), short_of_forces), std::invalid_argument);
+  EXPECT_THROW(Simulation(packing_setup(), short_of_forces), base::InputError);
 
   Checkpoint far_contact = whole;
   far_contact.grains[static_cast<std::size_t>(whole.contacts.front().grain_a)].position.z() += 1;
-  EXPECT_THROW(Simulation(packing_setup(), far_contact), std::invalid_argument);
+  EXPECT_THROW(Simulation(packing_setup(), far_contact), base::InputError);
 }
 
 TEST(Bodies, GrainsThatAreNoNumbersAreRefused) {
   Simulation simulation = loose_packing(packing_setup(), 0);
   Grain nowhere = loose_grain(0);
   nowhere.position.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(simulation.add(nowhere), std::invalid_argument);
+  EXPECT_THROW(simulation.add(nowhere), base::InputError);
   Grain long_quaternion = loose_grain(0);
   long_quaternion.orientation.coeffs() *= 2;
-  EXPECT_THROW(simulation.add(long_quaternion), std::invalid_argument);
+  EXPECT_THROW(simulation.add(long_quaternion), base::InputError);
   EXPECT_EQ(simulation.grain_count(), 0);
 }
 
@@ -283,25 +283,25 @@ TEST(SimulationSetup, ErrorsAreAllNamedAtOnce) {
 TEST(SimulationSetup, ShapesThatCannotMoveAreRefused) {
   SimulationSetup setup = packing_setup();
   setup.kinds[0].shape.volume_m3 = 0;
-  EXPECT_THROW(Simulation{setup}, std::invalid_argument);
+  EXPECT_THROW(Simulation{setup}, base::InputError);
   setup = packing_setup();
   setup.kinds[0].shape.gyration_m2.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(Simulation{setup}, std::invalid_argument);
+  EXPECT_THROW(Simulation{setup}, base::InputError);
   setup = packing_setup();
   setup.kinds[0].shape.spheres[0].radius = -1;
-  EXPECT_THROW(Simulation{setup}, std::invalid_argument);
+  EXPECT_THROW(Simulation{setup}, base::InputError);
   setup = packing_setup();
   setup.timestep_s = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(Simulation{setup}, std::invalid_argument);
+  EXPECT_THROW(Simulation{setup}, base::InputError);
 }
 
 TEST(SimulationSetup, GrainsOfNoKindAreRefused) {
   Simulation simulation(packing_setup());
   Grain grain = loose_grain(0);
   grain.kind = 2;
-  EXPECT_THROW(simulation.add(grain), std::invalid_argument);
+  EXPECT_THROW(simulation.add(grain), base::InputError);
   grain.kind = -1;
-  EXPECT_THROW(simulation.add(grain), std::invalid_argument);
+  EXPECT_THROW(simulation.add(grain), base::InputError);
 }
 
 TEST(ContactTable, EveryBadValueIsNamed) {
@@ -314,7 +314,7 @@ TEST(ContactTable, EveryBadValueIsNamed) {
                     HasSubstr("poisson_ratio is 0.5"), HasSubstr("restitution is 1.2"),
                     HasSubstr("sliding_friction is -1"), HasSubstr("rolling_friction is nan")));
   material = {.name = "ok", .density_kg_m3 = 1, .young_modulus_pa = 1, .poisson_ratio = 0};
-  EXPECT_THROW(ContactTable({material, material}, {{}}, RollingModel::none), std::invalid_argument);
+  EXPECT_THROW(ContactTable({material, material}, {{}}, RollingModel::none), base::InputError);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -118,7 +119,7 @@ TEST(Drop, TellsEveryErrorAtOnce) {
 TEST(Drop, RefusesATimestepThatIsTooLong) {
   Model model = test::sphere_bench();
   model.timestep_s = 1e-3;
-  EXPECT_THROW(run_drop(model, {}, 1), std::invalid_argument);
+  EXPECT_THROW(run_drop(model, {}, 1), base::InputError);
   model.timestep_s = 1e-6;
   EXPECT_EQ(run_drop(model, {.height_m = .05, .grains = 1}, 1).timestep_s, 1e-6);
 }
@@ -126,7 +127,7 @@ TEST(Drop, RefusesATimestepThatIsTooLong) {
 TEST(Drop, AGrainWithoutSpheresIsRefused) {
   Model model = test::sphere_bench();
   model.grain = {};
-  EXPECT_THROW(run_drop(model, {}, 1), std::invalid_argument);
+  EXPECT_THROW(run_drop(model, {}, 1), base::InputError);
 }
 
 TEST(Drop, FramesShowTheGrainFromWhereItIsLetGoUntilItLiesStill) {

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "dem/experiment/heap_envelope.h"
 #include "tests/support/sphere_heap.h"
 
@@ -76,9 +76,9 @@ TEST(HeapEnvelope, IsAsHighAsTheHeap) {
 }
 
 TEST(HeapEnvelope, RefusesWhatHasNone) {
-  EXPECT_THROW(heap_envelopes({}, 18), std::invalid_argument);
-  EXPECT_THROW(heap_envelopes({{.centre = {0, 0, -1}, .radius = .01}}, 18), std::invalid_argument);
-  EXPECT_THROW(heap_envelopes(sphere_cone(25, .06, .002), 0), std::invalid_argument);
+  EXPECT_THROW(heap_envelopes({}, 18), base::InputError);
+  EXPECT_THROW(heap_envelopes({{.centre = {0, 0, -1}, .radius = .01}}, 18), base::InputError);
+  EXPECT_THROW(heap_envelopes(sphere_cone(25, .06, .002), 0), base::InputError);
 }
 
 }  // namespace

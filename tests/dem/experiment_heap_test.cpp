@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -170,7 +171,7 @@ TEST(Heap, RefusesACameraHigherThanItIsFarAway) {
 TEST(Heap, RefusesALiftThatNeverEnds) {
   HeapProtocol protocol;
   protocol.lift_speed_m_s = 1e-6;
-  EXPECT_THROW(run_heap(test::soft_bench(), protocol, 1), std::invalid_argument);
+  EXPECT_THROW(run_heap(test::soft_bench(), protocol, 1), base::InputError);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -57,13 +58,18 @@ TEST(ExperimentTable, ErrorsNameTheKeyOfTheStudyAndWhetherItIsTheDefault) {
   Model model = test::sphere_bench();
   model.grain = sphere_shape(60e-3);
   const HeapProtocol heap{.tube_height_m = .11, .grains = {}};
-  const std::string errors = error_of([&] { run_heap(model, heap, 1); });
-  const std::string named = with_study_keys(errors, heap);
+  std::string named;
+  try {
+    run_heap(model, heap, 1);
+  } catch (const base::InputError& error) {
+    named = with_study_keys(error, heap).what();
+  }
   EXPECT_THAT(named, HasSubstr("heap.tube_diameter_m is 0.1. Rule: wider than a grain is long, "
                                "0.12 m. Fix: a wider tube. ([experiment.heap] tube_diameter_mm = "
                                "100, the default)\n"));
   EXPECT_THAT(named, HasSubstr("([experiment.heap] tube_height_mm = 110)"));
-  EXPECT_EQ(with_study_keys("grain: it has no spheres", heap), "grain: it has no spheres");
+  const base::InputError other({.where = "grain", .value = "it has no spheres"});
+  EXPECT_STREQ(with_study_keys(other, heap).what(), "grain: it has no spheres");
 }
 
 TEST(ExperimentTable, ATiltDependsOnSlidingFrictionAlone) {

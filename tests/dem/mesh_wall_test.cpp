@@ -1,9 +1,9 @@
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "dem/engine/simulation.h"
 #include "dem/wall/mesh_facets.h"
 
@@ -104,14 +104,14 @@ TEST(MeshWall, LetsABallSlideAndRollOverItsEdgesAsOverAPlane) {
 }
 
 TEST(MeshWall, RefusesMeshesThatAreNoSurface) {
-  EXPECT_THROW(dem::MeshFacets(Mesh{}), std::invalid_argument);
+  EXPECT_THROW(dem::MeshFacets(Mesh{}), base::InputError);
   Mesh line;
   line.vertices = {Vector(0, 0, 0), Vector(1, 0, 0), Vector(2, 0, 0)};
   line.triangles = {{0, 1, 2}};
-  EXPECT_THROW(dem::MeshFacets{line}, std::invalid_argument);
+  EXPECT_THROW(dem::MeshFacets{line}, base::InputError);
   Mesh nan = folded_sheet(1, 0);
   nan.vertices[0].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(dem::MeshFacets{nan}, std::invalid_argument);
+  EXPECT_THROW(dem::MeshFacets{nan}, base::InputError);
 }
 
 }  // namespace

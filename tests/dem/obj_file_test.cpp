@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
+
 namespace repose::dem {
 namespace {
 
@@ -15,9 +17,7 @@ using ::testing::ThrowsMessage;
 
 const std::string kFourCorners = "v 0 0 0\nv 20 0 0\nv 0 30 0\nv 0 0 40\n";
 
-auto refuses(const std::string& what) {
-  return ThrowsMessage<std::invalid_argument>(HasSubstr(what));
-}
+auto refuses(const std::string& what) { return ThrowsMessage<base::InputError>(HasSubstr(what)); }
 
 TEST(ObjFile, CornersAreNamedFromTheFirstOrBackFromHere) {
   const PolygonSurface surface = parse_obj(kFourCorners + "f 1 2 3\nf -4 -3 -1\n");

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "dem/engine/time_step.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/verify/scene.h"
@@ -126,7 +126,7 @@ TEST(SetTimestep, OthersThanTimesAreRefused) {
   Simulation simulation = flying(test::sphere_bench(), 0);
   for (const double bad : {0.0, -1e-6, std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(simulation.set_timestep(bad), std::invalid_argument) << bad;
+    EXPECT_THROW(simulation.set_timestep(bad), base::InputError) << bad;
   }
 }
 

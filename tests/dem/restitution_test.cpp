@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "dem/engine/time_step.h"
 #include "dem/verify/scene.h"
 #include "tests/support/error_of.h"
@@ -72,7 +72,7 @@ TEST(Restitution, OutOfRangeIsRefused) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double e : {-1.0, 0.0, .0099, 1.0001, kNan, kInfinity}) {
-    EXPECT_THROW(damping_factor(e), std::invalid_argument) << e;
+    EXPECT_THROW(damping_factor(e), base::InputError) << e;
   }
   EXPECT_THAT(error_of([] { damping_factor(1.5); }),
               ::testing::AllOf(::testing::HasSubstr("1.5"), ::testing::HasSubstr("Fix:")));

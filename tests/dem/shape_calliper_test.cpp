@@ -1,8 +1,8 @@
 #include <cmath>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "dem/shape/scan/calliper.h"
 #include "dem/shape/scan/mass_properties.h"
 #include "dem/shape/scan/mesh_edges.h"
@@ -67,7 +67,7 @@ TEST(CalliperSurface, NamesEverySizeThatIsWrong) {
   const CalliperSizes wrong{
       .length_m = -1, .width_m = 22, .thickness_m = std::nan(""), .tip_fraction = 1.5};
   EXPECT_THAT([&] { dem::calliper_surface(wrong); },
-              ThrowsMessage<std::invalid_argument>(
+              ThrowsMessage<base::InputError>(
                   AllOf(HasSubstr("the length is -1000 mm"), HasSubstr("the width is 22000 mm"),
                         HasSubstr("the thickness is nan"), HasSubstr("tip: is 1.5"))));
 }

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/shape/clump/shape_export.h"
 #include "dem/shape/clump/sphere_groups.h"
@@ -43,7 +43,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-auto refused(const auto& matcher) { return ThrowsMessage<std::invalid_argument>(matcher); }
+auto refused(const auto& matcher) { return ThrowsMessage<base::InputError>(matcher); }
 
 TEST(ClumpFile, ComesBackToTheLastBit) {
   const ClumpFile clump = small_clump();
@@ -149,7 +149,7 @@ TEST(ClumpFile, RefusesOtherFilesAndOtherVersions) {
 TEST(ClumpFile, IsNotWrittenWithNumbersThatJsonDoesNotHave) {
   ClumpFile clump = small_clump();
   clump.shape.spheres[0].radius = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(dem::clump_json(clump), std::invalid_argument);
+  EXPECT_THROW(dem::clump_json(clump), base::InputError);
 }
 
 TEST(ExportShape, WritesAnStlInMillimetresThatReadsBack) {
@@ -175,7 +175,7 @@ TEST(ExportShape, WritesAGlbWithSpheresAndSurface) {
 }
 
 TEST(ExportShape, RefusesAClumpWithoutSpheres) {
-  EXPECT_THROW(dem::export_shape({}, ShapeFormat::glb), std::invalid_argument);
+  EXPECT_THROW(dem::export_shape({}, ShapeFormat::glb), base::InputError);
 }
 
 }  // namespace

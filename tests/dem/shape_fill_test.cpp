@@ -1,8 +1,8 @@
 #include <cmath>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "dem/shape/clump/fill.h"
 #include "dem/shape/clump/inscribed_spheres.h"
 #include "dem/shape/clump/surface_distance.h"
@@ -55,10 +55,10 @@ TEST(Fill, SpheresThatAreNoGrainAreRefused) {
   const Mesh needle =
       dem::calliper_surface({.length_m = .04, .width_m = .004, .thickness_m = .004});
   EXPECT_THAT([&] { dem::fill(needle, {.spheres = 4}); },
-              ThrowsMessage<std::invalid_argument>(
+              ThrowsMessage<base::InputError>(
                   AllOf(HasSubstr("these 4 fall into"), HasSubstr("Fix: more spheres"))));
   EXPECT_THAT([&] { dem::fill(needle, {.spheres = 2}); },
-              ThrowsMessage<std::invalid_argument>(
+              ThrowsMessage<base::InputError>(
                   AllOf(HasSubstr("one came out larger"), HasSubstr("Fix: more spheres"))));
   EXPECT_THAT(dem::fill(needle, {.spheres = 24}).spheres, SizeIs(24)) << "the fix helps";
 }
@@ -74,7 +74,7 @@ TEST(Fill, DiscsAndNeedlesEndInAClumpOrAMessage) {
     for (const int spheres : {2, 11}) {
       try {
         EXPECT_LT(dem::fill(body, {.spheres = spheres}).errors.volume_error, 1);
-      } catch (const std::invalid_argument& error) {
+      } catch (const base::InputError& error) {
         EXPECT_THAT(error.what(),
                     HasSubstr(width > thickness ? "Fix: a body at least" : "Fix: more spheres"));
       }
@@ -85,7 +85,7 @@ TEST(Fill, DiscsAndNeedlesEndInAClumpOrAMessage) {
 TEST(FillAccuracy, ADiscTooFlatForSpheresIsToldHowThickItMustBe) {
   dem::CalliperSizes sizes{.length_m = .02, .width_m = .02, .thickness_m = .001};
   EXPECT_THAT([&] { dem::fill(dem::calliper_surface(sizes), {.spheres = 11}); },
-              ThrowsMessage<std::invalid_argument>(
+              ThrowsMessage<base::InputError>(
                   HasSubstr("Fix: a body at least 3.1 mm thick (this one is 1 mm)")));
   sizes.thickness_m = .0031;
   EXPECT_THAT(dem::fill(dem::calliper_surface(sizes), {.spheres = 100}).spheres, SizeIs(100))
@@ -179,8 +179,8 @@ TEST(Fill, RefusesOptionsThatCannotBeMeant) {
   const FillOptions wrong{.spheres = 0, .volume_error = 2, .smallest_radius_fraction = 1};
   EXPECT_THAT(
       [&] { dem::fill(nut_surface(), wrong); },
-      ThrowsMessage<std::invalid_argument>(AllOf(
-          HasSubstr("spheres: 0"), HasSubstr("volume error: 2"), HasSubstr("smallest radius: 1"))));
+      ThrowsMessage<base::InputError>(AllOf(HasSubstr("spheres: 0"), HasSubstr("volume error: 2"),
+                                            HasSubstr("smallest radius: 1"))));
 }
 
 TEST(ClumpErrors, AreNearZeroForASphereThatIsTheBody) {

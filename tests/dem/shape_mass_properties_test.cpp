@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/shape/scan/mass_properties.h"
 #include "tests/dem/shapes.h"
@@ -63,9 +63,9 @@ TEST(MassProperties, OfAFarAwayGrainKeepTheirDigits) {
 }
 
 TEST(MassProperties, RefusesASurfaceThatIsInsideOutFlatOrEmpty) {
-  EXPECT_THROW(dem::mass_properties(inside_out(box_surface(1, 1, 1))), std::invalid_argument);
-  EXPECT_THROW(dem::mass_properties(box_surface(1, 1, 0)), std::invalid_argument);
-  EXPECT_THROW(dem::mass_properties({}), std::invalid_argument);
+  EXPECT_THROW(dem::mass_properties(inside_out(box_surface(1, 1, 1))), base::InputError);
+  EXPECT_THROW(dem::mass_properties(box_surface(1, 1, 0)), base::InputError);
+  EXPECT_THROW(dem::mass_properties({}), base::InputError);
 }
 
 TEST(PrincipalFrame, OrdersItsAxesFromTheLongOneToTheShortOne) {
@@ -121,8 +121,8 @@ TEST(SphereShape, HasTheVolumeAndInertiaOfASphere) {
   EXPECT_NEAR(shape.volume_m3, 4.18879020478639e-6, 1e-18);
   EXPECT_TRUE(shape.gyration_m2.isApprox(Vector::Constant(4e-5), kRounding));
   EXPECT_DOUBLE_EQ(shape.reach_m(), 0.01);
-  EXPECT_THROW(dem::sphere_shape(0), std::invalid_argument);
-  EXPECT_THROW(dem::sphere_shape(std::nan("")), std::invalid_argument);
+  EXPECT_THROW(dem::sphere_shape(0), base::InputError);
+  EXPECT_THROW(dem::sphere_shape(std::nan("")), base::InputError);
 }
 
 TEST(ClumpShape, ReachesAsFarAsItsFarthestSphere) {

@@ -2,12 +2,12 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "base/input_error.h"
 #include "dem/shape/scan/mass_properties.h"
 #include "dem/shape/scan/mesh_edges.h"
 #include "dem/shape/scan/scan.h"
@@ -30,7 +30,7 @@ using ::testing::ThrowsMessage;
 
 constexpr double kSinglePrecision = 1e-11;  // of 24e-6 m^3, what STL and assimp keep
 
-auto refuses(const auto& matcher) { return ThrowsMessage<std::invalid_argument>(matcher); }
+auto refuses(const auto& matcher) { return ThrowsMessage<base::InputError>(matcher); }
 
 std::string ascii_stl(const Mesh& mesh) {
   std::ostringstream text;
@@ -294,10 +294,9 @@ TEST(CheckedSurface, RefusesAMoebiusStrip) {
 
 TEST(CheckedSurface, RefusesSheetsAndNothing) {
   const Mesh sheet = box_surface(0.02, 0.03, 0);
-  EXPECT_THROW(checked(sheet), std::invalid_argument);
-  EXPECT_THROW(checked({}), std::invalid_argument);
-  EXPECT_THROW(checked({.vertices = {Vector::Zero()}, .triangles = {{0, 0, 0}}}),
-               std::invalid_argument);
+  EXPECT_THROW(checked(sheet), base::InputError);
+  EXPECT_THROW(checked({}), base::InputError);
+  EXPECT_THROW(checked({.vertices = {Vector::Zero()}, .triangles = {{0, 0, 0}}}), base::InputError);
 }
 
 TEST(CheckedSurface, NamesAllErrorsAtOnce) {

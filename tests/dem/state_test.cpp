@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "base/base64.h"
+#include "base/input_error.h"
 #include "dem/state/state_file.h"
 #include "dem/state/trajectory.h"
 #include "tests/support/error_of.h"
@@ -232,7 +232,7 @@ TEST_F(StateFile, AnEmptySimulationIsAState) {
 TEST_F(StateFile, NothingIsLeftBesideIt) {
   saved();
   EXPECT_THAT(folder_.names(), UnorderedElementsAre("state.vtp"));
-  EXPECT_THROW(write_state(folder_.path() / "none" / "x.vtp", heap(1), ""), std::invalid_argument);
+  EXPECT_THROW(write_state(folder_.path() / "none" / "x.vtp", heap(1), ""), base::InputError);
 }
 
 TEST_F(StateFile, CutShortFilesAreRefused) {
@@ -254,8 +254,8 @@ TEST_F(StateFile, ForeignFilesAreRefused) {
   EXPECT_THAT(
       error("<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\" header_type=\"UInt64\"/>"),
       HasSubstr("has no <PolyData>"));
-  EXPECT_THROW(read_state(folder_.path() / "none.vtp"), std::invalid_argument);
-  EXPECT_THROW(read_state(folder_.path()), std::invalid_argument);
+  EXPECT_THROW(read_state(folder_.path() / "none.vtp"), base::InputError);
+  EXPECT_THROW(read_state(folder_.path()), base::InputError);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -418,8 +418,8 @@ TEST(Trajectory, GoesOnFromAnotherWriter) {
 TEST(Trajectory, ImpossibleOnesAreRefused) {
   const TemporaryFolder folder;
   folder.write("file", std::string("in the way"));
-  EXPECT_THROW(TrajectoryWriter(folder.path(), 0, ""), std::invalid_argument);
-  EXPECT_THROW(TrajectoryWriter(folder.path() / "file", 1, ""), std::invalid_argument);
+  EXPECT_THROW(TrajectoryWriter(folder.path(), 0, ""), base::InputError);
+  EXPECT_THROW(TrajectoryWriter(folder.path() / "file", 1, ""), base::InputError);
 }
 
 }  // namespace

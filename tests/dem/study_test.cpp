@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/dem/study_file.h"
 #include "tests/support/places.h"
 
@@ -277,8 +277,8 @@ TEST_F(StudyFile, FilesThatAreNotThereAreSaid) {
                "scan = \"none.stl\"");
   EXPECT_THAT(errors(text), AllOf(HasSubstr("study.toml:2:8: particle.scan = \"none.stl\". Rule: "),
                                   HasSubstr("particle.unit is missing")));
-  EXPECT_THROW(read_study(folder_.path() / "no.toml"), std::invalid_argument);
-  EXPECT_THROW(read_study(folder_.path()), std::invalid_argument);
+  EXPECT_THROW(read_study(folder_.path() / "no.toml"), base::InputError);
+  EXPECT_THROW(read_study(folder_.path()), base::InputError);
 }
 
 TEST_F(StudyFile, WhatSaysNothingWithoutAnotherKeyIsRefusedWithoutIt) {
@@ -498,7 +498,7 @@ TEST_F(StudyFile, GrainsAreBuiltFromSizes) {
   // An ellipsoid of these sizes, less what the polyhedron lacks.
   EXPECT_NEAR(grain.shape.volume_m3, M_PI / 6 * 22.48e-3 * 18.23e-3 * 17.46e-3, 2e-8);
   EXPECT_THAT(grain.source, HasSubstr("22.48 x 18.23 x 17.46 mm"));
-  EXPECT_THROW(build_grain({}), std::invalid_argument);
+  EXPECT_THROW(build_grain({}), base::InputError);
 }
 
 }  // namespace

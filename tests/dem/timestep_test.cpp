@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "dem/engine/time_step.h"
 #include "dem/engine/unstable_run.h"
 #include "tests/dem/packing.h"
@@ -106,7 +106,7 @@ TEST(LongTimestep, IsRefusedForSingleImpacts) {
   for (const double fraction : {kCourseFraction, kBulkFraction}) {
     const double step = accurate_timestep_s(setup, .1, fraction);
     EXPECT_NO_THROW(check_timestep(step, setup, .1, fraction));
-    EXPECT_THROW(check_timestep(step, setup, .1), std::invalid_argument);
+    EXPECT_THROW(check_timestep(step, setup, .1), base::InputError);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 /// Each reader of files that come from elsewhere, as a function that takes any bytes. It must end
-/// soon, with a value or with std::invalid_argument; what else it throws or does is a fault.
+/// soon, with a value or with base::InputError; what else it throws or does is a fault.
 namespace repose::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;

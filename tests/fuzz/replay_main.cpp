@@ -8,12 +8,12 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "tests/fuzz/readers.h"
 
@@ -37,7 +37,7 @@ std::string fault_of(const Reader& reader, const fs::path& file) {
   const auto start = std::chrono::steady_clock::now();
   try {
     reader.read({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  } catch (const std::invalid_argument& error) {
+  } catch (const repose::base::InputError& error) {
     if (std::string(error.what()).empty()) return "refused without a word";
   } catch (const std::exception& error) {
     return fmt::format("threw what is no refusal: {}", error.what());

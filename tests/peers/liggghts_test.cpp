@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.h"
 #include "dem/contact/restitution.h"
 #include "dem/engine/time_step.h"
 #include "dem/verify/scene.h"
@@ -17,7 +18,7 @@ namespace {
 using dem::RollingModel;
 using dem::Vector;
 
-constexpr double kGravity = dem::kStandardGravity_m_s2;
+constexpr double kGravity = kStandardGravity_m_s2;
 
 class Liggghts : public ::testing::Test {
  protected:

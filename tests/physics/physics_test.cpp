@@ -1,8 +1,8 @@
 #include <cctype>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "dem/verify/trial.h"
 #include "dem/verify/verify.h"
 
@@ -62,7 +62,7 @@ TEST(VerifyCases, NumbersOutOfToleranceOrNoNumbersFail) {
 }
 
 TEST(VerifyCases, UnknownNameIsRefused) {
-  EXPECT_THROW(run_case("no such case"), std::invalid_argument);
+  EXPECT_THROW(run_case("no such case"), base::InputError);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
+
+#include "base/input_error.h"
 
 namespace repose {
 
 /// The message of the error that a call throws; empty when it throws none.
-template <typename Error = std::invalid_argument, typename Call>
+template <typename Error = base::InputError, typename Call>
 std::string error_of(const Call& call) {
   try {
     call();

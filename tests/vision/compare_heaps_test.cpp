@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "tests/vision/measured_triangles.h"
 #include "vision/compare/heap_comparison.h"
 
@@ -289,11 +289,11 @@ TEST(CompareOptions, AllErrorsAreNamed) {
   options.margin_rad = -1;
   options.scale[1] = PictureScale{.length_m = std::numeric_limits<double>::infinity()};
   EXPECT_THAT(options.problems(), SizeIs(3));
-  EXPECT_THROW(compare_heaps(measured({}), measured({}), options), std::invalid_argument);
+  EXPECT_THROW(compare_heaps(measured({}), measured({}), options), base::InputError);
   options = {};
   options.margin_rad = std::nan("");
   ASSERT_THAT(options.problems(), SizeIs(1));
-  EXPECT_THAT(options.problems()[0], HasSubstr("Fix: "));
+  EXPECT_THAT(options.problems()[0].text(), HasSubstr("Fix: "));
   EXPECT_THAT(CompareOptions{}.problems(), IsEmpty());
 }
 

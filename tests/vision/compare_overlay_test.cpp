@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.h"
 #include "tests/vision/measured_triangles.h"
 #include "tests/vision/plain_picture.h"
 #include "vision/drawing/heap_comparison_overlay.h"
@@ -81,8 +81,8 @@ TEST(ComparisonOverlay, SameComparisonSameBytes) {
 TEST(ComparisonOverlay, NothingToDrawIsRefused) {
   const ReposeAngle heap = measured({});
   const HeapComparison refused = compare_heaps(heap, {});
-  EXPECT_THROW(draw_comparison(plain_backdrop(90), heap, refused, {}), std::invalid_argument);
-  EXPECT_THROW(draw_comparison({}, heap, compare_heaps(heap, heap), {}), std::invalid_argument);
+  EXPECT_THROW(draw_comparison(plain_backdrop(90), heap, refused, {}), base::InputError);
+  EXPECT_THROW(draw_comparison({}, heap, compare_heaps(heap, heap), {}), base::InputError);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "base/units.h"
 #include "tests/vision/measured_triangles.h"
 #include "vision/compare/heap_sets.h"
@@ -136,9 +136,9 @@ TEST(CompareSets, TheBandHoldsWhatLiesBetween) {
 }
 
 TEST(CompareSets, AnEmptySetIsRefused) {
-  EXPECT_THROW(compare_sets({}, heaps_of({25}), kMargin_rad), std::invalid_argument);
-  EXPECT_THROW(compare_sets(heaps_of({25}), {SeenHeap{}}, kMargin_rad), std::invalid_argument);
-  EXPECT_THROW(compare_sets(heaps_of({25}), heaps_of({25}), 0), std::invalid_argument);
+  EXPECT_THROW(compare_sets({}, heaps_of({25}), kMargin_rad), base::InputError);
+  EXPECT_THROW(compare_sets(heaps_of({25}), {SeenHeap{}}, kMargin_rad), base::InputError);
+  EXPECT_THROW(compare_sets(heaps_of({25}), heaps_of({25}), 0), base::InputError);
 }
 
 TEST(CompareSets, AFigureIsDrawnOfWhatThereIs) {
@@ -150,7 +150,7 @@ TEST(CompareSets, AFigureIsDrawnOfWhatThereIs) {
       draw_heap_sets(compare_sets(heaps_of({20, 22}), refused, kMargin_rad), notes);
   EXPECT_GT(half.height, 100);
   EXPECT_THROW(draw_heap_sets(compare_sets(refused, refused, kMargin_rad), notes),
-               std::invalid_argument);
+               base::InputError);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "tests/support/edge_angle.h"
 #include "tests/support/heap_conditions.h"
 #include "tests/support/heap_draft.h"
@@ -78,7 +79,7 @@ TEST(EdgeAngle, BumpsDoNotMoveTheWindowOfASmoothEdge) {
 
 TEST(EdgeAngle, AnEdgeThatEndsWithinTheWindowIsRefused) {
   const std::vector<EdgePoint> edge = {{0, 10}, {10, 4}};
-  EXPECT_THROW(angle_of_edge(edge, 10), std::invalid_argument);
+  EXPECT_THROW(angle_of_edge(edge, 10), base::InputError);
 }
 
 TEST(FlankLaw, FallsFromTheApexToTheToe) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "tests/support/heap_conditions.h"
 #include "tests/support/heap_fit.h"
 
@@ -104,7 +105,7 @@ TEST(HeapPicture, SilhouetteIsBlackBelowTheFlankAndWhiteAbove) {
 }
 
 TEST(HeapConditions, UnknownNameSaysHowToFindTheNames) {
-  EXPECT_THROW(condition_named("fog"), std::invalid_argument);
+  EXPECT_THROW(condition_named("fog"), base::InputError);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "vision/hints/hint_file.h"
 
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/pictures.h"
@@ -37,7 +37,7 @@ class HintFile : public ::testing::Test {
     base::write_whole_file(hint_file_of(picture()), text);
     try {
       read();
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       return error.what();
     }
     return {};

@@ -2,11 +2,12 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.h"
+#include "tests/support/texts_of.h"
 #include "tests/vision/pictures.h"
 #include "vision/measure/repose_angle.h"
 
@@ -135,14 +136,14 @@ TEST(Hints, ThatCannotBeMeantAreRefusedAllAtOnce) {
   hints.keep = {{-1, 5}};
   hints.drop = {{std::numeric_limits<double>::quiet_NaN(), 5}};
   hints.mask = blank_picture(10, 10);
-  EXPECT_THAT(problems_of(hints, 640, 480),
+  EXPECT_THAT(texts_of(problems_of(hints, 640, 480)),
               ElementsAre(HasSubstr("heap box = 500,0,200,100"), HasSubstr("ground points"),
                           HasSubstr("point to keep"), HasSubstr("point to drop"),
                           HasSubstr("the mask is 10 x 10")));
   MeasureOptions options;
   options.hints = hints;
   const auto heap = drawn("clean", 2, 640);
-  EXPECT_THROW(measure_repose_angle(heap.picture, options), std::invalid_argument);
+  EXPECT_THROW(measure_repose_angle(heap.picture, options), base::InputError);
   EXPECT_THAT(problems_of({}, 640, 480), SizeIs(0));
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/temporary_folder.h"
@@ -82,11 +83,11 @@ TEST(Lens, HoldsForPicturesMadeSmallerButNotForCutOrTurnedOnes) {
   const Lens half = lens_for(barrel(), 640, 427);  // 426.5
   EXPECT_DOUBLE_EQ(half.focal_px.value, 550);
   EXPECT_DOUBLE_EQ(half.k1.value, -.18);
-  EXPECT_THROW(lens_for(barrel(), 853, 1280), std::invalid_argument);
+  EXPECT_THROW(lens_for(barrel(), 853, 1280), base::InputError);
   try {
     lens_for(barrel(), 1280, 720);
     FAIL();
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("1280 x 720"), HasSubstr("1280 x 853"),
                                     HasSubstr("Fix: use the picture as the camera took it")));
   }
@@ -134,7 +135,7 @@ TEST(LensFile, AllErrorsAreToldAtOnce) {
   try {
     read_lens_file(file);
     FAIL();
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     EXPECT_THAT(
         error.what(),
         AllOf(HasSubstr("camera.toml:1: width_px must be a whole number"),
@@ -143,8 +144,8 @@ TEST(LensFile, AllErrorsAreToldAtOnce) {
               HasSubstr(":5: zoom is not a key"), Not(HasSubstr("focal_px must be above"))));
   }
   base::write_whole_file(file, std::string_view("width_px = = 1\n"));
-  EXPECT_THROW(read_lens_file(file), std::invalid_argument);
-  EXPECT_THROW(read_lens_file(folder.path() / "none.toml"), std::invalid_argument);
+  EXPECT_THROW(read_lens_file(file), base::InputError);
+  EXPECT_THROW(read_lens_file(folder.path() / "none.toml"), base::InputError);
 }
 
 TEST(LensFile, LensesThatCannotBeAreRefused) {
@@ -154,7 +155,7 @@ TEST(LensFile, LensesThatCannotBeAreRefused) {
     base::write_whole_file(file, lens_file_text(lens, "test"));
     try {
       read_lens_file(file);
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       return error.what();
     }
     return {};

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 
 #include "base/angle_definition.h"
+#include "base/input_error.h"
 #include "tests/support/heap_random.h"
 #include "tests/vision/pictures.h"
 #include "tests/vision/profiles.h"
@@ -169,17 +169,17 @@ TEST(OutlineAngle, FewPointsHaveNoFlank) {
 TEST(OutlineAngle, RefusesWhatIsNoOutline) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const Outline good = outline_of(kTriangle);
-  EXPECT_THROW(measure_outline({}), std::invalid_argument);
-  EXPECT_THROW(measure_outline({.along = {0, 1}, .height = {1}}), std::invalid_argument);
-  EXPECT_THROW(measure_outline({.along = {0, 1}, .height = {1, kNan}}), std::invalid_argument);
-  EXPECT_THROW(measure_outline({.along = {1, 0}, .height = {1, 1}}), std::invalid_argument);
-  EXPECT_THROW(measure_outline(good, {.grain = 0}), std::invalid_argument);
-  EXPECT_THROW(measure_outline(good, {.window_from = .8, .window_to = .2}), std::invalid_argument);
-  EXPECT_THROW(measure_outline(good, {.window_from = kNan}), std::invalid_argument);
+  EXPECT_THROW(measure_outline({}), base::InputError);
+  EXPECT_THROW(measure_outline({.along = {0, 1}, .height = {1}}), base::InputError);
+  EXPECT_THROW(measure_outline({.along = {0, 1}, .height = {1, kNan}}), base::InputError);
+  EXPECT_THROW(measure_outline({.along = {1, 0}, .height = {1, 1}}), base::InputError);
+  EXPECT_THROW(measure_outline(good, {.grain = 0}), base::InputError);
+  EXPECT_THROW(measure_outline(good, {.window_from = .8, .window_to = .2}), base::InputError);
+  EXPECT_THROW(measure_outline(good, {.window_from = kNan}), base::InputError);
   try {
     measure_outline({.along = {1, 0}, .height = {1}}, {.window_from = .8, .window_to = .2});
     FAIL() << "it was taken";
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("window = 0.8,0.2"), HasSubstr("1 heights"),
                                     HasSubstr("goes back")));
   }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
+#include "base/input_error.h"
 #include "tests/vision/plain_picture.h"
 #include "vision/drawing/lettering.h"
 #include "vision/picture/mat_of_picture.h"
@@ -117,7 +117,7 @@ TEST(Overlay, SamePictureSameBytes) {
 }
 
 TEST(Overlay, NoPictureIsRefused) {
-  EXPECT_THROW(draw_overlay(Picture{}, ReposeAngle{}), std::invalid_argument);
+  EXPECT_THROW(draw_overlay(Picture{}, ReposeAngle{}), base::InputError);
 }
 
 class LetteringKinds : public ::testing::TestWithParam<bool> {

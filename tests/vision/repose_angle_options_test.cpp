@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.h"
+#include "tests/support/texts_of.h"
 #include "tests/vision/pictures.h"
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/repose_angle.h"
@@ -35,7 +36,7 @@ TEST(MeasureOptions, DefaultsHaveNoProblem) {
 TEST(MeasureOptions, TellsAllProblemsAtOnce) {
   MeasureOptions options = window(0.8, 0.2);
   options.camera_pitch_rad = 2;
-  EXPECT_THAT(options.problems(),
+  EXPECT_THAT(texts_of(options.problems()),
               ElementsAre(AllOf(HasSubstr("window = 0.8,0.2"), HasSubstr("Fix: ")),
                           AllOf(HasSubstr("pitch = 114.6"), HasSubstr("Fix: "))));
 }
@@ -67,7 +68,7 @@ TEST(MeasureOptions, PitchMustBeANumberUpTo30Degrees) {
 std::string refusal_of(const Picture& picture, const MeasureOptions& options) {
   try {
     measure_repose_angle(picture, options);
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     return error.what();
   }
   return {};

@@ -1,9 +1,10 @@
 #include "vision/measure/silhouette_edge.h"
 
 #include <functional>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
+
+#include "base/input_error.h"
 
 namespace repose::vision {
 namespace {
@@ -57,7 +58,7 @@ TEST(SilhouetteEdge, OnlyThePartAboveTheGroundIsSeen) {
 TEST(SilhouetteEdge, APartOutsideThePictureIsRefused) {
   const Picture picture = dark_where(6, 10, [](int, int) { return true; });
   for (const Box part : {Box{-1, 0, 2, 2}, Box{0, 0, 7, 2}, Box{0, 9, 2, 2}, Box{0, 0, 0, 2}}) {
-    EXPECT_THROW(silhouette_edge(picture, part, 5), std::invalid_argument) << part.x;
+    EXPECT_THROW(silhouette_edge(picture, part, 5), base::InputError) << part.x;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/input_error.h"
 #include "base/units.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/heap_random.h"
@@ -157,7 +158,7 @@ TEST(SizedHeap, ABoardBehindTheHeapIsAllowedForByPerspective) {
   EXPECT_NEAR(wrong.sizes.base_mm->value / heap.sizes.base_mm->value, 1.2, .01);
   ScaleOptions no_lens = told;
   no_lens.lens.reset();
-  EXPECT_THROW(measure_sized_heap(picture, kIsHeap, no_lens), std::invalid_argument);
+  EXPECT_THROW(measure_sized_heap(picture, kIsHeap, no_lens), base::InputError);
 }
 
 TEST(SizedHeap, WithoutALensABoardGivesAScaleAndSaysWhatIsMissing) {

@@ -1,11 +1,11 @@
 #include "vision/drawing/slopes_overlay.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "base/input_error.h"
 #include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
@@ -43,7 +43,7 @@ TEST(SlopesOverlay, SaysWhereThereIsNoSlope) {
 }
 
 TEST(SlopesOverlay, NoPictureIsRefused) {
-  EXPECT_THROW(draw_slopes_overlay({}, {steep()}, "front"), std::invalid_argument);
+  EXPECT_THROW(draw_slopes_overlay({}, {steep()}, "front"), base::InputError);
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.h"
 #include "vision/camera/lens_correction.h"
 #include "vision/picture/mat_of_picture.h"
 
@@ -107,11 +107,12 @@ Lens lens_for(const Lens& lens, int width, int height) {
   const double scale = static_cast<double>(width) / lens.width;
   // Sides are whole pixels.
   if (std::abs(height - scale * lens.height) > std::max(1.0, scale)) {
-    throw std::invalid_argument(fmt::format(
-        "the picture is {} x {} and the camera file is for {} x {}. Rule: the camera's whole "
-        "picture, at any size. Fix: use the picture as the camera took it, uncropped and not "
-        "turned, or measure without the camera file.",
-        width, height, lens.width, lens.height));
+    throw base::InputError(
+        {.value = fmt::format("the picture is {} x {} and the {} is for {} x {}", width, height,
+                              base::field("camera file"), lens.width, lens.height),
+         .rule = "the camera's whole picture, at any size",
+         .fix = "use the picture as the camera took it, uncropped and not turned, or measure "
+                "without the camera file."});
   }
   Lens scaled = lens;
   scaled.width = width;

@@ -48,7 +48,7 @@ struct Lens {
 };
 
 /// The same lens in pictures of that size: the camera's, made larger or smaller as a whole.
-/// @throws std::invalid_argument  the size is no such multiple: cropped, or turned.
+/// @throws base::InputError  the size is no such multiple: cropped, or turned.
 Lens lens_for(const Lens& lens, int width, int height);
 
 /// The corrected picture, as large as the picture: its middle stays, straight lines are straight.

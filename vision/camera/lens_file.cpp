@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -12,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "base/toml_nesting.h"
 #include "base/whole_file.h"
 
@@ -55,30 +54,29 @@ class LensReader {
     known_.push_back(key);
     const toml::node* node = table_.get(key);
     if (node == nullptr) {
-      if (is_needed) add(1, key, "is missing. Rule: a number");
+      if (is_needed) add(1, key, "is missing", "a number");
       return 0;
     }
     const auto value = node->value<double>();
     if (value && std::abs(*value) <= kLargest) return *value;  // NaN fails
-    add(line_of(*node), key, "must be a number");
+    add(line_of(*node), key, "", "must be a number");
     refused_.push_back(key);
     return 0;
   }
 
   /// Of a number that is one: no key is named twice.
-  void require(bool holds, const std::string& key, const char* rule) {
+  void require(bool holds, const std::string& key, const char* value, const char* rule) {
     const toml::node* node = table_.get(key);
     if (holds || node == nullptr) return;
     if (std::find(refused_.begin(), refused_.end(), key) != refused_.end()) return;
-    add(line_of(*node), key, rule);
+    add(line_of(*node), key, value, rule);
   }
 
   void refuse_other_keys() {
     for (const auto& [key, node] : table_) {
       if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
-      add(line_of(node), std::string(key.str()),
-          fmt::format("is not a key of a camera file. Rule: its keys are {}",
-                      fmt::join(known_, ", ")));
+      add(line_of(node), std::string(key.str()), "is not a key of a camera file",
+          fmt::format("its keys are {}", fmt::join(known_, ", ")));
     }
   }
 
@@ -86,16 +84,20 @@ class LensReader {
 
  private:
   static unsigned line_of(const toml::node& node) { return node.source().begin.line; }
-  void add(unsigned line, const std::string& key, const std::string& rule) {
-    errors_.add(fmt::format("{}:{}: {} {}. Fix: correct it, or run repose camera again.",
-                            file_.string(), line, key, rule));
+  void add(unsigned line, const std::string& key, const std::string& value,
+           const std::string& rule) {
+    errors_.add({.where = fmt::format("{}:{}", file_.string(), line),
+                 .subject = key,
+                 .value = value,
+                 .rule = rule,
+                 .fix = "correct it, or run repose camera again."});
   }
 
   const toml::table& table_;
   const fs::path& file_;
   std::vector<std::string> known_;
   std::vector<std::string> refused_;
-  base::ErrorList errors_;
+  base::Faults errors_;
 };
 
 /// Of the radial distortion at a distance from the axis.
@@ -116,13 +118,13 @@ void check_plausible(const Lens& lens, LensReader& reader) {
   constexpr double kWidest = .18, kNarrowest = 170;
   const double width = std::max(lens.width, lens.height);
   const double focal = lens.focal_px.value;
-  reader.require(focal >= kWidest * width && focal <= kNarrowest * width, "focal_px",
+  reader.require(focal >= kWidest * width && focal <= kNarrowest * width, "focal_px", "",
                  "must be from 0.18 to 170 times the longer side of the picture: lenses show 140 "
                  "to 0.3 degrees");
   reader.require(lens.centre_x_px.value >= 0 && lens.centre_x_px.value <= lens.width, "centre_x_px",
-                 "must lie in the picture");
+                 "", "must lie in the picture");
   reader.require(lens.centre_y_px.value >= 0 && lens.centre_y_px.value <= lens.height,
-                 "centre_y_px", "must lie in the picture");
+                 "centre_y_px", "", "must lie in the picture");
   // What distortion does to the picture's farthest corner, and that nothing is seen twice.
   const double x = std::max(lens.centre_x_px.value, lens.width - lens.centre_x_px.value) / focal;
   const double y = std::max(lens.centre_y_px.value, lens.height - lens.centre_y_px.value) / focal;
@@ -137,15 +139,14 @@ void check_plausible(const Lens& lens, LensReader& reader) {
     before = factor * r;
     if (is_possible) continue;
     reader.require(false, largest_term(lens, r),
-                   "moves the edge of the picture by more than 60 %, or folds it. Rule: no lens "
-                   "does");
+                   "moves the edge of the picture by more than 60 %, or folds it", "no lens does");
     break;
   }
   constexpr double kMostTilted = .1;
   reader.require(std::abs(lens.p1.value) * corner <= kMostTilted, "p1",
-                 "moves the corner of the picture by more than 10 %. Rule: no lens does");
+                 "moves the corner of the picture by more than 10 %", "no lens does");
   reader.require(std::abs(lens.p2.value) * corner <= kMostTilted, "p2",
-                 "moves the corner of the picture by more than 10 %. Rule: no lens does");
+                 "moves the corner of the picture by more than 10 %", "no lens does");
 }
 
 toml::table parsed(const std::string& text, const fs::path& file) {
@@ -162,10 +163,10 @@ toml::table parsed(const std::string& text, const fs::path& file) {
       what = error.description();
     }
   }
-  throw std::invalid_argument(
-      fmt::format("{}:{}: {}. Rule: a camera file is TOML (https://toml.io). Fix: correct this "
-                  "line, or run repose camera again.",
-                  file.string(), line, what));
+  throw base::InputError({.where = fmt::format("{}:{}", file.string(), line),
+                          .value = what,
+                          .rule = "a camera file is TOML (https://toml.io)",
+                          .fix = "correct this line, or run repose camera again."});
 }
 
 }  // namespace
@@ -206,12 +207,12 @@ Lens read_lens_file(const fs::path& file) {
     LensNumber& read = lens.*number.number;
     read.value = reader.number(key_of(number), number.is_needed);
     read.uncertainty = reader.number(uncertainty_key_of(number), false);
-    reader.require(read.uncertainty >= 0, uncertainty_key_of(number), "must not be below 0");
+    reader.require(read.uncertainty >= 0, uncertainty_key_of(number), "", "must not be below 0");
   }
   const auto is_side = [](double side) { return side >= 1 && side == std::floor(side); };
-  reader.require(is_side(width), "width_px", "must be a whole number above 0");
-  reader.require(is_side(height), "height_px", "must be a whole number above 0");
-  reader.require(lens.focal_px.value > 0, "focal_px", "must be above 0");
+  reader.require(is_side(width), "width_px", "", "must be a whole number above 0");
+  reader.require(is_side(height), "height_px", "", "must be a whole number above 0");
+  reader.require(lens.focal_px.value > 0, "focal_px", "", "must be above 0");
   reader.refuse_other_keys();
   if (is_side(width) && is_side(height) && lens.focal_px.value > 0) {
     lens.width = static_cast<int>(width);

@@ -11,7 +11,7 @@ namespace repose::vision {
 /// @param origin  what it was fitted to, as its first comment says: "10 pictures, ..."
 std::string lens_file_text(const Lens& lens, const std::string& origin);
 
-/// @throws std::invalid_argument  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
+/// @throws base::InputError  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
 Lens read_lens_file(const std::filesystem::path& file);
 
 }  // namespace repose::vision

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/distributions.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "vision/camera/board_pose.h"
 #include "vision/camera/board_view.h"
@@ -159,22 +159,21 @@ HeapSizes sizes_by_bar(const ScaleBar& bar, const Lens& lens, const Sizing& sizi
   return sizes_by_view(angle, inputs, view_of, 0, sizing.working_px);
 }
 
-void require(bool holds, const char* error) {
-  if (!holds) throw std::invalid_argument(error);
-}
-
 void check(const Picture& picture, const MeasureOptions& options, const ScaleOptions& scale) {
-  require(!(scale.behind_mm != 0 && !scale.lens),
-          "the board's distance behind the heap says nothing without the camera's focal length. "
-          "Fix: give a camera file, or put the board in the plane of the heap's middle.");
-  std::string errors;
-  for (const std::string& problem : options.problems_in(picture.width, picture.height)) {
-    errors += (errors.empty() ? "" : "\n") + problem;
+  base::Faults faults;
+  faults.require(scale.behind_mm == 0 || scale.lens,
+                 {.value = "the board's distance behind the heap says nothing without the camera's "
+                           "focal length",
+                  .fix = fmt::format("give a {}, or put the board in the plane of the heap's "
+                                     "middle.",
+                                     base::field("camera file"))});
+  faults.add_all(options.problems_in(picture.width, picture.height));
+  if (scale.scale) {
+    if (auto fault = problem_in(*scale.scale, picture.width, picture.height)) {
+      faults.add(*std::move(fault));
+    }
   }
-  const std::string of_scale =
-      scale.scale ? problem_in(*scale.scale, picture.width, picture.height) : "";
-  if (!of_scale.empty()) errors += (errors.empty() ? "" : "\n") + of_scale;
-  if (!errors.empty()) throw std::invalid_argument(errors);
+  faults.throw_if_any();
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ struct SizedHeap {
 /// pitch allow for. Where the pitch was not told, the board's is used, if it is known within 3
 /// degrees; where both are and differ, the told one is used and a warning says so. Without a lens a
 /// scale holds within 2 %, for what distortion may do, and a board tells no pitch.
-/// @throws std::invalid_argument  as measure_repose_angle and lens_for; a distance behind the heap
+/// @throws base::InputError  as measure_repose_angle and lens_for; a distance behind the heap
 ///   without a lens.
 SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& options,
                              const ScaleOptions& scale);

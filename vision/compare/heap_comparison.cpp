@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -179,32 +178,33 @@ HeapComparison refused(const Measured& measured) {
 }
 
 void check(const CompareOptions& options) {
-  const std::vector<std::string> errors = options.problems();
-  if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
+  std::vector<base::Fault> errors = options.problems();
+  if (!errors.empty()) throw base::InputError(std::move(errors));
 }
 
 bool is_doubtful(const ReposeAngle* measured) { return measured->status != MeasureStatus::ok; }
 
 }  // namespace
 
-std::vector<std::string> CompareOptions::problems() const {
-  std::vector<std::string> errors;
+std::vector<base::Fault> CompareOptions::problems() const {
+  std::vector<base::Fault> errors;
   constexpr double kWidestMargin_rad = 45 * kDegree;
   // Written so that NaN fails.
   if (!(margin_rad > 0 && margin_rad <= kWidestMargin_rad)) {
-    errors.push_back(
-        fmt::format("margin = {:g} degrees must be more than 0 and at most 45. Fix: give the "
-                    "difference that you consider negligible, such as 2.",
-                    margin_rad / kDegree));
+    errors.push_back({.subject = "margin",
+                      .value = fmt::format("= {:g} degrees", margin_rad / kDegree),
+                      .rule = "must be more than 0 and at most 45",
+                      .fix = "give the difference that you consider negligible, such as 2."});
   }
   if (scale[0].has_value() != scale[1].has_value()) {
-    errors.emplace_back("only one picture has a scale. Fix: give both, or none.");
+    errors.push_back({.value = "only one picture has a scale", .fix = "give both, or none."});
   }
   for (const auto& one : scale) {
     if (one && !(one->length_m > 0 && std::isfinite(one->length_m))) {
-      errors.push_back(fmt::format(
-          "scale = {:g} m must be more than 0. Fix: give the length of one pixel, or of the base.",
-          one->length_m));
+      errors.push_back({.subject = "scale",
+                        .value = fmt::format("= {:g} m", one->length_m),
+                        .rule = "must be more than 0",
+                        .fix = "give the length of one pixel, or of the base."});
     }
   }
   return errors;

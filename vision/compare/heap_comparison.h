@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
+#include "base/units.h"
 #include "vision/measure/repose_angle.h"
 
 /// Two heaps, each from one side-view picture, compared: outlines and angles.
@@ -55,7 +57,7 @@ struct PictureScale {
 struct CompareOptions {
   /// Angles that differ by less than this count as the same. Two pours of the same few hundred
   /// hazelnuts differ by less in 19 of 20 cases (standard deviation of a heap 0.74 degrees).
-  double margin_rad = 2 * 3.14159265358979323846 / 180;
+  double margin_rad = 2 * kDegree;
   /// Both or neither; with neither, only shapes can be compared.
   std::array<std::optional<PictureScale>, 2> scale;
   /// Both results come from the same picture in the same way: they share all errors, so their
@@ -63,7 +65,7 @@ struct CompareOptions {
   bool same_measurement = false;
 
   /// Empty when usable; else a line for each error.
-  std::vector<std::string> problems() const;
+  std::vector<base::Fault> problems() const;
 };
 
 enum class Agreement {
@@ -153,7 +155,7 @@ struct HeapComparison {
 };
 
 /// Compares two heaps that measure_repose_angle() has measured.
-/// @throws std::invalid_argument  options.problems() is not empty.
+/// @throws base::InputError  options.problems() is not empty.
 HeapComparison compare_heaps(const ReposeAngle& first, const ReposeAngle& second,
                              const CompareOptions& options = {});
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "base/distributions.h"
+#include "base/input_error.h"
 #include "vision/compare/angle_difference.h"
 #include "vision/compare/mean_outline.h"
 
@@ -141,11 +141,12 @@ void add_notes(SetComparison& result, const MeanOutlines& outlines) {
 }
 
 void check(const Sets& sets, double margin_rad) {
-  if (!(margin_rad > 0)) throw std::invalid_argument("margin must be more than 0 degrees");
+  if (!(margin_rad > 0))
+    throw base::InputError({.value = "margin", .rule = "must be more than 0 degrees"});
   for (const std::vector<SeenHeap>* set : sets) {
-    if (set->empty()) throw std::invalid_argument("a set has no heap");
+    if (set->empty()) throw base::InputError({.value = "a set has no heap"});
     for (const SeenHeap& heap : *set) {
-      if (heap.views.empty()) throw std::invalid_argument("a heap has no picture");
+      if (heap.views.empty()) throw base::InputError({.value = "a heap has no picture"});
     }
   }
 }

@@ -66,7 +66,7 @@ struct SetComparison {
 /// degrees of freedom. Source: Welch (1947), Biometrika 34, 28. The verdict as of AngleDifference.
 /// What all pictures of a set share (lens, camera, definition) is not in the scatter of its heaps.
 /// Proved by tests/vision/compare_sets_test.cpp.
-/// @throws std::invalid_argument  the margin is not above 0, a set has no heap, or a heap no view.
+/// @throws base::InputError  the margin is not above 0, a set has no heap, or a heap no view.
 SetComparison compare_sets(const std::vector<SeenHeap>& first, const std::vector<SeenHeap>& second,
                            double margin_rad);
 

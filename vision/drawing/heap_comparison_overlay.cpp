@@ -1,7 +1,6 @@
 #include "vision/drawing/heap_comparison_overlay.h"
 
-#include <stdexcept>
-
+#include "base/input_error.h"
 #include "vision/drawing/comparison_chart.h"
 #include "vision/drawing/comparison_legend.h"
 #include "vision/picture/mat_of_picture.h"
@@ -11,11 +10,13 @@ namespace repose::vision {
 Picture draw_comparison(const Picture& first, const ReposeAngle& first_measured,
                         const HeapComparison& comparison, const ComparisonOverlayNotes& notes) {
   if (first.empty()) {
-    throw std::invalid_argument(
-        "overlay: the picture has no pixels. Fix: give the first picture that was compared.");
+    throw base::InputError({.where = "overlay",
+                            .value = "the picture has no pixels",
+                            .fix = "give the first picture that was compared."});
   }
   if (comparison.status == MeasureStatus::refused) {
-    throw std::invalid_argument("overlay: the comparison was refused. Fix: " + comparison.reason);
+    throw base::InputError(
+        {.where = "overlay", .value = "the comparison was refused", .fix = comparison.reason});
   }
   const Lettering lettering;
   const cv::Mat chart = draw_chart(first, first_measured, comparison, lettering);

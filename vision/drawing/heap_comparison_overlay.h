@@ -17,7 +17,7 @@ struct ComparisonOverlayNotes {
 /// Both outlines on the first picture, which is faded: the first heap's as a solid line, the second
 /// one's dashed, aligned and in the same scale; a legend below with the numbers and the verdict.
 /// Can be read in black and white. Cut to the heaps; white where the first picture ends.
-/// @throws std::invalid_argument  the comparison was refused, or the picture has no pixels.
+/// @throws base::InputError  the comparison was refused, or the picture has no pixels.
 Picture draw_comparison(const Picture& first, const ReposeAngle& first_measured,
                         const HeapComparison& comparison, const ComparisonOverlayNotes& notes);
 

@@ -1,10 +1,10 @@
 #include "vision/drawing/heap_sets_figure.h"
 
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "vision/drawing/angle_strip.h"
 #include "vision/drawing/comparison_style.h"
 #include "vision/drawing/lettering.h"
@@ -56,7 +56,7 @@ Picture draw_heap_sets(const SetComparison& comparison, const HeapSetsNotes& not
       !comparison.sets[0].outline.mean.empty() || !comparison.sets[1].outline.mean.empty();
   const bool has_angles = comparison.sets[0].mean_rad || comparison.sets[1].mean_rad;
   if (!has_outlines && !has_angles) {
-    throw std::invalid_argument("figure: neither set has an outline or an angle");
+    throw base::InputError({.where = "figure", .value = "neither set has an outline or an angle"});
   }
   if (has_outlines) parts.push_back(draw_mean_outlines(kFigureWidth, comparison, lettering));
   if (has_angles) parts.push_back(draw_angle_strip(kFigureWidth, comparison.sets, lettering));

@@ -17,7 +17,7 @@ struct HeapSetsNotes {
 /// The mean outlines of two sets in one scale, the first solid, the second dashed, each with the
 /// band in which 80 % of its pictures lie; below it every heap's angle with both means and their
 /// 95 % intervals; then the numbers and the verdict. Can be read in black and white.
-/// @throws std::invalid_argument  no set has an outline or an angle.
+/// @throws base::InputError  no set has an outline or an angle.
 Picture draw_heap_sets(const SetComparison& comparison, const HeapSetsNotes& notes);
 
 }  // namespace repose::vision

@@ -1,10 +1,10 @@
 #include "vision/drawing/overlay.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <opencv2/core.hpp>
 
+#include "base/input_error.h"
 #include "vision/drawing/drawn_size.h"
 #include "vision/drawing/lettering.h"
 #include "vision/drawing/overlay_caption.h"
@@ -17,8 +17,9 @@ namespace repose::vision {
 Picture draw_overlay(const Picture& picture, const ReposeAngle& measured,
                      const OverlayNotes& notes) {
   if (picture.empty()) {
-    throw std::invalid_argument(
-        "overlay: the picture has no pixels. Fix: give the picture that was measured.");
+    throw base::InputError({.where = "overlay",
+                            .value = "the picture has no pixels",
+                            .fix = "give the picture that was measured."});
   }
   const Lettering lettering;
   const double scale = drawing_scale(picture);

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <numbers>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
+
+#include "base/units.h"
 
 /// Colours and words that marks and caption share.
 namespace repose::vision {
@@ -19,8 +20,6 @@ inline const cv::Scalar kVermilion{0, 94, 213};
 inline const cv::Scalar kWhite{255, 255, 255};
 inline const cv::Scalar kGrey{190, 190, 190};
 inline const cv::Scalar kDark{28, 24, 22};
-
-inline double to_degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
 
 /// "23.4° ± 0.5°"; a second decimal when the first one of the interval would say nothing.
 inline std::string angle_text(double angle_rad, std::optional<double> uncertainty_rad) {

@@ -1,9 +1,8 @@
 #include "vision/drawing/slopes_overlay.h"
 
-#include <stdexcept>
-
 #include <opencv2/core.hpp>
 
+#include "base/input_error.h"
 #include "vision/drawing/drawn_size.h"
 #include "vision/drawing/track_drawing.h"
 
@@ -12,7 +11,8 @@ namespace repose::vision {
 Picture draw_slopes_overlay(const Picture& picture, const std::vector<Slope>& slopes,
                             const std::string& title) {
   if (picture.empty()) {
-    throw std::invalid_argument(title + ": the picture has no pixels. Fix: give one that has.");
+    throw base::InputError(
+        {.where = title, .value = "the picture has no pixels", .fix = "give one that has."});
   }
   const Lettering lettering;
   const double scale = drawing_scale(picture);

@@ -17,7 +17,7 @@ struct Slope {
 
 /// The picture with the lines of its slopes and their angles drawn into it.
 /// @param title  what the picture shows
-/// @throws std::invalid_argument  the picture has no pixels.
+/// @throws base::InputError  the picture has no pixels.
 Picture draw_slopes_overlay(const Picture& picture, const std::vector<Slope>& slopes,
                             const std::string& title);
 

@@ -1,11 +1,10 @@
 #include "vision/drawing/track_drawing.h"
 
 #include <algorithm>
-#include <stdexcept>
 
-#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.h"
 #include "vision/drawing/drawn_size.h"
 #include "vision/drawing/overlay_style.h"
 #include "vision/picture/mat_of_picture.h"
@@ -14,9 +13,10 @@ namespace repose::vision {
 
 void require_strobe(const Picture& strobe, const std::string& title, const std::string& reason) {
   if (!strobe.empty()) return;
-  throw std::invalid_argument(
-      fmt::format("{}: there is no picture to draw into: the film was not looked through. Fix: {}",
-                  title, reason));
+  throw base::InputError(
+      {.where = title,
+       .value = "there is no picture to draw into: the film was not looked through",
+       .fix = reason});
 }
 
 void draw_path(const Canvas& canvas, const std::vector<GrainPlace>& places) {

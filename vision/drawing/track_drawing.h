@@ -12,7 +12,7 @@
 /// What the overlays of all tracked experiments have in common.
 namespace repose::vision {
 
-/// @throws std::invalid_argument  there is no picture to draw into.
+/// @throws base::InputError  there is no picture to draw into.
 void require_strobe(const Picture& strobe, const std::string& title, const std::string& reason);
 
 /// The grain's centre in each frame.

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/input_error.h"
 #include "vision/film/resting_picture.h"
 
 namespace repose::vision {
@@ -33,7 +34,7 @@ bool has_film_ending(const std::filesystem::path& file) {
 FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options,
                        const ScaleOptions& scale, const std::function<void(double)>& progress) {
   RestingPicture rest = resting_picture(file, options, progress);
-  FilmAngle result{.heap = refusal(options, std::move(rest.reason)),
+  FilmAngle result{.heap = refusal(options, base::with_names(rest.reason, options.names)),
                    .picture = std::move(rest.picture),
                    .stretch = rest.stretch,
                    .film = rest.film,

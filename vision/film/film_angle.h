@@ -47,7 +47,7 @@ struct FilmAngle {
 ///
 /// Looks through the film three times, and keeps no frames: memory does not grow with its length.
 /// @param progress  told which fraction of the work is done, from 0 to 1; may throw to stop it
-/// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read; or as
+/// @throws base::InputError  "FILE: what. Fix: ...": it is no film that can be read; or as
 ///   measure_sized_heap().
 FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options = {},
                        const ScaleOptions& scale = {},

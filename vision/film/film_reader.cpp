@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/whole_file.h"
 #include "vision/film/frame_files.h"
 #include "vision/picture/film_head.h"
 #include "vision/picture/mat_of_picture.h"
@@ -28,23 +28,19 @@ namespace fs = std::filesystem;
 constexpr double kMostPixels = 70e6;
 constexpr double kUsualFramesPerS = 30;
 
-[[noreturn]] void refuse_film(const fs::path& file, std::string_view what, std::string_view fix) {
-  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
-}
-
 void check_size(const fs::path& file, double pixels) {
   if (pixels <= kMostPixels) return;
-  refuse_film(file,
-              fmt::format("its frames have {:.0f} million pixels, {:.0f} million are the most",
-                          pixels / 1e6, kMostPixels / 1e6),
-              "convert it to 1920 x 1080.");
+  base::refuse(file,
+               fmt::format("its frames have {:.0f} million pixels, {:.0f} million are the most",
+                           pixels / 1e6, kMostPixels / 1e6),
+               "convert it to 1920 x 1080.");
 }
 
 void check(const fs::path& file) {
   std::error_code error;
-  if (!fs::exists(file, error)) refuse_film(file, "no such file", "check the name.");
+  if (!fs::exists(file, error)) base::refuse(file, "no such file", "check the name.");
   if (fs::is_directory(file, error)) {
-    refuse_film(
+    base::refuse(
         file, "is a folder",
         "name the films in it, such as FOLDER/*.mp4; of a folder of numbered frames say with "
         "--fps how many were taken a second.");
@@ -53,11 +49,11 @@ void check(const fs::path& file) {
   std::array<char, 12> head{};
   stream.read(head.data(), head.size());
   if (!stream && stream.gcount() == 0)
-    refuse_film(file, "is empty or cannot be read", "copy it again.");
+    base::refuse(file, "is empty or cannot be read", "copy it again.");
   // By its first bytes: the decoder would also follow playlists to other files and places.
   if (!is_film({head.data(), static_cast<std::size_t>(stream.gcount())})) {
-    refuse_film(file, "is no film that repose reads",
-                "convert it to MP4 (H.264); MOV, AVI, MKV, WebM and GIF are read too.");
+    base::refuse(file, "is no film that repose reads",
+                 "convert it to MP4 (H.264); MOV, AVI, MKV, WebM and GIF are read too.");
   }
 }
 
@@ -178,7 +174,7 @@ bool FilmReader::next(FilmFrame& frame) {
   if (!advance(frame, false)) return false;
   if (size_.empty()) size_ = frame.bgr.size();
   if (frame.bgr.size() != size_) {
-    refuse_film(file_, "the size of its frames changes", "keep the part of one size.");
+    base::refuse(file_, "the size of its frames changes", "keep the part of one size.");
   }
   if (!lens_) return true;
   if (!correction_) correction_.emplace(lens_for(*lens_, size_.width, size_.height));

@@ -21,7 +21,7 @@ struct FilmFrame {
 /// Reads MP4, MOV, AVI, MKV, WebM and GIF, and folders of numbered pictures.
 class FilmReader {
  public:
-  /// @throws std::invalid_argument  "FILE: what. Fix: ...": missing, empty, no film, damaged, or of
+  /// @throws base::InputError  "FILE: what. Fix: ...": missing, empty, no film, damaged, or of
   /// too many pixels; of a folder, also as frame_files(), and without a frame rate.
   /// @param times_s  of its frames, which a survey found; none: by its own time stamps
   explicit FilmReader(const FilmFile& file, std::vector<double> times_s = {});
@@ -32,7 +32,7 @@ class FilmReader {
   FilmReader& operator=(FilmReader&&) = delete;
 
   /// False at the end, which is where nothing more can be decoded.
-  /// @throws std::invalid_argument  a frame has another size than the first, or the camera's lens
+  /// @throws base::InputError  a frame has another size than the first, or the camera's lens
   ///   is of pictures of another shape.
   bool next(FilmFrame& frame);
   /// As next(), without the picture, which takes the larger part of the time.

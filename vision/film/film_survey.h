@@ -30,7 +30,7 @@ struct FilmSurvey {
   std::vector<cv::Mat> samples;  ///< spread evenly over the film, few whatever its length
 };
 
-/// @throws std::invalid_argument  see FilmReader.
+/// @throws base::InputError  see FilmReader.
 FilmSurvey survey_film(const FilmFile& file, const FilmProgress& progress);
 
 }  // namespace repose::vision

@@ -6,12 +6,13 @@
 #include <charconv>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::vision {
 namespace {
@@ -22,11 +23,12 @@ constexpr std::array<std::string_view, 7> kEndings{".jpg",  ".jpeg", ".png", ".t
                                                    ".tiff", ".bmp",  ".webp"};
 
 [[noreturn]] void refuse_frames(const fs::path& folder, const std::string& what,
-                                std::string_view fix) {
-  throw std::invalid_argument(fmt::format(
-      "{}: {}. Rule: a folder that is a film holds its frames as pictures whose names differ in "
-      "their numbers alone, such as frame_0001.png. Fix: {}",
-      folder.string(), what, fix));
+                                const std::string& fix) {
+  throw base::InputError({.where = folder.string(),
+                          .value = what,
+                          .rule = "a folder that is a film holds its frames as pictures whose "
+                                  "names differ in their numbers alone, such as frame_0001.png",
+                          .fix = fix});
 }
 
 std::string small_ending(const fs::path& file) {

@@ -15,7 +15,7 @@ struct FrameFile {
 /// The frames in a folder, by the numbers in their names: frame_9.png comes before frame_10.png.
 /// Hidden files and those that are no pictures by their ending do not count. Where all numbers are
 /// a multiple of a step apart, as of every tenth frame, that is one place.
-/// @throws std::invalid_argument  "FOLDER: what. Rule: ... Fix: ...": no pictures, names without a
+/// @throws base::InputError  "FOLDER: what. Rule: ... Fix: ...": no pictures, names without a
 ///   number or that differ in more than that, or the same number twice.
 std::vector<FrameFile> frame_files(const std::filesystem::path& folder);
 

@@ -22,7 +22,7 @@ struct TimedPicture {
 class FrameSeries {
  public:
   /// @param times_s  of each frame, see FilmAngle
-  /// @throws std::invalid_argument  as measure_film().
+  /// @throws base::InputError  as measure_film().
   FrameSeries(const FilmFile& file, const std::vector<double>& times_s, double step_s);
   ~FrameSeries();
   FrameSeries(const FrameSeries&) = delete;

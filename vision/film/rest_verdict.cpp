@@ -33,22 +33,23 @@ std::string box_text(const cv::Rect2d& part, const cv::Size& size) {
 }  // namespace
 
 std::string fault_of_rest(const RestFinder& finder, const FilmSurvey& survey) {
-  constexpr const char* kFix =
+  const std::string fix =
       "Rule: the scene is still for 0.5 s or more, and the heap does not change after that. Fix: "
       "film at least 1 s after the last grain has stopped, with the camera on a stand. If what "
-      "moves is not the heap, give it as an excluded box.";
+      "moves is not the heap, give it as an " +
+      base::field("excluded box") + '.';
   const std::string where = box_text(finder.moved_part(), survey.size);
   if (!finder.rest()) {
     std::string shaken = fault_of_shot(survey, moved_px(survey));
     if (!shaken.empty()) return shaken;
     return fmt::format("nothing in the film is at rest: at last it moved within {}. {}", where,
-                       kFix);
+                       fix);
   }
   const double after_s = survey.times_s.back() - finder.rest()->to_s;
   if (after_s < kStill_s || finder.only_came_in()) return {};
   return fmt::format(
       "the film's end still moves: after a rest until {:.2f} s the scene changed within {}. {}",
-      finder.rest()->to_s, where, kFix);
+      finder.rest()->to_s, where, fix);
 }
 
 bool warn_of_rest(const FilmSurvey& survey, const FilmStretch& stretch, const cv::Mat& writing,

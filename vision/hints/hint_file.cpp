@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -62,9 +61,9 @@ std::optional<ScaleBar> scale_of(HintReader& reader) {
   const auto& [x1, y1, x2, y2, length_mm] = *numbers;
   const ScaleBar bar{.line = {{x1, y1}, {x2, y2}}, .length_mm = length_mm};
   if (!(length_mm > 0) || std::hypot(x2 - x1, y2 - y1) < kShortestBar_px) {
-    reader.refuse("scale", fmt::format("must be {}", kScale));
-  } else if (const std::string problem = problem_of(bar); !problem.empty()) {
-    reader.refuse("scale", problem);
+    reader.refuse("scale", "", fmt::format("must be {}", kScale));
+  } else if (const auto fault = problem_of(bar)) {
+    reader.refuse("scale", fault->value, fault->rule);
   } else {
     return bar;
   }
@@ -78,19 +77,20 @@ ScaleOptions read_scale(HintReader& reader) {
   scale.finds_board = reader.truth("board").value_or(false);
   scale.square_mm = reader.positive("square_mm").value_or(scale.square_mm);
   if (scale.square_mm < kSmallestSquare_mm || scale.square_mm > kLargestSquare_mm) {
-    reader.refuse("square_mm", fmt::format("must be from {:g} to {:g}, of a printed board",
-                                           kSmallestSquare_mm, kLargestSquare_mm));
+    reader.refuse("square_mm", "",
+                  fmt::format("must be from {:g} to {:g}, of a printed board", kSmallestSquare_mm,
+                              kLargestSquare_mm));
   }
   scale.behind_mm = reader.positive("board_behind_mm").value_or(0);
   scale.scale = scale_of(reader);
   if (scale.finds_board) {
-    reader.refuse("scale", "stands beside board = true. Rule: one scale");
+    reader.refuse("scale", "stands beside board = true", "one scale");
   } else {
-    reader.refuse("square_mm", "is of a board. Rule: it needs board = true");
-    reader.refuse("board_behind_mm", "is of a board. Rule: it needs board = true");
+    reader.refuse("square_mm", "is of a board", "it needs board = true");
+    reader.refuse("board_behind_mm", "is of a board", "it needs board = true");
   }
   if (scale.lens_file.empty() && scale.behind_mm > 0) {
-    reader.refuse("board_behind_mm", "needs the focal length. Rule: it needs camera_file");
+    reader.refuse("board_behind_mm", "needs the focal length", "it needs camera_file");
   }
   return scale;
 }

@@ -19,12 +19,12 @@ struct PictureSettings {
 
 /// The settings with what the file beside the picture says: boxes and places are added to those
 /// given, all else is taken where nothing was given. Unchanged when there is no file.
-/// @throws std::invalid_argument  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
+/// @throws base::InputError  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
 PictureSettings with_saved_hints(PictureSettings given, const std::filesystem::path& picture);
 
 /// Writes hints, excluded boxes, pitch, scale and lens into the file beside the picture, for the
 /// next time. Of a mask and a lens the name of the file.
-/// @throws std::invalid_argument  when the file cannot be written.
+/// @throws base::InputError  when the file cannot be written.
 void save_hints(const PictureSettings& settings, const std::filesystem::path& picture);
 
 }  // namespace repose::vision

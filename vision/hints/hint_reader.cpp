@@ -1,7 +1,6 @@
 #include "vision/hints/hint_reader.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <fmt/ranges.h>
 
@@ -15,7 +14,7 @@ std::optional<double> HintReader::number(const char* key) {
   const toml::node* node = table_.get(key);
   if (node == nullptr) return std::nullopt;
   const auto value = node->value<double>();
-  if (!value || !std::isfinite(*value)) add(*node, key, "must be a number");
+  if (!value || !std::isfinite(*value)) add(*node, key, "", "must be a number");
   return value;
 }
 
@@ -24,7 +23,7 @@ std::optional<double> HintReader::positive(const char* key) {
   if (node == nullptr) return std::nullopt;
   const auto value = node->value<double>();
   if (value && *value > 0 && *value <= kLargestPixel) return value;  // NaN fails
-  add(*node, key, "must be a number above 0");
+  add(*node, key, "", "must be a number above 0");
   return std::nullopt;
 }
 
@@ -32,7 +31,7 @@ std::optional<bool> HintReader::truth(const char* key) {
   const toml::node* node = table_.get(key);
   if (node == nullptr) return std::nullopt;
   const auto value = node->value<bool>();
-  if (!value) add(*node, key, "must be true or false");
+  if (!value) add(*node, key, "", "must be true or false");
   return value;
 }
 
@@ -40,7 +39,7 @@ std::string HintReader::file_name(const char* key) {
   const toml::node* node = table_.get(key);
   if (node == nullptr) return {};
   const auto value = node->value<std::string>();
-  if (!value) add(*node, key, "must be a file's name in quotes");
+  if (!value) add(*node, key, "", "must be a file's name in quotes");
   return value.value_or("");
 }
 
@@ -48,33 +47,36 @@ void HintReader::refuse_other_keys(std::initializer_list<std::string_view> known
   for (const auto& [key, node] : table_) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
     add(node, std::string(key.str()),
-        fmt::format("is not a hint. Known hints: {}", fmt::join(known, ", ")));
+        fmt::format("is not a hint. Known hints: {}", fmt::join(known, ", ")), "");
   }
 }
 
-void HintReader::refuse(const char* key, const std::string& rule) {
-  if (const toml::node* node = table_.get(key)) add(*node, key, rule);
+void HintReader::refuse(const char* key, const std::string& value, const std::string& rule) {
+  if (const toml::node* node = table_.get(key)) add(*node, key, value, rule);
 }
 
-void HintReader::add(const toml::node& node, const std::string& key, const std::string& rule) {
-  errors_.add(fmt::format("{}:{}: {}: {}. Fix: correct it, or delete the line.", file_.string(),
-                          node.source().begin.line, key, rule));
+void HintReader::add(const toml::node& node, const std::string& key, const std::string& value,
+                     const std::string& rule) {
+  errors_.add({.where = fmt::format("{}:{}: {}", file_.string(), node.source().begin.line, key),
+               .value = value,
+               .rule = rule,
+               .fix = "correct it, or delete the line."});
 }
 
 toml::table parse_hints(const std::string& text, const fs::path& file) {
   if (const auto line = base::line_of_deep_key(text)) {
-    throw std::invalid_argument(
-        fmt::format("{}:{}: a key has more than {} points. Fix: correct this line, or delete the "
-                    "file.",
-                    file.string(), *line, base::kMostPointsInAKey));
+    throw base::InputError(
+        {.where = fmt::format("{}:{}", file.string(), *line),
+         .value = fmt::format("a key has more than {} points", base::kMostPointsInAKey),
+         .fix = "correct this line, or delete the file."});
   }
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw std::invalid_argument(fmt::format(
-        "{}:{}: {}. Rule: the text must be TOML (https://toml.io). Fix: correct this line, or "
-        "delete the file.",
-        file.string(), error.source().begin.line, error.description()));
+    throw base::InputError({.where = fmt::format("{}:{}", file.string(), error.source().begin.line),
+                            .value = fmt::format("{}", error.description()),
+                            .rule = "the text must be TOML (https://toml.io)",
+                            .fix = "correct this line, or delete the file."});
   }
 }
 

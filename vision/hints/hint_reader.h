@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 
 namespace repose::vision {
 
@@ -37,7 +37,7 @@ class HintReader {
     const toml::node* node = table_.get(key);
     if (node == nullptr) return all;
     if (!node->is_array()) {
-      add(*node, key, fmt::format("must be a list of {}", meaning));
+      add(*node, key, "", fmt::format("must be a list of {}", meaning));
       return all;
     }
     for (const toml::node& item : *node->as_array()) {
@@ -54,13 +54,14 @@ class HintReader {
 
   void refuse_other_keys(std::initializer_list<std::string_view> known);
   /// What the value of a key, which is there, must not be beside others.
-  void refuse(const char* key, const std::string& rule);
+  void refuse(const char* key, const std::string& value, const std::string& rule);
   void throw_if_any() const { errors_.throw_if_any(); }
 
  private:
   static constexpr double kLargestPixel = 1e6;
 
-  void add(const toml::node& node, const std::string& key, const std::string& rule);
+  void add(const toml::node& node, const std::string& key, const std::string& value,
+           const std::string& rule);
 
   template <std::size_t kCount>
   std::optional<std::array<double, kCount>> numbers_of(const toml::node& node, const char* key,
@@ -74,17 +75,17 @@ class HintReader {
       values[i] = value.value_or(0);
     }
     if (is_good) return values;
-    add(node, key, fmt::format("must be {}", meaning));
+    add(node, key, "", fmt::format("must be {}", meaning));
     return std::nullopt;
   }
 
   const toml::table& table_;
   const std::filesystem::path& file_;
-  base::ErrorList errors_;
+  base::Faults errors_;
 };
 
 /// The text of a hint file.
-/// @throws std::invalid_argument  it is no TOML.
+/// @throws base::InputError  it is no TOML.
 toml::table parse_hints(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace repose::vision

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "vision/measure/verdict_notes.h"
 
 namespace repose::vision {
@@ -44,32 +45,32 @@ std::string reason_against(const FlankFit& flank, Side side) {
         "the {} side is level ({:.1f} degrees): this is a layer, not a heap. Fix: photograph a "
         "heap "
         "whose flanks end on the ground.",
-        name, degrees(flank.angle_rad));
+        name, to_degrees(flank.angle_rad));
   }
   if (flank.angle_rad > kSteepest_rad) {
     return fmt::format(
         "the {} side has a slope of {:.0f} degrees, too steep for loose grains. Fix: cover walls, "
-        "gates and tubes with an excluded box.",
-        name, degrees(flank.angle_rad));
+        "gates and tubes with an {}.",
+        name, to_degrees(flank.angle_rad), base::field("excluded box"));
   }
   if (flank.bend_rad < -kRoundest_rad) {
     return fmt::format(
         "the {} side is round, {:.0f} degrees flatter at the top than at the foot: not a straight "
         "flank. Fix: check that the picture shows a heap.",
-        name, -degrees(flank.bend_rad));
+        name, -to_degrees(flank.bend_rad));
   }
   if (flank.window_spread_rad > kLargestSpread_rad) {
     return fmt::format(
         "the {} side's angle changes by {:.0f} degrees with the window: not a straight flank, or a "
         "heap and its plate taken for one object. Fix: use a level camera and a plate of a "
         "different colour from the grains.",
-        name, degrees(flank.window_spread_rad));
+        name, to_degrees(flank.window_spread_rad));
   }
   if (flank.least_squares.r2 < kLeastR2) {
     return fmt::format(
         "the {} side's edge is not a line (r2 {:.2f}). Fix: use a plainer backdrop, or cover what "
-        "is in front of the flank with an excluded box.",
-        name, flank.least_squares.r2);
+        "is in front of the flank with an {}.",
+        name, flank.least_squares.r2, base::field("excluded box"));
   }
   return {};
 }
@@ -106,14 +107,14 @@ void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
          fmt::format("The {} flank is {}: its slope differs by {:.0f} degrees between its lower "
                      "and upper half, so one angle does not describe it.",
                      name, flank.bend_rad > 0 ? "concave" : "convex",
-                     std::abs(degrees(flank.bend_rad))));
+                     std::abs(to_degrees(flank.bend_rad))));
   }
   const Flank& shown = side == Side::left ? result.left : result.right;
   if (flank.window_spread_rad > shown.uncertainty_rad.value_or(0) + kUncoveredSpread_rad) {
     flag(result, "window_sensitive",
          fmt::format("The {} angle changes by {:.1f} degrees with the window, more than its "
                      "interval covers.",
-                     name, degrees(flank.window_spread_rad)));
+                     name, to_degrees(flank.window_spread_rad)));
   }
 }
 

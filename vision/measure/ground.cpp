@@ -6,6 +6,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "base/units.h"
+
 namespace repose::vision {
 namespace {
 
@@ -23,7 +25,7 @@ constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a fr
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
 // Standard uncertainty of the tilt where the base is the frame's edge or a box: a camera held by
 // eye.
-constexpr double kRoll_rad = 1 * 3.14159265358979 / 180;
+constexpr double kRoll_rad = 1 * kDegree;
 constexpr int kFrameMargin = 3;         // px: what ends so close to the frame is cut by it
 constexpr double kBaseTolerance = 3.0;  // px: grains touch the ground only here and there
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/units.h"
 #include "vision/measure/geometry.h"
 #include "vision/measure/working_picture.h"
 
@@ -16,7 +17,7 @@ struct SupportLine {
 };
 
 /// Steepest ground line that is believed. A level tripod stays below 3 degrees.
-inline constexpr double kMaxGroundTilt_rad = 8 * 3.14159265358979 / 180;
+inline constexpr double kMaxGroundTilt_rad = 8 * kDegree;
 
 /// The line on which most points lie within `tolerance` with next to none below it (y larger).
 /// Exhaustive over pairs of a fixed subset: no chance involved. Empty for fewer than 8 points.

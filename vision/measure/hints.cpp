@@ -21,38 +21,41 @@ bool lies_inside(const Point& point, int width, int height) {
 }
 
 void check_points(const std::vector<Point>& points, const char* name, int width, int height,
-                  std::vector<std::string>& errors) {
+                  std::vector<base::Fault>& errors) {
   for (const Point& point : points) {
     if (lies_inside(point, width, height)) continue;
-    errors.push_back(
-        fmt::format("{} = {:g},{:g} must lie inside the {} x {} picture. Fix: count pixels from "
-                    "its top left corner.",
-                    name, point.x, point.y, width, height));
+    errors.push_back({.subject = name,
+                      .value = fmt::format("= {:g},{:g}", point.x, point.y),
+                      .rule = fmt::format("must lie inside the {} x {} picture", width, height),
+                      .fix = "count pixels from its top left corner."});
   }
 }
 
 void check_ground(const Segment& ground, int width, int height, const std::optional<Box>& heap,
-                  std::vector<std::string>& errors) {
+                  std::vector<base::Fault>& errors) {
   check_points({ground.from, ground.to}, "ground points", width, height, errors);
   const double dx = std::abs(ground.to.x - ground.from.x);
   const double dy = std::abs(ground.to.y - ground.from.y);
   const double shortest = kShortestGround * (heap ? heap->width : width);
   if (!(dx >= shortest) || !(std::atan2(dy, dx) <= kSteepestGround_rad)) {
-    errors.push_back(fmt::format(
-        "ground points = {:g},{:g},{:g},{:g} must be at least {:.0f} pixels long and within 30 "
-        "degrees of level. Fix: give two points far apart on the line that the heap stands on.",
-        ground.from.x, ground.from.y, ground.to.x, ground.to.y, shortest));
+    errors.push_back(
+        {.subject = "ground points",
+         .value = fmt::format("= {:g},{:g},{:g},{:g}", ground.from.x, ground.from.y, ground.to.x,
+                              ground.to.y),
+         .rule = fmt::format("must be at least {:.0f} pixels long and within 30 degrees of level",
+                             shortest),
+         .fix = "give two points far apart on the line that the heap stands on."});
   }
 }
 
-void check_heap(const Box& box, int width, int height, std::vector<std::string>& errors) {
+void check_heap(const Box& box, int width, int height, std::vector<base::Fault>& errors) {
   const bool is_inside = box.x >= 0 && box.y >= 0 && box.width >= 1 && box.height >= 1 &&
                          box.width <= width - box.x && box.height <= height - box.y;
   if (is_inside) return;
-  errors.push_back(
-      fmt::format("heap box = {},{},{},{} must lie inside the {} x {} picture. Fix: give the "
-                  "top-left pixel, width and height in pixels of the picture.",
-                  box.x, box.y, box.width, box.height, width, height));
+  errors.push_back({.subject = "heap box",
+                    .value = fmt::format("= {},{},{},{}", box.x, box.y, box.width, box.height),
+                    .rule = fmt::format("must lie inside the {} x {} picture", width, height),
+                    .fix = "give the top-left pixel, width and height in pixels of the picture."});
 }
 
 Point moved(const Point& point, const Box& box) { return {point.x - box.x, point.y - box.y}; }
@@ -86,18 +89,18 @@ std::string Hints::text() const {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::vector<std::string> problems_of(const Hints& hints, int width, int height) {
-  std::vector<std::string> errors;
+std::vector<base::Fault> problems_of(const Hints& hints, int width, int height) {
+  std::vector<base::Fault> errors;
   if (hints.heap) check_heap(*hints.heap, width, height, errors);
   if (hints.ground) check_ground(*hints.ground, width, height, hints.heap, errors);
   check_points(hints.keep, "point to keep", width, height, errors);
   check_points(hints.drop, "point to drop", width, height, errors);
   const Picture& mask = hints.mask;
   if (!mask.empty() && (mask.width != width || mask.height != height)) {
-    errors.push_back(fmt::format(
-        "the mask is {} x {} and the picture {} x {}. Rule: as large as the picture. Fix: paint "
-        "it on a copy of the picture.",
-        mask.width, mask.height, width, height));
+    errors.push_back({.value = fmt::format("the mask is {} x {} and the picture {} x {}",
+                                           mask.width, mask.height, width, height),
+                      .rule = "as large as the picture",
+                      .fix = "paint it on a copy of the picture."});
   }
   return errors;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
@@ -29,7 +30,7 @@ struct Hints {
 };
 
 /// What cannot be meant in a picture of this size, a line each.
-std::vector<std::string> problems_of(const Hints& hints, int width, int height);
+std::vector<base::Fault> problems_of(const Hints& hints, int width, int height);
 
 /// The hints inside a box, from the box's own corner; the box itself has been followed.
 Hints hints_within(const Hints& hints, const Box& box);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "vision/measure/definitions.h"
 #include "vision/measure/flank.h"
 #include "vision/measure/profile.h"
@@ -31,27 +31,30 @@ void check(const Outline& outline, const OutlineOptions& options) {
   MeasureOptions window;
   window.window_from = options.window_from;
   window.window_to = options.window_to;
-  std::vector<std::string> errors = window.problems();
+  std::vector<base::Fault> errors = window.problems();
   if (outline.along.empty() || outline.along.size() != outline.height.size()) {
-    errors.push_back(
-        fmt::format("the outline has {} places and {} heights. Rule: one or more, and a height at "
-                    "each place. Fix: give one height for each place.",
-                    outline.along.size(), outline.height.size()));
+    errors.push_back({.value = fmt::format("the outline has {} places and {} heights",
+                                           outline.along.size(), outline.height.size()),
+                      .rule = "one or more, and a height at each place",
+                      .fix = "give one height for each place."});
   }
   if (!are_finite(outline.along) || !are_finite(outline.height)) {
-    errors.emplace_back(
-        "the outline has a point that is not a number. Fix: leave such points out.");
+    errors.push_back(
+        {.value = "the outline has a point that is not a number", .fix = "leave such points out."});
   }
   const auto& along = outline.along;
   if (std::adjacent_find(along.begin(), along.end(), [](double a, double b) { return a >= b; }) !=
       along.end()) {
-    errors.emplace_back("the outline goes back. Rule: places ascend. Fix: sort its points.");
+    errors.push_back(
+        {.value = "the outline goes back", .rule = "places ascend", .fix = "sort its points."});
   }
   if (options.grain && !(*options.grain > 0)) {
-    errors.push_back(fmt::format("grain = {:g} must be above 0. Fix: a grain's diameter, or none.",
-                                 *options.grain));
+    errors.push_back({.subject = "grain",
+                      .value = fmt::format("= {:g}", *options.grain),
+                      .rule = "must be above 0",
+                      .fix = "a grain's diameter, or none."});
   }
-  if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
+  if (!errors.empty()) throw base::InputError(std::move(errors));
 }
 
 /// Distance of neighbouring points: the unit in which an outline is like a picture's edge, which

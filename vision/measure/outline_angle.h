@@ -46,7 +46,7 @@ struct OutlineAngle {
 /// crest's axis higher than three times the crest, which is the edge of a plateau, such as the
 /// outermost grain of a layer.
 /// Proved by OutlineAngle.* in tests/vision/outline_angle_test.cpp.
-/// @throws std::invalid_argument  no points, not as many heights as places, places that do not
+/// @throws base::InputError  no points, not as many heights as places, places that do not
 ///   ascend, numbers that are not finite, or a window that MeasureOptions refuses.
 OutlineAngle measure_outline(const Outline& outline, const OutlineOptions& options = {});
 

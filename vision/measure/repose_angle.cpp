@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "base/angle_definition.h"
+#include "base/units.h"
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/choice.h"
 #include "vision/measure/definitions.h"
@@ -31,12 +31,13 @@ constexpr double kPitchByEye_rad = 2 * std::numbers::pi / 180;
 constexpr double kPitchOverEdge_rad = 5 * std::numbers::pi / 180;
 
 void check(const Picture& picture, const MeasureOptions& options) {
-  std::vector<std::string> errors = options.problems();
-  if (picture.empty()) errors.emplace_back("the picture is empty. Fix: read one first.");
-  for (std::string& problem : options.problems_in(picture.width, picture.height)) {
-    errors.push_back(std::move(problem));
+  std::vector<base::Fault> errors = options.problems();
+  if (picture.empty())
+    errors.push_back({.value = "the picture is empty", .fix = "read one first."});
+  for (base::Fault& fault : options.problems_in(picture.width, picture.height)) {
+    errors.push_back(std::move(fault));
   }
-  if (!errors.empty()) throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
+  if (!errors.empty()) throw base::InputError(std::move(errors));
 }
 
 /// Pitch that a camera may have which was taken for level: what the base's bow tells, where the
@@ -221,43 +222,48 @@ ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> MeasureOptions::problems() const {
-  std::vector<std::string> errors;
+std::vector<base::Fault> MeasureOptions::problems() const {
+  std::vector<base::Fault> errors;
   // Written so that NaN fails.
   if (!(window_from >= 0 && window_to <= 1 && window_to - window_from >= kNarrowestWindow)) {
     errors.push_back(
-        fmt::format("window = {},{} must be two increasing fractions of the heap's height from 0 "
-                    "to 1, at least {} "
-                    "apart. Fix: try 0.2,0.8.",
-                    window_from, window_to, kNarrowestWindow));
+        {.subject = "window",
+         .value = fmt::format("= {},{}", window_from, window_to),
+         .rule = fmt::format(
+             "must be two increasing fractions of the heap's height from 0 to 1, at least {} apart",
+             kNarrowestWindow),
+         .fix = "try 0.2,0.8."});
   }
   if (camera_pitch_rad && !(std::abs(*camera_pitch_rad) <= kLargestPitch_rad)) {
     errors.push_back(
-        fmt::format("camera pitch = {:.1f} degrees must lie within -30 and 30. Fix: give the angle "
-                    "by which the camera looks down, or take the picture with a level camera.",
-                    *camera_pitch_rad * 180 / std::numbers::pi));
+        {.subject = "camera pitch",
+         .value = fmt::format("= {:.1f} degrees", to_degrees(*camera_pitch_rad)),
+         .rule = "must lie within -30 and 30",
+         .fix = "give the angle by which the camera looks down, or take the picture with a level "
+                "camera."});
   }
   for (const Box& box : excluded) {
     if (box.x >= 0 && box.y >= 0 && box.width >= 1 && box.height >= 1) continue;
-    errors.push_back(fmt::format(
-        "excluded box = {},{},{},{} must begin at 0,0 or beyond, and be at least 1 pixel wide and "
-        "high. Fix: count from the picture's top left corner.",
-        box.x, box.y, box.width, box.height));
+    errors.push_back({.subject = "excluded box",
+                      .value = fmt::format("= {},{},{},{}", box.x, box.y, box.width, box.height),
+                      .rule = "must begin at 0,0 or beyond, and be at least 1 pixel wide and high",
+                      .fix = "count from the picture's top left corner."});
   }
   return errors;
 }
 
-std::vector<std::string> MeasureOptions::problems_in(int width, int height) const {
-  std::vector<std::string> errors;
+std::vector<base::Fault> MeasureOptions::problems_in(int width, int height) const {
+  std::vector<base::Fault> errors;
   for (const Box& box : excluded) {
     if (box.width <= width - box.x && box.height <= height - box.y) continue;
     errors.push_back(
-        fmt::format("excluded box = {},{},{},{} must lie inside the {} x {} picture. Fix: give "
-                    "the top-left pixel, width and height in pixels of the picture.",
-                    box.x, box.y, box.width, box.height, width, height));
+        {.subject = "excluded box",
+         .value = fmt::format("= {},{},{},{}", box.x, box.y, box.width, box.height),
+         .rule = fmt::format("must lie inside the {} x {} picture", width, height),
+         .fix = "give the top-left pixel, width and height in pixels of the picture."});
   }
-  for (std::string& problem : problems_of(hints, width, height)) {
-    errors.push_back(std::move(problem));
+  for (base::Fault& fault : problems_of(hints, width, height)) {
+    errors.push_back(std::move(fault));
   }
   return errors;
 }
@@ -282,6 +288,10 @@ ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& o
                                                         : choose_reading(work, options);
   ReposeAngle result = described(choice, work, options);
   judge(result, choice, options);
+  result.reason = base::with_names(result.reason, options.names);
+  for (Warning& warning : result.warnings) {
+    warning.message = base::with_names(warning.message, options.names);
+  }
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/input_error.h"
 #include "vision/measure/hints.h"
 #include "vision/picture/picture.h"
 
@@ -49,11 +50,14 @@ struct MeasureOptions {
   std::optional<Pinhole> pinhole = {};
   /// Same picture + same seed = same bytes (bootstrap, GrabCut).
   std::uint64_t seed = 1;
+  /// How the user gives "camera pitch", "excluded box" and "heap box", for reasons and warnings
+  /// that advise to.
+  base::FieldNames names = {};
 
-  /// Empty when usable; else a line for each error: name = value, rule, what to try.
-  std::vector<std::string> problems() const;
+  /// Empty when usable; else each fault.
+  std::vector<base::Fault> problems() const;
   /// The same for what cannot be meant in a picture of that size.
-  std::vector<std::string> problems_in(int width, int height) const;
+  std::vector<base::Fault> problems_in(int width, int height) const;
 };
 
 enum class MeasureStatus {
@@ -144,7 +148,7 @@ std::optional<double> angle_by(const ReposeAngle& measured, std::string_view def
 
 /// Measures one picture. Deterministic; safe to call from several threads at once. The first call
 /// sets OpenCV to one thread for the whole process.
-/// @throws std::invalid_argument  options.problems() is not empty, the picture is empty, or an
+/// @throws base::InputError  options.problems() is not empty, the picture is empty, or an
 ///   excluded box or a hint lies outside it.
 ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options = {});
 

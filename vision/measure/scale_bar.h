@@ -1,7 +1,8 @@
 #pragma once
 
-#include <string>
+#include <optional>
 
+#include "base/input_error.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
@@ -24,11 +25,11 @@ inline constexpr double kFinestScale_mm_per_px = 1e-4, kCoarsestScale_mm_per_px 
 /// Nearer to each other, two points cannot be pointed at.
 inline constexpr double kShortestBar_px = 10;
 
-/// What cannot be meant, whatever the picture; empty: nothing. "two points ... ".
-std::string problem_of(const ScaleBar& scale);
-/// What cannot be meant in a picture of this size, "what. Fix: ..."; empty: nothing. Proved by
-/// ScaleBar.* in tests/vision/scale_bar_test.cpp.
-std::string problem_in(const ScaleBar& scale, int width, int height);
+/// What cannot be meant, whatever the picture.
+std::optional<base::Fault> problem_of(const ScaleBar& scale);
+/// What cannot be meant in a picture of this size. Proved by ScaleBar.* in
+/// tests/vision/scale_bar_test.cpp.
+std::optional<base::Fault> problem_in(const ScaleBar& scale, int width, int height);
 
 /// What the interval of a scale comes from: two points that a person points at.
 Estimate mm_per_px(const ScaleBar& scale);

@@ -35,10 +35,10 @@ Segmentation rough_segmentation(const WorkingPicture& work);
 /// Otsu on the grey picture and nothing else.
 Segmentation grey_otsu(const WorkingPicture& work);
 
-/// Otsu's threshold of `values` where `evidence` is set, in the units of `values`.
+/// Otsu's threshold of `values` where `valid_mask` is set, in the units of `values`.
 double otsu_threshold(const cv::Mat1f& values, const cv::Mat1b& valid_mask);
 
-/// Gaussian average over the evidence alone: what is excluded does not shine in. Where there is
+/// Gaussian average over the valid pixels alone: what is excluded does not shine in. Where there is
 /// none within reach the values stay as they are.
 cv::Mat1f smoothed(const cv::Mat1f& values, const cv::Mat1b& valid_mask, double sigma_px);
 

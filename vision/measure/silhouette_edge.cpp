@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::vision {
 namespace {
@@ -17,10 +18,11 @@ void check(const Picture& picture, const Box& part) {
                          part.width <= picture.width - part.x &&
                          part.height <= picture.height - part.y;
   if (is_inside) return;
-  throw std::invalid_argument(
-      fmt::format("part = {},{},{},{} must lie inside the {} x {} picture. Fix: give the top-left "
-                  "pixel, width and height in pixels of the picture.",
-                  part.x, part.y, part.width, part.height, picture.width, picture.height));
+  throw base::InputError(
+      {.subject = "part",
+       .value = fmt::format("= {},{},{},{}", part.x, part.y, part.width, part.height),
+       .rule = fmt::format("must lie inside the {} x {} picture", picture.width, picture.height),
+       .fix = "give the top-left pixel, width and height in pixels of the picture."});
 }
 
 bool is_dark(const Picture& picture, int column, int row) {

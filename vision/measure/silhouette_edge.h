@@ -13,7 +13,7 @@ namespace repose::vision {
 /// @param part      [px of the picture]; what is dark beyond it is not seen
 /// @param ground_y  the ground line's row coordinate [px of the picture]
 /// @return  along: pixels from the picture's left side; height: pixels above the ground
-/// @throws std::invalid_argument  the part does not lie inside the picture.
+/// @throws base::InputError  the part does not lie inside the picture.
 Outline silhouette_edge(const Picture& silhouette, const Box& part, double ground_y);
 
 }  // namespace repose::vision

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/flank_verdict.h"
 #include "vision/measure/verdict_notes.h"
@@ -49,7 +50,7 @@ void refuse(ReposeAngle& result, std::string reason) {
 /// The boundary's quality, lowered when equally good segmentations disagree.
 double confidence_of(const Choice& choice) {
   const double boundary = std::clamp(choice.best.score / 0.55, 0.0, 1.0);
-  const double disagreement = degrees(choice.disagreement_rad) / 2;
+  const double disagreement = to_degrees(choice.disagreement_rad) / 2;
   return boundary * std::exp(-disagreement * disagreement);
 }
 
@@ -74,8 +75,8 @@ std::string reason_against_picture(const Choice& choice, const MeasureOptions& o
     return fmt::format(
         "the heap's edge is too uncertain (confidence {:.2f} of 1). Fix: use a plain backdrop of a "
         "different colour from the grains, even light and a sharp picture; exclude other objects "
-        "with an excluded box.",
-        confidence);
+        "with an {}.",
+        confidence, base::field("excluded box"));
   }
   if (best.profile.leaves_frame_top && !options.hints.heap) {
     return "the crest is outside the picture, so the heap's height is unknown. Fix: step back or "
@@ -86,8 +87,8 @@ std::string reason_against_picture(const Choice& choice, const MeasureOptions& o
     return fmt::format(
         "the curved base implies that the camera looked down by about {:.0f} degrees, which "
         "changes the angle; or this is not a heap. Fix: retake the picture with a level camera at "
-        "the heap's height, or give the camera pitch if it is known.",
-        degrees(pitch));
+        "the heap's height, or give the {} if it is known.",
+        to_degrees(pitch), base::field("camera pitch"));
   }
   if (best.grain && best.profile.crest_height < kFewestGrainsInHeight * *best.grain) {
     return "the object found is hardly higher than its grains: not a heap. Fix: photograph a heap "
@@ -126,7 +127,8 @@ void warn_of_likeness(ReposeAngle& result, const Choice& choice, const MeasureOp
   const std::string reason = reason_to_doubt(choice, options);
   if (reason.empty()) return;
   flag(result, "unlike_a_heap",
-       fmt::format("This may not be a heap: {}. If it is one, mark it with a heap box.", reason));
+       fmt::format("This may not be a heap: {}. If it is one, mark it with a {}.", reason,
+                   base::field("heap box")));
   result.confidence = std::min(result.confidence, kMostOfUnlike);
 }
 
@@ -143,7 +145,7 @@ void warn_of_definitions(ReposeAngle& result) {
   note(result, "definitions_differ",
        fmt::format("Other definitions of the angle give {:.1f} to {:.1f} degrees: state yours when "
                    "you publish.",
-                   degrees(least), degrees(most)));
+                   to_degrees(least), to_degrees(most)));
 }
 
 void warn_of_angle(ReposeAngle& result) {
@@ -152,7 +154,7 @@ void warn_of_angle(ReposeAngle& result) {
          fmt::format(
              "The angle is uncertain by ±{:.1f} degrees: measure more pictures of this heap, or "
              "a heap of more grains.",
-             degrees(*result.uncertainty_rad)));
+             to_degrees(*result.uncertainty_rad)));
   }
   warn_of_definitions(result);
 }
@@ -183,7 +185,7 @@ void warn_of_unequal_flanks(ReposeAngle& result) {
   const double interval =
       std::hypot(result.left.uncertainty_rad.value_or(0), result.right.uncertainty_rad.value_or(0));
   const std::string what =
-      fmt::format("The two flanks differ by {:.1f} degrees", degrees(difference));
+      fmt::format("The two flanks differ by {:.1f} degrees", to_degrees(difference));
   if (difference > kTooUnequal_rad && difference > interval) {
     flag(result, "unequal_flanks",
          what + ": check that the overlay follows the heap's edge on both.");
@@ -207,8 +209,8 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
     flag(result, "base_bows",
          fmt::format(
              "The curved base implies that the camera looked down by about {:.0f} degrees; give "
-             "the camera pitch if it did.",
-             degrees(pitch)));
+             "the {} if it did.",
+             to_degrees(pitch), base::field("camera pitch")));
   }
   if (options.camera_pitch_rad && ground.bow) {
     // The bow tells from how far above the base is seen: by a known lens, below its axis.
@@ -217,14 +219,14 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
     if (std::abs(pitch - expected) > kPitchTolerance_rad) {
       flag(result, "pitch_disagrees",
            fmt::format("The curved base implies a pitch of {:.0f} degrees, not the {:.0f} given.",
-                       degrees(pitch - below_axis), degrees(*options.camera_pitch_rad)));
+                       to_degrees(pitch - below_axis), to_degrees(*options.camera_pitch_rad)));
     }
   }
   if (std::abs(ground.tilt_rad()) > kTilted_rad) {
     note(result, "tilted_picture",
          fmt::format("The ground is tilted by {:.1f} degrees in the picture; angles are measured "
                      "from it.",
-                     degrees(ground.tilt_rad())));
+                     to_degrees(ground.tilt_rad())));
   }
   if (ground.behind) {
     flag(result, "edge_behind",

@@ -3,12 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "base/units.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::vision {
-
-inline double degrees(double rad) { return rad / kDegree; }
 
 /// Tells the user something that does not put the number in doubt.
 inline void note(ReposeAngle& result, std::string code, std::string message) {

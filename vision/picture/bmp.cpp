@@ -4,12 +4,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
-#include <stdexcept>
 
 extern "C" {
 #include <libavutil/imgutils.h>
 }
 
+#include "base/input_error.h"
 #include "vision/picture/claimed_size.h"
 #include "vision/picture/ffmpeg.h"
 #include "vision/picture/mat_of_picture.h"
@@ -27,9 +27,8 @@ std::uint32_t number_at(Bytes bytes, std::size_t at) {
 }
 
 [[noreturn]] void refuse_damaged_bmp() {
-  throw std::invalid_argument(
-      "the BMP is truncated or damaged. Fix: copy it from its source again, or save it as "
-      "PNG.");
+  throw base::InputError({.value = "the BMP is truncated or damaged",
+                          .fix = "copy it from its source again, or save it as PNG."});
 }
 
 /// The decoder does without what a palette lacks, so it is checked before.
@@ -57,7 +56,7 @@ void check_bmp_length(Bytes bytes) {
   constexpr std::uint32_t kPlain = 0, kBitFields = 3;
   const std::uint32_t coding = number_at(bytes, 30);
   if (coding != kPlain && coding != kBitFields) {
-    throw std::invalid_argument("a compressed BMP cannot be read. Fix: save it as PNG.");
+    throw base::InputError({.value = "a compressed BMP cannot be read", .fix = "save it as PNG."});
   }
   const std::int64_t row_bytes = (width * bits_per_pixel + 31) / 32 * 4;  // whole 32-bit words
   if (bits_per_pixel == 0 || pixels_from < static_cast<std::int64_t>(kHeaderBytes) ||

@@ -8,7 +8,7 @@
 namespace repose::vision {
 
 /// Decodes a BMP file's content.
-/// @throws std::invalid_argument  "what. Fix: ..." when it is damaged, cut short, run-length coded
+/// @throws base::InputError  "what. Fix: ..." when it is damaged, cut short, run-length coded
 ///   or too large.
 Picture decode_bmp(std::span<const std::uint8_t> bytes);
 

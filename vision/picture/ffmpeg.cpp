@@ -2,7 +2,8 @@
 
 #include <cstring>
 #include <new>
-#include <stdexcept>
+
+#include "base/input_error.h"
 
 namespace repose::vision::ffmpeg {
 
@@ -39,8 +40,8 @@ void Conversion::run(const AVFrame& from, AVFrame& to) {
       to.height, static_cast<AVPixelFormat>(to.format), SWS_BICUBIC, nullptr, nullptr, nullptr));
   if (!scaler_ || sws_scale(scaler_.get(), from.data, from.linesize, 0, from.height, to.data,
                             to.linesize) < 0) {
-    throw std::invalid_argument(
-        "its colours are stored in a way that cannot be read. Fix: save it in another format.");
+    throw base::InputError({.value = "its colours are stored in a way that cannot be read",
+                            .fix = "save it in another format."});
   }
 }
 

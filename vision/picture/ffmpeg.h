@@ -37,7 +37,7 @@ Frame blank_frame(int width, int height, AVPixelFormat format);
 /// Between RGB and YUV by ITU-R BT.601, whatever a film says of its colours.
 class Conversion {
  public:
-  /// @throws std::invalid_argument  "what. Fix: ...": pixels of a kind that cannot be converted.
+  /// @throws base::InputError  "what. Fix: ...": pixels of a kind that cannot be converted.
   void run(const AVFrame& from, AVFrame& to);
 
  private:

@@ -1,11 +1,11 @@
 #include "vision/picture/flatten.h"
 
-#include <stdexcept>
 #include <vector>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.h"
 #include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
@@ -28,8 +28,8 @@ cv::Mat colours_to_8_bit(const cv::Mat& colours) {
 double mean_brightness(const cv::Mat& bgr, const cv::Mat& alpha) {
   const double opacity = cv::sum(alpha)[0];
   if (opacity == 0) {
-    throw std::invalid_argument(
-        "every pixel is transparent, so nothing is visible. Fix: save it without transparency.");
+    throw base::InputError({.value = "every pixel is transparent, so nothing is visible",
+                            .fix = "save it without transparency."});
   }
   cv::Mat grey;
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);

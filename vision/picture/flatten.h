@@ -14,7 +14,7 @@ namespace repose::vision {
 ///   quarter of the range, its maximum becomes 255.
 /// - Transparency: laid over white or black, whichever is farther from the mean brightness of what
 ///   can be seen, so that the heap stands out from its background.
-/// @throws std::invalid_argument  "what. Fix: ..." when it is fully transparent.
+/// @throws base::InputError  "what. Fix: ..." when it is fully transparent.
 Picture flatten(const cv::Mat& decoded);
 
 }  // namespace repose::vision

@@ -4,13 +4,13 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>  // before jpeglib.h, which uses FILE and size_t
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 #include <jerror.h>
 #include <jpeglib.h>
 
+#include "base/input_error.h"
 #include "vision/picture/claimed_size.h"
 #include "vision/picture/mat_of_picture.h"
 
@@ -92,10 +92,9 @@ bool read_rows(JpegDecoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels
 }
 
 [[noreturn]] void refuse(const JpegDecoder& decoder) {
-  throw std::invalid_argument(
-      fmt::format("the JPEG is truncated or damaged ({}). Fix: copy it from the camera again, or "
-                  "take another picture.",
-                  decoder.message.data()));
+  throw base::InputError(
+      {.value = fmt::format("the JPEG is truncated or damaged ({})", decoder.message.data()),
+       .fix = "copy it from the camera again, or take another picture."});
 }
 
 /// Ink on white paper: what is left of the light. Adobe programs store the inks inverted.

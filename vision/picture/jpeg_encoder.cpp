@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <cstdio>  // before jpeglib.h, which uses FILE and size_t
 #include <cstdlib>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <jpeglib.h>
 
+#include "base/input_error.h"
 #include "vision/picture/jpeg.h"
 
 namespace repose::vision {
@@ -70,10 +70,10 @@ bool encode(JpegEncoder& encoder, const Picture& picture, int quality) {
 std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality) {
   JpegEncoder encoder;
   if (!encode(encoder, picture, quality)) {
-    throw std::invalid_argument(
-        fmt::format("a picture of {} x {} pixels cannot be written as JPEG ({}). Fix: let the name "
-                    "end in .png.",
-                    picture.width, picture.height, encoder.message.data()));
+    throw base::InputError(
+        {.value = fmt::format("a picture of {} x {} pixels cannot be written as JPEG ({})",
+                              picture.width, picture.height, encoder.message.data()),
+         .fix = "let the name end in .png."});
   }
   return {encoder.coded, encoder.coded + encoder.coded_bytes};
 }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "vision/picture/bmp.h"
 #include "vision/picture/film_head.h"
@@ -72,19 +72,18 @@ Picture decode(Bytes bytes) {
     case Format::webp:
       return decode_webp(bytes);
     case Format::heic:
-      throw std::invalid_argument(
-          "is a HEIC or AVIF picture, which cannot be read. Fix: convert it to JPEG, for example "
-          "with heif-convert, or set the telephone's camera to \"most compatible\".");
+      throw base::InputError({.value = "is a HEIC or AVIF picture, which cannot be read",
+                              .fix = "convert it to JPEG, for example with heif-convert, or set "
+                                     "the telephone's camera to \"most compatible\"."});
     case Format::film:
-      throw std::invalid_argument(
-          "is a film, and a picture is needed here. Fix: name a picture of what it shows at rest; "
-          "repose measure and repose track read films.");
+      throw base::InputError({.value = "is a film, and a picture is needed here",
+                              .fix = "name a picture of what it shows at rest; repose measure and "
+                                     "repose track read films."});
     case Format::unknown:
       break;
   }
-  throw std::invalid_argument(
-      "no picture: the content is none of JPEG, PNG, TIFF, BMP, WebP. Fix: name a picture, or save "
-      "it as JPEG or PNG.");
+  throw base::InputError({.value = "no picture: the content is none of JPEG, PNG, TIFF, BMP, WebP",
+                          .fix = "name a picture, or save it as JPEG or PNG."});
 }
 
 std::string lower_case_ending(const fs::path& file) {
@@ -100,11 +99,12 @@ Picture read_picture(const fs::path& file) {
   const std::string bytes = base::read_whole_file(file);
   try {
     if (bytes.empty()) {
-      throw std::invalid_argument("is empty (0 bytes). Fix: copy it from the camera again.");
+      throw base::InputError(
+          {.value = "is empty (0 bytes)", .fix = "copy it from the camera again."});
     }
     return decode({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", file.string(), error.what()));
+  } catch (const base::InputError& error) {
+    throw error.in(file.string());
   }
 }
 
@@ -112,14 +112,14 @@ void write_picture(const fs::path& file, const Picture& picture) {
   const std::string ending = lower_case_ending(file);
   const bool is_jpeg = ending == ".jpg" || ending == ".jpeg";
   if (!is_jpeg && ending != ".png") {
-    throw std::invalid_argument(fmt::format(
-        "{}: cannot be written as \"{}\". Fix: let the name end in .png, .jpg or .jpeg.",
-        file.string(), ending));
+    base::refuse(file, fmt::format("cannot be written as \"{}\"", ending),
+                 "let the name end in .png, .jpg or .jpeg.");
   }
   if (picture.empty()) {
-    throw std::invalid_argument(fmt::format(
-        "{}: a picture of {} x {} pixels cannot be written. Fix: give at least one pixel.",
-        file.string(), picture.width, picture.height));
+    base::refuse(
+        file,
+        fmt::format("a picture of {} x {} pixels cannot be written", picture.width, picture.height),
+        "give at least one pixel.");
   }
   std::vector<std::uint8_t> content =
       is_jpeg ? encode_jpeg(picture, kJpegQuality) : encode_png(picture);
@@ -129,7 +129,8 @@ void write_picture(const fs::path& file, const Picture& picture) {
 
 std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality) {
   if (picture.empty()) {
-    throw std::invalid_argument("a picture without pixels cannot be written. Fix: give one.");
+    throw base::InputError(
+        {.value = "a picture without pixels cannot be written", .fix = "give one."});
   }
   return encode_jpeg(picture, quality);
 }

@@ -44,17 +44,17 @@ inline constexpr std::int64_t kMaxPixels = 200'000'000;
 /// Reads a JPEG, PNG, TIFF, BMP or WebP file into upright 8-bit colour.
 ///
 /// EXIF rotation is applied; grey, CMYK, 16-bit and transparent pictures are converted.
-/// @throws std::invalid_argument  one line "FILE: what. Fix: ..." when the file is missing, empty,
+/// @throws base::InputError  one line "FILE: what. Fix: ..." when the file is missing, empty,
 ///   no picture, damaged, cut short, or claims more than kMaxPixels.
 Picture read_picture(const std::filesystem::path& file);
 
 /// Writes a PNG (or JPEG, by the name's ending) whole or not at all.
-/// @throws std::invalid_argument  when the place cannot be written.
+/// @throws base::InputError  when the place cannot be written.
 void write_picture(const std::filesystem::path& file, const Picture& picture);
 
 /// The content of a JPEG file.
 /// @param quality  0 to 100
-/// @throws std::invalid_argument  the picture has no pixels.
+/// @throws base::InputError  the picture has no pixels.
 std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality);
 
 /// The picture made smaller until no side is longer than that [px]; smaller ones stay as they are.

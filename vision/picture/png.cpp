@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include <opencv2/core/mat.hpp>
 #include <png.h>
 
+#include "base/input_error.h"
 #include "vision/picture/claimed_size.h"
 #include "vision/picture/flatten.h"
 #include "vision/picture/upright.h"
@@ -91,10 +91,9 @@ int orientation_of(const PngDecoder& decoder) {
 
 void require(bool worked, const PngDecoder& decoder) {
   if (worked) return;
-  throw std::invalid_argument(
-      fmt::format("the PNG is truncated or damaged ({}). Fix: copy it from where it came from "
-                  "again.",
-                  decoder.message.data()));
+  throw base::InputError(
+      {.value = fmt::format("the PNG is truncated or damaged ({})", decoder.message.data()),
+       .fix = "copy it from where it came from again."});
 }
 
 }  // namespace

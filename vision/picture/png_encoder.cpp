@@ -1,11 +1,11 @@
 #include <array>
 #include <cstddef>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <png.h>
 #include <zlib.h>
 
+#include "base/input_error.h"
 #include "vision/picture/png.h"
 
 namespace repose::vision {
@@ -71,9 +71,10 @@ bool encode(PngEncoder& encoder, const Picture& picture) {
 std::vector<std::uint8_t> encode_png(const Picture& picture) {
   PngEncoder encoder;
   if (encode(encoder, picture)) return encoder.coded;
-  throw std::invalid_argument(fmt::format(
-      "a picture of {} x {} pixels cannot be written as PNG ({}). Fix: make it smaller.",
-      picture.width, picture.height, encoder.message.data()));
+  throw base::InputError(
+      {.value = fmt::format("a picture of {} x {} pixels cannot be written as PNG ({})",
+                            picture.width, picture.height, encoder.message.data()),
+       .fix = "make it smaller."});
 }
 
 }  // namespace repose::vision

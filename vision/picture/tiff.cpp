@@ -4,7 +4,6 @@
 #include <cstdarg>
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 #include <tiffio.h>
 
+#include "base/input_error.h"
 #include "vision/picture/claimed_size.h"
 #include "vision/picture/flatten.h"
 #include "vision/picture/upright.h"
@@ -79,10 +79,10 @@ File open(Source& source) {
 }
 
 [[noreturn]] void refuse_damaged(const Source& source) {
-  throw std::invalid_argument(
-      fmt::format("the TIFF is truncated or damaged ({}). Fix: copy it from where it came from "
-                  "again, or save it as PNG.",
-                  source.error.empty() ? "no picture in it" : source.error));
+  throw base::InputError(
+      {.value = fmt::format("the TIFF is truncated or damaged ({})",
+                            source.error.empty() ? "no picture in it" : source.error),
+       .fix = "copy it from where it came from again, or save it as PNG."});
 }
 
 /// A tag of the file, or the value the standard says it has when it is missing.
@@ -174,8 +174,8 @@ cv::Mat read_plain(const File& file, const Source& source, const Layout& layout,
 cv::Mat read_converted(const File& file, const Source& source, cv::Size size, int orientation) {
   char why_not[1024];
   if (!TIFFRGBAImageOK(file.get(), why_not)) {
-    throw std::invalid_argument(
-        fmt::format("this kind of TIFF cannot be read ({}). Fix: save it as PNG.", why_not));
+    throw base::InputError({.value = fmt::format("this kind of TIFF cannot be read ({})", why_not),
+                            .fix = "save it as PNG."});
   }
   cv::Mat rgba(size, CV_8UC4);
   constexpr int kStopAtErrors = 1;
@@ -201,9 +201,10 @@ Picture decode_tiff(std::span<const std::uint8_t> bytes) {
   check_claimed_size(width, height);
   const Layout layout = layout_of(file);
   if (!layout.is_integer || layout.bits > 16) {
-    throw std::invalid_argument(
-        fmt::format("a TIFF of {}-bit {} samples cannot be read. Fix: save it with 8 or 16 bits.",
-                    layout.bits, layout.is_integer ? "whole" : "signed or floating-point"));
+    throw base::InputError(
+        {.value = fmt::format("a TIFF of {}-bit {} samples cannot be read", layout.bits,
+                              layout.is_integer ? "whole" : "signed or floating-point"),
+         .fix = "save it with 8 or 16 bits."});
   }
   check_bytes(file, width, height);
   const cv::Size size(static_cast<int>(width), static_cast<int>(height));

@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 
 #include <opencv2/core/mat.hpp>
 #include <webp/decode.h>
 #include <webp/demux.h>
 
+#include "base/input_error.h"
 #include "vision/picture/claimed_size.h"
 #include "vision/picture/flatten.h"
 #include "vision/picture/upright.h"
@@ -28,8 +28,8 @@ int orientation_of(std::span<const std::uint8_t> bytes) {
 }
 
 [[noreturn]] void refuse_damaged_webp() {
-  throw std::invalid_argument(
-      "the WebP is truncated or damaged. Fix: copy it from its source again.");
+  throw base::InputError(
+      {.value = "the WebP is truncated or damaged", .fix = "copy it from its source again."});
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ Picture decode_webp(std::span<const std::uint8_t> bytes) {
   if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK)
     refuse_damaged_webp();
   if (features.has_animation) {
-    throw std::invalid_argument("is an animated picture. Fix: save one frame as PNG.");
+    throw base::InputError({.value = "is an animated picture", .fix = "save one frame as PNG."});
   }
   check_claimed_size(features.width, features.height);
 

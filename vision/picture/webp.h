@@ -8,7 +8,7 @@
 namespace repose::vision {
 
 /// Decodes a WebP file's content, upright.
-/// @throws std::invalid_argument  "what. Fix: ..." when it is damaged, cut short, moving or too
+/// @throws base::InputError  "what. Fix: ..." when it is damaged, cut short, moving or too
 ///   large.
 Picture decode_webp(std::span<const std::uint8_t> bytes);
 

@@ -69,7 +69,7 @@ struct DropTrack {
 /// Gravity is the ruler: the ratio of speeds at an impact needs no scale. Heights do: they are in
 /// mm of the scale where one is given, else in those that 9.80665 m/s2 makes of the time stamps.
 /// Frames are not kept: memory does not grow with the film's length.
-/// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
+/// @throws base::InputError  "FILE: what. Fix: ...": it is no film that can be read.
 DropTrack track_drop(const FilmFile& file, const TrackOptions& options = {});
 
 }  // namespace repose::vision

@@ -10,13 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "vision/film/frame_times.h"
 #include "vision/track/film_verdict.h"
 
 namespace repose::vision {
 namespace {
-
-constexpr double kGravity_m_s2 = 9.80665;
 
 /// Two things that fly at the same time, well apart and about as clearly seen.
 bool is_another_grain(const DropCandidate& grain, const DropCandidate& other) {
@@ -70,8 +69,8 @@ void warn(DropTrack& track, const char* code, std::string message) {
 /// Films whose container says another frame rate than the camera had: slow motion that plays at 30.
 void check_rate(DropTrack& track) {
   if (!track.gravity_m_s2) return;
-  const double ratio = track.gravity_m_s2->value / kGravity_m_s2;
-  const double sure = track.gravity_m_s2->uncertainty / kGravity_m_s2;
+  const double ratio = track.gravity_m_s2->value / kStandardGravity_m_s2;
+  const double sure = track.gravity_m_s2->uncertainty / kStandardGravity_m_s2;
   constexpr double kTolerated = .05;
   if (std::abs(ratio - 1) < std::max(kTolerated, sure)) return;
   warn(track, "frame_rate",
@@ -182,7 +181,7 @@ void check_lean(DropTrack& track) {
   warn(track, "leaning",
        fmt::format("gravity leans by {:.1f}° against the picture's upright, and was followed: "
                    "level the camera; the floor counts as level",
-                   track.lean_rad * 180 / std::numbers::pi));
+                   to_degrees(track.lean_rad)));
 }
 
 void check_bounces(DropTrack& track) {

@@ -29,7 +29,7 @@ double farthest_shift_px(const FilmGrains& film);
 
 /// Looks through the film twice: for the scene, and for what moves before it. Scenes that change as
 /// a whole, and films of a few frames, are looked through once: they have no paths.
-/// @throws std::invalid_argument  see FilmReader.
+/// @throws base::InputError  see FilmReader.
 FilmGrains grains_in_film(const FilmFile& file, const FilmProgress& progress);
 
 }  // namespace repose::vision

@@ -1,9 +1,9 @@
 #include "vision/track/film_scale.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "base/input_error.h"
 #include "vision/picture/mat_of_picture.h"
 
 namespace repose::vision {
@@ -24,8 +24,9 @@ FilmScale::FilmScale(const TrackOptions& options, const cv::Mat& scene,
   std::optional<Lens> here;
   if (lens) here = lens_for(*lens, scene.cols, scene.rows);
   if (options.scale) {
-    const std::string problem = problem_in(*options.scale, scene.cols, scene.rows);
-    if (!problem.empty()) throw std::invalid_argument(problem);
+    if (auto fault = problem_in(*options.scale, scene.cols, scene.rows)) {
+      throw base::InputError(*std::move(fault));
+    }
     bar_ = vision::mm_per_px(here ? corrected_bar(*options.scale, *here) : *options.scale);
   }
   if (!options.board) return;

@@ -39,7 +39,7 @@ struct RollTrack {
 /// Follows the grain and takes the two straight lines of its path: incline and flat. The planes lie
 /// half the grain's width below them.
 /// @param options  with a scale, a board or released_mm, which the millimetres come from
-/// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
+/// @throws base::InputError  "FILE: what. Fix: ...": it is no film that can be read.
 RollTrack track_roll(const FilmFile& file, const TrackOptions& options);
 
 }  // namespace repose::vision

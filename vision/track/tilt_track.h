@@ -43,7 +43,7 @@ struct TiltTrack {
 };
 
 /// Follows the plate's upper edge and what stands on it, and traces the slide back to its onset.
-/// @throws std::invalid_argument  "FILE: what. Fix: ...": it is no film that can be read.
+/// @throws base::InputError  "FILE: what. Fix: ...": it is no film that can be read.
 TiltTrack track_tilt(const FilmFile& file, const TrackOptions& options = {});
 
 }  // namespace repose::vision

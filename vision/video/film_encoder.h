@@ -23,7 +23,7 @@ class FilmEncoder {
 };
 
 /// H.264. Of an odd size the last row or column is left out.
-/// @throws std::invalid_argument  "what. Fix: ...": FFmpeg was built without such an encoder.
+/// @throws base::InputError  "what. Fix: ...": FFmpeg was built without such an encoder.
 std::unique_ptr<FilmEncoder> mp4_encoder(const std::filesystem::path& file, double frames_per_s,
                                          int width, int height);
 

@@ -1,11 +1,9 @@
 #include "vision/video/film_writer.h"
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "vision/video/film_encoder.h"
 
@@ -13,10 +11,6 @@ namespace repose::vision {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const fs::path& file, const std::string& what, const char* fix) {
-  throw std::invalid_argument(fmt::format("{}: {}. Fix: {}", file.string(), what, fix));
-}
 
 constexpr const char* kFixPlace = "choose a folder you may write to, or free some space there.";
 
@@ -26,8 +20,8 @@ FilmWriter::FilmWriter(fs::path file, double frames_per_s)
     : file_(std::move(file)), frames_per_s_(frames_per_s) {
   const std::string ending = file_.extension().string();
   if (ending != ".mp4" && ending != ".gif") {
-    refuse(file_, "no film can be written as \"" + ending + '"',
-           "let the name end in .mp4 or .gif.");
+    base::refuse(file_, "no film can be written as \"" + ending + '"',
+                 "let the name end in .mp4 or .gif.");
   }
 }
 
@@ -38,8 +32,8 @@ void FilmWriter::open_encoder() {
   try {
     const auto encoder = file_.extension() == ".gif" ? gif_encoder : mp4_encoder;
     encoder_ = encoder(part_->path(), frames_per_s_, width_, height_);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", file_.string(), error.what()));
+  } catch (const base::InputError& error) {
+    throw error.in(file_.string());
   }
 }
 
@@ -48,18 +42,18 @@ void FilmWriter::add(const Picture& picture) {
     width_ = picture.width;
     height_ = picture.height;
     if (width_ < 2 || height_ < 2)
-      refuse(file_, "its picture size is too small", "640 x 480 pixels.");
+      base::refuse(file_, "its picture size is too small", "640 x 480 pixels.");
     open_encoder();
   }
   if (picture.width != width_ || picture.height != height_) {
-    refuse(file_, "its pictures are not all of one size", "draw them alike.");
+    base::refuse(file_, "its pictures are not all of one size", "draw them alike.");
   }
-  if (!encoder_->add(picture)) refuse(file_, "cannot be written", kFixPlace);
+  if (!encoder_->add(picture)) base::refuse(file_, "cannot be written", kFixPlace);
 }
 
 void FilmWriter::close() {
-  if (!encoder_) refuse(file_, "it has no pictures", "add one.");
-  if (!encoder_->close()) refuse(file_, "cannot be written", kFixPlace);
+  if (!encoder_) base::refuse(file_, "it has no pictures", "add one.");
+  if (!encoder_->close()) base::refuse(file_, "cannot be written", kFixPlace);
   base::put_in_place(*part_, file_);
 }
 

@@ -21,7 +21,7 @@ class FilmEncoder;
 class FilmWriter {
  public:
   /// By the name's ending.
-  /// @throws std::invalid_argument  another ending, or a place that cannot be written.
+  /// @throws base::InputError  another ending, or a place that cannot be written.
   FilmWriter(std::filesystem::path file, double frames_per_s);
   /// Without close(), nothing is left behind.
   ~FilmWriter();
@@ -31,11 +31,11 @@ class FilmWriter {
   FilmWriter& operator=(FilmWriter&&) = delete;
 
   /// All pictures have the size of the first; an MP4 loses the last row or column of an odd one.
-  /// @throws std::invalid_argument  the picture cannot be written.
+  /// @throws base::InputError  the picture cannot be written.
   void add(const Picture& picture);
 
   /// Puts the film in its place.
-  /// @throws std::invalid_argument  no picture was added, or it cannot be written.
+  /// @throws base::InputError  no picture was added, or it cannot be written.
   void close();
 
  private:

@@ -1,7 +1,6 @@
 #include <cstdint>
 #include <memory>
 #include <new>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -9,6 +8,7 @@ extern "C" {
 #include <libavutil/imgutils.h>
 }
 
+#include "base/input_error.h"
 #include "vision/picture/ffmpeg.h"
 #include "vision/picture/made_here.h"
 #include "vision/video/film_encoder.h"
@@ -36,9 +36,8 @@ AVDictionary* encoder_options() {
 ffmpeg::Codec opened_encoder(double frames_per_s, int width, int height) {
   const auto* encoder = avcodec_find_encoder(AV_CODEC_ID_H264);
   if (!encoder) {
-    throw std::invalid_argument(
-        "FFmpeg was installed without an encoder of H.264. Fix: let the name end in .gif, or "
-        "install FFmpeg with x264.");
+    throw base::InputError({.value = "FFmpeg was installed without an encoder of H.264",
+                            .fix = "let the name end in .gif, or install FFmpeg with x264."});
   }
   ffmpeg::Codec codec(avcodec_alloc_context3(encoder));
   if (!codec) throw std::bad_alloc();

@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 extern "C" {
 #include <libavutil/display.h>
+
+#include "base/input_error.h"
 }
 
 namespace repose::vision {
@@ -66,11 +67,12 @@ void read_turn(const Matrix& matrix, ShownFrame& shown) {
       shown.is_transposed ? std::max(std::abs(b), std::abs(c)) : std::max(std::abs(a), std::abs(d));
   const bool has_perspective = matrix[2] != 0 || matrix[5] != 0;
   if (has_perspective || kept <= 0 || off > kOff * kept || most > (1 + kSizeOff) * kept) {
-    throw std::invalid_argument(fmt::format(
-        "the film says that its frames are to be shown turned by {:.1f} degrees, sheared or "
-        "stretched. Rule: turned by quarters, or mirrored. Fix: ffmpeg -i FILM -crf 12 NEW.mp4 "
-        "makes frames that lie as they are shown; check with the overlay that they do.",
-        -av_display_rotation_get(matrix.data())));
+    throw base::InputError({.value = fmt::format("the film says that its frames are to be shown "
+                                                 "turned by {:.1f} degrees, sheared or stretched",
+                                                 -av_display_rotation_get(matrix.data())),
+                            .rule = "turned by quarters, or mirrored",
+                            .fix = "ffmpeg -i FILM -crf 12 NEW.mp4 makes frames that lie as they "
+                                   "are shown; check with the overlay that they do."});
   }
   shown.is_mirrored = (shown.is_transposed ? c : a) < 0;
   shown.is_upside_down = (shown.is_transposed ? b : d) < 0;
@@ -86,19 +88,23 @@ double pixel_aspect(const AVStream& stream, const AVFrame* frame) {
       ratio_of(frame ? frame->sample_aspect_ratio : stream.codecpar->sample_aspect_ratio);
   constexpr double kSame = .01;
   if (container > 0 && inner > 0 && std::abs(container / inner - 1) > kSame) {
-    throw std::invalid_argument(fmt::format(
-        "its container says that pixels are {:.4g} times as wide as high, and its frames say "
-        "{:.4g}. Rule: one shape. Fix: see by something round which is right, set it, and make "
-        "pixels square: {}",
-        container, inner, kFixShape));
+    throw base::InputError(
+        {.value = fmt::format("its container says that pixels are {:.4g} times as wide as high, "
+                              "and its frames say {:.4g}",
+                              container, inner),
+         .rule = "one shape",
+         .fix = fmt::format(
+             "see by something round which is right, set it, and make pixels square: {}",
+             kFixShape)});
   }
   const double aspect = container > 0 ? container : inner;
   if (aspect <= 0) return 1;  // it says nothing
   if (aspect > kMostAspect || aspect < 1 / kMostAspect) {
-    throw std::invalid_argument(fmt::format(
-        "the film says that its pixels are {:.4g} times as wide as high. Rule: {:g} to {:g}. Fix: "
-        "convert it with pixels that are square: {}",
-        aspect, 1 / kMostAspect, kMostAspect, kFixShape));
+    throw base::InputError(
+        {.value =
+             fmt::format("the film says that its pixels are {:.4g} times as wide as high", aspect),
+         .rule = fmt::format("{:g} to {:g}", 1 / kMostAspect, kMostAspect),
+         .fix = fmt::format("convert it with pixels that are square: {}", kFixShape)});
   }
   return aspect;
 }

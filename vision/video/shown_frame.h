@@ -23,7 +23,7 @@ struct ShownFrame {
 
 /// By the container, else by the frame itself.
 /// @param frame  decoded; null: none is yet
-/// @throws std::invalid_argument  "what. Fix: ...": the film says that frames are to be shown
+/// @throws base::InputError  "what. Fix: ...": the film says that frames are to be shown
 ///   sheared, or turned by no quarter, or that pixels have shapes that no camera makes; or its
 ///   container and its frames say different shapes.
 ShownFrame shown_frame(const AVStream& stream, const AVFrame* frame);

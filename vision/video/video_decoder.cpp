@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <new>
-#include <stdexcept>
 #include <string>
 
-#include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "base/input_error.h"
+#include "base/whole_file.h"
 #include "vision/video/shown_frame.h"
 
 namespace repose::vision {
@@ -17,10 +17,8 @@ namespace {
 constexpr int kMostDamaged = 512;
 
 [[noreturn]] void refuse_film(const std::filesystem::path& file) {
-  throw std::invalid_argument(
-      fmt::format("{}: the film cannot be decoded: it is damaged, or of an unknown kind. Fix: copy "
-                  "it from the telephone again, or convert it to MP4 (H.264).",
-                  file.string()));
+  base::refuse(file, "the film cannot be decoded: it is damaged, or of an unknown kind",
+               "copy it from the telephone again, or convert it to MP4 (H.264).");
 }
 
 /// A picture that stands for what is heard, such as a record's cover.
@@ -31,10 +29,9 @@ bool is_cover(const AVStream& stream) {
 [[noreturn]] void refuse_sound(const AVFormatContext& input, const std::filesystem::path& file) {
   for (unsigned k = 0; k < input.nb_streams; ++k) {
     if (input.streams[k]->codecpar->codec_type != AVMEDIA_TYPE_AUDIO) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: has sound and no moving picture. Fix: name the film itself; where the "
-                    "camera stored pictures and sound apart, that of the pictures.",
-                    file.string()));
+    base::refuse(file, "has sound and no moving picture",
+                 "name the film itself; where the camera stored pictures and "
+                 "sound apart, that of the pictures.");
   }
   refuse_film(file);
 }
@@ -80,8 +77,8 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file)
 ShownFrame VideoDecoder::shown(const AVFrame* frame) const {
   try {
     return shown_frame(*stream_, frame);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", file_.string(), error.what()));
+  } catch (const base::InputError& error) {
+    throw error.in(file_.string());
   }
 }
 
@@ -138,8 +135,8 @@ void VideoDecoder::copy_to(cv::Mat& bgr) {
   }
   try {
     to_bgr_.run(*frame_, *bgr_);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", file_.string(), error.what()));
+  } catch (const base::InputError& error) {
+    throw error.in(file_.string());
   }
   const cv::Mat padded(bgr_->height, bgr_->width, CV_8UC3, bgr_->data[0],
                        static_cast<std::size_t>(bgr_->linesize[0]));

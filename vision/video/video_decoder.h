@@ -15,11 +15,11 @@ namespace repose::vision {
 /// file claims need be true.
 class VideoDecoder {
  public:
-  /// @throws std::invalid_argument  "FILE: what. Fix: ...": damaged, of an unknown kind, or sound.
+  /// @throws base::InputError  "FILE: what. Fix: ...": damaged, of an unknown kind, or sound.
   explicit VideoDecoder(const std::filesystem::path& file);
 
   /// Of a picture as it is shown.
-  /// @throws std::invalid_argument  as copy_to()
+  /// @throws base::InputError  as copy_to()
   double claimed_pixels() const;
   std::optional<double> claimed_frames_per_s() const;
   /// 0 where the file does not say.
@@ -33,7 +33,7 @@ class VideoDecoder {
   double stamp_unit_s() const;
   /// The picture as it is to be shown: upright, of square pixels, into memory that is used again
   /// for the next one.
-  /// @throws std::invalid_argument  "FILE: what. Fix: ...": see shown_frame()
+  /// @throws base::InputError  "FILE: what. Fix: ...": see shown_frame()
   void copy_to(cv::Mat& bgr);
 
  private:

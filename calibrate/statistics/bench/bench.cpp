@@ -4,12 +4,11 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "calibrate/statistics/bench/method.h"
 
 namespace repose::calibrate {
@@ -67,19 +66,21 @@ std::vector<ReadingValues> values_of(std::span<const BenchReading> readings) {
 }
 
 bool is_possible(const std::string& place, const ReadingColumn& column, double value,
-                 base::ErrorList& errors) {
+                 base::Faults& errors) {
   if (value > column.above && value < column.below) return true;  // false for NaN
-  errors.add(
-      fmt::format("{}: {} = {:g}: the {} must be {}. Fix: correct the reading or leave it "
-                  "out.",
-                  place, column.name, value, column.what, range_of(column)));
+  errors.add({.where = place,
+              .value = fmt::format("{} = {:g}: the {}", column.name, value, column.what),
+              .rule = fmt::format("must be {}", range_of(column)),
+              .fix = "correct the reading or leave it out."});
   return false;
 }
 
-void check_reading(const Method& method, const BenchReading& reading, base::ErrorList& errors) {
+void check_reading(const Method& method, const BenchReading& reading, base::Faults& errors) {
   if (reading.values.size() != method.columns.size()) {
-    errors.add(fmt::format("{}: {} values are given for {} columns. Fix: give one for each.",
-                           reading.place, reading.values.size(), method.columns.size()));
+    errors.add({.where = reading.place,
+                .value = fmt::format("{} values are given for {} columns", reading.values.size(),
+                                     method.columns.size()),
+                .fix = "give one for each."});
     return;
   }
   bool are_possible = true;
@@ -92,24 +93,25 @@ void check_reading(const Method& method, const BenchReading& reading, base::Erro
     are_possible &= is_possible(reading.place, column, given->second, errors);
   }
   if (!are_possible || !method.error) return;
-  if (const auto error = method.error(values_of(reading))) {
-    errors.add(fmt::format("{}: {}", reading.place, *error));
+  if (auto fault = method.error(values_of(reading))) {
+    fault->where = reading.place;
+    errors.add(*std::move(fault));
   }
 }
 
 /// Results with and without what an optional column is for have no common mean.
 void check_all_or_none(const Method& method, std::span<const BenchReading> readings,
-                       base::ErrorList& errors) {
+                       base::Faults& errors) {
   for (const ReadingColumn& column : method.optional_columns) {
     const auto lacks = [&](const BenchReading& reading) {
       return !reading.optional.contains(column.name);
     };
     const auto lacking = std::find_if(readings.begin(), readings.end(), lacks);
     if (lacking == readings.end() || std::all_of(readings.begin(), readings.end(), lacks)) continue;
-    errors.add(
-        fmt::format("{}: has no {}, which other readings have. Rule: all of them or none. Fix: "
-                    "give the {} here, too.",
-                    lacking->place, column.name, column.what));
+    errors.add({.where = lacking->place,
+                .value = fmt::format("has no {}, which other readings have", column.name),
+                .rule = "all of them or none",
+                .fix = fmt::format("give the {} here, too.", column.what)});
   }
 }
 
@@ -210,7 +212,8 @@ std::vector<double> sample_means(BenchTest test, std::string_view column,
   const auto found = std::find_if(columns.begin(), columns.end(),
                                   [&](const ReadingColumn& one) { return one.name == column; });
   if (found == columns.end()) {
-    throw std::invalid_argument(fmt::format("{}: is no column of this bench test", column));
+    throw base::InputError(
+        {.where = std::string(column), .value = "is no column of this bench test"});
   }
   const auto index = static_cast<std::size_t>(found - columns.begin());
   return sample_means(readings, [index](ReadingValues values) { return values[index]; });
@@ -219,7 +222,7 @@ std::vector<double> sample_means(BenchTest test, std::string_view column,
 void check_readings(BenchTest test, std::span<const BenchReading> readings) {
   const Method method = method_of(test);
   constexpr std::size_t kMostErrors = 10;  // a table may have a million rows
-  base::ErrorList errors(kMostErrors);
+  base::Faults errors(kMostErrors);
   for (const BenchReading& reading : readings) check_reading(method, reading, errors);
   check_all_or_none(method, readings, errors);
   errors.throw_if_any();
@@ -227,13 +230,13 @@ void check_readings(BenchTest test, std::span<const BenchReading> readings) {
 
 BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings) {
   if (readings.empty()) {
-    throw std::invalid_argument("bench: no readings. Fix: give at least one.");
+    throw base::InputError({.where = "bench", .value = "no readings", .fix = "give at least one."});
   }
   check_readings(test, readings);
   const Method method = method_of(test);
   if (method.error_of_all) {
-    if (const auto error = method.error_of_all(values_of(readings))) {
-      throw std::invalid_argument(*error);
+    if (auto fault = method.error_of_all(values_of(readings))) {
+      throw base::InputError(*std::move(fault));
     }
   }
   BenchResult result{.quantities = {}, .source = method.source, .notes = {}};

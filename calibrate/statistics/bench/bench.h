@@ -64,11 +64,11 @@ struct BenchReading {
 };
 
 /// A column's mean over the repeats on each sample, samples in the order of their first reading.
-/// @throws std::invalid_argument  the test has no such column.
+/// @throws base::InputError  the test has no such column.
 std::vector<double> sample_means(BenchTest test, std::string_view column,
                                  std::span<const BenchReading> readings);
 
-/// @throws std::invalid_argument  every impossible reading, a line each: a rebound higher than the
+/// @throws base::InputError  every impossible reading, a line each: a rebound higher than the
 /// drop, an incline of 90 degrees or more, Poisson's ratio outside (-1, 0.5), what is not finite,
 /// and so on; an optional column that some readings have and others have not. Checked by
 /// tests/calibrate/bench_test.cpp.
@@ -92,7 +92,7 @@ struct BenchResult {
 /// standard deviation, Student's 95 % interval of the mean. Averages first, because repeats on one
 /// grain say nothing about how much grains differ.
 ///
-/// @throws std::invalid_argument  as check_readings; or there are no readings.
+/// @throws base::InputError  as check_readings; or there are no readings.
 BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> readings);
 
 }  // namespace repose::calibrate

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
+#include "base/units.h"
 #include "calibrate/statistics/bench/formulas.h"
 #include "calibrate/statistics/bench/method.h"
 #include "calibrate/statistics/bench/units.h"
@@ -32,16 +34,16 @@ Method pendulum_method() {
                    kRightAngle_deg}},
       .outputs = {{"restitution", "", "coefficient of restitution e",
                    [](ReadingValues v) {
-                     return pendulum_restitution_of(v[0] * kRadPerDeg, v[1] * kRadPerDeg);
+                     return pendulum_restitution_of(v[0] * kDegree, v[1] * kDegree);
                    },
                    0, 1}},
-      .error = [](ReadingValues v) -> std::optional<std::string> {
+      .error = [](ReadingValues v) -> std::optional<base::Fault> {
         if (v[1] <= v[0]) return std::nullopt;
-        return fmt::format(
-            "swing_deg = {:g} is more than release_deg = {:g}, and the struck grain swings no "
-            "higher than the other fell. Fix: use two grains of the same mass on strings of "
-            "the same length.",
-            v[1], v[0]);
+        return base::Fault{.subject = "swing_deg",
+                           .value = fmt::format("= {:g} is more than release_deg = {:g}, and the "
+                                                "struck grain swings no higher than the other fell",
+                                                v[1], v[0]),
+                           .fix = "use two grains of the same mass on strings of the same length."};
       },
       .validity =
           "Holds for equal balls that meet head-on: what grains that are no spheres lose to spin "

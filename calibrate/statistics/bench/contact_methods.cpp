@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/air_drag.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/statistics/bench/formulas.h"
 #include "calibrate/statistics/bench/method.h"
@@ -52,46 +53,51 @@ double restitution(ReadingValues v) {
   return grain ? restitution_without_air(v, *grain) : restitution_as_read(v);
 }
 
-std::optional<std::string> drop_error(ReadingValues v) {
+std::optional<base::Fault> drop_error(ReadingValues v) {
   const double in_air = v.given(std::string(kInAirColumn)).value_or(1);
   if (in_air != 0 && in_air != 1) {
-    return fmt::format(
-        "{} = {:g}. Rule: 1 for heights read in air, 0 for those of a fall without "
-        "it. Fix: take the column out for 1.",
-        kInAirColumn, in_air);
+    return base::Fault{.value = fmt::format("{} = {:g}", kInAirColumn, in_air),
+                       .rule = "1 for heights read in air, 0 for those of a fall without it",
+                       .fix = "take the column out for 1."};
   }
   if (v[kRebound] > v[kDrop]) {
-    return fmt::format(
-        "rebound_mm = {:g} is more than drop_mm = {:g}, but no grain rebounds higher than "
-        "it fell. Fix: give both in mm, from the same point of the grain.",
-        v[kRebound], v[kDrop]);
+    return base::Fault{
+        .subject = "rebound_mm",
+        .value = fmt::format(
+            "= {:g} is more than drop_mm = {:g}, but no grain rebounds higher than it fell",
+            v[kRebound], v[kDrop]),
+        .fix = "give both in mm, from the same point of the grain."};
   }
   if (v.given(kDiameter).has_value() != v.given(kDensity).has_value()) {
-    return fmt::format(
-        "{} is given without {}. Rule: the drag of the air follows from both. Fix: give both, or "
-        "neither.",
-        v.given(kDiameter) ? kDiameter : kDensity, v.given(kDiameter) ? kDensity : kDiameter);
+    return base::Fault{
+        .value = fmt::format("{} is given without {}", v.given(kDiameter) ? kDiameter : kDensity,
+                             v.given(kDiameter) ? kDensity : kDiameter),
+        .rule = "the drag of the air follows from both",
+        .fix = "give both, or neither."};
   }
   const auto grain = grain_in_air(v);
   if (!grain || restitution_without_air(v, *grain) <= 1) return std::nullopt;
-  return fmt::format(
-      "rebound_mm = {:g} after drop_mm = {:g}: a grain of {} = {:g} and {} = {:g} cannot rise so "
-      "high in air. Fix: check the grain's diameter and density.",
-      v[kRebound], v[kDrop], kDiameter, *v.given(kDiameter), kDensity, *v.given(kDensity));
+  return base::Fault{.subject = "rebound_mm",
+                     .value = fmt::format("= {:g} after drop_mm = {:g}: a grain of {} = {:g} and "
+                                          "{} = {:g} cannot rise so high in air",
+                                          v[kRebound], v[kDrop], kDiameter, *v.given(kDiameter),
+                                          kDensity, *v.given(kDensity)),
+                     .fix = "check the grain's diameter and density."};
 }
 
 /// With and without the air's drag, heights mean different numbers, and their mean none.
-std::optional<std::string> mixed_air_error(std::span<const ReadingValues> readings) {
+std::optional<base::Fault> mixed_air_error(std::span<const ReadingValues> readings) {
   const auto in_air = std::ranges::count_if(readings, is_in_air);
   if (in_air == 0 || in_air == std::ssize(readings) ||
       grain_in_air(*std::ranges::find_if(readings, is_in_air))) {
     return std::nullopt;
   }
-  return fmt::format(
-      "{} of {} heights were read in air, the others are free of its drag ({} = 0). Rule: such "
-      "heights have no common mean until the drag is taken out. Fix: give {} and {}, too, or make "
-      "two tables of them.",
-      in_air, readings.size(), kInAirColumn, kDiameter, kDensity);
+  return base::Fault{
+      .value =
+          fmt::format("{} of {} heights were read in air, the others are free of its drag ({} = 0)",
+                      in_air, readings.size(), kInAirColumn),
+      .rule = "such heights have no common mean until the drag is taken out",
+      .fix = fmt::format("give {} and {}, too, or make two tables of them.", kDiameter, kDensity)};
 }
 
 std::vector<std::string> remarks_on_air(std::span<const ReadingValues> readings) {
@@ -128,7 +134,7 @@ std::vector<std::string> remarks_on_air(std::span<const ReadingValues> readings)
 }
 
 double rolling_friction(ReadingValues v) {
-  const double incline = v[kIncline] * kRadPerDeg;
+  const double incline = v[kIncline] * kDegree;
   const double released_m = v[kReleased] * kMPerMm;
   const double stopped_m = v[kStopped] * kMPerMm;
   const auto diameter_mm = v.given(kDiameter);
@@ -138,7 +144,7 @@ double rolling_friction(ReadingValues v) {
 }
 
 double foot_mm(ReadingValues v, double diameter_mm) {
-  return foot_distance_m(v[kIncline] * kRadPerDeg, diameter_mm * kMPerMm / 2) * kMmPerM;
+  return foot_distance_m(v[kIncline] * kDegree, diameter_mm * kMPerMm / 2) * kMmPerM;
 }
 
 /// Of a grain that stayed on the incline, however often it was let go.
@@ -151,22 +157,24 @@ bool can_stop_there(ReadingValues v, double diameter_mm) {
   return v[kReleased] > foot && (has_stayed(v) || v[kStopped] > foot);
 }
 
-std::optional<std::string> roll_error(ReadingValues v) {
+std::optional<base::Fault> roll_error(ReadingValues v) {
   const auto diameter_mm = v.given(kDiameter);
   if (!diameter_mm || can_stop_there(v, *diameter_mm)) return std::nullopt;
   const bool is_released = v[kReleased] <= v[kStopped] || has_stayed(v);
-  return fmt::format(
-      "{} = {:g}: a ball of {} = {:g} in the corner lies {:.4g} mm from the foot, d/2 tan(b/2). "
-      "Rule: more than that, or stopped_mm = 0 for one that never left the incline. Fix: measure "
-      "from the foot to the ball's centre, along the plane that "
-      "it lies on, or correct the diameter.",
-      is_released ? "released_mm" : "stopped_mm", is_released ? v[kReleased] : v[kStopped],
-      kDiameter, *diameter_mm, foot_mm(v, *diameter_mm));
+  return base::Fault{
+      .value = fmt::format(
+          "{} = {:g}: a ball of {} = {:g} in the corner lies {:.4g} mm from the foot, d/2 tan(b/2)",
+          is_released ? "released_mm" : "stopped_mm", is_released ? v[kReleased] : v[kStopped],
+          kDiameter, *diameter_mm, foot_mm(v, *diameter_mm)),
+      .rule = "more than that, or stopped_mm = 0 for one that never left the incline",
+      .fix =
+          "measure from the foot to the ball's centre, along the plane that it lies on, or correct "
+          "the diameter."};
 }
 
 std::string remark_on_foot(std::span<const ReadingValues> readings) {
   const double neglected = mean_of(readings, [](ReadingValues v) {
-    return rolling_friction_of(v[kIncline] * kRadPerDeg, v[kReleased] * kMPerMm,
+    return rolling_friction_of(v[kIncline] * kDegree, v[kReleased] * kMPerMm,
                                v[kStopped] * kMPerMm);
   });
   if (readings.front().given(kDiameter)) {
@@ -177,7 +185,7 @@ std::string remark_on_foot(std::span<const ReadingValues> readings) {
   }
   const auto with_foot = [&](double diameter_m) {
     return mean_of(readings, [&](ReadingValues v) {
-      return rolling_friction_of(v[kIncline] * kRadPerDeg, v[kReleased] * kMPerMm,
+      return rolling_friction_of(v[kIncline] * kDegree, v[kReleased] * kMPerMm,
                                  v[kStopped] * kMPerMm, diameter_m / 2);
     });
   };
@@ -234,7 +242,7 @@ Method sliding_method() {
   return {.source = "mu_s = tan(angle)",
           .columns = {{"angle_deg", "angle of the incline at which it slides", 0, kRightAngle_deg}},
           .outputs = {{"sliding_friction", "", "coefficient of static friction mu_s",
-                       [](ReadingValues v) { return sliding_friction_of(v[0] * kRadPerDeg); }}},
+                       [](ReadingValues v) { return sliding_friction_of(v[0] * kDegree); }}},
           .error = {},
           .validity = "Holds for grains that cannot roll: bond two or three together."};
 }

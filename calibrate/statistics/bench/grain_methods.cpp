@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/statistics/bench/formulas.h"
 #include "calibrate/statistics/bench/method.h"
@@ -24,27 +25,29 @@ double poisson(ReadingValues v) { return poisson_ratio_of(v[3], v[2], v[1], v[0]
 }  // namespace
 
 Method density_method() {
-  return {.source = "rho = m / V",
-          .columns = {{"mass_g", "mass m"},
-                      {"before_ml", "liquid's level before", kFromZero},
-                      {"after_ml", "and with the grain in it: V is the difference"}},
-          .outputs = {{"density", "kg/m³", "density rho", density}},
-          .error = [](ReadingValues v) -> std::optional<std::string> {
-            if (v[2] <= v[1]) {
-              return fmt::format(
-                  "after_ml = {:g} is not more than before_ml = {:g}: no liquid was displaced. "
-                  "Fix: read the level again, or leave the reading out.",
-                  v[2], v[1]);
-            }
-            constexpr double kLightest = 10, kHeaviest = 25000;  // foam, osmium
-            const double density_kg_m3 = density(v);
-            if (density_kg_m3 >= kLightest && density_kg_m3 <= kHeaviest) return std::nullopt;
-            return fmt::format(
-                "{:g} g in {:g} ml are {:.4g} kg/m³, and no grain is. Fix: give the mass in g and "
-                "the levels in ml.",
-                v[0], v[2] - v[1], density_kg_m3);
-          },
-          .validity = "Air that clings to the grain, and liquid that it soaks up, count as well."};
+  return {
+      .source = "rho = m / V",
+      .columns = {{"mass_g", "mass m"},
+                  {"before_ml", "liquid's level before", kFromZero},
+                  {"after_ml", "and with the grain in it: V is the difference"}},
+      .outputs = {{"density", "kg/m³", "density rho", density}},
+      .error = [](ReadingValues v) -> std::optional<base::Fault> {
+        if (v[2] <= v[1]) {
+          return base::Fault{
+              .subject = "after_ml",
+              .value = fmt::format(
+                  "= {:g} is not more than before_ml = {:g}: no liquid was displaced", v[2], v[1]),
+              .fix = "read the level again, or leave the reading out."};
+        }
+        constexpr double kLightest = 10, kHeaviest = 25000;  // foam, osmium
+        const double density_kg_m3 = density(v);
+        if (density_kg_m3 >= kLightest && density_kg_m3 <= kHeaviest) return std::nullopt;
+        return base::Fault{
+            .value = fmt::format("{:g} g in {:g} ml are {:.4g} kg/m³, and no grain is", v[0],
+                                 v[2] - v[1], density_kg_m3),
+            .fix = "give the mass in g and the levels in ml."};
+      },
+      .validity = "Air that clings to the grain, and liquid that it soaks up, count as well."};
 }
 
 Method young_method() {
@@ -54,12 +57,12 @@ Method young_method() {
                       {"height_mm", "height of the grain, unloaded"},
                       {"compression_mm", "how much lower it is under the force"}},
           .outputs = {{"young_modulus", "Pa", "Young's modulus E", young}},
-          .error = [](ReadingValues v) -> std::optional<std::string> {
+          .error = [](ReadingValues v) -> std::optional<base::Fault> {
             if (v[3] < v[2]) return std::nullopt;
-            return fmt::format(
-                "compression_mm = {:g} is not less than height_mm = {:g}. Fix: give both in mm, "
-                "and the compression alone, not what is left.",
-                v[3], v[2]);
+            return base::Fault{
+                .subject = "compression_mm",
+                .value = fmt::format("= {:g} is not less than height_mm = {:g}", v[3], v[2]),
+                .fix = "give both in mm, and the compression alone, not what is left."};
           },
           .validity = "An apparent modulus: stress and strain of a whole grain are not uniform."};
 }
@@ -72,20 +75,22 @@ Method poisson_method() {
                       {"widening_mm", "how much wider it gets",
                        -std::numeric_limits<double>::infinity()}},
           .outputs = {{"poisson_ratio", "", "Poisson's ratio nu", poisson, -1, .5}},
-          .error = [](ReadingValues v) -> std::optional<std::string> {
+          .error = [](ReadingValues v) -> std::optional<base::Fault> {
             if (v[1] >= v[0]) {
-              return fmt::format(
-                  "shortening_mm = {:g} is not less than height_mm = {:g}. Fix: give both in mm, "
-                  "and the shortening alone, not what is left.",
-                  v[1], v[0]);
+              return base::Fault{
+                  .subject = "shortening_mm",
+                  .value = fmt::format("= {:g} is not less than height_mm = {:g}", v[1], v[0]),
+                  .fix = "give both in mm, and the shortening alone, not what is left."};
             }
             const double nu = poisson(v);
             if (nu > -1 && nu < .5) return std::nullopt;
-            return fmt::format(
-                "Poisson's ratio would be {:.4g}, and is between -1 and 0.5 for every stable "
-                "isotropic body. Fix: see that the height is along the force and the width across "
-                "it; if they are, the grain has yielded or cracked: leave the reading out.",
-                nu);
+            return base::Fault{
+                .value = fmt::format("Poisson's ratio would be {:.4g}, and is between -1 and 0.5 "
+                                     "for every stable isotropic body",
+                                     nu),
+                .fix =
+                    "see that the height is along the force and the width across it; if they are, "
+                    "the grain has yielded or cracked: leave the reading out."};
           },
           .validity = "Of an isotropic, elastic body under small strain."};
 }
@@ -103,12 +108,13 @@ Method size_method() {
                    [](ReadingValues v) { return geometric_mean_diameter_of(v[0], v[1], v[2]); }},
                   {"sphericity", "", "sphericity",
                    [](ReadingValues v) { return sphericity_of(v[0], v[1], v[2]); }, 0, 1}},
-      .error = [](ReadingValues v) -> std::optional<std::string> {
+      .error = [](ReadingValues v) -> std::optional<base::Fault> {
         if (v[0] >= std::max(v[1], v[2])) return std::nullopt;
-        return fmt::format(
-            "length_mm = {:g} is not the longest of {:g}, {:g} and {:g}, and sphericity is "
-            "defined by the longest. Fix: turn the grain, or write the longest first.",
-            v[0], v[0], v[1], v[2]);
+        return base::Fault{.subject = "length_mm",
+                           .value = fmt::format("= {:g} is not the longest of {:g}, {:g} and {:g}, "
+                                                "and sphericity is defined by the longest",
+                                                v[0], v[0], v[1], v[2]),
+                           .fix = "turn the grain, or write the longest first."};
       },
       .validity = "The standard deviations are how much grains differ, not errors."};
 }

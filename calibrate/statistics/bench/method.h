@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/bench/bench.h"
 
 namespace repose::calibrate {
@@ -46,15 +47,15 @@ struct Method {
   std::string source;
   std::vector<ReadingColumn> columns;
   std::vector<MethodOutput> outputs;
-  /// What is wrong with a reading whose single values are all possible: "what. Fix: ...".
-  std::function<std::optional<std::string>(ReadingValues)> error;
+  /// What is wrong with a reading whose single values are all possible.
+  std::function<std::optional<base::Fault>(ReadingValues)> error;
   /// What the number is and is not; always said.
   std::string validity;
   std::vector<ReadingColumn> optional_columns = {};
   /// What to know about these readings beside that, a sentence each.
   std::function<std::vector<std::string>(std::span<const ReadingValues>)> remarks = {};
-  /// What is wrong with readings together, each of which is possible: "what. Fix: ...".
-  std::function<std::optional<std::string>(std::span<const ReadingValues>)> error_of_all = {};
+  /// What is wrong with readings together, each of which is possible.
+  std::function<std::optional<base::Fault>(std::span<const ReadingValues>)> error_of_all = {};
 };
 
 ReadingColumn in_air_column();

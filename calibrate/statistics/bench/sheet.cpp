@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -52,12 +51,12 @@ std::map<std::string, double> optional_values_in(const Table& table, const Table
 /// has. Those that it has and must not are errors.
 std::vector<NumberColumn> needed_columns(const Table& table,
                                          const std::map<std::string, double>& constants,
-                                         BenchTest test, base::ErrorList& errors) {
+                                         BenchTest test, base::Faults& errors) {
   for (const auto& [name, value] : constants) {
     if (!table.column(name)) continue;
-    errors.add(
-        fmt::format("{}: has a column {}, and --set gives it too. Fix: leave one of them out.",
-                    table.name, name));
+    errors.add({.where = table.name,
+                .value = fmt::format("has a column {}, and --set gives it too", name),
+                .fix = "leave one of them out."});
   }
   std::vector<NumberColumn> needed;
   for (const auto& [name, what, above, below] : columns_of(test)) {
@@ -74,8 +73,9 @@ std::vector<NumberColumn> needed_columns(const Table& table,
 BenchTest bench_test_named(std::string_view name) {
   const auto found = std::find(kBenchTestNames.begin(), kBenchTestNames.end(), name);
   if (found == kBenchTestNames.end()) {
-    throw std::invalid_argument(fmt::format("bench test {}: unknown. Fix: choose {}.", name,
-                                            fmt::join(kBenchTestNames, ", ")));
+    throw base::InputError({.where = fmt::format("bench test {}", name),
+                            .value = "unknown",
+                            .fix = fmt::format("choose {}.", fmt::join(kBenchTestNames, ", "))});
   }
   return static_cast<BenchTest>(found - kBenchTestNames.begin());
 }
@@ -102,7 +102,7 @@ std::string text_of(const LeftOut& left_out, const std::filesystem::path& file) 
 
 Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
                  const std::map<std::string, double>& constants, NoRows no_rows,
-                 base::ErrorList& errors) {
+                 base::Faults& errors) {
   Table table = read_table(file, NoRows::allowed);
   const std::vector<std::string> names = column_names(test);
   const std::vector<std::string> optional = optional_column_names(test);
@@ -116,16 +116,17 @@ Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
     if (!is_used) sheet.left_out.push_back({"column " + column, "not a reading of this test"});
   }
   if (table.rows.empty() && no_rows == NoRows::refused) {
-    errors.add(
-        fmt::format("{}: no readings yet: fill in a row for each reading below its header, {}.",
-                    table.name, fmt::join(names, ", ")));
+    errors.add({.where = table.name,
+                .value = fmt::format(
+                    "no readings yet: fill in a row for each reading below its header, {}.",
+                    fmt::join(names, ", "))});
   }
   const std::vector<NumberColumn> needed = needed_columns(table, constants, test, errors);
   const std::set<int> unclear = unclear_lines(table, needed);
   try {
     numbers_of(table, needed);
-  } catch (const std::invalid_argument& error) {
-    errors.add(error.what());
+  } catch (const base::InputError& error) {
+    errors.add_all(error.faults());
   }
   const auto sample = table.column(kSampleColumn);
   for (const TableRow& row : table.rows) {

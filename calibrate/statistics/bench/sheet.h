@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "calibrate/statistics/bench/bench.h"
 #include "calibrate/statistics/left_out.h"
 #include "calibrate/statistics/table/table.h"
@@ -17,7 +17,7 @@ namespace repose::calibrate {
 /// The column that names the grain, which a sheet may have beside those of its test.
 inline constexpr std::string_view kSampleColumn = "sample";
 
-/// @throws std::invalid_argument  there is no such test.
+/// @throws base::InputError  there is no such test.
 BenchTest bench_test_named(std::string_view name);
 
 /// Of the columns that a sheet must have, and of those that it may have.
@@ -38,9 +38,9 @@ struct Sheet {
 /// same in all rows may be in `constants` instead of a column. Adds every error: columns that are
 /// missing or given twice, cells that are no numbers, no rows below the header unless that is
 /// allowed. Rows with such a cell are left out.
-/// @throws std::invalid_argument  it is no table, see parse_table.
+/// @throws base::InputError  it is no table, see parse_table.
 Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
                  const std::map<std::string, double>& constants, NoRows no_rows,
-                 base::ErrorList& errors);
+                 base::Faults& errors);
 
 }  // namespace repose::calibrate

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <numbers>
+#include "base/units.h"
 
 namespace repose::calibrate {
 
 constexpr double kM3PerMl = 1e-6;
 constexpr double kKgPerG = 1e-3;
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kRightAngle_deg = 90;
 
 /// A bound that 0 itself is above.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/design/design.h"
 #include "calibrate/statistics/factor_rules.h"
 
@@ -67,15 +68,16 @@ std::vector<std::vector<std::size_t>> behnken_blocks(std::size_t factors) {
 
 Design central_composite(const std::vector<Factor>& factors, const CompositeOptions& options) {
   constexpr std::size_t kLeast = 2, kMost = 6;
-  base::ErrorList errors;
+  base::Faults errors;
   check_factors(factors, kLeast, kMost, errors);
   check_count("centre runs", options.centre_runs, 0, kMaxCentreRuns, errors);
   if (options.alpha) {
     constexpr double kFarthest = 10;
     errors.require(*options.alpha > 0 && *options.alpha <= kFarthest,
-                   fmt::format("alpha = {:g}: must be more than 0 and at most {:g}. Fix: 1 is on "
-                               "the faces of the cube.",
-                               *options.alpha, kFarthest));
+                   {.subject = "alpha",
+                    .value = fmt::format("= {:g}:", *options.alpha),
+                    .rule = fmt::format("must be more than 0 and at most {:g}", kFarthest),
+                    .fix = "1 is on the faces of the cube."});
   }
   errors.throw_if_any();
 
@@ -94,7 +96,7 @@ Design central_composite(const std::vector<Factor>& factors, const CompositeOpti
 
 Design box_behnken(const std::vector<Factor>& factors, std::optional<int> centre_runs) {
   constexpr std::size_t kLeast = 3, kMost = 7, kSmall = 4;
-  base::ErrorList errors;
+  base::Faults errors;
   check_factors(factors, kLeast, kMost, errors);
   const int in_the_paper = factors.size() <= kSmall ? 3 : 6;
   check_count("centre runs", centre_runs.value_or(in_the_paper), 0, kMaxCentreRuns, errors);

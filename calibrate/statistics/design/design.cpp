@@ -4,8 +4,7 @@
 #include <set>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "base/input_error.h"
 #include "base/random.h"
 #include "calibrate/statistics/factor_rules.h"
 
@@ -36,7 +35,7 @@ std::string name_of(PointKind kind) {
 
 Design sweep(const std::vector<Factor>& factors, int levels) {
   constexpr std::size_t kMaxFactors = 20;
-  base::ErrorList errors;
+  base::Faults errors;
   check_factors(factors, 1, kMaxFactors, errors);
   check_count("levels", levels, 2, kMaxRuns, errors);
   errors.throw_if_any();
@@ -55,26 +54,32 @@ Design sweep(const std::vector<Factor>& factors, int levels) {
 
 Design line_of_runs(const std::vector<std::string>& names, const std::vector<double>& start,
                     const std::vector<double>& step, int runs) {
-  base::ErrorList errors;
+  base::Faults errors;
   check_count("runs", runs, 2, kMaxRuns, errors);
-  errors.require(!names.empty(), "no factor has a start and a step. Fix: name at least one.");
+  errors.require(!names.empty(),
+                 {.value = "no factor has a start and a step", .fix = "name at least one."});
   errors.require(start.size() == names.size() && step.size() == names.size(),
-                 "each factor must have one start and one step. Fix: give both for each.");
+                 {.value = "each factor",
+                  .rule = "must have one start and one step",
+                  .fix = "give both for each."});
   errors.throw_if_any();
   Design design;
   bool moves = false;
   std::set<std::string> known;
   for (std::size_t i = 0; i < names.size(); ++i) {
     errors.require(known.insert(names[i]).second,
-                   fmt::format("{}: is named twice. Fix: give each factor once.", names[i]));
-    errors.require(std::isfinite(start[i]) && std::isfinite(step[i]),
-                   fmt::format("{}: start and step must be finite. Fix: give numbers.", names[i]));
+                   {.where = names[i], .value = "is named twice", .fix = "give each factor once."});
+    errors.require(std::isfinite(start[i]) && std::isfinite(step[i]), {.where = names[i],
+                                                                       .value = "start and step",
+                                                                       .rule = "must be finite",
+                                                                       .fix = "give numbers."});
     moves = moves || step[i] != 0;
     // One coded unit is one step; a factor that stays has any range.
     const double half = step[i] != 0 ? step[i] : 1;
     design.factors.push_back({names[i], start[i] - half, start[i] + half});
   }
-  errors.require(moves, "all steps are 0: every run would be the same. Fix: give a step.");
+  errors.require(moves,
+                 {.value = "all steps are 0: every run would be the same", .fix = "give a step."});
   errors.throw_if_any();
   for (int k = 0; k < runs; ++k) {
     DesignRun run{.coded = {}, .kind = PointKind::step, .standard = k + 1};

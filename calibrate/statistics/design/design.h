@@ -9,7 +9,7 @@
 
 /// Experiment designs: which runs to make so that a response surface can be fitted to their
 /// results. Runs are in standard order, levels coded: -1 and +1 are a factor's low and high. Each
-/// function throws std::invalid_argument with every error, a line each. THEORY.md has the
+/// function throws base::InputError with every error, a line each. THEORY.md has the
 /// definitions, tests/calibrate/design_test.cpp the proofs.
 namespace repose::calibrate {
 

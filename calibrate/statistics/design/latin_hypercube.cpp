@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/input_error.h"
 #include "base/random.h"
 #include "calibrate/statistics/design/design.h"
 #include "calibrate/statistics/factor_rules.h"
@@ -106,7 +107,7 @@ Hypercube best_hypercube(std::size_t runs, std::size_t factors, std::uint64_t se
 }  // namespace
 
 Design latin_hypercube(const std::vector<Factor>& factors, int runs, std::uint64_t seed) {
-  base::ErrorList errors;
+  base::Faults errors;
   check_factors(factors, 1, kMaxFactors, errors);
   check_count("runs", runs, 2, kMaxLatinRuns, errors);
   errors.throw_if_any();

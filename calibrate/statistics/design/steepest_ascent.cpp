@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 
 namespace repose::calibrate {
 
@@ -14,16 +14,17 @@ Design steepest_ascent(const Regression& regression, int runs, double stride, bo
   for (const Coefficient& coefficient : regression.coefficients) {
     if (!coefficient.term.empty()) steepest = std::max(steepest, std::abs(coefficient.value));
   }
-  base::ErrorList errors;
+  base::Faults errors;
   errors.require(regression.model == SurfaceModel::linear,
-                 "steepest ascent follows a plane. Fix: fit a linear model.");
+                 {.value = "steepest ascent follows a plane", .fix = "fit a linear model."});
   errors.require(std::isfinite(stride) && stride > 0,
-                 fmt::format("stride = {:g}: must be more than 0. Fix: 0.5 is half of the range "
-                             "from the centre to a factor's high level.",
-                             stride));
+                 {.subject = "stride",
+                  .value = fmt::format("= {:g}:", stride),
+                  .rule = "must be more than 0",
+                  .fix = "0.5 is half of the range from the centre to a factor's high level."});
   errors.require(steepest > 0,
-                 "the fitted surface is level: no direction leads up or down. Fix: "
-                 "name factors that matter.");
+                 {.value = "the fitted surface is level: no direction leads up or down",
+                  .fix = "name factors that matter."});
   errors.throw_if_any();
 
   std::vector<std::string> names;

@@ -10,7 +10,7 @@ namespace repose::calibrate {
 /// `stride`. Box and Wilson (1951); Montgomery, sec. 11.2. Proved by SteepestAscent.* in
 /// tests/calibrate/design_test.cpp.
 ///
-/// @throws std::invalid_argument  every error: a model with other terms, a stride that is not above
+/// @throws base::InputError  every error: a model with other terms, a stride that is not above
 /// 0, a level surface, too few runs.
 Design steepest_ascent(const Regression& regression, int runs, double stride, bool descends);
 

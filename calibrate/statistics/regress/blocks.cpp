@@ -32,25 +32,29 @@ std::size_t block_columns_of(const RunTable& table) {
   return table.blocks && !table.blocks->labels.empty() ? table.blocks->labels.size() - 1 : 0;
 }
 
-void check_blocks(const RunTable& table, base::ErrorList& errors) {
+void check_blocks(const RunTable& table, base::Faults& errors) {
   if (!table.blocks) return;
   const Blocks& blocks = *table.blocks;
   const auto is_known = [&](std::size_t block) { return block < blocks.labels.size(); };
   if (blocks.of_runs.size() != table.responses.size() ||
       !std::all_of(blocks.of_runs.begin(), blocks.of_runs.end(), is_known)) {
-    errors.add(fmt::format("{}: {} has {} values for {} runs. Fix: give one for each run.",
-                           table.name, blocks.name, blocks.of_runs.size(), table.responses.size()));
+    errors.add({.where = table.name,
+                .value = fmt::format("{} has {} values for {} runs", blocks.name,
+                                     blocks.of_runs.size(), table.responses.size()),
+                .fix = "give one for each run."});
     return;
   }
   errors.require(blocks.labels.size() > 1,
-                 fmt::format("{}: {} is the same in every run. Rule: two blocks or more. Fix: "
-                             "leave the blocks out.",
-                             table.name, blocks.name));
-  errors.require(varies_within(blocks, table.responses),
-                 fmt::format("{}: {} only differs between the blocks of {}, not within any. Fix: "
-                             "there is nothing to explain: name another response or leave the "
-                             "blocks out.",
-                             table.name, table.response_name, blocks.name));
+                 {.where = table.name,
+                  .value = fmt::format("{} is the same in every run", blocks.name),
+                  .rule = "two blocks or more",
+                  .fix = "leave the blocks out."});
+  errors.require(
+      varies_within(blocks, table.responses),
+      {.where = table.name,
+       .value = fmt::format("{} only differs between the blocks of {}, not within any",
+                            table.response_name, blocks.name),
+       .fix = "there is nothing to explain: name another response or leave the blocks out."});
 }
 
 void add_block_columns(const Blocks& blocks, MatrixXd& design) {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "calibrate/statistics/regress/regression.h"
 
 /// Blocks in the model matrix: b - 1 columns that are 1 in a block, -1 in the last one and 0 in all
@@ -19,7 +19,7 @@ bool varies_within(const Blocks& blocks, const std::vector<double>& values);
 std::size_t block_columns_of(const RunTable& table);
 
 /// Adds every error: a block for each run, two blocks or more, a response that varies within them.
-void check_blocks(const RunTable& table, base::ErrorList& errors);
+void check_blocks(const RunTable& table, base::Faults& errors);
 
 /// Fills in the last columns of the model matrix.
 void add_block_columns(const Blocks& blocks, Eigen::MatrixXd& design);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/regress/surface.h"
 
 namespace repose::calibrate {
@@ -62,15 +63,16 @@ bool looks_like_absolute_error(const Regression& regression, const SurfacePoint&
 }
 
 void diagnostic_response(const Regression& regression, const SurfacePoint& lowest,
-                         std::vector<SurfaceDiagnostic>& diagnostics) {
+                         base::FieldNames names, std::vector<SurfaceDiagnostic>& diagnostics) {
   if (looks_like_absolute_error(regression, lowest)) {
     diagnostics.push_back(
         {"absolute_error",
          fmt::format("{} looks like an absolute error: it is never negative, many runs are close "
                      "to 0, and it seems to have a kink there, which no such surface can follow. "
                      "Fit the quantity itself, with its sign, and give the measured value as "
-                     "target value.",
-                     regression.response_name)});
+                     "{}.",
+                     regression.response_name,
+                     base::with_names(base::field("target value"), names))});
   }
   const std::vector<double> responses = responses_of(regression);
   if (*std::min_element(responses.begin(), responses.end()) >= 0 && lowest.value < 0) {
@@ -207,9 +209,10 @@ void diagnostic_target(const Regression& regression, const BoxExtremes& extremes
 std::vector<SurfaceDiagnostic> diagnostics_of(const Regression& regression,
                                               const std::optional<CanonicalForm>& form,
                                               const BoxExtremes& extremes,
-                                              const std::optional<TargetSet>& target) {
+                                              const std::optional<TargetSet>& target,
+                                              base::FieldNames names) {
   std::vector<SurfaceDiagnostic> diagnostics;
-  diagnostic_response(regression, extremes.least, diagnostics);
+  diagnostic_response(regression, extremes.least, names, diagnostics);
   diagnostic_fit(regression, diagnostics);
   diagnostic_blocks(regression, diagnostics);
   if (form) diagnostic_optimum(regression, *form, diagnostics);

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/distributions.h"
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "calibrate/statistics/regress/blocks.h"
 #include "calibrate/statistics/regress/quadratic.h"
 
@@ -31,45 +31,53 @@ bool is_constant(const std::vector<double>& values) {
 }
 
 void check_column(const RunTable& table, const std::string& column,
-                  const std::vector<double>& values, const char* fix, base::ErrorList& errors) {
+                  const std::vector<double>& values, const char* fix, base::Faults& errors) {
   const auto is_finite = [](double value) { return std::isfinite(value); };
   errors.require(values.size() == table.responses.size(),
-                 fmt::format("{}: {} has {} values for {} runs. Fix: give one for each run.",
-                             table.name, column, values.size(), table.responses.size()));
+                 {.where = table.name,
+                  .value = fmt::format("{} has {} values for {} runs", column, values.size(),
+                                       table.responses.size()),
+                  .fix = "give one for each run."});
   if (!std::all_of(values.begin(), values.end(), is_finite)) {
-    errors.add(fmt::format("{}: {} has values that are not finite. Fix: leave those runs out.",
-                           table.name, column));
+    errors.add({.where = table.name,
+                .value = fmt::format("{} has values that are not finite", column),
+                .fix = "leave those runs out."});
   } else if (!values.empty() && is_constant(values)) {
-    errors.add(fmt::format("{}: {} is {:g} in every run. Fix: {}.", table.name, column,
-                           values.front(), fix));
+    errors.add({.where = table.name,
+                .value = fmt::format("{} is {:g} in every run", column, values.front()),
+                .fix = fmt::format("{}.", fix)});
   }
 }
 
-void check(const RunTable& table, std::size_t terms, base::ErrorList& errors) {
+void check(const RunTable& table, std::size_t terms, base::Faults& errors) {
   const std::size_t factors = table.factors.size();
   errors.require(factors >= 1 && factors <= kMaxRegressed && factors == table.levels.size(),
-                 fmt::format("{}: {} factors. Rule: 1 to {}. Fix: name the factor columns that "
-                             "matter.",
-                             table.name, factors, kMaxRegressed));
+                 {.where = table.name,
+                  .value = fmt::format("{} factors", factors),
+                  .rule = fmt::format("1 to {}", kMaxRegressed),
+                  .fix = "name the " + base::field("factor columns") + " that matter."});
   for (std::size_t i = 0; i < std::min(factors, table.levels.size()); ++i) {
     const Factor& factor = table.factors[i];
     check_column(table, factor.name, table.levels[i], "leave this factor out", errors);
     errors.require(
         std::isfinite(factor.low) && std::isfinite(factor.high) && factor.low < factor.high,
-        fmt::format("{} = {:g}:{:g}: the lower level must be below the higher. Fix: "
-                    "{}=MIN:MAX.",
-                    factor.name, factor.low, factor.high, factor.name));
+        {.value =
+             fmt::format("{} = {:g}:{:g}: the lower level", factor.name, factor.low, factor.high),
+         .rule = "must be below the higher",
+         .fix = fmt::format("{}=MIN:MAX.", factor.name)});
   }
   check_column(table, table.response_name, table.responses,
                "there is nothing to explain: name another response", errors);
   check_blocks(table, errors);
   const std::size_t blocks = block_columns_of(table);
   errors.require(table.responses.size() > terms + blocks,
-                 fmt::format("{}: {} runs for the {} terms of the model{}. Rule: more runs than "
-                             "terms. Fix: make more runs, or choose the linear model or fewer "
-                             "factor columns.",
-                             table.name, table.responses.size(), terms,
-                             blocks == 0 ? "" : fmt::format(" and {} more for blocks", blocks)));
+                 {.where = table.name,
+                  .value = fmt::format(
+                      "{} runs for the {} terms of the model{}", table.responses.size(), terms,
+                      blocks == 0 ? "" : fmt::format(" and {} more for blocks", blocks)),
+                  .rule = "more runs than terms",
+                  .fix = fmt::format("make more runs, or choose the {} or fewer {}.",
+                                     base::field("linear model"), base::field("factor columns"))});
 }
 
 std::vector<FittedRun> coded_runs(const RunTable& table) {
@@ -127,12 +135,15 @@ void check_rank(const RunTable& table, const Regression& regression,
       });
   if (told_by_blocks != table.levels.end()) {
     const auto at = static_cast<std::size_t>(told_by_blocks - table.levels.begin());
-    throw std::invalid_argument(fmt::format(
-        "{}: {} is the same throughout each block of {}, so that the runs cannot tell its effect "
-        "from theirs. Fix: choose no blocks, if only {} differs between them; otherwise leave {} "
-        "out of the factor columns, or make runs at several levels in each block.",
-        table.name, table.factors[at].name, table.blocks->name, table.factors[at].name,
-        table.factors[at].name));
+    throw base::InputError(
+        {.where = table.name,
+         .value = fmt::format("{} is the same throughout each block of {}, so that the runs cannot "
+                              "tell its effect from theirs",
+                              table.factors[at].name, table.blocks->name),
+         .fix = fmt::format("{}, if only {} differs between them; otherwise leave {} out of the "
+                            "{}, or make runs at several levels in each block.",
+                            base::field("choose no blocks"), table.factors[at].name,
+                            table.factors[at].name, base::field("factor columns"))});
   }
   std::vector<std::string> names;
   for (Index k = rank; k < decomposition.qr.cols(); ++k) {
@@ -147,11 +158,13 @@ void check_rank(const RunTable& table, const Regression& regression,
     names.push_back(term.empty() ? "the constant" : name_of(term, regression.factors));
   }
   std::sort(names.begin(), names.end());
-  throw std::invalid_argument(
-      fmt::format("{}: the runs cannot tell {} from other terms{}. Rule: a square needs three "
-                  "levels of its factor, and no term may follow from others. Fix: choose the "
-                  "linear model or fewer factor columns, or a design made for the model.",
-                  table.name, fmt::join(names, ", "), table.blocks ? " or blocks" : ""));
+  throw base::InputError(
+      {.where = table.name,
+       .value = fmt::format("the runs cannot tell {} from other terms{}", fmt::join(names, ", "),
+                            table.blocks ? " or blocks" : ""),
+       .rule = "a square needs three levels of its factor, and no term may follow from others",
+       .fix = fmt::format("choose the {} or fewer {}, or a design made for the model.",
+                          base::field("linear model"), base::field("factor columns"))});
 }
 
 /// F of a variance against an error's; none where the error is nothing but rounding.
@@ -313,7 +326,7 @@ double Regression::standard_error(std::span<const double> coded) const {
 
 Regression regress(const RunTable& table, SurfaceModel model) {
   const std::vector<Term> terms = terms_of(model, table.factors.size());
-  base::ErrorList errors;
+  base::Faults errors;
   check(table, terms.size(), errors);
   errors.throw_if_any();
 

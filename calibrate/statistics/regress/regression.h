@@ -126,7 +126,7 @@ struct Regression {
 /// tests/calibrate/regress_test.cpp: the hazelnut study's printed analysis, R's lm, and NIST's
 /// Longley problem.
 ///
-/// @throws std::invalid_argument  every error: no factors or more than 8, a constant factor or
+/// @throws base::InputError  every error: no factors or more than 8, a constant factor or
 /// response, not more runs than terms and blocks, values that are not finite, terms that the design
 /// cannot tell from others or from blocks.
 Regression regress(const RunTable& table, SurfaceModel model);

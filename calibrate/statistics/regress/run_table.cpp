@@ -6,14 +6,12 @@
 #include <initializer_list>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/error_list.h"
 #include "calibrate/statistics/table/other_rows.h"
 
 namespace repose::calibrate {
@@ -114,14 +112,14 @@ bool sounds_like_blocks(const std::string& name) {
 /// Says of each column what it is.
 class ColumnSorter {
  public:
-  ColumnSorter(const Table& table, const RunColumns& wanted, base::ErrorList& errors)
+  ColumnSorter(const Table& table, const RunColumns& wanted, base::Faults& errors)
       : table_(table), wanted_(wanted), factors_(wanted.factors), blocks_(wanted.blocks) {
     if (blocks_ == kNoBlocks) blocks_.clear();
     for (std::size_t place = 0; place < table.columns.size(); ++place) look_at(place);
     if (candidates_.size() > 1) {
-      errors.add(
-          fmt::format("{}: {} may all be blocks. Fix: name one of them as blocks column, or none.",
-                      table.name, fmt::join(candidates_, ", ")));
+      errors.add({.where = table.name,
+                  .value = fmt::format("{} may all be blocks", fmt::join(candidates_, ", ")),
+                  .fix = "name one of them as " + base::field("blocks column") + ", or none."});
     } else if (!candidates_.empty()) {
       blocks_ = candidates_.front();
     }
@@ -161,13 +159,13 @@ class ColumnSorter {
       if (seeks_blocks && column.may_be_blocks() && sounds_like_blocks(name)) {
         notes_.push_back(
             fmt::format("{} holds numbers and is taken for a factor. If it only says which runs "
-                        "were made together, name it as blocks column.",
-                        name));
+                        "were made together, name it as {}.",
+                        name, base::with_names(base::field("blocks column"), wanted_.names)));
       }
     }
   }
 
-  void settle_counts(base::ErrorList& errors) {
+  void settle_counts(base::Faults& errors) {
     if (counts_.empty()) return;
     if (!factors_.empty()) {
       for (const std::string& name : counts_) {
@@ -179,9 +177,10 @@ class ColumnSorter {
     }
     factors_ = counts_;
     if (counts_.size() == 1) return;
-    errors.add(fmt::format(
-        "{}: {} hold each number once, as the order of runs does. Fix: name the factor columns.",
-        table_.name, fmt::join(counts_, ", ")));
+    errors.add({.where = table_.name,
+                .value = fmt::format("{} hold each number once, as the order of runs does",
+                                     fmt::join(counts_, ", ")),
+                .fix = "name the " + base::field("factor columns") + '.'});
   }
 
   void leave_out(const std::string& name, std::string why) {
@@ -202,16 +201,17 @@ class ColumnSorter {
 Blocks blocks_in(const Table& table, const std::string& name) {
   const auto place = table.column(name);
   if (!place) {
-    throw std::invalid_argument(fmt::format("{}: has no column {} for blocks. Fix: it has {}.",
-                                            table.name, name, fmt::join(table.columns, ", ")));
+    throw base::InputError({.where = table.name,
+                            .value = fmt::format("has no column {} for blocks", name),
+                            .fix = fmt::format("it has {}.", fmt::join(table.columns, ", "))});
   }
   Blocks blocks{.name = name, .labels = {}, .of_runs = {}};
   for (const TableRow& row : table.rows) {
     const std::string& label = row.cells[*place];
     if (label.empty()) {
-      throw std::invalid_argument(
-          fmt::format("{}:{}: {} is empty. Fix: write the run's block, or delete the row.",
-                      table.name, row.line, name));
+      throw base::InputError({.where = fmt::format("{}:{}", table.name, row.line),
+                              .value = fmt::format("{} is empty", name),
+                              .fix = "write the run's block, or delete the row."});
     }
     const auto known = std::find(blocks.labels.begin(), blocks.labels.end(), label);
     blocks.of_runs.push_back(static_cast<std::size_t>(known - blocks.labels.begin()));
@@ -252,30 +252,31 @@ Factor coding_of(const std::string& name, const std::vector<double>& levels,
 
 void check_names(const Table& table, const std::string& response,
                  const std::vector<std::string>& factors, const std::vector<Factor>& codings,
-                 base::ErrorList& errors) {
+                 base::Faults& errors) {
   for (std::size_t i = 0; i < factors.size(); ++i) {
     errors.require(factors[i] != response,
-                   fmt::format("{}: {} is the response, and no factor. Fix: leave it out of the "
-                               "factor columns.",
-                               table.name, response));
-    errors.require(
-        std::find(factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(i), factors[i]) ==
-            factors.begin() + static_cast<std::ptrdiff_t>(i),
-        fmt::format("{}: factor {} is named twice. Fix: name it once.", table.name, factors[i]));
+                   {.where = table.name,
+                    .value = fmt::format("{} is the response, and no factor", response),
+                    .fix = "leave it out of the " + base::field("factor columns") + '.'});
+    errors.require(std::find(factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(i),
+                             factors[i]) == factors.begin() + static_cast<std::ptrdiff_t>(i),
+                   {.where = table.name,
+                    .value = fmt::format("factor {} is named twice", factors[i]),
+                    .fix = "name it once."});
   }
   for (const Factor& coding : codings) {
-    errors.require(
-        std::find(factors.begin(), factors.end(), coding.name) != factors.end(),
-        fmt::format("{}: {} has a coding, but is none of the factors ({}). Fix: name one "
-                    "of them.",
-                    table.name, coding.name, fmt::join(factors, ", ")));
+    errors.require(std::find(factors.begin(), factors.end(), coding.name) != factors.end(),
+                   {.where = table.name,
+                    .value = fmt::format("{} has a coding, but is none of the factors ({})",
+                                         coding.name, fmt::join(factors, ", ")),
+                    .fix = "name one of them."});
   }
 }
 
 }  // namespace
 
 TableOfRuns runs_in(Table table, const RunColumns& columns) {
-  base::ErrorList errors;
+  base::Faults errors;
   const Names response = {columns.response};
   OtherRows other = take_other_rows(table, response, Unlabelled::noted, errors);
   ColumnSorter sorted(table, columns, errors);
@@ -291,13 +292,13 @@ TableOfRuns runs_in(Table table, const RunColumns& columns) {
   numbers.push_back({.name = columns.response});
   try {
     if (!sorted.blocks().empty()) runs.blocks = blocks_in(table, sorted.blocks());
-  } catch (const std::invalid_argument& error) {
-    errors.add(error.what());
+  } catch (const base::InputError& error) {
+    errors.add_all(error.faults());
   }
   try {
     runs.levels = numbers_of(table, numbers);
-  } catch (const std::invalid_argument& error) {
-    errors.add(error.what());
+  } catch (const base::InputError& error) {
+    errors.add_all(error.faults());
   }
   errors.throw_if_any();
   for (LeftOut& one : sorted.take_left_out()) result.left_out.push_back(std::move(one));

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/left_out.h"
 #include "calibrate/statistics/regress/regression.h"
 #include "calibrate/statistics/table/table.h"
@@ -17,6 +18,7 @@ struct RunColumns {
   std::vector<std::string> factors = {};  ///< empty: see runs_in
   std::string blocks = {};                ///< empty: see runs_in; kNoBlocks: there are none
   std::vector<Factor> codings = {};
+  base::FieldNames names = {};  ///< how the user gives "blocks column", for notes
 };
 
 inline constexpr std::string_view kNoBlocks = "none";
@@ -42,7 +44,7 @@ struct TableOfRuns {
 /// -1 and +1 and whose extremes are opposite is taken for coded already; any other has its lowest
 /// level at -1 and its highest at +1, of the runs whose `point` is "cube" where there are such.
 ///
-/// @throws std::invalid_argument  every error: missing columns, cells that are no numbers, a coding
+/// @throws base::InputError  every error: missing columns, cells that are no numbers, a coding
 /// for what is no factor, several columns that may be blocks, rows that look like a mean.
 TableOfRuns runs_in(Table table, const RunColumns& columns);
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/regress/regression.h"
 
 /// What a fitted surface says: its shape, its extremes within the runs' box, and where it takes a
@@ -101,9 +102,11 @@ struct SurfaceDiagnostic {
 };
 
 /// What a careful reader would object to; a sentence each.
+/// @param names  how the user gives "target value"
 std::vector<SurfaceDiagnostic> diagnostics_of(const Regression& regression,
                                               const std::optional<CanonicalForm>& form,
                                               const BoxExtremes& extremes,
-                                              const std::optional<TargetSet>& target);
+                                              const std::optional<TargetSet>& target,
+                                              base::FieldNames names = {});
 
 }  // namespace repose::calibrate

@@ -13,12 +13,13 @@ std::string name_in(const Names& names, Value value) {
 
 }  // namespace
 
-SurfaceReport report_on(Regression fit, const std::optional<WantedValue>& target) {
+SurfaceReport report_on(Regression fit, const std::optional<WantedValue>& target,
+                        base::FieldNames names) {
   SurfaceReport report;
   report.form = canonical_form(fit);
   report.extremes = extremes_in_box(fit);
   if (target) report.target = solve_target(fit, *target);
-  report.diagnostics = diagnostics_of(fit, report.form, report.extremes, report.target);
+  report.diagnostics = diagnostics_of(fit, report.form, report.extremes, report.target, names);
   report.fit = std::move(fit);
   return report;
 }

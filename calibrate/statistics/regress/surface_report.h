@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/regress/surface.h"
 
 namespace repose::calibrate {
@@ -21,7 +22,8 @@ struct SurfaceReport {
 };
 
 /// @param target  a response that is wanted
-SurfaceReport report_on(Regression fit, const std::optional<WantedValue>& target);
+SurfaceReport report_on(Regression fit, const std::optional<WantedValue>& target,
+                        base::FieldNames names = {});
 
 /// What files and tables call models and shapes.
 inline constexpr std::array<std::pair<SurfaceModel, std::string_view>, 3> kSurfaceModelNames = {

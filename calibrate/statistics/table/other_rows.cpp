@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace repose::calibrate {
 namespace {
@@ -83,7 +82,7 @@ std::vector<std::size_t> places_of(const Table& table, std::span<const std::stri
 }
 
 void take_units(Table& table, std::span<const std::size_t> numbers, OtherRows& other,
-                base::ErrorList& errors) {
+                base::Faults& errors) {
   if (table.rows.empty() || numbers.empty()) return;
   const TableRow& row = table.rows.front();
   bool any = false;
@@ -100,10 +99,10 @@ void take_units(Table& table, std::span<const std::size_t> numbers, OtherRows& o
     const std::string unit = unit_in(row.cells[place]);
     for (const std::string_view named : kNamed) {
       if (unit.empty() || unit == named || !name.ends_with(fmt::format("_{}", named))) continue;
-      errors.add(fmt::format(
-          "{}:{}: {} is in \"{}\" by its row of units, and in {} by its name. Fix: convert the "
-          "numbers, or correct the unit.",
-          table.name, row.line, name, row.cells[place], named));
+      errors.add({.where = fmt::format("{}:{}", table.name, row.line),
+                  .value = fmt::format("{} is in \"{}\" by its row of units, and in {} by its name",
+                                       name, row.cells[place], named),
+                  .fix = "convert the numbers, or correct the unit."});
     }
   }
   other.left_out.push_back({fmt::format("line {}", row.line), "units"});
@@ -128,7 +127,7 @@ bool is_short_label(const std::string& cell) {
 }
 
 /// Rows labelled as a statistic. Below the first of them no readings are looked for.
-void take_labelled(Table& table, OtherRows& other, base::ErrorList& errors) {
+void take_labelled(Table& table, OtherRows& other, base::Faults& errors) {
   const Table whole = table;
   bool any = false;
   std::erase_if(table.rows, [&](const TableRow& row) {
@@ -141,10 +140,10 @@ void take_labelled(Table& table, OtherRows& other, base::ErrorList& errors) {
       return true;
     }
     if (any) {
-      errors.add(
-          fmt::format("{}:{}: stands below a row labelled as a statistic. Rule: readings "
-                      "stand above their mean. Fix: move it up if it is one, or delete it.",
-                      table.name, row.line));
+      errors.add({.where = fmt::format("{}:{}", table.name, row.line),
+                  .value = "stands below a row labelled as a statistic",
+                  .rule = "readings stand above their mean",
+                  .fix = "move it up if it is one, or delete it."});
     }
     return any;
   });
@@ -316,7 +315,7 @@ class Footer {
 };
 
 void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
-                     Unlabelled unlabelled, OtherRows& other, base::ErrorList& errors) {
+                     Unlabelled unlabelled, OtherRows& other, base::Faults& errors) {
   constexpr std::size_t kMostRows = 8, kFewestReadings = 2;
   constexpr double kUnlikely = .01;
   if (readings.empty() || table.rows.size() <= kFewestReadings) return;
@@ -327,13 +326,14 @@ void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
     if (!chance || *chance >= kUnlikely) continue;
     const int first = table.rows[table.rows.size() - count].line;
     const int last = table.rows.back().line;
-    errors.add(fmt::format(
-        "{}:{}: {} mean, scatter or the like of the rows above, not readings. Fix: delete {}; "
-        "readings that happen to be so count if they stand above others.",
-        table.name, first,
-        count == 1 ? "this last row looks like"
-                   : fmt::format("lines {} to {} look like", first, last),
-        count == 1 ? "it" : "them"));
+    errors.add(
+        {.where = fmt::format("{}:{}", table.name, first),
+         .value = fmt::format("{} mean, scatter or the like of the rows above, not readings",
+                              count == 1 ? "this last row looks like"
+                                         : fmt::format("lines {} to {} look like", first, last)),
+         .fix = fmt::format(
+             "delete {}; readings that happen to be so count if they stand above others.",
+             count == 1 ? "it" : "them")});
     return;
   }
   if (!footer.last_is_mean()) return;
@@ -346,7 +346,7 @@ void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
 }  // namespace
 
 OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
-                          Unlabelled unlabelled, base::ErrorList& errors) {
+                          Unlabelled unlabelled, base::Faults& errors) {
   OtherRows other;
   const std::vector<std::size_t> places = places_of(table, readings);
   take_units(table, places, other, errors);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "calibrate/statistics/left_out.h"
 #include "calibrate/statistics/table/table.h"
 
@@ -40,6 +40,6 @@ enum class Unlabelled {
 ///                  over
 /// @param errors    are added to, each "NAME:LINE: ... Fix: ..."
 OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
-                          Unlabelled unlabelled, base::ErrorList& errors);
+                          Unlabelled unlabelled, base::Faults& errors);
 
 }  // namespace repose::calibrate

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <regex>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include <csv.h>
@@ -15,7 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "base/closest_word.h"
-#include "base/error_list.h"
+#include "base/input_error.h"
 #include "base/whole_file.h"
 
 namespace repose::calibrate {
@@ -99,10 +98,9 @@ std::vector<TableRow> rows_of(const std::string& name, std::string_view text, ch
   Parser parser(delimiter);
   int line = lines_before;
   const auto refuse = [&] {
-    throw std::invalid_argument(fmt::format(
-        "{}:{}: a quotation mark stands where none may, or one is missing. Fix: save the table "
-        "again as CSV from the spreadsheet.",
-        name, line));
+    throw base::InputError({.where = fmt::format("{}:{}", name, line),
+                            .value = "a quotation mark stands where none may, or one is missing",
+                            .fix = "save the table again as CSV from the spreadsheet."});
   };
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size() - 1) + 1;
@@ -129,10 +127,10 @@ void check_kind(const std::string& name, std::string_view text) {
   }};
   for (const auto& [start, what] : kKinds) {
     if (!text.starts_with(start)) continue;
-    throw std::invalid_argument(fmt::format(
-        "{}: is {}. Rule: a table is text in UTF-8. Fix: save it from the spreadsheet as CSV "
-        "UTF-8.",
-        name, what));
+    throw base::InputError({.where = name,
+                            .value = fmt::format("is {}", what),
+                            .rule = "a table is text in UTF-8",
+                            .fix = "save it from the spreadsheet as CSV UTF-8."});
   }
 }
 
@@ -145,11 +143,11 @@ void check_letters(const std::string& name, std::string_view text) {
   };
   const auto found = std::find_if(text.begin(), text.end(), is_no_letter);
   if (found == text.end()) return;
-  throw std::invalid_argument(
-      fmt::format("{}:{}: holds a byte that is no letter (number {}). Rule: a table is text in "
-                  "UTF-8. Fix: save "
-                  "it from the spreadsheet as CSV UTF-8.",
-                  name, 1 + std::count(text.begin(), found, '\n'), static_cast<int>(*found)));
+  throw base::InputError(
+      {.where = fmt::format("{}:{}", name, 1 + std::count(text.begin(), found, '\n')),
+       .value = fmt::format("holds a byte that is no letter (number {})", static_cast<int>(*found)),
+       .rule = "a table is text in UTF-8",
+       .fix = "save it from the spreadsheet as CSV UTF-8."});
 }
 
 bool is_empty(const TableRow& row) {
@@ -188,11 +186,13 @@ void check_single_column(const Table& table) {
       return row.cells.size() == 1 && row.cells.front().starts_with(fmt::format("{},", next++));
     });
     if (!counts) continue;
-    throw std::invalid_argument(fmt::format(
-        "{}:{}: the header names one column, and \"{}\" may be a row's number and a reading. Fix: "
-        "name both columns, as in row,{}; or write decimal points.",
-        table.name, table.rows.front().line, table.rows.front().cells.front(),
-        table.columns.front()));
+    throw base::InputError(
+        {.where = fmt::format("{}:{}", table.name, table.rows.front().line),
+         .value = fmt::format(
+             "the header names one column, and \"{}\" may be a row's number and a reading",
+             table.rows.front().cells.front()),
+         .fix = fmt::format("name both columns, as in row,{}; or write decimal points.",
+                            table.columns.front())});
   }
 }
 
@@ -228,41 +228,43 @@ class NumberMarks {
     }
   }
 
-  /// What is wrong with a cell that must be a number, after its place; empty: nothing.
-  std::string problem_of(const std::string& cell, const NumberColumn& column) const {
+  /// What is wrong with a cell that must be a number.
+  std::optional<base::Fault> problem_of(const std::string& cell, const NumberColumn& column) const {
     const bool has_comma = cell.find(',') != std::string::npos;
     const bool has_point = cell.find('.') != std::string::npos;
     const auto value = number_of(cell);
     if (!value && has_comma && has_point) {
-      return fmt::format(
-          "\"{}\", which has points and commas. Fix: write it with a decimal point, and without "
-          "signs between thousands.",
-          cell);
+      return base::Fault{
+          .value = fmt::format("is \"{}\", which has points and commas", cell),
+          .fix = "write it with a decimal point, and without signs between thousands."};
     }
     const char mark = has_comma ? ',' : '.';
     const bool is_ambiguous = may_have_thousands(cell, mark);
     if (!value && (!is_ambiguous || is_settled(mark))) {
-      return fmt::format(
-          "\"{}\", which is not a finite number. Fix: write a number, or delete the row.", cell);
+      return base::Fault{.value = fmt::format("is \"{}\", which is not a finite number", cell),
+                         .fix = "write a number, or delete the row."};
     }
-    if (!is_ambiguous || is_settled(mark)) return {};
+    if (!is_ambiguous || is_settled(mark)) return std::nullopt;
     // A sheet with decimal commas has no decimal points, however plausible the number would be.
     if (comma_row_ != nullptr && mark == '.') {
-      return fmt::format(
-          "\"{}\", which may mean thousands: line {} has a decimal comma. Fix: write "
-          "all numbers with a decimal comma and without points.",
-          cell, comma_row_->line);
+      return base::Fault{
+          .value = fmt::format("is \"{}\", which may mean thousands: line {} has a decimal comma",
+                               cell, comma_row_->line),
+          .fix = "write all numbers with a decimal comma and without points."};
     }
     const auto is_possible = [&](double number) {
       return number > column.above && number < column.below;
     };
     const double thousands = without(cell, mark).value_or(0);
-    if (value && is_possible(*value) && !is_possible(thousands)) return {};
-    return fmt::format(
-        "\"{}\", which may mean {:.10g}{}. Fix: write {:.10g} if it does{}.", cell, thousands,
-        value && is_possible(*value) ? fmt::format(" as well as {:.10g}", *value) : "", thousands,
-        value ? fmt::format(", otherwise {:.10g} with a 0 behind it, as in {}0", *value, cell)
-              : "");
+    if (value && is_possible(*value) && !is_possible(thousands)) return std::nullopt;
+    return base::Fault{
+        .value = fmt::format(
+            "is \"{}\", which may mean {:.10g}{}", cell, thousands,
+            value && is_possible(*value) ? fmt::format(" as well as {:.10g}", *value) : ""),
+        .fix = fmt::format(
+            "write {:.10g} if it does{}.", thousands,
+            value ? fmt::format(", otherwise {:.10g} with a 0 behind it, as in {}0", *value, cell)
+                  : "")};
   }
 
  private:
@@ -276,16 +278,18 @@ class NumberMarks {
   bool has_decimal_point_ = false;
 };
 
-void check_header(const Table& table, int line, base::ErrorList& errors) {
+void check_header(const Table& table, int line, base::Faults& errors) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const std::string& column = table.columns[i];
     if (column.empty()) {
-      errors.add(fmt::format("{}:{}: column {} has no name. Fix: name it, or delete it.",
-                             table.name, line, i + 1));
+      errors.add({.where = fmt::format("{}:{}", table.name, line),
+                  .value = fmt::format("column {} has no name", i + 1),
+                  .fix = "name it, or delete it."});
     } else if (!names.insert(column).second) {
-      errors.add(fmt::format("{}:{}: two columns are called {}. Fix: rename one of them.",
-                             table.name, line, column));
+      errors.add({.where = fmt::format("{}:{}", table.name, line),
+                  .value = fmt::format("two columns are called {}", column),
+                  .fix = "rename one of them."});
     }
   }
 }
@@ -309,27 +313,30 @@ Table parse_table(const std::string& name, std::string_view text, NoRows no_rows
       rows_of(name, text, delimiter == kNoDelimiter ? ';' : delimiter, told ? 1 : 0);
   drop_what_is_empty(rows);
   if (rows.empty()) {
-    throw std::invalid_argument(
-        name + ": is empty. Fix: give a table whose first line names the columns.");
+    throw base::InputError({.where = name,
+                            .value = "is empty",
+                            .fix = "give a table whose first line names the columns."});
   }
   Table table{
       .name = name,
       .columns = std::move(rows.front().cells),
       .rows = {std::make_move_iterator(rows.begin() + 1), std::make_move_iterator(rows.end())},
       .has_decimal_comma = delimiter != ','};
-  base::ErrorList errors;
+  base::Faults errors;
   check_header(table, rows.front().line, errors);
   errors.require(no_rows == NoRows::allowed || !table.rows.empty(),
-                 name + ": has no rows below its header. Fix: add a row for each reading or run.");
-  base::ErrorList ragged(kMostRowErrors);
+                 {.where = name,
+                  .value = "has no rows below its header",
+                  .fix = "add a row for each reading or run."});
+  base::Faults ragged(kMostRowErrors);
   for (const TableRow& row : table.rows) {
     if (row.cells.size() == table.columns.size()) continue;
-    ragged.add(
-        fmt::format("{}:{}: the row has {} cells, the header {}. Fix: give each row a cell "
-                    "for each column.",
-                    name, row.line, row.cells.size(), table.columns.size()));
+    ragged.add({.where = fmt::format("{}:{}", name, row.line),
+                .value = fmt::format("the row has {} cells, the header {}", row.cells.size(),
+                                     table.columns.size()),
+                .fix = "give each row a cell for each column."});
   }
-  errors.add(ragged);
+  errors.add_all(ragged.all());
   errors.throw_if_any();
   if (delimiter == kNoDelimiter) check_single_column(table);
   return table;
@@ -366,7 +373,7 @@ std::set<int> unclear_lines(const Table& table, std::span<const NumberColumn> co
   std::set<int> lines;
   for (const TableRow& row : table.rows) {
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if (!marks.problem_of(row.cells[places[i]], found[i]).empty()) lines.insert(row.line);
+      if (marks.problem_of(row.cells[places[i]], found[i])) lines.insert(row.line);
     }
   }
   return lines;
@@ -376,7 +383,7 @@ std::vector<std::vector<double>> numbers_of(const Table& table,
                                             std::span<const NumberColumn> columns) {
   std::vector<NumberColumn> found;
   std::vector<std::size_t> places;
-  base::ErrorList errors;
+  base::Faults errors;
   for (const NumberColumn& wanted : columns) {
     if (const auto column = table.column(wanted.name)) {
       found.push_back(wanted);
@@ -384,24 +391,26 @@ std::vector<std::vector<double>> numbers_of(const Table& table,
       continue;
     }
     const std::string guess = base::closest_word(wanted.name, table.columns);
-    errors.add(fmt::format("{}: has no column {}. {}Fix: it has {}.", table.name, wanted.name,
-                           guess.empty() ? "" : fmt::format("Did you mean {}? ", guess),
-                           fmt::join(table.columns, ", ")));
+    errors.add({.where = table.name,
+                .value = fmt::format("has no column {}{}", wanted.name,
+                                     guess.empty() ? "" : fmt::format(". Did you mean {}?", guess)),
+                .fix = fmt::format("it has {}.", fmt::join(table.columns, ", "))});
   }
   const NumberMarks marks(table, places);
-  base::ErrorList cells(kMostRowErrors);
+  base::Faults cells(kMostRowErrors);
   std::vector<std::vector<double>> numbers(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (const TableRow& row : table.rows) {
       const std::string& cell = row.cells[places[i]];
-      const std::string problem = marks.problem_of(cell, found[i]);
-      if (!problem.empty()) {
-        cells.add(fmt::format("{}:{}: {} is {}", table.name, row.line, found[i].name, problem));
+      if (auto fault = marks.problem_of(cell, found[i])) {
+        fault->where = fmt::format("{}:{}", table.name, row.line);
+        fault->subject = found[i].name;
+        cells.add(*std::move(fault));
       }
       numbers[i].push_back(number_of(cell).value_or(0));
     }
   }
-  errors.add(cells);
+  errors.add_all(cells.all());
   errors.throw_if_any();
   return numbers;
 }

@@ -47,7 +47,7 @@ struct NumberColumn {
 /// columns in which nothing is written are passed over, and so are empty cells behind the last
 /// column.
 ///
-/// @throws std::invalid_argument  every error, a line each: "NAME:LINE: ... Fix: ...": no header,
+/// @throws base::InputError  every error, a line each: "NAME:LINE: ... Fix: ...": no header,
 /// no rows, columns without a name or with the same name, rows with too few or too many cells,
 /// quotes that do not match, bytes that are no letters, a spreadsheet's own file.
 Table parse_table(const std::string& name, std::string_view text, NoRows no_rows = NoRows::refused);
@@ -64,7 +64,7 @@ std::set<int> unclear_lines(const Table& table, std::span<const NumberColumn> co
 /// The numbers of some columns: [column][row]. That they are possible is not checked: the range
 /// only serves to tell what "1.403" means.
 ///
-/// @throws std::invalid_argument  every error: columns that are not there, cells that are no finite
+/// @throws base::InputError  every error: columns that are not there, cells that are no finite
 /// numbers, or whose point or comma may part thousands, each with its line.
 std::vector<std::vector<double>> numbers_of(const Table& table,
                                             std::span<const NumberColumn> columns);

@@ -3,12 +3,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "dem/shape/clump/sphere_groups.h"
 #include "dem/shape/scan/scan.h"
@@ -34,9 +34,9 @@ constexpr std::array<std::pair<const char*, double ClumpErrors::*>, 7> kErrors =
 
 Json number_json(double number) {
   if (!std::isfinite(number)) {
-    throw std::invalid_argument(
-        "clump: holds a number that is not finite and cannot be written. Fix: build the clump from "
-        "a closed surface.");
+    throw base::InputError({.where = "clump",
+                            .value = "holds a number that is not finite and cannot be written",
+                            .fix = "build the clump from a closed surface."});
   }
   return number;
 }
@@ -50,28 +50,34 @@ class Reader {
  public:
   explicit Reader(std::string name) : name_(std::move(name)) {}
 
-  void error(const std::string& where, const std::string& rule) {
-    if (errors_.size() < kMaxErrors) errors_.push_back(name_ + ": " + where + ": " + rule);
+  /// The first fifty.
+  void error(const std::string& where, base::Fault fault) {
+    fault.where = name_ + ": " + where;
+    if (errors_.size() < kMaxErrors) errors_.push_back(std::move(fault));
   }
 
   /// The value under a key, null when it is missing or no object holds it.
   const Json& value(const Json& object, const std::string& key) {
     static const Json kNull;
     if (object.is_object() && object.contains(key)) return object[key];
-    error(key, "is missing. Fix: write the file again with repose shape.");
+    error(key, {.value = "is missing", .fix = "write the file again with repose shape."});
     return kNull;
   }
 
   double number(const Json& json, const std::string& where) {
     if (json.is_number()) return json.get<double>();
-    error(where, "is " + shown(json) + ", and must be a number. Fix: give a finite number.");
+    error(where, {.value = "is " + shown(json) + ", and",
+                  .rule = "must be a number",
+                  .fix = "give a finite number."});
     return 1;
   }
 
   double positive(const Json& json, const std::string& where) {
     const double read = number(json, where);
     if (!(read > 0))
-      error(where, "is " + shown(json) + ", and must be above 0. Fix: give its size.");
+      error(where, {.value = "is " + shown(json) + ", and",
+                    .rule = "must be above 0",
+                    .fix = "give its size."});
     return read;
   }
 
@@ -88,8 +94,8 @@ class Reader {
       if (is_index) {
         read[i] = json[i].get<int>();
       } else {
-        error(where, "names corner " + shown(json[i]) + " of " + std::to_string(vertices) +
-                         ". Fix: count corners from 0.");
+        error(where, {.value = fmt::format("names corner {} of {}", shown(json[i]), vertices),
+                      .fix = "count corners from 0."});
       }
     }
     return read;
@@ -97,7 +103,9 @@ class Reader {
 
   std::string string(const Json& json, const std::string& where) {
     if (json.is_string()) return json.get<std::string>();
-    error(where, "is " + shown(json) + ", and must be text. Fix: put it in quotes.");
+    error(where, {.value = "is " + shown(json) + ", and",
+                  .rule = "must be text",
+                  .fix = "put it in quotes."});
     return {};
   }
 
@@ -105,16 +113,16 @@ class Reader {
   const Json& list(const Json& json, const std::string& where) {
     static const Json kEmpty = Json::array();
     if (json.is_array()) return json;
-    error(where, "is " + shown(json) + ", and must be a list. Fix: put it in brackets.");
+    error(where, {.value = "is " + shown(json) + ", and",
+                  .rule = "must be a list",
+                  .fix = "put it in brackets."});
     return kEmpty;
   }
 
   bool has_errors() const { return !errors_.empty(); }
 
   void throw_errors() const {
-    std::string text;
-    for (const std::string& error : errors_) text += (text.empty() ? "" : "\n") + error;
-    if (!text.empty()) throw std::invalid_argument(text);
+    if (!errors_.empty()) throw base::InputError(errors_);
   }
 
  private:
@@ -128,12 +136,14 @@ class Reader {
 
   bool is_three(const Json& json, const std::string& where) {
     if (json.is_array() && json.size() == 3) return true;
-    error(where, "is " + shown(json) + ", and must be three numbers. Fix: [x, y, z].");
+    error(where, {.value = "is " + shown(json) + ", and",
+                  .rule = "must be three numbers",
+                  .fix = "[x, y, z]."});
     return false;
   }
 
   std::string name_;
-  std::vector<std::string> errors_;
+  std::vector<base::Fault> errors_;
 };
 
 std::string item(const char* list, std::size_t index) {
@@ -142,7 +152,8 @@ std::string item(const char* list, std::size_t index) {
 
 void read_spheres(const Json& root, Reader& reader, ClumpShape& shape) {
   const Json& spheres = reader.list(reader.value(root, "spheres"), "spheres");
-  if (spheres.empty()) reader.error("spheres", "there are none. Fix: give at least one.");
+  if (spheres.empty())
+    reader.error("spheres", {.value = "there are none", .fix = "give at least one."});
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const std::string where = item("spheres", i);
     shape.spheres.push_back(
@@ -154,10 +165,11 @@ void read_spheres(const Json& root, Reader& reader, ClumpShape& shape) {
 void check_hangs_together(const ClumpShape& shape, Reader& reader) {
   const int groups = sphere_groups(shape.spheres);
   if (groups == 1) return;
-  reader.error("spheres", "they fall into " + std::to_string(groups) +
-                              " groups that do not touch each other; other grains could pass "
-                              "between them. Fix: correct the sphere that was moved, or fill the "
-                              "body with more spheres.");
+  reader.error("spheres",
+               {.value = fmt::format("they fall into {} groups that do not touch each other; other "
+                                     "grains could pass between them",
+                                     groups),
+                .fix = "correct the sphere that was moved, or fill the body with more spheres."});
 }
 
 void read_gyration(const Json& root, Reader& reader, ClumpShape& shape) {
@@ -165,10 +177,9 @@ void read_gyration(const Json& root, Reader& reader, ClumpShape& shape) {
   constexpr double kRounding = 1e-9;
   const double sum = shape.gyration_m2.sum(), largest = shape.gyration_m2.maxCoeff();
   if (!(shape.gyration_m2.minCoeff() > 0) || largest > (sum - largest) * (1 + kRounding)) {
-    reader.error(
-        "gyration_m2",
-        "no body has these principal moments: each must be above 0 and none larger than the "
-        "other two together. Fix: write the file again with repose shape.");
+    reader.error("gyration_m2", {.value = "no body has these principal moments: each must be above "
+                                          "0 and none larger than the other two together",
+                                 .fix = "write the file again with repose shape."});
   }
 }
 
@@ -176,10 +187,12 @@ void read_gyration(const Json& root, Reader& reader, ClumpShape& shape) {
 void check_sizes(const ClumpShape& shape, const std::string& name) {
   const double reach = shape.reach_m();
   if (!(2 * reach >= kSmallestGrain_m && reach <= kLargestGrain_m)) {
-    throw std::invalid_argument(fmt::format(
-        "{}: spheres: they reach {:.4g} m from the centre. Rule: grains are from {:g} to {:g} m "
-        "long. Fix: the file counts in m; divide lengths in mm by 1000.",
-        name, reach, kSmallestGrain_m, kLargestGrain_m));
+    throw base::InputError(
+        {.where = name,
+         .value = fmt::format("spheres: they reach {:.4g} m from the centre", reach),
+         .rule =
+             fmt::format("grains are from {:g} to {:g} m long", kSmallestGrain_m, kLargestGrain_m),
+         .fix = "the file counts in m; divide lengths in mm by 1000."});
   }
   // A body may be slender, and longer than its spheres; it is not another body.
   constexpr double kFourThirdsPi = 4.0 / 3 * std::numbers::pi;
@@ -188,11 +201,13 @@ void check_sizes(const ClumpShape& shape, const std::string& name) {
   const bool is_one_body = shape.volume_m3 > 1e-7 * ball_m3 && shape.volume_m3 < 4 * ball_m3 &&
                            moments > 1e-3 && moments < 20;
   if (is_one_body) return;
-  throw std::invalid_argument(
-      fmt::format("{}: spheres: they reach {:.4g} m, which does not fit to volume_m3 = {:.4g} and "
-                  "gyration_m2. Rule: lengths in m, volumes in m^3, moments in m^2. Fix: write the "
-                  "file again with repose shape.",
-                  name, reach, shape.volume_m3));
+  throw base::InputError(
+      {.where = name,
+       .value = fmt::format(
+           "spheres: they reach {:.4g} m, which does not fit to volume_m3 = {:.4g} and gyration_m2",
+           reach, shape.volume_m3),
+       .rule = "lengths in m, volumes in m^3, moments in m^2",
+       .fix = "write the file again with repose shape."});
 }
 
 void read_surface(const Json& root, Reader& reader, Mesh& surface) {
@@ -249,15 +264,18 @@ ClumpFile parse_clump_json(const std::string& text, const std::string& name) {
   try {
     root = Json::parse(text);
   } catch (const Json::exception& error) {
-    throw std::invalid_argument(name + ": is not JSON (" + error.what() +
-                                "). Fix: write it again with repose shape.");
+    throw base::InputError({.where = name,
+                            .value = fmt::format("is not JSON ({})", error.what()),
+                            .fix = "write it again with repose shape."});
   }
   if (!root.is_object() || !root.contains("format") || root["format"] != kFormat) {
-    throw std::invalid_argument(name + ": is not a clump file. Fix: make one with repose shape.");
+    throw base::InputError(
+        {.where = name, .value = "is not a clump file", .fix = "make one with repose shape."});
   }
   if (!root.contains("version") || root["version"] != kVersion) {
-    throw std::invalid_argument(name + ": is of another version than " + std::to_string(kVersion) +
-                                ". Fix: write it again with this program's repose shape.");
+    throw base::InputError({.where = name,
+                            .value = fmt::format("is of another version than {}", kVersion),
+                            .fix = "write it again with this program's repose shape."});
   }
   Reader reader(name);
   ClumpFile clump;

@@ -25,14 +25,14 @@ inline constexpr double kMuchMissed = .25;
 std::string warning_of_shape(const ClumpFile& clump);
 
 /// As JSON, SI units in the key names; every number comes back to the last bit.
-/// @throws std::invalid_argument  a number is not finite: JSON has none of these.
+/// @throws base::InputError  a number is not finite: JSON has none of these.
 std::string clump_json(const ClumpFile& clump);
 
 /// Reads it back. `name` is what errors call it.
-/// @throws std::invalid_argument  all that is wrong, a line each.
+/// @throws base::InputError  all that is wrong, a line each.
 ClumpFile parse_clump_json(const std::string& text, const std::string& name);
 
-/// @throws std::invalid_argument  as parse_clump_json, and when the file cannot be read.
+/// @throws base::InputError  as parse_clump_json, and when the file cannot be read.
 ClumpFile read_clump_file(const std::filesystem::path& file);
 
 }  // namespace repose::dem

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 
@@ -18,8 +19,9 @@ double ClumpShape::reach_m() const {
 
 ClumpShape sphere_shape(double radius_m) {
   if (!std::isfinite(radius_m) || radius_m <= 0) {
-    throw std::invalid_argument("sphere: its radius is " + std::to_string(radius_m) +
-                                " m. Fix: give a radius above 0.");
+    throw base::InputError({.where = "sphere",
+                            .value = "its radius is " + std::to_string(radius_m) + " m",
+                            .fix = "give a radius above 0."});
   }
   ClumpShape shape;
   shape.spheres = {{.centre = Vector::Zero(), .radius = radius_m}};

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "dem/shape/clump/inscribed_spheres.h"
 #include "dem/shape/clump/relocation.h"
@@ -78,11 +79,10 @@ FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_
   double least_error = best.errors.volume_error;
   while (best.errors.volume_error > volume_error) {
     if (enough == kMaxSpheres) {
-      std::ostringstream error;
-      error << "volume error: " << volume_error << " is not reached with " << kMaxSpheres
-            << " spheres, " << least_error
-            << " is. Fix: ask for no less than that, or smooth the surface.";
-      throw std::invalid_argument(error.str());
+      throw base::InputError({.where = "volume error",
+                              .value = fmt::format("{:g} is not reached with {} spheres, {:g} is",
+                                                   volume_error, kMaxSpheres, least_error),
+                              .fix = "ask for no less than that, or smooth the surface."});
     }
     too_few = enough;
     enough = std::min(2 * enough, kMaxSpheres);
@@ -111,14 +111,14 @@ std::string fix_for(const Mesh& mesh, std::size_t spheres) {
   std::sort(extent_m.begin(), extent_m.end());
   const double thickness_m = extent_m[1] / kFlattest;
   if (extent_m[0] < thickness_m) {
-    std::ostringstream fix;
-    fix.precision(2);
-    fix << "Fix: a body at least " << 1e3 * thickness_m << " mm thick (this one is "
-        << 1e3 * extent_m[0] << " mm), for which a hundred spheres do; thinner ones take many more";
-    return fix.str();
+    return fmt::format(
+        "a body at least {:.2g} mm thick (this one is {:.2g} mm), for which a hundred spheres do; "
+        "thinner ones take many more.",
+        1e3 * thickness_m, 1e3 * extent_m[0]);
   }
-  return spheres < kMaxSpheres ? "Fix: more spheres, or a smaller volume error"
-                               : "Fix: a thicker body; more spheres than these are not made";
+  if (spheres == kMaxSpheres) return "a thicker body; more spheres than these are not made.";
+  return fmt::format("{}, or a {}.", base::field("more spheres"),
+                     base::field("smaller volume error"));
 }
 
 /// The fit of few spheres to a slender body may end in ones that the body could lie in.
@@ -128,49 +128,53 @@ void check_sizes(const Mesh& mesh, const FillReport& report) {
   for (const Vector& vertex : mesh.vertices) reach = std::max(reach, (vertex - centroid).norm());
   for (const ClumpSphere& sphere : report.spheres) {
     if (sphere.radius <= reach) continue;
-    throw std::invalid_argument(
-        "spheres: " + std::to_string(report.spheres.size()) +
-        " cannot follow this surface, one came out larger than all of it. " +
-        fix_for(mesh, report.spheres.size()) + '.');
+    throw base::InputError(
+        {.where = "spheres",
+         .value = fmt::format("{} cannot follow this surface, one came out larger than all of it",
+                              report.spheres.size()),
+         .fix = fix_for(mesh, report.spheres.size())});
   }
 }
 
 void check_hangs_together(const Mesh& mesh, const FillReport& report) {
   const int groups = sphere_groups(report.spheres);
   if (groups <= 1) return;
-  throw std::invalid_argument(
-      "spheres: these " + std::to_string(report.spheres.size()) + " fall into " +
-      std::to_string(groups) +
-      " groups that do not touch each other; other grains could pass between them. " +
-      fix_for(mesh, report.spheres.size()) + '.');
+  throw base::InputError(
+      {.where = "spheres",
+       .value = fmt::format("these {} fall into {} groups that do not touch each other; other "
+                            "grains could pass between them",
+                            report.spheres.size(), groups),
+       .fix = fix_for(mesh, report.spheres.size())});
 }
 
 }  // namespace
 
-std::vector<std::string> FillOptions::problems() const {
-  std::vector<std::string> problems;
+std::vector<base::Fault> FillOptions::problems() const {
+  std::vector<base::Fault> problems;
   if (spheres < 1 || spheres > kMaxSpheres) {
-    problems.push_back("spheres: " + std::to_string(spheres) + " must be from 1 to " +
-                       std::to_string(kMaxSpheres) + ". Fix: 11 is usual for a nut.");
+    problems.push_back({.where = "spheres",
+                        .value = fmt::format("{}", spheres),
+                        .rule = fmt::format("must be from 1 to {}", kMaxSpheres),
+                        .fix = "11 is usual for a nut."});
   }
   if (volume_error && !(*volume_error > 0 && *volume_error < 1)) {
-    problems.push_back("volume error: " + std::to_string(*volume_error) +
-                       " must be a fraction between 0 and 1. Fix: 0.02 for 2 %.");
+    problems.push_back({.where = "volume error",
+                        .value = fmt::format("{:f}", *volume_error),
+                        .rule = "must be a fraction between 0 and 1",
+                        .fix = "0.02 for 2 %."});
   }
   if (!(smallest_radius_fraction > 0 && smallest_radius_fraction < 1)) {
-    problems.push_back("smallest radius: " + std::to_string(smallest_radius_fraction) +
-                       " must be a fraction between 0 and 1. Fix: 0.1 is usual.");
+    problems.push_back({.where = "smallest radius",
+                        .value = fmt::format("{:f}", smallest_radius_fraction),
+                        .rule = "must be a fraction between 0 and 1",
+                        .fix = "0.1 is usual."});
   }
   return problems;
 }
 
 FillReport fill(const Mesh& mesh, const FillOptions& options) {
-  const std::vector<std::string> problems = options.problems();
-  if (!problems.empty()) {
-    std::string text;
-    for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
-    throw std::invalid_argument(text);
-  }
+  std::vector<base::Fault> problems = options.problems();
+  if (!problems.empty()) throw base::InputError(std::move(problems));
   FillReport report =
       options.volume_error
           ? fill_to_error(mesh, *options.volume_error, options.smallest_radius_fraction)

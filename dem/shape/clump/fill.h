@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "dem/shape/clump/clump_errors.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/shape/scan/mesh.h"
@@ -24,7 +25,7 @@ struct FillOptions {
   double smallest_radius_fraction = 0.1;
 
   /// Empty when usable. Otherwise one line per problem.
-  std::vector<std::string> problems() const;
+  std::vector<base::Fault> problems() const;
 };
 
 /// The spheres and how well they stand for the body.
@@ -38,7 +39,7 @@ struct FillReport {
 /// centre of mass. Several start inscribed, are fitted to the surface, and then, one at a time,
 /// those that matter least are moved to where the error is largest, as long as that helps. The same
 /// mesh gives the same spheres.
-/// @throws std::invalid_argument  the options are not usable, the volume error cannot be reached,
+/// @throws base::InputError  the options are not usable, the volume error cannot be reached,
 /// or so few spheres do not hang together or do not follow the surface.
 FillReport fill(const Mesh& mesh, const FillOptions& options);
 

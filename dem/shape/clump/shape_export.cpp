@@ -11,6 +11,8 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+#include "base/input_error.h"
+
 namespace repose::dem {
 namespace {
 
@@ -105,7 +107,8 @@ std::unique_ptr<aiScene> library_scene(const ClumpShape& shape, double scale) {
 
 std::vector<std::byte> export_shape(const ClumpShape& shape, ShapeFormat format) {
   if (shape.spheres.empty()) {
-    throw std::invalid_argument("clump: has no spheres to export. Fix: give at least one.");
+    throw base::InputError(
+        {.where = "clump", .value = "has no spheres to export", .fix = "give at least one."});
   }
   const bool is_stl = format == ShapeFormat::stl;
   const std::unique_ptr<aiScene> scene = library_scene(shape, is_stl ? 1e3 : 1);

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "dem/shape/scan/scan.h"
 
@@ -53,33 +53,31 @@ void add_triangles(Mesh& mesh) {
 
 }  // namespace
 
-std::vector<std::string> CalliperSizes::problems() const {
-  std::vector<std::string> problems;
+std::vector<base::Fault> CalliperSizes::problems() const {
+  std::vector<base::Fault> problems;
   const auto check_size = [&](const char* name, double size_m) {
     if (size_m >= kSmallestGrain_m && size_m <= kLargestGrain_m) return;
-    std::ostringstream problem;
-    problem << "size: the " << name << " is " << 1e3 * size_m << " mm, and grains are from "
-            << 1e3 * kSmallestGrain_m << " to " << 1e3 * kLargestGrain_m
-            << " mm. Fix: give length, width and thickness in mm.";
-    problems.push_back(problem.str());
+    problems.push_back(
+        {.where = "size",
+         .value = fmt::format("the {} is {:g} mm, and grains are from {:g} to {:g} mm", name,
+                              1e3 * size_m, 1e3 * kSmallestGrain_m, 1e3 * kLargestGrain_m),
+         .fix = "give length, width and thickness in mm."});
   };
   check_size("length", length_m);
   check_size("width", width_m);
   check_size("thickness", thickness_m);
   if (!(tip_fraction >= 0 && tip_fraction <= 1)) {
-    std::ostringstream problem;
-    problem << "tip: is " << tip_fraction
-            << ", and must be from 0 (round) to 1 (pointed). Fix: a hazelnut is about 0.5.";
-    problems.push_back(problem.str());
+    problems.push_back({.where = "tip",
+                        .value = fmt::format("is {:g}, and", tip_fraction),
+                        .rule = "must be from 0 (round) to 1 (pointed)",
+                        .fix = "a hazelnut is about 0.5."});
   }
   return problems;
 }
 
 Mesh calliper_surface(const CalliperSizes& sizes) {
-  const std::vector<std::string> problems = sizes.problems();
-  std::string text;
-  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
-  if (!text.empty()) throw std::invalid_argument(text);
+  std::vector<base::Fault> problems = sizes.problems();
+  if (!problems.empty()) throw base::InputError(std::move(problems));
   Mesh mesh;
   add_corners(sizes, mesh);
   add_triangles(mesh);

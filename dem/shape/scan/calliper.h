@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "dem/shape/scan/mesh.h"
 
 namespace repose::dem {
@@ -18,7 +19,7 @@ struct CalliperSizes {
   bool operator==(const CalliperSizes&) const = default;
 
   /// Empty when usable; else a line for each error.
-  std::vector<std::string> problems() const;
+  std::vector<base::Fault> problems() const;
 };
 
 /// A closed surface whose bounding box is length x width x thickness along x, y, z, to the last
@@ -29,7 +30,7 @@ struct CalliperSizes {
 /// and the same with T: an ellipse across, half an ellipsoid at -x, and at +x, for tip = 1, a
 /// parabola that meets the axis at a slope of W/L. Both halves have the same width and tangent
 /// where they meet. As a polyhedron inside the smooth body it has .2 % less volume.
-/// @throws std::invalid_argument  all that is wrong with the sizes, a line each.
+/// @throws base::InputError  all that is wrong with the sizes, a line each.
 Mesh calliper_surface(const CalliperSizes& sizes);
 
 }  // namespace repose::dem

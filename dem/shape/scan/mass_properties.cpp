@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "base/input_error.h"
 #include "dem/shape/scan/mesh_measure.h"
 
 namespace repose::dem {
@@ -78,7 +78,8 @@ void settle_signs(const Mesh& mesh, const MassProperties& body, Eigen::Matrix3d&
 
 MassProperties mass_properties(const Mesh& mesh) {
   if (mesh.triangles.empty()) {
-    throw std::invalid_argument("surface: holds no triangles. Fix: give a closed surface.");
+    throw base::InputError(
+        {.where = "surface", .value = "holds no triangles", .fix = "give a closed surface."});
   }
   const Vector point = bounds_of(mesh).center();  // near the body: far away, digits would be lost
   double volume = 0;
@@ -95,9 +96,10 @@ MassProperties mass_properties(const Mesh& mesh) {
         det / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
   }
   if (!(volume > 0)) {
-    throw std::invalid_argument(
-        "surface: encloses no volume, or is inside out. Fix: give a closed surface whose triangles "
-        "run counter-clockwise seen from outside.");
+    throw base::InputError(
+        {.where = "surface",
+         .value = "encloses no volume, or is inside out",
+         .fix = "give a closed surface whose triangles run counter-clockwise seen from outside."});
   }
   const Vector shift = first / volume;
   return {.volume_m3 = volume,

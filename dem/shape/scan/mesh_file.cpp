@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <iterator>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -18,6 +17,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "base/whole_file.h"
 #include "dem/shape/scan/obj_file.h"
 #include "dem/shape/scan/ply_file.h"
@@ -31,22 +31,18 @@ constexpr std::size_t kMaxCorners = 256;
 constexpr double kLargestCoordinate =
     1e9;  // in any unit; beyond, single precision has no shape left
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& error) {
-  throw std::invalid_argument(file.string() + ": " + error);
-}
-
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& file, const std::string& reason) {
-  refuse(file, fmt::format("cannot be read as a surface ({}). Fix: save the scan again; or open it "
-                           "in MeshLab and export it as binary STL.",
-                           reason));
+  base::refuse(file, fmt::format("cannot be read as a surface ({})", reason),
+               "save the scan again; or open it in MeshLab and export it as binary STL.");
 }
 
 void check_corners(const std::filesystem::path& file, std::size_t corners) {
   if (corners <= kMaxCorners) return;
-  refuse(file,
-         fmt::format("holds a face with {} corners. Rule: at most {}. Fix: export the scan as "
-                     "triangles (Blender: Triangulate Faces when exporting).",
-                     corners, kMaxCorners));
+  throw base::InputError(
+      {.where = file.string(),
+       .value = fmt::format("holds a face with {} corners", corners),
+       .rule = fmt::format("at most {}", kMaxCorners),
+       .fix = "export the scan as triangles (Blender: Triangulate Faces when exporting)."});
 }
 
 std::string lower_case_ending(const std::filesystem::path& file) {
@@ -61,10 +57,10 @@ std::string content_of(const std::filesystem::path& file, const std::string& end
   std::error_code ignored;
   if (!std::filesystem::is_directory(file, ignored) && std::filesystem::exists(file, ignored) &&
       std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
-    refuse(file, "is not named as an STL, OBJ or PLY file. Fix: save the scan as one of these.");
+    base::refuse(file, "is not named as an STL, OBJ or PLY file", "save the scan as one of these.");
   }
   std::string content = base::read_whole_file(file);
-  if (content.empty()) refuse(file, "is empty. Fix: save the scan again.");
+  if (content.empty()) base::refuse(file, "is empty", "save the scan again.");
   return content;
 }
 
@@ -92,11 +88,12 @@ void check_coordinates(const std::filesystem::path& file, const Mesh& mesh) {
   };
   const auto bad = std::count_if(mesh.vertices.begin(), mesh.vertices.end(), is_bad);
   if (bad > 0) {
-    refuse(file,
-           std::to_string(bad) + " of " + std::to_string(mesh.vertices.size()) +
-               " corners are not at finite coordinates below 1e9. Fix: export the scan again; "
-               "in MeshLab, Filters > Cleaning and Repairing > Remove Vertices wrt Quality "
-               "or delete them by hand.");
+    base::refuse(file,
+                 fmt::format("{} of {} corners are not at finite coordinates below 1e9", bad,
+                             mesh.vertices.size()),
+                 "export the scan again; in MeshLab, Filters > Cleaning and Repairing > Remove "
+                 "Vertices wrt Quality "
+                 "or delete them by hand.");
   }
 }
 
@@ -141,7 +138,7 @@ PolygonSurface polygons_in(const std::filesystem::path& file, std::string_view b
                            const std::string& ending) {
   try {
     return ending == ".ply" ? parse_ply(bytes) : parse_obj(bytes);
-  } catch (const std::invalid_argument& error) {
+  } catch (const base::InputError& error) {
     refuse_unreadable(file, error.what());
   }
 }
@@ -170,14 +167,15 @@ Mesh read_mesh_file(const std::filesystem::path& file) {
   const Mesh mesh = ending == ".stl" ? read_by_assimp(file, bytes, ending)
                                      : mesh_of(file, polygons_in(file, bytes, ending));
   if (mesh.triangles.empty()) {
-    refuse(file,
-           "holds no triangles. Fix: if it is a cloud of points, make a surface of it (MeshLab: "
-           "Filters > Remeshing, Simplification and Reconstruction > Screened Poisson).");
+    base::refuse(file, "holds no triangles",
+                 "if it is a cloud of points, make a surface of it (MeshLab: "
+                 "Filters > Remeshing, Simplification and Reconstruction > Screened Poisson).");
   }
   if (mesh.triangles.size() > kMaxTriangles) {
-    refuse(file, "holds " + std::to_string(mesh.triangles.size()) +
-                     " triangles, more than 5 million. Fix: thin it out (MeshLab: Filters > "
-                     "Remeshing, Simplification and Reconstruction > Quadric Edge Collapse).");
+    base::refuse(file,
+                 fmt::format("holds {} triangles, more than 5 million", mesh.triangles.size()),
+                 "thin it out (MeshLab: Filters > "
+                 "Remeshing, Simplification and Reconstruction > Quadric Edge Collapse).");
   }
   check_coordinates(file, mesh);
   return mesh;

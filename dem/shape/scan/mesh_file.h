@@ -8,7 +8,7 @@ namespace repose::dem {
 
 /// The triangles of an STL, OBJ or PLY file as they are, in the file's own unit: nothing is joined,
 /// nothing checked but that every coordinate is a number of sensible size.
-/// @throws std::invalid_argument  when the file is none of these, or holds no triangles.
+/// @throws base::InputError  when the file is none of these, or holds no triangles.
 Mesh read_mesh_file(const std::filesystem::path& file);
 
 }  // namespace repose::dem

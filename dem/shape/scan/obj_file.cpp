@@ -6,12 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
@@ -53,7 +54,7 @@ class ObjReader {
 
  private:
   [[noreturn]] static void wrong(std::size_t line, const std::string& what) {
-    throw std::invalid_argument(fmt::format("line {}: {}", line, what));
+    throw base::InputError({.where = fmt::format("line {}", line), .value = what});
   }
 
   std::string_view take_physical_line() {

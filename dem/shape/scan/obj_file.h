@@ -10,7 +10,7 @@ namespace repose::dem {
 /// normals, groups, curves. What the file refers to is never opened. Faces of fewer than three
 /// corners are passed over.
 /// Source of the format: Wavefront, Advanced Visualizer Manual, appendix B1 (1995).
-/// @throws std::invalid_argument  what is wrong, and where: "line 3: ...".
+/// @throws base::InputError  what is wrong, and where: "line 3: ...".
 PolygonSurface parse_obj(std::string_view bytes);
 
 }  // namespace repose::dem

@@ -9,11 +9,12 @@
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "base/input_error.h"
 
 namespace repose::dem {
 namespace {
@@ -57,7 +58,7 @@ struct Header {
 };
 
 [[noreturn]] void refuse_ply(const std::string& where, const std::string& what) {
-  throw std::invalid_argument(where + ": " + what);
+  throw base::InputError({.where = where, .value = what});
 }
 
 /// Reads the header line by line.

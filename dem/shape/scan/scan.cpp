@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "base/input_error.h"
 #include "dem/shape/scan/hole_filling.h"
 #include "dem/shape/scan/mass_properties.h"
 #include "dem/shape/scan/mesh_edges.h"
@@ -34,7 +36,7 @@ std::string place_of(const Vector& point_m) {
 struct Workpiece {
   Mesh mesh;
   std::vector<std::string> repairs;
-  std::vector<std::string> errors;
+  std::vector<base::Fault> errors;
 };
 
 void keep_triangles(Mesh& mesh, const std::vector<bool>& keep) {
@@ -73,11 +75,11 @@ void remove_non_manifold_edges(Workpiece& piece) {
   keep_triangles(cut, keep);
   const double fraction = 1 - area_m2(cut) / area_m2(piece.mesh);
   if (fraction > kLargestDroppedFraction) {
-    piece.errors.push_back(text(
-        "more than two triangles meet in %zu edges, over %.2g %% of the surface. Fix: MeshLab, "
-        "Filters > Cleaning and Repairing > Repair non Manifold Edges; or Blender, 3D Print "
-        "Toolbox > Make Manifold.",
-        edges, 100 * fraction));
+    piece.errors.push_back(
+        {.value = text("more than two triangles meet in %zu edges, over %.2g %% of the surface",
+                       edges, 100 * fraction),
+         .fix = "MeshLab, Filters > Cleaning and Repairing > Repair non Manifold Edges; or "
+                "Blender, 3D Print Toolbox > Make Manifold."});
     return;
   }
   piece.repairs.push_back(
@@ -90,8 +92,9 @@ void orient(Workpiece& piece) {
   const Oriented oriented = orient_consistently(piece.mesh);
   if (!oriented.is_two_sided) {
     piece.errors.push_back(
-        "has no inside: following its triangles leads back to the other side. Fix: MeshLab, "
-        "Filters > Remeshing, Simplification and Reconstruction > Screened Poisson.");
+        {.value = "has no inside: following its triangles leads back to the other side",
+         .fix = "MeshLab, Filters > Remeshing, Simplification and Reconstruction > Screened "
+                "Poisson."});
   } else if (oriented.turned > 0) {
     piece.repairs.push_back(
         text("triangles turned round that faced the wrong way: %zu", oriented.turned));
@@ -112,10 +115,10 @@ void keep_one_body(Workpiece& piece) {
   const auto is_flake = [&](double area) { return area <= kLargestDroppedFraction * largest; };
   const auto flakes = static_cast<std::size_t>(std::count_if(areas.begin(), areas.end(), is_flake));
   if (areas.size() - flakes > 1) {
-    piece.errors.push_back(
-        text("holds %zu separate bodies, or one with closed cavities. Fix: save one closed outer "
-             "surface (MeshLab: Filters > Mesh Layer > Split in Connected Components).",
-             areas.size() - flakes));
+    piece.errors.push_back({.value = text("holds %zu separate bodies, or one with closed cavities",
+                                          areas.size() - flakes),
+                            .fix = "save one closed outer surface (MeshLab: Filters > Mesh Layer > "
+                                   "Split in Connected Components)."});
   }
   if (flakes == 0) return;
   std::vector<bool> keep(piece_of.size());
@@ -136,13 +139,13 @@ void fill_holes(Workpiece& piece) {
   if (!(fraction <= kLargestFilledFraction)) {
     const auto largest = std::max_element(
         holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.area < b.area; });
-    piece.errors.push_back(text(
-        "is not closed: its holes (%zu) are %.2g %% of its surface, more than the %g %% that are "
-        "filled unasked; the largest is about %s. Fix: MeshLab, Filters > Remeshing, "
-        "Simplification and Reconstruction > Close Holes; or Blender, Mesh > Clean Up > Fill "
-        "Holes; or scan the hidden side too.",
-        holes.size(), 100 * fraction, 100 * kLargestFilledFraction,
-        place_of(largest->middle).c_str()));
+    piece.errors.push_back(
+        {.value = text("is not closed: its holes (%zu) are %.2g %% of its surface, more than the "
+                       "%g %% that are filled unasked; the largest is about %s",
+                       holes.size(), 100 * fraction, 100 * kLargestFilledFraction,
+                       place_of(largest->middle).c_str()),
+         .fix = "MeshLab, Filters > Remeshing, Simplification and Reconstruction > Close Holes; or "
+                "Blender, Mesh > Clean Up > Fill Holes; or scan the hidden side too."});
     return;
   }
   for (const Hole& hole : holes) fill_hole(hole, piece.mesh);
@@ -169,8 +172,8 @@ void check_volume(Workpiece& piece) {
   constexpr double kFlat = 1e-6;  // of the cube over the diagonal
   const double diagonal = bounds_of(piece.mesh).diagonal().norm();
   if (signed_volume(piece.mesh) <= kFlat * diagonal * diagonal * diagonal) {
-    piece.errors.emplace_back(
-        "encloses next to no volume. Fix: save a closed surface, not a sheet or a line.");
+    piece.errors.push_back({.value = "encloses next to no volume",
+                            .fix = "save a closed surface, not a sheet or a line."});
   }
 }
 
@@ -178,10 +181,10 @@ void check_crossing(Workpiece& piece) {
   const SelfCrossing crossing = find_self_crossing(piece.mesh);
   if (crossing.triangles == 0) return;
   piece.errors.push_back(
-      text("crosses itself: %zu triangles pass through others, the first about %s. Fix: MeshLab, "
-           "Filters > Selection > Select Self Intersecting Faces, delete them and close the holes; "
-           "or Blender, Remesh modifier.",
-           crossing.triangles, place_of(crossing.where).c_str()));
+      {.value = text("crosses itself: %zu triangles pass through others, the first about %s",
+                     crossing.triangles, place_of(crossing.where).c_str()),
+       .fix = "MeshLab, Filters > Selection > Select Self Intersecting Faces, delete them and "
+              "close the holes; or Blender, Remesh modifier."});
 }
 
 void check_size(Workpiece& piece, const char* other_unit, double other_factor) {
@@ -191,16 +194,18 @@ void check_size(Workpiece& piece, const char* other_unit, double other_factor) {
   };
   if (is_grain(size)) return;
   const bool is_other = other_unit != nullptr && is_grain(size * other_factor);
-  piece.errors.push_back(text("is %.4g mm long, and grains are from %g to %g mm. Fix: ", 1e3 * size,
-                              1e3 * kSmallestGrain_m, 1e3 * kLargestGrain_m) +
-                         (is_other ? text("its unit is probably %s.", other_unit)
-                                   : std::string("scale the scan to mm before saving it.")));
+  piece.errors.push_back(
+      {.value = text("is %.4g mm long, and grains are from %g to %g mm", 1e3 * size,
+                     1e3 * kSmallestGrain_m, 1e3 * kLargestGrain_m),
+       .fix = is_other ? fmt::format("{} is probably {}.", base::field("its unit"), other_unit)
+                       : "scale the scan to mm before saving it."});
 }
 
 Scan mended(Workpiece piece, const std::string& name) {
   weld_corners(piece);
   if (piece.mesh.triangles.empty()) {
-    piece.errors.emplace_back("all its triangles are without area. Fix: save the scan again.");
+    piece.errors.push_back(
+        {.value = "all its triangles are without area", .fix = "save the scan again."});
   } else {
     remove_non_manifold_edges(piece);
     orient(piece);
@@ -208,9 +213,9 @@ Scan mended(Workpiece piece, const std::string& name) {
     fill_holes(piece);
     turn_outside_out(piece);
     if (piece.errors.empty() && !is_watertight(piece.mesh)) {
-      piece.errors.emplace_back(
-          "is not closed, and filling its holes did not close it. Fix: MeshLab, Filters > "
-          "Remeshing, Simplification and Reconstruction > Screened Poisson.");
+      piece.errors.push_back({.value = "is not closed, and filling its holes did not close it",
+                              .fix = "MeshLab, Filters > Remeshing, Simplification and "
+                                     "Reconstruction > Screened Poisson."});
     }
     if (piece.errors.empty()) check_volume(piece);
     check_crossing(piece);
@@ -218,11 +223,7 @@ Scan mended(Workpiece piece, const std::string& name) {
   if (piece.errors.empty()) {
     return {.surface = std::move(piece.mesh), .repairs = std::move(piece.repairs)};
   }
-  std::string errors;
-  for (const std::string& error : piece.errors) {
-    errors += (errors.empty() ? "" : "\n") + name + ": " + error;
-  }
-  throw std::invalid_argument(errors);
+  throw base::InputError(std::move(piece.errors)).in(name);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ inline constexpr double kLargestGrain_m = 2;
 
 /// Reads an STL, OBJ or PLY file and mends what can be mended without guessing: corners apart by
 /// rounding, triangles turned the wrong way, loose flakes, small holes.
-/// @throws std::invalid_argument  all that is wrong with the surface, a line each, with the fix.
+/// @throws base::InputError  all that is wrong with the surface, a line each, with the fix.
 Scan read_scan(const std::filesystem::path& file, ScanUnit unit);
 
 /// The same for a surface at hand; `name` is what errors call it.

@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cstdlib>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 #include <unistd.h>
 
+#include "base/input_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/picture/coded_pictures.h"
 
@@ -61,7 +61,7 @@ class PictureFile : public ::testing::Test {
   static std::string error_of(const std::filesystem::path& file) {
     try {
       read_picture(file);
-    } catch (const std::invalid_argument& error) {
+    } catch (const base::InputError& error) {
       return error.what();
     }
     return "it was read";
@@ -366,7 +366,7 @@ TEST_F(PictureFile, WritingReplacesTheOldPicture) {
 TEST_F(PictureFile, WritingErrorsAreSaidAndLeaveNothingBehind) {
   const Picture picture = striped(5, 5);
   const auto fails_with = [](const std::string& text) {
-    return ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr(text), HasSubstr("Fix: ")));
+    return ThrowsMessage<base::InputError>(AllOf(HasSubstr(text), HasSubstr("Fix: ")));
   };
   EXPECT_THAT([&] { write_picture(folder_.path() / "no" / "heap.png", picture); },
               fails_with("there is no folder"));
