@@ -26,7 +26,7 @@ bool is_formula(std::string_view text) {
 
 std::string csv_cell(std::string_view text) {
   if (!is_utf8(text)) return csv_cell(as_utf8(text));
-  if (is_formula(text)) return csv_cell("'" + std::string(text));
+  if (is_formula(text)) return csv_cell(std::string(text).insert(0, 1, '\''));
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char letter : text) {

@@ -61,7 +61,10 @@ std::string Fault::text(FieldNames names) const {
 
 std::string text_of(const std::vector<Fault>& faults, FieldNames names) {
   std::string text;
-  for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + fault.text(names);
+  for (const Fault& fault : faults) {
+    if (!text.empty()) text += '\n';
+    text += fault.text(names);
+  }
   return text;
 }
 

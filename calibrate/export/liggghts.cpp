@@ -55,7 +55,8 @@ std::string pairs_text(const std::vector<double>& with_grain) {
   for (std::size_t a = 0; a < with_grain.size(); ++a) {
     for (std::size_t b = 0; b < with_grain.size(); ++b) {
       const std::size_t other = a == 0 || b == 0 ? a + b : 1;
-      text += (text.empty() ? "" : " ") + number(with_grain[other]);
+      if (!text.empty()) text += ' ';
+      text += number(with_grain[other]);
     }
   }
   return text;
