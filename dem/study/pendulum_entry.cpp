@@ -35,7 +35,6 @@ ExperimentEntry pendulum_entry() {
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<PendulumProtocol>(protocol).pairs; },
           .softening_effect = "swings less far than one with the real stiffness",
-          .usual_model_error = .03,
           .usual = PendulumProtocol{},
           .keys = keys_of_pendulum,
           .run =
