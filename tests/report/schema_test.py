@@ -75,7 +75,8 @@ measured = { mean = 25, sd = 1, n = 5 }
 OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions", "candidates", "held_out",
             "stiffness_checks", "stiffer_coefficients", "shape_check", "narrowing", "heap_definition", "assumed",
             "systematic_uncertainty", "assumed_inputs", "with_assumed", "inputs_taken_as_exact",
-            "degrees_of_freedom", "assumed_scatter", "bench_correlation", "bounds_are", "useful_half_width", "systematic",
+            "degrees_of_freedom", "model_error_scale", "model_uncertainty", "model_sd",
+            "assumed_scatter", "bench_correlation", "bounds_are", "useful_half_width", "systematic",
             "tolerance_from", "readings_to_decide", "possible"}
 
 
