@@ -144,7 +144,9 @@ RunFolder::RunFolder(fs::path folder)
 fs::path RunFolder::file(const RunSpec& spec, std::uint64_t seed, const char* ending) const {
   fs::path place = runs() / (key_of(spec, seed) + ending);
   if (std::error_code ignored; fs::is_directory(place, ignored)) {
-    base::refuse(place, "is a folder, and a stored run is a file of that name", "move it away.");
+    throw StoreError({.where = place.string(),
+                      .value = "is a folder, and a stored run is a file of that name",
+                      .fix = "move it away."});
   }
   return place;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/experiment/run_result.h"
 #include "calibrate/experiment/run_spec.h"
 #include "dem/experiment/heap_progress.h"
@@ -30,6 +31,11 @@ RestartRecord restart_in(const std::string& text, const std::string& description
 struct SavedRestart {
   dem::HeapRestart from;
   RestartRecord record;
+};
+
+/// What keeps runs cannot be used as it is: no fault of what is to be simulated.
+struct StoreError : base::InputError {
+  using InputError::InputError;
 };
 
 /// Runs on disk, files each: FOLDER/runs/KEY.json is what it gave, KEY.vtp its final state,

@@ -10,6 +10,7 @@
 
 #include "base/distributions.h"
 #include "base/input_error.h"
+#include "calibrate/experiment/run_folder.h"
 #include "calibrate/fit/first_round.h"
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/profile.h"
@@ -302,6 +303,8 @@ bool vary_inputs(const Problem& problem, JobRunner& runner, StudyOutcome& outcom
       const auto runs = runner.get("varying " + input.name, jobs, 0);
       if (!runs) return false;
       varied = joined(std::move(varied), *runs);
+    } catch (const StoreError&) {
+      throw;  // which says nothing of the changed study
     } catch (const base::InputError& error) {
       plan.inputs[k].not_varied = input.experiments;
       outcome.notes.push_back(fmt::format("{} cannot be varied by its uncertainty, {:g} {}: {}",
