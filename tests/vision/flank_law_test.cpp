@@ -79,7 +79,7 @@ TEST(EdgeAngle, BumpsDoNotMoveTheWindowOfASmoothEdge) {
 
 TEST(EdgeAngle, AnEdgeThatEndsWithinTheWindowIsRefused) {
   const std::vector<EdgePoint> edge = {{0, 10}, {10, 4}};
-  EXPECT_THROW(angle_of_edge(edge, 10), base::InputError);
+  EXPECT_THROW(angle_of_edge(edge, 10), std::invalid_argument);
 }
 
 TEST(FlankLaw, FallsFromTheApexToTheToe) {

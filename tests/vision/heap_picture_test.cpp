@@ -105,7 +105,7 @@ TEST(HeapPicture, SilhouetteIsBlackBelowTheFlankAndWhiteAbove) {
 }
 
 TEST(HeapConditions, UnknownNameSaysHowToFindTheNames) {
-  EXPECT_THROW(condition_named("fog"), base::InputError);
+  EXPECT_THROW(condition_named("fog"), std::invalid_argument);
 }
 
 }  // namespace
