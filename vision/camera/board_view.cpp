@@ -14,36 +14,37 @@ constexpr double kLean_rad = 1 * kDegree;    // a board stood upright
 constexpr double kPlaced_mm = 10;            // ... where the plane is
 constexpr double kTurned_rad = 3 * kDegree;  // ... and parallel to it
 
-enum : int { k_x = 3, k_y, k_z };  // of the pose: the board's origin
+enum : int { k_origin_x = 3, k_origin_y, k_origin_z };  // of the pose
 
 /// The pose with its origin as x / z, y / z and ln z: where the focal length is not known, its
 /// logarithm and that of the distance vary together by much, and what is seen does not change.
 BoardPose::Numbers by_distance(const BoardPose::Numbers& pose) {
   BoardPose::Numbers numbers = pose;
-  numbers[k_x] /= pose[k_z];
-  numbers[k_y] /= pose[k_z];
-  numbers[k_z] = std::log(pose[k_z]);
+  numbers[k_origin_x] /= pose[k_origin_z];
+  numbers[k_origin_y] /= pose[k_origin_z];
+  numbers[k_origin_z] = std::log(pose[k_origin_z]);
   return numbers;
 }
 
 BoardPose::Numbers pose_of(const BoardPose::Numbers& numbers) {
   BoardPose::Numbers pose = numbers;
-  pose[k_z] = std::exp(numbers[k_z]);
-  pose[k_x] *= pose[k_z];
-  pose[k_y] *= pose[k_z];
+  pose[k_origin_z] = std::exp(numbers[k_origin_z]);
+  pose[k_origin_x] *= pose[k_origin_z];
+  pose[k_origin_y] *= pose[k_origin_z];
   return pose;
 }
 
 BoardPose::Covariance slopes_by_distance(const BoardPose::Numbers& pose) {
   BoardPose::Covariance slopes = BoardPose::Covariance::Identity();
-  const double z = pose[k_z];
-  slopes(k_x, k_x) = slopes(k_y, k_y) = slopes(k_z, k_z) = 1 / z;
-  slopes(k_x, k_z) = -pose[k_x] / (z * z);
-  slopes(k_y, k_z) = -pose[k_y] / (z * z);
+  const double z = pose[k_origin_z];
+  slopes(k_origin_x, k_origin_x) = slopes(k_origin_y, k_origin_y) = slopes(k_origin_z, k_origin_z) =
+      1 / z;
+  slopes(k_origin_x, k_origin_z) = -pose[k_origin_x] / (z * z);
+  slopes(k_origin_y, k_origin_z) = -pose[k_origin_y] / (z * z);
   return slopes;
 }
 
-enum : int { k_lean = BoardPose::kNumbers, k_tilt, k_turn, k_behind, k_count };
+enum : int { k_lean = BoardPose::kNumbers, k_tilt, k_turn, k_behind, k_inputs };
 
 /// How much of the sheet is left out around the board, in squares: what is printed below it is
 /// part of the sheet.
@@ -64,8 +65,8 @@ Segment part_seen(const std::vector<SeenCorner>& corners) {
 }  // namespace
 
 BoardView::BoardView(const BoardPose& pose, const BoardPlacing& placing)
-    : inputs_{.values = Eigen::VectorXd::Zero(k_count),
-              .covariance = Eigen::MatrixXd::Zero(k_count, k_count)},
+    : inputs_{.values = Eigen::VectorXd::Zero(k_inputs),
+              .covariance = Eigen::MatrixXd::Zero(k_inputs, k_inputs)},
       square_mm_(placing.square_mm) {
   inputs_.values.head<BoardPose::kNumbers>() = by_distance(pose.numbers);
   const BoardPose::Covariance slopes = slopes_by_distance(pose.numbers);
