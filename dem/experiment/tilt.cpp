@@ -244,7 +244,7 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
   const Slide slide = slide_off(run, model.grain, begin_deg, protocol.rate_deg_s);
   return run.finish(
       onset_deg(slide, begin_deg, protocol.rate_deg_s), seed,
-      {{"half_mm_slip_deg", slide.reported_deg.value_or(0)}, {"begin_deg", begin_deg}});
+      {{"half_mm_slip_deg", slide.reported_deg}, {"begin_deg", begin_deg}});
 }
 
 }  // namespace repose::dem
