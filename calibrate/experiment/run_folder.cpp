@@ -15,13 +15,13 @@
 
 #include "base/input_error.h"
 #include "base/whole_file.h"
+#include "calibrate/experiment/json_fields.h"
 #include "dem/state/state_file.h"
 
 namespace repose::calibrate {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kChanged = "it is cut short, was changed, or is of an earlier version";
 

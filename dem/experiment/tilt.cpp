@@ -242,9 +242,8 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
       {.position = normal * reach_towards(body, orientation, -normal), .orientation = orientation});
   settle_grain(run, begin_deg);
   const Slide slide = slide_off(run, model.grain, begin_deg, protocol.rate_deg_s);
-  return run.finish(
-      onset_deg(slide, begin_deg, protocol.rate_deg_s), seed,
-      {{"half_mm_slip_deg", slide.reported_deg}, {"begin_deg", begin_deg}});
+  return run.finish(onset_deg(slide, begin_deg, protocol.rate_deg_s), seed,
+                    {{"half_mm_slip_deg", slide.reported_deg}, {"begin_deg", begin_deg}});
 }
 
 }  // namespace repose::dem
