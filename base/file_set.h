@@ -4,8 +4,17 @@
 #include <string>
 #include <vector>
 
-/// Files that are written together into a folder again and again, where other files may be too.
+/// Names that stand for several files, as in "drops/*.mp4" (* and ? in the last part of the path),
+/// and files that are written together into a folder where other files may be too.
+
 namespace repose::base {
+
+/// Whether the name is a pattern, and not that of a file which has such letters in it.
+bool is_pattern(const std::filesystem::path& file);
+
+/// Whether a file's name, without its folder, is one of those that the pattern means. Hidden files
+/// are none, unless the pattern begins with a dot too.
+bool matches(const std::string& name, const std::filesystem::path& pattern);
 
 struct NamedText {
   std::string name;  ///< without folder

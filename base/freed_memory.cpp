@@ -8,7 +8,7 @@
 
 namespace repose::base {
 
-void keep_freed_memory() {
+void disable_heap_trimming() {
 #ifdef __GLIBC__
   constexpr int kMiB = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, 32 * kMiB);  // the most that it takes

@@ -1,10 +1,14 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include <boost/nowide/utf/utf.hpp>
+#include <fmt/format.h>
 
 namespace repose::base {
 
@@ -50,6 +54,72 @@ std::vector<std::string> wrapped(std::string_view text,
     lines.push_back(std::move(line));
   }
   return lines;
+}
+
+namespace {
+
+namespace utf = boost::nowide::utf;
+
+bool controls(utf::code_point letter) {
+  if (letter == '\n' || letter == '\t') return false;
+  const bool is_control = letter < 0x20 || (letter >= 0x7F && letter < 0xA0);
+  const bool turns = letter == 0x061C || letter == 0x200E || letter == 0x200F ||
+                     (letter >= 0x202A && letter <= 0x202E) ||
+                     (letter >= 0x2066 && letter <= 0x2069);
+  return is_control || turns;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char* at = text.begin(); at != text.end();) {
+    const char* const begin = at;
+    const utf::code_point letter = utf::utf_traits<char>::decode(at, text.end());
+    const bool is_letter = utf::is_valid_codepoint(letter);
+    if (!is_letter) at = begin + 1;
+    if (is_letter && !controls(letter)) {
+      shown.append(begin, at);
+    } else {
+      for (const char* byte = begin; byte != at; ++byte) {
+        shown += fmt::format("\\x{:02X}", static_cast<unsigned char>(*byte));
+      }
+    }
+  }
+  return shown;
+}
+
+namespace {
+
+/// Levenshtein's distance: letters to insert, remove or replace.
+std::size_t distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);  // distances of from's beginning to to's beginnings
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string closest_word(std::string_view mistyped, std::span<const std::string> known) {
+  const std::size_t most = std::max<std::size_t>(1, mistyped.size() / 3);
+  std::size_t least = most + 1;
+  std::string best;
+  for (const std::string& word : known) {
+    const std::size_t steps = distance(mistyped, word);
+    if (steps >= least) continue;
+    least = steps;
+    best = word;
+  }
+  return best;
 }
 
 }  // namespace repose::base

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 /// Lines of text. Letters are the code points of UTF-8.
+
 namespace repose::base {
 
 /// Whether a byte of UTF-8 begins a letter rather than continuing one.
@@ -29,5 +31,12 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t max_letters)
 /// The same for another measure of what `fits` in a line.
 std::vector<std::string> wrapped(std::string_view text,
                                  const std::function<bool(const std::string& line)>& fits);
+
+/// The text for a terminal: characters that control one, or turn the direction of what follows,
+/// and bytes that are no UTF-8 become "\xNN". Line breaks and tabs stay.
+std::string printable(std::string_view text);
+
+/// The word of `known` that is closest to a mistyped one; empty when none is close.
+std::string closest_word(std::string_view mistyped, std::span<const std::string> known);
 
 }  // namespace repose::base

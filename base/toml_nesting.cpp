@@ -45,7 +45,7 @@ std::optional<int> line_of_deep_key(std::string_view text) {
     } else if (letter == '#') {
       while (at + 1 < text.size() && text[at + 1] != '\n') ++at;
     } else if (letter == '.') {
-      if (++points > kMostPointsInAKey) return line;
+      if (++points > kMaxPointsInAKey) return line;
     } else if (!is_of_key(letter)) {
       points = 0;
     }

@@ -1,19 +1,188 @@
 #include "cli/program.h"
 
+#include <algorithm>
 #include <exception>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/freed_memory.h"
-#include "cli/arguments.h"
-#include "cli/common/exit_code.h"
+#include "base/input_error.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "cli/board/board.h"
+#include "cli/calibrate/calibrate_options.h"
+#include "cli/camera/camera.h"
 #include "cli/common/memory.h"
 #include "cli/common/output.h"
+#include "cli/compare/compare_options.h"
+#include "cli/export/export.h"
+#include "cli/help/help.h"
+#include "cli/measure/measure_options.h"
+#include "cli/new/new_study.h"
+#include "cli/plan/plan.h"
+#include "cli/render/render_options.h"
+#include "cli/report/report.h"
+#include "cli/shape/shape.h"
+#include "cli/simulate/simulate_command.h"
+#include "cli/statistics/statistics_commands.h"
+#include "cli/track/track.h"
+#include "cli/verify/verify.h"
 
 namespace repose::cli {
+
+namespace {
+
+/// What the command line comes down to: one of these.
+struct Arguments {
+  std::function<ExitCode()> run;  ///< carries out the command that was asked for
+  base::FieldNames fields;        ///< of this command
+  std::string text;               ///< asked for: help or version
+  std::string error;              ///< why it is no command line, and how to mend it
+};
+
+constexpr int kOptionColumn = 32;  // where the help's explanations begin
+
+/// A command and what CLI11 knows of it.
+struct Registered {
+  Command command;
+  CLI::App* app = nullptr;
+};
+
+CLI::Option* add_to(CLI::App& app, const std::string& name, std::string& text) {
+  return app.add_option(name, text);
+}
+
+CLI::Option* add_to(CLI::App& app, const std::string& name, std::vector<std::string>& texts) {
+  CLI::Option* option = app.add_option(name, texts);
+  // A list is given by repeating its option: words that follow belong to the command.
+  return name.starts_with('-') ? option->allow_extra_args(false) : option;
+}
+
+CLI::Option* add_to(CLI::App& app, const std::string& name, bool& is_given) {
+  return app.add_flag(name, is_given);
+}
+
+Registered registered(CLI::App& program, Command command) {
+  CLI::App* app = program.add_subcommand(command.name, command.summary);
+  app->get_formatter()->column_width(kOptionColumn);
+  app->footer(command.notes);
+  for (const CommandOption& option : command.options) {
+    CLI::Option* added =
+        std::visit([&](auto* target) { return add_to(*app, option.name, *target); }, option.target);
+    added->description(option.help)->required(option.is_required);
+    if (!option.value_name.empty()) added->option_text(option.value_name);
+    if (option.word_count > 0) added->expected(option.word_count);
+  }
+  return {std::move(command), app};
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
+
+/// What to do about a word that is no command and no option of `app`, which `usage` calls.
+std::string unknown_word(const CLI::App& app, const std::string& usage, const std::string& word) {
+  const bool is_option = word.starts_with('-');
+  const auto known = is_option ? option_names(app) : command_names(app);
+  const std::string guess = base::closest_word(word.substr(0, word.find('=')), known);
+  return fmt::format("{}: unknown {} of {}. {}Fix: see {} --help.", word,
+                     is_option ? "option" : "command", usage,
+                     guess.empty() ? "" : fmt::format("Did you mean {}? ", guess), usage);
+}
+
+std::string error_of(const CLI::App& app, const Registered* parsed, const CLI::ParseError& error) {
+  const CLI::App& active = parsed ? *parsed->app : app;
+  const std::string usage = parsed ? "repose " + parsed->command.name : "repose";
+  const auto unknown = active.remaining();
+  if (!unknown.empty()) {
+    const auto option = std::find_if(unknown.begin(), unknown.end(),
+                                     [](const std::string& word) { return word.starts_with('-'); });
+    return unknown_word(active, usage, option == unknown.end() ? unknown.front() : *option);
+  }
+  if (parsed && dynamic_cast<const CLI::RequiredError*>(&error)) {
+    return parsed->command.name + ": " + parsed->command.missing;
+  }
+  return fmt::format("{}. Fix: see {} --help.", error.what(), usage);
+}
+
+/// An option that was given nothing is not one that was left out.
+std::string empty_value(const Registered& parsed) {
+  for (const CLI::Option* option : parsed.app->get_options()) {
+    const auto& given = option->results();
+    if (std::find(given.begin(), given.end(), "") == given.end()) continue;
+    const std::string name = option->get_name();
+    const std::string typed = option->get_positional() ? "" : name + ' ';
+    return fmt::format("{} {}: no value given. Fix: give {}{}{}.", parsed.command.name, name, typed,
+                       option->get_option_text(),
+                       option->get_required() ? "" : ", or leave it out");
+  }
+  return {};
+}
+
+Arguments parse_arguments(int count, const char* const* words) {
+  CLI::App app(kAbout, "repose");
+  app.set_version_flag("--version", base::kProgram);
+  app.footer(kExamples);
+  app.get_formatter()->column_width(kOptionColumn);
+  std::vector<Registered> commands;
+  for (Command& command : all_commands()) commands.push_back(registered(app, std::move(command)));
+  const auto parsed = [&commands]() -> const Registered* {
+    const auto found = std::find_if(commands.begin(), commands.end(),
+                                    [](const Registered& one) { return one.app->parsed(); });
+    return found == commands.end() ? nullptr : &*found;
+  };
+
+  Arguments arguments;
+  try {
+    app.parse(count, words);
+    if (const Registered* found = parsed()) {
+      arguments.error = empty_value(*found);
+      arguments.run = found->command.run;
+      arguments.fields = found->command.fields;
+    } else {
+      arguments.text = app.help();
+    }
+  } catch (const CLI::CallForHelp&) {
+    arguments.text = app.help();
+  } catch (const CLI::CallForVersion& version) {
+    arguments.text = std::string(version.what()) + '\n';
+  } catch (const CLI::ParseError& error) {
+    arguments.error = error_of(app, parsed(), error);
+  }
+  return arguments;
+}
+
+}  // namespace
+
+std::vector<Command> all_commands() {
+  std::vector<Command> commands = {measure_command(),  board_command(),     camera_command(),
+                                   compare_command(),  track_command(),     shape_command(),
+                                   simulate_command(), render_command(),    new_command(),
+                                   plan_command(),     calibrate_command(), report_command(),
+                                   export_command(),   bench_command(),     design_command(),
+                                   regress_command(),  verify_command()};
+  const std::vector<Command> of_help = help_commands(commands);
+  commands.insert(commands.end(), of_help.begin(), of_help.end());
+  return commands;
+}
+
 namespace {
 
 /// Says what nobody has foreseen.
@@ -61,7 +230,7 @@ ExitCode carry_out(const std::function<ExitCode()>& work, const std::string& com
 
 int run_program(int count, const char* const* words) {
   prepare_streams();
-  base::keep_freed_memory();
+  base::disable_heap_trimming();
   return static_cast<int>(
       carry_out([&] { return run(count, words); }, count > 1 ? words[1] : "repose", {}));
 }

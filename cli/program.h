@@ -2,11 +2,16 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "base/input_error.h"
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
+
+/// In the order of the program's help.
+std::vector<Command> all_commands();
 
 /// Does a command's work, and says what it throws: an input's faults, a line each, with the options
 /// of their fields; all else, a library's std::invalid_argument too, as an internal error.

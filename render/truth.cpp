@@ -6,9 +6,8 @@
 #include <variant>
 
 #include "render/scene/extent.h"
-#include "render/scene/ground.h"
 #include "render/scene/view.h"
-#include "render/silhouette/upper_edge.h"
+#include "render/silhouette/silhouette.h"
 
 namespace repose::render {
 

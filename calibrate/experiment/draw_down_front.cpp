@@ -9,10 +9,9 @@
 
 #include "base/input_error.h"
 #include "base/units.h"
-#include "dem/experiment/placing.h"
+#include "dem/experiment/model_setup.h"
 #include "render/renderer.h"
 #include "vision/measure/outline_angle.h"
-#include "vision/measure/silhouette_edge.h"
 
 namespace repose::calibrate {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "base/angle_definition.h"
 #include "dem/experiment/experiment.h"
-#include "dem/experiment/placing.h"
+#include "dem/experiment/model_setup.h"
 #include "vision/drawing/overlay.h"
-#include "vision/measure/status_name.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::calibrate {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "calibrate/statistics/summary.h"
-#include "dem/experiment/heap_envelope.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/protocol.h"
 #include "render/renderer.h"
 #include "render/scene/camera.h"

@@ -9,7 +9,7 @@
 #include "base/distributions.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
-#include "vision/measure/status_name.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::calibrate {
 namespace {

@@ -12,15 +12,15 @@
 #include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/json_fields.h"
-#include "vision/measure/status_name.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::calibrate {
 namespace {
 
 /// Degrees, millimetres and counts of a bench are far less. A fit does not end with such numbers.
-constexpr double kMostReading = 1e9;
+constexpr double kMaxReading = 1e9;
 
-bool is_possible(double reading) { return !(std::abs(reading) > kMostReading); }
+bool is_possible(double reading) { return !(std::abs(reading) > kMaxReading); }
 
 constexpr const char* kNoHeap = "no_heap";
 

@@ -6,8 +6,7 @@
 #include "base/fingerprint.h"
 #include "calibrate/experiment/model_fields.h"
 #include "calibrate/experiment/simulator_version.h"
-#include "dem/contact/damping_name.h"
-#include "dem/contact/rolling_name.h"
+#include "dem/contact/model_names.h"
 
 namespace repose::calibrate {
 namespace {
@@ -38,7 +37,7 @@ RunSpec spec_of(const dem::Study& study, dem::Experiment experiment, const Named
                .definition = study.experiments.at(experiment).definition};
   spec.model.grain = grain.shape;
   if (auto* heap = std::get_if<dem::HeapProtocol>(&spec.protocol)) {
-    heap->may_be_fewer = true;
+    heap->allow_partial_fill = true;
     spec.viewing.camera = camera_of(*heap);
   }
   return spec;
@@ -59,7 +58,7 @@ std::string description_of(const RunSpec& spec, std::uint64_t seed) {
     json[name_of(part)] = json_of_fields(surface.material);
     json["particle_" + name_of(part)] = json_of_fields(surface.with_grain);
   }
-  if (model.size_sd_fraction > 0) json["size_sd_fraction"] = model.size_sd_fraction;
+  if (model.size_cv > 0) json["size_sd_fraction"] = model.size_cv;
   json["rolling_model"] = dem::name_of(model.rolling);
   if (model.damping != dem::DampingModel::per_contact) {
     json["damping"] = dem::name_of(model.damping);

@@ -77,7 +77,7 @@ class ExperimentRunner {
       }
     } catch (const base::InputError& error) {
       throw dem::with_study_keys(error, spec_.protocol);
-    } catch (const dem::NoReading& error) {
+    } catch (const dem::NoMeasurement& error) {
       run.failure = error.what();
     } catch (const dem::UnstableRun& error) {
       run.failure = error.what();

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 
 namespace repose::calibrate {
 
@@ -16,7 +16,7 @@ struct TrajectoryPlan {
 
 struct SimulateOptions {
   /// Where runs are found and saved, also half-way; null: nowhere, all is simulated.
-  const RunFolder* folder = nullptr;
+  const RunStore* folder = nullptr;
   /// The folder is to hold the final state; that of a pictured experiment is saved anyway.
   bool saves_state = false;
   std::optional<TrajectoryPlan> trajectory;

@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 
 #include "calibrate/export/rolling.h"
+#include "dem/contact/model_names.h"
 #include "dem/contact/restitution.h"
-#include "dem/contact/rolling_name.h"
 
 namespace repose::calibrate {
 namespace {
 
 /// LIGGGHTS takes restitution above .05 only.
-constexpr double kLeastLiggghtsRestitution = .0501;
+constexpr double kMinLiggghtsRestitution = .0501;
 
 struct RestitutionLaw {
   const char* name;
@@ -74,7 +74,7 @@ double exported_restitution(ExportTarget target, double restitution) {
   if (target == ExportTarget::lammps) {
     return tsuji_value(std::sqrt(1.5) * dem::textbook_damping_factor(restitution));
   }
-  if (target == ExportTarget::liggghts) return std::max(restitution, kLeastLiggghtsRestitution);
+  if (target == ExportTarget::liggghts) return std::max(restitution, kMinLiggghtsRestitution);
   return restitution;
 }
 

@@ -1,6 +1,7 @@
 #include "calibrate/export/export.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,8 +11,42 @@
 #include "calibrate/export/facts.h"
 #include "calibrate/export/readme.h"
 #include "calibrate/export/targets.h"
+#include "calibrate/result/result.h"
+#include "calibrate/result/result_text.h"
 
 namespace repose::calibrate {
+
+std::vector<FittedValue> fitted_values(const StudyResult& result) {
+  std::vector<FittedValue> values;
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    for (const ResultParameter& parameter : joint->parameters) {
+      values.push_back({.name = parameter.name,
+                        .value = parameter.value,
+                        .low = parameter.interval.low,
+                        .high = parameter.interval.high,
+                        .verdict = name_of(parameter.verdict)});
+    }
+    return values;
+  }
+  for (const auto& [name, value] : std::get<PublishedResult>(result.found).values) {
+    values.push_back({.name = name, .value = value});
+  }
+  return values;
+}
+
+std::vector<std::vector<double>> exported_sets(const StudyResult& result) {
+  std::vector<std::vector<double>> sets;
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    for (EquivalentSet& set : good_sets(*joint)) sets.push_back(std::move(set.values));
+    return sets;
+  }
+  sets.emplace_back();
+  for (const auto& [name, value] : std::get<PublishedResult>(result.found).values) {
+    sets.back().push_back(value);
+  }
+  return sets;
+}
+
 namespace {
 
 std::vector<ExportedFile> files_for(ExportTarget target, const ExportFacts& facts,

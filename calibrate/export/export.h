@@ -12,6 +12,7 @@
 #include "dem/study/study.h"
 
 /// A calibrated study as input of other discrete element programs, in their own definitions.
+
 namespace repose::calibrate {
 
 struct StudyResult;

@@ -5,8 +5,8 @@
 
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/targets.h"
-#include "dem/experiment/incline.h"
 #include "dem/experiment/model_setup.h"
+#include "dem/experiment/roll.h"
 
 namespace repose::calibrate {
 namespace {

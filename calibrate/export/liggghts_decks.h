@@ -7,6 +7,7 @@
 #include "calibrate/export/facts.h"
 
 /// What the decks of LIGGGHTS share; each is a file of templates/liggghts filled in.
+
 namespace repose::calibrate {
 
 /// The number of a part's material: the plate's, 2, where it has none of its own.

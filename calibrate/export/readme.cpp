@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/export/targets.h"
-#include "dem/contact/rolling_name.h"
+#include "dem/contact/model_names.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
@@ -77,7 +77,7 @@ std::string heap_stiffness_text(const ExportFacts& facts) {
 /// Decks have grains of the mean size; EDEM has sizes of its own.
 void add_sizes(const ExportFacts& facts, ExportTarget target, DeckFields& fields) {
   constexpr double kPercent = 100;
-  const double percent = kPercent * facts.study().model.size_sd_fraction;
+  const double percent = kPercent * facts.study().model.size_cv;
   if (percent == 0) return;
   DeckFields& sizes = fields.add_section("SIZES");
   sizes.set("PERCENT", percent);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "dem/experiment/placing.h"
+#include "dem/experiment/model_setup.h"
 
 namespace repose::calibrate {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "dem/experiment/draw_down_boxes.h"
-#include "dem/experiment/incline.h"
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/roll.h"
 
 namespace repose::calibrate {
 namespace {

@@ -6,8 +6,8 @@
 #include "calibrate/export/rolling.h"
 #include "calibrate/export/targets.h"
 #include "dem/contact/restitution.h"
-#include "dem/experiment/incline.h"
 #include "dem/experiment/model_setup.h"
+#include "dem/experiment/roll.h"
 
 namespace repose::calibrate {
 namespace {

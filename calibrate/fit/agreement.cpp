@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kOneSided = .95;  // of each of the two tests of equivalence
 constexpr double kPower = .8;      // four of five
-constexpr double kMostRuns = 1e5;  // more is never
+constexpr double kMaxRuns = 1e5;   // more is never
 constexpr double kSmallestChance = 1e-300;
 constexpr double kAngle_deg = 2;
 constexpr double kFraction = .1;  // of a reading, and of the range that it may have
@@ -45,7 +45,7 @@ double chance_of(const UncertainMean& difference) {
   return std::max(2 * base::student_t_above(t, difference.df), kSmallestChance);
 }
 
-Interval not_ruled_out(const UncertainMean& difference) {
+Interval equivalence_interval(const UncertainMean& difference) {
   const double half = base::student_t_quantile(kOneSided, difference.df) * difference.uncertainty;
   return {difference.value - half, difference.value + half};
 }
@@ -70,7 +70,7 @@ double deciding_variance(const UncertainMean& difference, double tolerance, doub
 
 /// How many of what has this variance each bring their mean's to `allowed`; more than there are.
 std::optional<int> number_for(double variance, double allowed, int now) {
-  if (!(allowed > 0) || !(variance > 0) || variance / allowed > kMostRuns) return std::nullopt;
+  if (!(allowed > 0) || !(variance > 0) || variance / allowed > kMaxRuns) return std::nullopt;
   return std::max(static_cast<int>(std::ceil(variance / allowed)), now + 1);
 }
 

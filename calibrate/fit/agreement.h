@@ -43,7 +43,7 @@ double chance_of(const UncertainMean& difference);
 
 /// The values that two one-sided tests at 5 % do not rule out (Schuirmann 1987, J. Pharmacokinet.
 /// Biopharm. 15, 657): within the tolerance, both means are as good as equal.
-Interval not_ruled_out(const UncertainMean& difference);
+Interval equivalence_interval(const UncertainMean& difference);
 
 /// The true difference that a test at `level` sees in four of five such checks.
 double detectable_difference(const UncertainMean& difference, double level);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/problem.h"
+#include "calibrate/fit/sensitivity_check.h"
 
 namespace repose::calibrate {
 

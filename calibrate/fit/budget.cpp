@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
 
 namespace repose::calibrate {
 namespace {

@@ -1,6 +1,7 @@
 #include "calibrate/fit/fit_watch.h"
 
 namespace repose::calibrate {
+
 namespace {
 
 thread_local const std::atomic<bool>* watched = nullptr;

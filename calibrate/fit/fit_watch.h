@@ -3,6 +3,8 @@
 #include <atomic>
 #include <stdexcept>
 
+#include <ceres/iteration_callback.h>
+
 namespace repose::calibrate {
 
 /// Thrown by a fit that was told to stop.
@@ -30,5 +32,13 @@ class FitWatch {
 bool is_fit_interrupted();
 /// @throws FitInterrupted
 void stop_if_interrupted();
+
+/// Makes a search by Ceres give up where the fit is interrupted.
+class SearchCallback : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return is_fit_interrupted() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+};
 
 }  // namespace repose::calibrate

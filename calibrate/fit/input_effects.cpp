@@ -6,9 +6,9 @@
 
 #include "base/distributions.h"
 #include "calibrate/fit/check_sample.h"
-#include "calibrate/fit/minimum.h"
-#include "calibrate/fit/training_set.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/fit/solution.h"
+#include "calibrate/fit/surrogate.h"
 
 namespace repose::calibrate {
 namespace {

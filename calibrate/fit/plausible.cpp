@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "calibrate/fit/fit_watch.h"
-#include "calibrate/fit/random.h"
-#include "calibrate/fit/sequence.h"
+#include "calibrate/fit/points.h"
 
 namespace repose::calibrate {
 namespace {
@@ -123,14 +122,14 @@ std::vector<Point> points_of(const std::vector<Particle>& particles) {
 
 }  // namespace
 
-PlausibleSets plausible_sets(const Misfit& misfit, std::uint64_t seed) {
+PosteriorSamples posterior_samples(const Misfit& misfit, std::uint64_t seed) {
   Random random(seed);
   std::vector<Particle> particles;
   for (std::size_t i = 0; i < kParticles; ++i) {
     const Point point = sequence_point(i, misfit.dimensions());
     particles.push_back({point, misfit.chi2(point)});
   }
-  PlausibleSets sets;
+  PosteriorSamples sets;
   double power = 0;
   temper(misfit, power, kWide, particles, random);
   sets.wide = points_of(particles);

@@ -9,7 +9,7 @@
 namespace repose::calibrate {
 
 /// Sets of parameters that the data leave plausible, spread as their probability is.
-struct PlausibleSets {
+struct PosteriorSamples {
   std::vector<Point> points;  ///< of density exp(-chi2 / 2) in the box
   std::vector<Point> wide;    ///< of density exp(-chi2 / 8): twice as far out
 };
@@ -18,7 +18,7 @@ struct PlausibleSets {
 /// gains weight by and by. Del Moral, Doucet, Jasra (2006), J. R. Stat. Soc. B 68, 411; the moves
 /// are ter Braak's (2006), Stat. Comput. 16, 239: along differences of other points. Proved by
 /// Plausible.* in tests/calibrate.
-PlausibleSets plausible_sets(const Misfit& misfit, std::uint64_t seed);
+PosteriorSamples posterior_samples(const Misfit& misfit, std::uint64_t seed);
 
 /// Mean and standard deviation of each coordinate.
 Point mean_of(const std::vector<Point>& points);

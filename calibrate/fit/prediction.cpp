@@ -7,9 +7,8 @@
 
 #include "base/distributions.h"
 #include "calibrate/fit/check_sample.h"
-#include "calibrate/fit/sequence.h"
-#include "calibrate/fit/training_set.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/fit/surrogate.h"
 
 namespace repose::calibrate {
 namespace {
@@ -139,7 +138,7 @@ void judge(const Problem& problem, const Observable& observable, const Uncertain
   const UncertainMean by_chance = difference_of(with_known(of_sets, prediction.model_sd), bench);
   prediction.difference_sigma = by_chance.value / by_chance.uncertainty;
   prediction.chance = chance_of(by_chance);
-  const Interval within = not_ruled_out(difference);
+  const Interval within = equivalence_interval(difference);
   if (within.low >= -prediction.tolerance && within.high <= prediction.tolerance) {
     prediction.verdict = AgreementVerdict::agrees;
   } else if (prediction.chance < kLevel / static_cast<double>(problem.held_out.size())) {

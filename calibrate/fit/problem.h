@@ -29,7 +29,7 @@ struct Parameter {
   double max = 0;
   std::optional<Prior> prior;
   /// Experiments that tell it from the others, made or not: what is advised where it stays open.
-  std::vector<std::string> told_by = {};
+  std::vector<std::string> identified_by = {};
   /// A 95 % interval of this half-width makes it determined, whatever its value.
   std::optional<double> useful_half_width = {};
   std::optional<BoundsOrigin> bounds_are = {};  ///< none: not said
@@ -154,7 +154,7 @@ struct Job {
 
 /// No reading of a bench is larger: millimetres, degrees, counts. Far larger ones, squared, are no
 /// numbers any more, and a fit of such runs would never end.
-inline constexpr double kMostReading = 1e9;
+inline constexpr double kMaxReading = 1e9;
 
 /// A job that is done.
 struct Run {

@@ -6,7 +6,7 @@ namespace repose::calibrate {
 
 std::vector<Job> propose(const Problem& problem, const std::vector<Run>& completed) {
   require_sound(problem);
-  return replay(problem, completed).missing;
+  return reconstruct_rounds(problem, completed).missing;
 }
 
 }  // namespace repose::calibrate

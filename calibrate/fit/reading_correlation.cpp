@@ -9,8 +9,8 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr int kFewestDegrees = 4;        // of freedom that a correlation is seen with
-constexpr double kMostCorrelated = .95;  // of a correlation: two readings are never quite one
+constexpr int kFewestDegrees = 4;       // of freedom that a correlation is seen with
+constexpr double kMaxCorrelated = .95;  // of a correlation: two readings are never quite one
 
 /// Two readings of the same runs.
 struct Pairs {
@@ -104,7 +104,7 @@ std::vector<std::vector<double>> reading_correlation_of(const Problem& problem,
         all[own[a]][own[b]] = found->value;
       }
     }
-    const double kept = squares > 0 ? std::clamp(1 - variances / squares, 0., kMostCorrelated) : 0;
+    const double kept = squares > 0 ? std::clamp(1 - variances / squares, 0., kMaxCorrelated) : 0;
     for (std::size_t a = 0; a < own.size(); ++a) {
       for (std::size_t b = a + 1; b < own.size(); ++b) {
         all[own[a]][own[b]] *= kept;

@@ -7,15 +7,16 @@
 
 #include "base/distributions.h"
 #include "calibrate/fit/check_sample.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
 
 namespace repose::calibrate {
+
 namespace {
 
 constexpr std::uint64_t kFirstSensitivitySeed = kFirstCheckSeed + 700'000'000;
 constexpr double kStiffer = 10;
 constexpr int kMoreSpheres = 4;
-constexpr double kMostOfBudget = .2;
+constexpr double kMaxOfBudget = .2;
 constexpr int kFewestRepeats = 5;
 constexpr double kInterval = .975;
 
@@ -109,7 +110,7 @@ void judge(const UncertainMean& change, double level, SensitivityCheck& check) {
   const double half = base::student_t_quantile(kInterval, change.df) * change.uncertainty;
   check.interval = {change.value - half, change.value + half};
   check.chance = chance_of(change);
-  const Interval within = not_ruled_out(change);
+  const Interval within = equivalence_interval(change);
   if (within.low >= -check.limit && within.high <= check.limit) {
     if (check.failed_runs == 0) check.verdict = AgreementVerdict::agrees;
   } else if (check.chance < level &&
@@ -169,11 +170,11 @@ SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
   });
   SensitivityPlan plan;
   for (const Experiment& experiment : open) {
-    const double left_s = kMostOfBudget * problem.settings.budget_s - plan.run_s;
+    const double left_s = kMaxOfBudget * problem.settings.budget_s - plan.run_s;
     const auto one =
         plan_within(left_s, problem, experiment, inputs_of(experiment), values, repeats);
     if (!one) {
-      plan.too_dear.push_back(experiment.name);
+      plan.over_budget.push_back(experiment.name);
       continue;
     }
     plan.run_s += one->run_s;
@@ -197,6 +198,56 @@ std::vector<SensitivityCheck> check_sensitivity(const Problem& problem, AssumedI
   }
   for (const Observable& observable : problem.held_out) add({observable, nullptr, 0});
   return checks;
+}
+
+namespace {
+
+bool is_known(const SensitivityCheck& check) {
+  return std::isfinite(check.change) && std::isfinite(check.interval.low) &&
+         std::isfinite(check.interval.high);
+}
+
+/// What the study's grains would read where the bench's read `mean`: `change` is what makes them
+/// more like the bench's, if it adds to a reading, and if it goes with it.
+Interval without(double mean, double change) {
+  const double added = mean - change;
+  const bool can_go_with_it = mean > 0 && mean + change > 0;
+  return {added, can_go_with_it ? mean * mean / (mean + change) : added};
+}
+
+/// One pair of readings does not tell which of both it is, nor what is between them: the middle,
+/// and the standard deviation of what is anywhere in between (JCGM 100:2008, GUM, 4.3.7).
+void take_from(Observable& observable, const SensitivityCheck& check) {
+  const auto readable = [&](double reading) {
+    return std::clamp(reading, observable.least, observable.most);
+  };
+  const auto [added, multiplied] = without(observable.mean, check.change);
+  const double width = std::abs(readable(multiplied) - readable(added));
+  const double half = (check.interval.high - check.interval.low) / 2;
+  observable.mean = (readable(added) + readable(multiplied)) / 2;
+  observable.shift_sd =
+      std::hypot(observable.shift_sd, half / base::kNormal95, width / std::sqrt(12));
+}
+
+}  // namespace
+
+std::vector<MovedCoefficient> moved_coefficients(const Problem& problem,
+                                                 const std::vector<SensitivityCheck>& checks,
+                                                 const std::vector<Run>& runs) {
+  Problem moved = problem;
+  bool is_any = false;
+  for (Observable& observable : moved.observables) {
+    const auto check = std::ranges::find(checks, observable.name, &SensitivityCheck::name);
+    if (check == checks.end() || !is_known(*check)) continue;
+    take_from(observable, *check);
+    is_any = true;
+  }
+  if (!is_any) return {};
+  std::vector<MovedCoefficient> coefficients;
+  for (const FittedParameter& fitted : fit_jointly(moved, runs).parameters) {
+    coefficients.push_back({fitted.name, fitted.value, fitted.interval, fitted.verdict});
+  }
+  return coefficients;
 }
 
 }  // namespace repose::calibrate

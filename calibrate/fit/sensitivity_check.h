@@ -38,8 +38,8 @@ struct SensitivityCheck {
 /// study has it, which no other check simulates there.
 struct SensitivityPlan {
   std::vector<Job> jobs;
-  std::vector<std::string> too_dear;  ///< experiments that would take too much of the budget
-  double run_s = 0;                   ///< work of all jobs, by Experiment::run_s
+  std::vector<std::string> over_budget;  ///< experiments that would take too much of the budget
+  double run_s = 0;                      ///< work of all jobs, by Experiment::run_s
 };
 
 /// `repeats` of each, or no fewer than five where time is short; the cheapest first, as long as a
@@ -53,5 +53,21 @@ SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
 std::vector<SensitivityCheck> check_sensitivity(const Problem& problem, AssumedInput input,
                                                 const std::vector<double>& values,
                                                 const std::vector<Run>& runs, const JointFit& fit);
+
+/// What a coefficient would have to be with the other value of an assumed input: with the stiffer
+/// grains of the checks, or with more spheres.
+struct MovedCoefficient {
+  std::string name;
+  double value = 0;
+  Interval interval;  ///< 95 %, profile likelihood
+  Verdict verdict = Verdict::undetermined;
+};
+
+/// In the order of Problem::parameters; none where no check knows what that changes. The same runs
+/// fitted to means without these changes, which are as uncertain as the checks say: THEORY.md,
+/// "Assumed inputs". Proved by StifferCoefficients.* in tests/calibrate.
+std::vector<MovedCoefficient> moved_coefficients(const Problem& problem,
+                                                 const std::vector<SensitivityCheck>& checks,
+                                                 const std::vector<Run>& runs);
 
 }  // namespace repose::calibrate

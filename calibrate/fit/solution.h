@@ -1,21 +1,51 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "calibrate/fit/minimum.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/plausible.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/problem.h"
-#include "calibrate/fit/profile.h"
 
 namespace repose::calibrate {
+
+struct Minimum {
+  Point point;
+  double chi2 = 0;       ///< Misfit::chi2 there
+  double objective = 0;  ///< with the small residuals that choose among equals
+};
+
+/// Goes down from `start` within the box (Ceres, Levenberg and Marquardt with bounds); coordinate
+/// `held` stays.
+Minimum minimum_from(const Misfit& misfit, Point start, std::optional<std::size_t> held = {});
+
+/// The least of the minima from `extra` starts and the best dozen of a spread of points.
+Minimum least_minimum(const Misfit& misfit, const std::vector<Point>& extra);
+
+/// Chi-squared of one degree of freedom at 95 %: what a profile may rise to inside the interval.
+inline constexpr double kChi2Limit = 3.841458820694124;
+
+/// The best fit as a function of one coordinate.
+struct Profile {
+  std::vector<Minimum> minima;  ///< by rising coordinate, the best fit among them
+  double low = 0;               ///< the interval, in the unit box
+  double high = 1;
+};
+
+/// Follows the best fit with coordinate `held` moved to both sides until chi2 has risen by
+/// kChi2Limit or a bound is met: Venzon and Moolgavkar (1988), Appl. Statist. 37, 87. `plausible`
+/// points start searches of their own and, where they are within the limit, belong to the interval
+/// even if the way to them is not. Proved by JointFit.* in tests/calibrate.
+Profile profile_along(const Misfit& misfit, const Minimum& best, std::size_t held,
+                      const std::vector<Point>& plausible);
 
 /// Everything that the fit found, in the unit box.
 struct Solution {
   Misfit misfit;
   Minimum best;
-  PlausibleSets sets;
+  PosteriorSamples sets;
   std::vector<Profile> profiles;  ///< per coordinate
   /// Least chi-square with the model's error as known beforehand, and its degrees of freedom.
   double stated_chi2 = 0;
@@ -26,5 +56,12 @@ struct Solution {
 /// where that comes upon a better one. Where the model has to be more wrong than was said, it is.
 /// `runs` in_order.
 Solution solve(const Problem& problem, const std::vector<Run>& runs);
+
+/// Points that fit as well as the best (chi2 within kChi2Limit) and lie far from it and from each
+/// other, the farthest first; none where all such points are close together.
+std::vector<Minimum> equivalence_family(const Solution& solution);
+
+/// So close in the unit box that a family has one of them only.
+bool are_alike(const Point& a, const Point& b);
 
 }  // namespace repose::calibrate

@@ -6,28 +6,58 @@
 #include <optional>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <fmt/core.h>
 
+#include "base/distributions.h"
 #include "base/input_error.h"
+#include "calibrate/fit/agreement.h"
 #include "calibrate/fit/check_sample.h"
-#include "calibrate/fit/hotelling.h"
+#include "calibrate/fit/misfit.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/reading_correlation.h"
-#include "calibrate/fit/residuals.h"
-#include "calibrate/fit/unit_box.h"
+
+// Internal to the comparison of several means at once: included by .cpp files only.
 
 namespace repose::calibrate {
+
 namespace {
+
+/// Covariance of the means of several readings, and by how many degrees of freedom it is known.
+struct MeanCovariance {
+  Eigen::MatrixXd matrix;
+  double df = 0;
+};
+
+/// The probability that chance alone makes two vectors of means differ as much, neither scatter
+/// being known: Hotelling's T^2 with the degrees of freedom of Krishnamoorthy and Yu (2004), Stat.
+/// Probab. Lett. 66, 161, which are Welch's for a single reading.
+double chance_of(const Eigen::VectorXd& difference, const MeanCovariance& one,
+                 const MeanCovariance& other) {
+  const auto count = static_cast<double>(difference.size());
+  const Eigen::LLT<Eigen::MatrixXd> both(one.matrix + other.matrix);
+  double spread = 0;
+  for (const MeanCovariance* each : {&one, &other}) {
+    const Eigen::MatrixXd fraction = both.solve(each->matrix);
+    const double trace = fraction.trace();
+    spread += ((fraction * fraction).trace() + trace * trace) / each->df;
+  }
+  const double df = std::min(count * (count + 1) / std::max(spread, 1e-300), base::kManyDf);
+  const double t2 = difference.dot(both.solve(difference));
+  const double left = std::max(df - count + 1, 1.);
+  return base::fisher_f_above(t2 * left / (std::max(df, count) * count), count, left);
+}
 
 constexpr std::uint64_t kSeedsPerSet = 1'000'000;
 constexpr double kCheapFraction = .25;  // of the time that the dearest experiment's repeats take
-constexpr int kMostRepeats = 30;
+constexpr int kMaxRepeats = 30;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Cheap experiments are repeated as often as hardly lengthens the check.
 int repeats_of(const Experiment& experiment, double dearest_s, int repeats) {
   if (!experiment.is_stochastic) return 1;
   const double affordable = kCheapFraction * repeats * dearest_s / experiment.run_s;
-  const int most = std::max(kMostRepeats, repeats);
+  const int most = std::max(kMaxRepeats, repeats);
   return affordable < most ? std::max(static_cast<int>(affordable), repeats) : most;
 }
 
@@ -201,7 +231,7 @@ Agreement compared(const Observable& observable, const CheckSample& sample,
   if (!std::isfinite(agreement.difference_sigma)) return agreement;
   const UncertainMean left = differences.left(i);
   agreement.chance = chance_of(left);
-  agreement.difference = not_ruled_out(whole);
+  agreement.difference = equivalence_interval(whole);
   if (differences.seen(i) > kFollowed) {
     agreement.detectable = detectable_difference(left, level) / differences.seen(i);
   }
@@ -310,6 +340,47 @@ Verification verify(const Problem& problem, const std::vector<double>& values,
   find_disagreement(verification, level);
   verification.verdict = verdict_of(verification);
   return verification;
+}
+
+namespace {
+
+constexpr double kMattersInUncertainty = .5;  // of the uncertainty of measurement
+
+SurrogateCheck check_of(const Problem& problem, const JointFit& fit, std::size_t i,
+                        const CheckSample& sample) {
+  const FittedObservable& fitted = fit.observables[i];
+  const bool is_stochastic =
+      experiment_named(problem, problem.observables[i].experiment).is_stochastic;
+  SurrogateCheck check{.observable = fitted.name,
+                       .predicted = fitted.simulated,
+                       .uncertainty = fitted.simulated_uncertainty,
+                       .simulated = sample.count() > 0 ? sample.mean() : kNone,
+                       .chance = kNone};
+  if (sample.count() < (is_stochastic ? 2 : 1)) return check;
+  const RunScatter scatter = is_stochastic ? scatter_of(sample, &fit, i) : RunScatter{};
+  const UncertainMean simulated{sample.mean(), scatter.sd / std::sqrt(sample.count()),
+                                static_cast<double>(scatter.df)};
+  const double surrogate_df = std::max(fit.surrogates[i].runs - 1, 1);
+  const UncertainMean difference =
+      difference_of(simulated, {check.predicted, check.uncertainty, surrogate_df});
+  check.chance = chance_of(difference);
+  check.misses = check.chance < kLevel / static_cast<double>(fit.observables.size()) &&
+                 std::abs(difference.value) > kMattersInUncertainty * fitted.measured_uncertainty;
+  return check;
+}
+
+}  // namespace
+
+std::vector<SurrogateCheck> check_surrogates(const Problem& problem, const JointFit& fit,
+                                             const std::vector<Run>& runs) {
+  std::vector<double> values;
+  for (const FittedParameter& parameter : fit.parameters) values.push_back(parameter.value);
+  std::vector<SurrogateCheck> checks;
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    checks.push_back(
+        check_of(problem, fit, i, check_sample(problem, values, problem.observables[i], runs)));
+  }
+  return checks;
 }
 
 }  // namespace repose::calibrate

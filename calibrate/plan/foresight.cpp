@@ -6,10 +6,8 @@
 #include <Eigen/Cholesky>
 
 #include "base/distributions.h"
-#include "calibrate/fit/failure_risk.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/surrogate.h"
-#include "calibrate/fit/training_set.h"
 
 namespace repose::calibrate {
 namespace {
@@ -17,7 +15,7 @@ namespace {
 constexpr std::size_t kEvery = 5;   // of the plausible sets is a material
 constexpr std::size_t kFewest = 8;  // runs to learn a reading from
 // Of the runs nearby: more, and the experiment gives no reading of a material.
-constexpr double kMostFail = .5;
+constexpr double kMaxFail = .5;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -73,7 +71,7 @@ Foresight::Foresight(const Problem& problem, const std::vector<Run>& runs, int r
     : parameters_(problem.parameters) {
   const std::vector<Run> ordered = in_order(problem, runs);
   const Misfit misfit(problem, ordered, {}, true);
-  const std::vector<Point> plausible = plausible_sets(misfit, problem.settings.seed).points;
+  const std::vector<Point> plausible = posterior_samples(misfit, problem.settings.seed).points;
   known_ = inverse(covariance_of(plausible));
   for (std::size_t i = 0; i < plausible.size(); i += kEvery) materials_.push_back(plausible[i]);
   for (const Experiment& experiment : problem.experiments) {
@@ -85,7 +83,7 @@ void Foresight::learn(const Problem& problem, const std::vector<Run>& runs,
                       const Experiment& experiment, int readings) {
   const auto dimensions = static_cast<Eigen::Index>(problem.parameters.size());
   const Attempts attempts = attempts_of(problem, experiment, runs);
-  Prospect& prospect = prospects_.emplace_back(Prospect{
+  ForecastTerm& prospect = prospects_.emplace_back(ForecastTerm{
       .experiment = experiment.name,
       .is_measured =
           std::ranges::any_of(problem.observables,
@@ -107,7 +105,7 @@ void Foresight::learn(const Problem& problem, const std::vector<Run>& runs,
     const double u = uncertainty_of_mean(surrogate, w.mean, readings, experiment);
     const double u_w = u / surrogate.warp().slope(w.mean);
     const Eigen::Map<const Eigen::VectorXd> gradient(w.mean_gradient.data(), dimensions);
-    if (!risk.any() || risk.at(materials_[k]).fraction < kMostFail) {
+    if (!risk.any() || risk.at(materials_[k]).fraction < kMaxFail) {
       precisions[k] = gradient * gradient.transpose() / (u_w * u_w + w.variance);
     }
     for (const std::size_t parameter : experiment.parameters) {
@@ -119,10 +117,10 @@ void Foresight::learn(const Problem& problem, const std::vector<Run>& runs,
   }
 }
 
-Outlook Foresight::with(const std::vector<std::size_t>& experiments) const {
+DesignForecast Foresight::with(const std::vector<std::size_t>& experiments) const {
   const std::size_t dimensions = materials_.front().size();
   std::vector<std::vector<double>> widths(dimensions);
-  Outlook outlook{.widths = {}, .determined = std::vector<double>(dimensions, 0)};
+  DesignForecast outlook{.widths = {}, .determined = std::vector<double>(dimensions, 0)};
   for (std::size_t k = 0; k < materials_.size(); ++k) {
     Eigen::MatrixXd precision = known_;
     for (const std::size_t experiment : experiments) {

@@ -13,7 +13,7 @@
 namespace repose::calibrate {
 
 /// An experiment that is done, or that could be.
-struct Prospect {
+struct ForecastTerm {
   std::string experiment;
   bool is_measured = false;
   int runs = 0;
@@ -26,7 +26,7 @@ struct Prospect {
 };
 
 /// What would be known of each parameter.
-struct Outlook {
+struct DesignForecast {
   /// Of the 95 % intervals, as a part of the distance of the bounds: medians over materials.
   std::vector<double> widths;
   /// Part of the plausible materials whose interval ends inside both bounds and leaves one value.
@@ -53,16 +53,16 @@ class Foresight {
   Foresight(const Problem& problem, const std::vector<Run>& runs, int readings);
 
   /// In the problem's order.
-  const std::vector<Prospect>& prospects() const { return prospects_; }
+  const std::vector<ForecastTerm>& prospects() const { return prospects_; }
   /// With what is measured, and with some experiments more: places in prospects().
-  Outlook with(const std::vector<std::size_t>& experiments) const;
+  DesignForecast with(const std::vector<std::size_t>& experiments) const;
 
  private:
   void learn(const Problem& problem, const std::vector<Run>& runs, const Experiment& experiment,
              int readings);
 
   std::vector<Parameter> parameters_;
-  std::vector<Prospect> prospects_;
+  std::vector<ForecastTerm> prospects_;
   std::vector<Point> materials_;
   Eigen::MatrixXd known_;                                 ///< precision of the plausible sets
   std::vector<std::vector<Eigen::MatrixXd>> precisions_;  ///< by prospect and material

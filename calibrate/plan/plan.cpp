@@ -1,17 +1,96 @@
 #include "calibrate/plan/plan.h"
 
 #include <algorithm>
+#include <bit>
+#include <numeric>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
 #include "calibrate/fit/budget.h"
-#include "calibrate/fit/first_round.h"
 #include "calibrate/fit/fit_watch.h"
+#include "calibrate/fit/rounds.h"
 #include "calibrate/study/job_runner.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
+
+namespace {
+
+constexpr double kNearlyWhole = .97;
+
+/// Of two sets the better one has the higher score; narrow intervals decide among equals.
+struct Score {
+  double determined = 0;
+  double narrow = 0;
+
+  auto operator<=>(const Score&) const = default;
+};
+
+Score score_of(const DesignForecast& outlook) {
+  Score score;
+  for (const double part : outlook.determined) score.determined += std::min(part, kEnough);
+  for (const double width : outlook.widths) score.narrow += 1 - width;
+  return score;
+}
+
+std::vector<std::size_t> to_be_done(const Foresight& foresight) {
+  std::vector<std::size_t> places;
+  const std::vector<ForecastTerm>& prospects = foresight.prospects();
+  for (std::size_t i = 0; i < prospects.size(); ++i) {
+    if (!prospects[i].is_measured && prospects[i].is_known) places.push_back(i);
+  }
+  return places;
+}
+
+/// Those of `places` whose bits are set.
+std::vector<std::size_t> chosen(const std::vector<std::size_t>& places, unsigned bits) {
+  std::vector<std::size_t> set;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if ((bits >> i & 1U) != 0) set.push_back(places[i]);
+  }
+  return set;
+}
+
+std::vector<std::size_t> best_set(const Foresight& foresight,
+                                  const std::vector<std::size_t>& places) {
+  const double enough = kNearlyWhole * score_of(foresight.with(places)).determined;
+  std::vector<std::size_t> best = places;
+  Score best_score = score_of(foresight.with(places));
+  for (unsigned bits = 0; bits < 1U << places.size(); ++bits) {
+    if (static_cast<std::size_t>(std::popcount(bits)) > best.size()) continue;
+    const std::vector<std::size_t> set = chosen(places, bits);
+    const Score score = score_of(foresight.with(set));
+    if (score.determined < enough) continue;
+    if (set.size() == best.size() && score.narrow <= best_score.narrow) continue;
+    best = set;
+    best_score = score;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<PlannedStep> smallest_set(const Foresight& foresight) {
+  std::vector<std::size_t> left = best_set(foresight, to_be_done(foresight));
+  std::vector<std::size_t> done;
+  std::vector<PlannedStep> steps;
+  while (!left.empty()) {
+    const auto score_with = [&](std::size_t next) {
+      std::vector<std::size_t> set = done;
+      set.push_back(next);
+      return score_of(foresight.with(set));
+    };
+    const auto next = std::max_element(
+        left.begin(), left.end(), [&](auto a, auto b) { return score_with(a) < score_with(b); });
+    done.push_back(*next);
+    left.erase(next);
+    steps.push_back({done.back(), foresight.with(done)});
+  }
+  return steps;
+}
+
 namespace {
 
 /// One after the other, as the first round of a fit to all experiments.
@@ -111,6 +190,54 @@ std::optional<Plan> make_plan(const OfferedStudy& offered, const StudyContext& c
     return std::nullopt;
   }
   return plan;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json by_parameter(const Plan& plan, const std::vector<double>& values) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < values.size(); ++k) json[plan.parameters[k]] = values[k];
+  return json;
+}
+
+void add(const Plan& plan, const DesignForecast& outlook, Json& json) {
+  json["interval_widths"] = by_parameter(plan, outlook.widths);
+  json["determined"] = by_parameter(plan, outlook.determined);
+}
+
+Json prospect_json(const Plan& plan, const ForecastTerm& prospect) {
+  const auto run_s = plan.run_s.find(prospect.experiment);
+  return {{"experiment", prospect.experiment},
+          {"measured", prospect.is_measured},
+          {"runs", prospect.runs},
+          {"failed_runs", prospect.failed_runs},
+          {"run_s", run_s == plan.run_s.end() ? Json(nullptr) : Json(run_s->second)},
+          {"effects", prospect.is_known ? by_parameter(plan, prospect.effects) : Json(nullptr)}};
+}
+
+}  // namespace
+
+std::string plan_json(const Plan& plan, const OfferedStudy& offered) {
+  Json json = {{"study", offered.study.file.filename().string()},
+               {"hash", offered.study.hash},
+               {"readings", plan.readings},
+               {"experiments", Json::array()},
+               {"now", Json::object()},
+               {"steps", Json::array()},
+               {"notes", plan.notes}};
+  for (const ForecastTerm& prospect : plan.prospects) {
+    json["experiments"].push_back(prospect_json(plan, prospect));
+  }
+  add(plan, plan.now, json["now"]);
+  for (const PlannedStep& step : plan.steps) {
+    Json& added = json["steps"].emplace_back(
+        Json{{"experiment", plan.prospects[step.experiment].experiment}});
+    add(plan, step.outlook, added);
+  }
+  constexpr int kIndent = 2;
+  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace repose::calibrate

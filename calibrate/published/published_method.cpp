@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/statistics/design/design.h"
 #include "calibrate/study/job_runner.h"
 

@@ -7,9 +7,8 @@
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
-#include "calibrate/result/agreement_text.h"
-#include "calibrate/result/bench_errors_text.h"
 #include "calibrate/result/candidates.h"
+#include "calibrate/result/result_text.h"
 
 namespace repose::calibrate::report {
 namespace {

@@ -1,12 +1,16 @@
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "calibrate/fit/solution.h"
 #include "calibrate/report/chapters.h"
+#include "calibrate/report/document.h"
 #include "calibrate/report/wording.h"
-#include "calibrate/result/agreement_text.h"
-#include "calibrate/result/bench_errors_text.h"
-#include "calibrate/result/summary_text.h"
+#include "calibrate/result/result_text.h"
 
 namespace repose::calibrate::report {
+
 namespace {
 
 /// "determined if single readings of roll scatter by 35 %".
@@ -129,6 +133,159 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
                    lines_of(joint.additions)});
     }
   }
+  return chapter;
+}
+
+namespace {
+
+Chart profile_chart(const ResultParameter& parameter) {
+  const std::string label = label_of(parameter.name);
+  Chart chart = plane_chart("profile_" + parameter.name, titled(label), {.name = label, .unit = {}},
+                            {.name = "χ² above the minimum", .unit = {}});
+  std::vector<ProfilePoint> points;
+  for (const ProfilePoint& point : parameter.profile) {
+    if (std::isfinite(point.value + point.chi2)) points.push_back(point);
+  }
+  std::sort(points.begin(), points.end(),
+            [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+  if (points.empty()) return chart;
+  for (const auto& [value, chi2] : points) {
+    add_point(chart, "others refitted", Look::points, value, chi2);
+  }
+  add_level(chart, "95 % limit", Look::limit, {points.front().value, points.back().value},
+            kChi2Limit, kChi2Limit, kChi2Limit);
+  add_point(chart, "best fit", Look::best, cell(parameter.value), 0.0, cell(parameter.interval.low),
+            cell(parameter.interval.high));
+  constexpr double kShown = 12;
+  chart.y_range = {{-0.8, kShown}};
+  chart.caption = parameter.verdict == Verdict::determined
+                      ? "It rises above the limit on both sides: determined."
+                  : parameter.verdict == Verdict::bounded
+                      ? "It rises above the limit on both sides, far apart: bounded."
+                  : parameter.verdict == Verdict::one_sided
+                      ? "It rises above the limit on one side only: one-sided."
+                      : "It stays below the limit nearly everywhere: undetermined.";
+  return chart;
+}
+
+Chart family_chart(const JointResult& joint) {
+  Chart chart =
+      plane_chart("equivalence_family", "Where the equally good sets lie between the bounds",
+                  {.name = "coefficient", .unit = {}},
+                  {.name = "position between the bounds, 0 … 1", .unit = {}});
+  chart.x_title = "";
+  chart.y_range = {{-0.05, 1.05}};
+  chart.caption =
+      "Each line is one set of coefficients whose misfit is within the 95 % limit. Where the lines "
+      "meet, the measurements determine the coefficient; where they spread, they do not.";
+  const auto add = [&](const std::string& series, std::size_t k, double value) {
+    const ResultParameter& parameter = joint.parameters[k];
+    add_point(
+        chart, series, Look::line, label_of(parameter.name),
+        cell((value - parameter.bounds.low) / (parameter.bounds.high - parameter.bounds.low)));
+  };
+  int number = 0;
+  for (const EquivalentSet& set : good_sets(joint)) {
+    const std::string series = fmt::format("set {}", ++number);
+    for (std::size_t k = 0; k < set.values.size(); ++k) add(series, k, set.values[k]);
+  }
+  return chart;
+}
+
+/// The answer in numbers, between the bounds.
+Table uncertainty_table(const JointResult& joint) {
+  Table table{.name = "coefficients",
+              .title = "Contact coefficients with 95 % intervals",
+              .data = {.columns = {{.name = "coefficient", .unit = {}},
+                                   {.name = "value", .unit = {}, .decimals = 3},
+                                   {.name = "95 % from", .unit = {}, .decimals = 3},
+                                   {.name = "95 % to", .unit = {}, .decimals = 3},
+                                   {.name = "lower bound", .unit = {}},
+                                   {.name = "upper bound", .unit = {}},
+                                   {.name = "verdict", .unit = {}}},
+                       .rows = {}},
+              .strip = {{1, 2, 3, 4, 5}}};
+  for (const ResultParameter& parameter : joint.parameters) {
+    table.data.add({label_of(parameter.name), cell(parameter.value), cell(parameter.interval.low),
+                    cell(parameter.interval.high), cell(parameter.bounds.low),
+                    cell(parameter.bounds.high), name_of(parameter.verdict)});
+  }
+  return table;
+}
+
+/// What computing and measuring more would do to the widths of the intervals.
+Table narrowing_table(const JointResult& joint) {
+  Table table{.name = "narrowing",
+              .title = "Width of the 95 % interval: current and predicted",
+              .data = {.columns = {{.name = "coefficient", .unit = {}},
+                                   {.name = "now", .unit = {}, .decimals = 3},
+                                   {.name = "one more core hour", .unit = {}, .decimals = 3},
+                                   {.name = "exact simulation", .unit = {}, .decimals = 3},
+                                   {.name = "four times the readings", .unit = {}, .decimals = 3}},
+                       .rows = {}}};
+  for (const ResultParameter& parameter : joint.parameters) {
+    if (!parameter.narrowing) continue;
+    const double width = parameter.interval.high - parameter.interval.low;
+    table.data.add({label_of(parameter.name), cell(width), cell(width * parameter.narrowing->hour),
+                    cell(width * parameter.narrowing->exact),
+                    cell(width * parameter.narrowing->readings)});
+  }
+  return table;
+}
+
+void add_narrowing(const JointResult& joint, Chapter& chapter) {
+  Table table = narrowing_table(joint);
+  if (table.data.rows.empty()) return;
+  chapter.blocks.push_back(Heading{"What would narrow the intervals"});
+  chapter.blocks.push_back(std::move(table));
+  chapter.blocks.push_back(Paragraph{
+      "Roughly foreseen from the fit. Where exact simulation would hardly narrow an interval, a "
+      "larger budget is no use: measure more, or another experiment."});
+}
+
+Table correlation_table(const JointResult& joint) {
+  Table table{
+      .name = "correlation",
+      .title = "Correlation of the coefficients (1 or −1: only a combination is determined)",
+      .data = {}};
+  table.data.columns = {{.name = "coefficient", .unit = {}}};
+  for (const ResultParameter& parameter : joint.parameters) {
+    table.data.columns.push_back({.name = label_of(parameter.name), .unit = {}, .decimals = 2});
+  }
+  for (std::size_t k = 0; k < joint.correlation.size(); ++k) {
+    std::vector<Cell> row = {label_of(joint.parameters[k].name)};
+    for (const double value : joint.correlation[k]) row.push_back(cell(value));
+    table.data.add(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace
+
+Chapter knowledge_chapter(const JointResult& joint) {
+  Chapter chapter{.id = "knowledge", .title = "Uncertainty", .blocks = {}};
+  chapter.blocks.push_back(uncertainty_table(joint));
+  if (!joint.equivalence_family.empty()) {
+    chapter.blocks.push_back(ChartRow{{family_chart(joint)}});
+  }
+  ChartRow profiles;
+  for (const ResultParameter& parameter : joint.parameters) {
+    Chart chart = profile_chart(parameter);
+    if (!chart.data.rows.empty()) profiles.charts.push_back(std::move(chart));
+  }
+  if (!profiles.charts.empty()) {
+    chapter.blocks.push_back(Heading{"Profile likelihoods"});
+    chapter.blocks.push_back(Paragraph{fmt::format(
+        "Each coefficient is fixed at one value after another while all others are refitted. The "
+        "values at which the misfit χ² rises by less than {:.2f} form the 95 % interval.",
+        kChi2Limit)});
+    chapter.blocks.push_back(std::move(profiles));
+  }
+  if (!joint.correlation.empty()) {
+    chapter.blocks.push_back(Heading{"Correlations"});
+    chapter.blocks.push_back(correlation_table(joint));
+  }
+  add_narrowing(joint, chapter);
   return chapter;
 }
 

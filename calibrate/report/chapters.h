@@ -22,7 +22,7 @@ Chapter assumed_chapter(const JointResult& joint);
 /// How that was decided, in full: what the fit had expected, and how readings scatter.
 Chapter checks_chapter(const JointResult& joint);
 /// Along each coefficient the experiment that tells it best.
-Chapter telling_curves_chapter(const ReportedStudy& study, const JointResult& joint);
+Chapter sensitivity_chapter(const ReportedStudy& study, const JointResult& joint);
 /// All others.
 Chapter curves_chapter(const ReportedStudy& study, const JointResult& joint);
 /// Each observable over pairs of coefficients, with the line on which it has the measured value.

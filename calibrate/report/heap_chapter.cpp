@@ -12,7 +12,7 @@
 #include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
-#include "calibrate/report/figures.h"
+#include "calibrate/report/document.h"
 #include "calibrate/report/heap_model.h"
 #include "calibrate/report/picture_data.h"
 #include "calibrate/report/wording.h"

@@ -12,12 +12,11 @@
 #include "base/version.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/report/document.h"
-#include "calibrate/report/figures.h"
 #include "calibrate/report/picture_data.h"
 #include "calibrate/report/report_of.h"
 #include "calibrate/report/wording.h"
 #include "calibrate/statistics/summary.h"
-#include "vision/measure/status_name.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::calibrate::report {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/input_error.h"
 #include "calibrate/report/chapters.h"
-#include "calibrate/report/figures.h"
+#include "calibrate/report/document.h"
 #include "calibrate/report/wording.h"
 #include "calibrate/statistics/regress/regression.h"
 

@@ -8,8 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "base/angle_definition.h"
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 #include "calibrate/study/study_record.h"

@@ -1,12 +1,20 @@
 #include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/distributions.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 
+/// Formulas: calibrate/fit/THEORY.md, dem/THEORY.md and vision/measure/repose_angle.h, which name
+/// their sources and the tests that prove them.
+
 namespace repose::calibrate::report {
+
 namespace {
 
 void add(DataTable& data, const std::string& what, const std::string& value) {
@@ -124,6 +132,200 @@ Chapter limits_chapter(const StudyResult& result) {
         "and rolling friction between grains.");
   }
   for (const char* text : limits) chapter.blocks.push_back(Paragraph{text});
+  return chapter;
+}
+
+namespace {
+
+/// "mu_r F_n" of the definition's plain text.
+std::string rolling_text(std::string definition) {
+  for (const auto& [plain, sign] : {std::pair("mu_r", "μᵣ"), {"F_n", "Fₙ"}}) {
+    const std::string_view word = plain;
+    for (std::size_t at = definition.find(word); at != std::string::npos;
+         at = definition.find(word)) {
+      definition.replace(at, word.size(), sign);
+    }
+  }
+  return definition;
+}
+
+/// Nothing in a name is a command.
+std::string latex_text(const std::string& text) {
+  static const std::map<std::string, std::string> kSpelled = {{"\\", "\\textbackslash{}"},
+                                                              {"%", "\\%"},
+                                                              {"_", "\\_"},
+                                                              {"#", "\\#"},
+                                                              {"&", "\\&"},
+                                                              {"$", "\\$"},
+                                                              {"{", "\\{"},
+                                                              {"}", "\\}"},
+                                                              {"^", "\\^{}"},
+                                                              {"~", "\\~{}"}};
+  static const std::array<std::pair<std::string, std::string>, 20> kSigns = {
+      {{"χ²", "$\\chi^2$"}, {"T²", "$T^2$"}, {"μₛ", "$\\mu_s$"}, {"μᵣ", "$\\mu_r$"},
+       {"fᵢ", "$f_i$"},     {"vᵢ", "$v_i$"}, {"mᵢ", "$m_i$"},    {"sᵢ", "$s_i$"},
+       {"nᵢ", "$n_i$"},     {"xⱼ", "$x_j$"}, {"Fₙ", "$F_n$"},    {"é", "\\'e"},
+       {"ä", "\\\"a"},      {"μ", "$\\mu$"}, {"σ", "$\\sigma$"}, {"°", "$^\\circ$"},
+       {"×", "$\\times$"},  {"±", "$\\pm$"}, {"–", "--"},        {"−", "$-$"}}};
+  std::string escaped;
+  for (const char letter : text) {
+    const auto spelled = kSpelled.find(std::string(1, letter));
+    escaped += spelled == kSpelled.end() ? std::string(1, letter) : spelled->second;
+  }
+  for (const auto& [sign, command] : kSigns) {
+    for (std::size_t at = escaped.find(sign); at != std::string::npos;
+         at = escaped.find(sign, at + command.size())) {
+      escaped.replace(at, sign.size(), command);
+    }
+  }
+  return escaped;
+}
+
+/// Paragraphs and equations, as people read them and as LaTeX has them.
+struct Methods {
+  std::vector<Block> blocks;
+  std::string latex;
+
+  void add(std::string_view text) {
+    blocks.push_back(Paragraph{std::string(text)});
+    latex += latex_text(std::string(text)) + '\n';
+  }
+  void add_equation(std::string_view text, std::string_view in_latex) {
+    blocks.push_back(Equation{std::string(text)});
+    latex += fmt::format("\\begin{{equation}}\n  {}\n\\end{{equation}}\n", in_latex);
+  }
+};
+
+std::string stiffness_text(const Provenance& provenance) {
+  std::string text;
+  for (const auto& [experiment, factor] : provenance.stiffness_factor) {
+    if (!text.empty()) text += ", ";
+    text += shortened(experiment) + ' ' + shown(factor);
+  }
+  return text;
+}
+
+void add_simulation(const Provenance& provenance, Methods& methods) {
+  const ClumpFacts& clump = provenance.clump;
+  methods.add(fmt::format(
+      "Grains were simulated with the discrete element method ({}) as clumps of {} "
+      "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
+      "and inertia are those of the surface.{} Contacts follow {}: with overlap d of "
+      "two surfaces,",
+      provenance.study.program, clump.spheres, shortened(clump.source, 300),
+      shown(100 * clump.volume_error, 2), shown(100 * clump.inertia_error, 2),
+      clump.size_sd_percent ? fmt::format(" Sizes of the grains in bulks vary normally, with a "
+                                          "standard deviation of {} %.",
+                                          shown(clump.size_sd_percent))
+                            : "",
+      provenance.contact_model));
+  methods.add_equation(
+      "Fₙ = (4/3) E* √R* d^(3/2),   1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂,   1/R* = 1/R₁ + "
+      "1/R₂,  |Fₜ| ≤ μₛ Fₙ",
+      "F_n = \\tfrac43 E^* \\sqrt{R^*}\\, d^{3/2}, \\quad "
+      "\\frac{1}{E^*} = \\frac{1-\\nu_1^2}{E_1} + \\frac{1-\\nu_2^2}{E_2}, \\quad "
+      "\\frac{1}{R^*} = \\frac{1}{R_1} + \\frac{1}{R_2}, \\quad "
+      "|F_t| \\le \\mu_s F_n");
+  methods.add(fmt::format(
+      "with damping that gives the stated coefficient of restitution in a central impact of two "
+      "spheres ({}), and sliding friction μₛ. Rolling friction μᵣ: {}. Young's moduli were "
+      "multiplied by these factors: {}.",
+      shortened(provenance.damping_definition, 400),
+      shortened(rolling_text(provenance.rolling_definition), 400), stiffness_text(provenance)));
+}
+
+void add_angle(bool has_photographs, Methods& methods) {
+  methods.add(fmt::format(
+      "The angle of repose was measured in {}silhouettes of the simulated heaps{}: on each side a "
+      "straight line was fitted to the heap's edge between 20 and 80 % of its height, and the "
+      "angle is the mean of both sides' angles to the ground line,",
+      has_photographs ? "photographs and in " : "", has_photographs ? " by the same program" : ""));
+  methods.add_equation("θ = (θ_left + θ_right) / 2",
+                       "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})");
+}
+
+/// Where the simulations of the fit were made, round by round.
+std::string runs_text(const JointResult& joint) {
+  const auto all = static_cast<int>(joint.runs.size());
+  const std::string made = fmt::format("{} simulations entered the fit", all);
+  // Rounds count what was planned so far; the checks' runs follow.
+  if (joint.rounds.empty() || joint.rounds.back().jobs > all) return made + '.';
+  const int spread = joint.rounds.front().jobs;
+  const int placed = joint.rounds.back().jobs - spread;
+  const int checks = all - spread - placed;
+  std::string text = fmt::format("{}: {} were spread over the bounds", made, spread);
+  if (placed > 0) {
+    text += fmt::format(
+        "; {} more, in {} further round{}, were made at coefficients that those "
+        "before left plausible or little known",
+        placed, joint.rounds.size() - 1, joint.rounds.size() == 2 ? "" : "s");
+  }
+  if (checks > 0) {
+    text +=
+        fmt::format("; {} checked the best fits and equally good sets with fresh seeds", checks);
+  }
+  return text + '.';
+}
+
+void add_joint_fit(const JointResult& joint, Methods& methods) {
+  methods.add(fmt::format(
+      "All {} coefficients were fitted to all {} measured means at once. {} Each measured "
+      "quantity was described by a Gaussian process with expectation fᵢ and variance vᵢ (Matérn "
+      "5/2, seed noise included), and the coefficients x minimise",
+      joint.parameters.size(), joint.observables.size(), runs_text(joint)));
+  methods.add_equation(
+      "χ²(x) = Σᵢ (fᵢ(x) − mᵢ)² / (uᵢ² + vᵢ(x)),  uᵢ = (sᵢ/√nᵢ) · t(0.975; nᵢ−1)/1.960",
+      "\\chi^2(x) = \\sum_i \\frac{(f_i(x)-m_i)^2}{u_i^2+v_i(x)}, \\quad "
+      "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}");
+  methods.add(
+      "where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
+      "is Student's quantile. Readings of one experiment enter with the covariance of runs with "
+      "other seeds at the same place, as far as these explain the bench's scatter (shrunk: Schäfer "
+      "and Strimmer 2005). Intervals are 95 % profile-likelihood "
+      "intervals (Venzon and Moolgavkar 1988), the values xⱼ for which");
+  methods.add_equation(
+      "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
+      "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84");
+  methods.add(
+      "A coefficient is called determined when both ends of its interval lie inside the bounds and "
+      "its half-width is at most 25 % of the value or what the study calls useful, bounded when "
+      "the "
+      "interval is wider, one-sided when one end lies inside, undetermined otherwise. The best fit "
+      "was simulated again with "
+      "fresh "
+      "seeds, and all of these runs entered the fit. Simulated and measured means were compared by "
+      "Welch's t (several of one experiment by Hotelling's T²), over all experiments by the sum of "
+      "the chi-squares with the same probabilities (Lancaster 1961), whose distribution takes "
+      "account of what the fit could follow (Box 1954), and for equivalence by two "
+      "one-sided tests at 5 % (Schuirmann 1987).");
+}
+
+void add_paper_way(Methods& methods) {
+  methods.add(
+      "The particle–wall coefficients were found one after the other: each was swept over nine "
+      "levels, and a parabola was fitted to the results and solved for the measured value. Those "
+      "between grains were approached by steepest ascent and refined by a central composite "
+      "design, and a quadratic surface was fitted to its relative errors of the angle:");
+  methods.add_equation("|θ − θ_measured| / θ_measured = b₀ + Σ bᵢxᵢ + Σ bᵢⱼxᵢxⱼ + Σ bᵢᵢxᵢ²",
+                       "\\frac{|\\theta-\\theta_m|}{\\theta_m} = b_0 + \\sum_i b_i x_i + "
+                       "\\sum_{i<j} b_{ij} x_i x_j + \\sum_i b_{ii} x_i^2");
+  methods.add("Its minimum within the design's box was simulated ten times.");
+}
+
+}  // namespace
+
+Chapter methods_chapter(const ReportedStudy& study, const StudyResult& result) {
+  Methods methods;
+  add_simulation(result.provenance, methods);
+  if (has_heap(result)) add_angle(!study.pictures.empty(), methods);
+  if (const auto* joint = std::get_if<JointResult>(&result.found)) {
+    add_joint_fit(*joint, methods);
+  } else {
+    add_paper_way(methods);
+  }
+  Chapter chapter{
+      .id = "methods", .title = "Methods paragraph", .blocks = std::move(methods.blocks)};
+  chapter.blocks.push_back(CodeText{.label = "As LaTeX", .text = methods.latex});
   return chapter;
 }
 

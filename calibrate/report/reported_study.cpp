@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "calibrate/experiment/run_result.h"
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/study_record.h"
@@ -53,7 +53,7 @@ std::vector<MeasuredNumber> measured_in(const JointResult& joint) {
   return numbers;
 }
 
-/// A run as RunFolder saves it; none where the file is damaged.
+/// A run as RunStore saves it; none where the file is damaged.
 std::optional<SavedRun> saved_run_in(const fs::path& file) {
   try {
     const RunResult result = run_in(base::read_whole_file(file));

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/report/chapters.h"
-#include "calibrate/report/figures.h"
+#include "calibrate/report/document.h"
 #include "calibrate/report/wording.h"
 
 namespace repose::calibrate::report {
@@ -180,7 +180,7 @@ bool is_telling(const JointResult& joint, const ResponseCurve& curve) {
 
 }  // namespace
 
-Chapter telling_curves_chapter(const ReportedStudy& study, const JointResult& joint) {
+Chapter sensitivity_chapter(const ReportedStudy& study, const JointResult& joint) {
   Chapter chapter{.id = "telling", .title = "What determines each coefficient", .blocks = {}};
   ChartRow row;
   for (const ResponseCurve& curve : joint.responses) {

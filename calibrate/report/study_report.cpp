@@ -10,7 +10,6 @@
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/report_of.h"
-#include "calibrate/report/tables.h"
 #include "calibrate/report/wording.h"
 #include "calibrate/study/study_record.h"
 
@@ -30,7 +29,7 @@ std::vector<Chapter> finished_chapters(const ReportedStudy& study, const StudyRe
   std::vector<Chapter> chapters;
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     add({answer_chapter(*joint, pictures), protocol_chapter(study), heap_chapter(pictures),
-         agreement_chapter(*joint), assumed_chapter(*joint), telling_curves_chapter(study, *joint),
+         agreement_chapter(*joint), assumed_chapter(*joint), sensitivity_chapter(study, *joint),
          limits_chapter(result)},
         false, chapters);
     add({more_heaps_chapter(pictures), checks_chapter(*joint), curves_chapter(study, *joint),

@@ -22,7 +22,7 @@ struct Report {
 
 /// What a finished study found, with what else there is to be shown.
 /// @param pictures  of the bench's heaps, as in StudyRecord; measured again
-/// @param heap      state of the simulated one, as RunFolder::copy_state() writes it; empty: none
+/// @param heap      state of the simulated one, as RunStore::copy_state() writes it; empty: none
 Report study_report(const StudyResult& result, const std::vector<PictureReading>& pictures = {},
                     const std::filesystem::path& heap = {});
 

@@ -12,7 +12,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr double kLeastChance = 1e-300;
+constexpr double kMinChance = 1e-300;
 
 /// Of the differences of all means: the chi-square that is exceeded with their joint probability.
 double score_of_means(const JointResult& joint) {
@@ -20,7 +20,7 @@ double score_of_means(const JointResult& joint) {
     if (observable.verification.runs == 0) return kUnbounded;
   }
   if (!std::isfinite(joint.agreement.chance)) return kUnbounded;
-  const double chance = std::clamp(joint.agreement.chance, kLeastChance, 1.);
+  const double chance = std::clamp(joint.agreement.chance, kMinChance, 1.);
   constexpr double kFewest = 1e-3;  // degrees of freedom: none, and next to nothing is lacking
   const auto readings = static_cast<double>(joint.observables.size());
   return base::chi_square_exceeded(chance,

@@ -14,7 +14,6 @@
 #include "calibrate/fit/assumed_scatter.h"
 #include "calibrate/fit/input_effects.h"
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/problem.h"
 #include "calibrate/fit/sensitivity_check.h"
@@ -22,7 +21,7 @@
 #include "calibrate/result/surface_summary.h"
 #include "calibrate/study/study_record.h"
 #include "calibrate/study/study_run.h"
-#include "dem/contact/damping_name.h"
+#include "dem/contact/model_names.h"
 
 /// What a finished study found: everything that result.json holds, and what reports and exports are
 /// made from. Numbers that do not exist are NaN here and null there.

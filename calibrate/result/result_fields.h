@@ -254,7 +254,7 @@ void fields(Io& io, Held<Io, ShapeCheck>& shape) {
   io("finer_spheres", shape.finer_spheres);
   io("finer_volume_error", shape.finer_volume_error);
   io.text_or_null("not_made", shape.not_made);
-  io("too_dear", shape.too_dear);
+  io("too_dear", shape.over_budget);
   io("readings", shape.readings);
   io("coefficients", shape.coefficients);
 }

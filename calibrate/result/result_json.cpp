@@ -1,5 +1,5 @@
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "calibrate/result/result.h"
 #include "calibrate/result/result_fields.h"
 

@@ -1,24 +1,94 @@
+#include "calibrate/result/result_of.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "base/angle_definition.h"
+#include "base/input_error.h"
 #include "calibrate/experiment/run_result.h"
-#include "calibrate/fit/family.h"
-#include "calibrate/fit/unit_box.h"
-#include "calibrate/result/agreement_text.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/fit/solution.h"
 #include "calibrate/result/result.h"
-#include "calibrate/result/runs_surface.h"
+#include "calibrate/result/result_text.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/study_simulator.h"
-#include "dem/contact/damping_name.h"
-#include "dem/contact/rolling_name.h"
+#include "dem/contact/model_names.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/held_inputs.h"
 
 namespace repose::calibrate {
+
+namespace {
+
+const Experiment& experiment_of(const Problem& problem, const Observable& observable) {
+  return *std::find_if(problem.experiments.begin(), problem.experiments.end(),
+                       [&](const auto& one) { return one.name == observable.experiment; });
+}
+
+RunTable table_of(const Problem& problem, const Observable& observable,
+                  const std::vector<Run>& runs) {
+  const Experiment& experiment = experiment_of(problem, observable);
+  RunTable table;
+  table.name = observable.name;
+  table.response_name = observable.name;
+  for (const std::size_t k : experiment.parameters) {
+    const Parameter& parameter = problem.parameters[k];
+    table.factors.push_back({.name = parameter.name, .low = parameter.min, .high = parameter.max});
+  }
+  table.levels.resize(table.factors.size());
+  for (const Run& run : runs) {
+    const auto reading = run.readings.find(observable.reading);
+    if (run.job.experiment != experiment.name || reading == run.readings.end()) continue;
+    for (std::size_t i = 0; i < table.factors.size(); ++i) {
+      table.levels[i].push_back(run.job.values[experiment.parameters[i]]);
+    }
+    table.responses.push_back(reading->second);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::optional<SurfaceReport> surface_of_runs(const Problem& problem, const Observable& observable,
+                                             const std::vector<Run>& runs) {
+  const RunTable table = table_of(problem, observable, runs);
+  for (const SurfaceModel model :
+       {SurfaceModel::quadratic, SurfaceModel::interaction, SurfaceModel::linear}) {
+    try {
+      return report_on(regress(table, model), WantedValue{observable.mean});
+    } catch (const base::InputError&) {
+      continue;  // too few runs for these terms
+    }
+  }
+  return std::nullopt;
+}
+
+std::string text_of(const HeapDefinition& definition) {
+  const base::AngleDefinition* known = base::find_definition(definition.name);
+  return fmt::format("{} ({}){}", definition.name,
+                     known != nullptr ? known->description : "unknown to this version",
+                     definition.is_assumed ? ", which is assumed: the study does not say" : "");
+}
+
+std::string simulated_text(const HeapDefinition& definition) {
+  double used_deg = NAN;
+  for (const auto& [name, angle_deg] : definition.simulated_deg) {
+    if (name == definition.name) used_deg = angle_deg;
+  }
+  if (!std::isfinite(used_deg)) return {};
+  std::string others;
+  for (const auto& [name, angle_deg] : definition.simulated_deg) {
+    if (name == definition.name) continue;
+    others +=
+        fmt::format("{}{} {:+.2f}", others.empty() ? "; by " : ", ", name, angle_deg - used_deg);
+  }
+  return fmt::format("{:.2f} degrees by it{}", used_deg, others);
+}
+
 namespace {
 
 /// Curves and surfaces are there to be drawn: six digits.
@@ -110,8 +180,8 @@ NamedValues shortest_timesteps(const std::vector<Run>& runs) {
 }
 
 std::optional<double> size_sd_percent(const dem::Model& model) {
-  if (model.size_sd_fraction == 0) return std::nullopt;
-  return 100 * model.size_sd_fraction;
+  if (model.size_cv == 0) return std::nullopt;
+  return 100 * model.size_cv;
 }
 
 std::optional<HeapDefinition> heap_definition_of(const StudyRecord& record, const Problem& problem,

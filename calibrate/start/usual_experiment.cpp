@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/units.h"
-#include "calibrate/start/toml_text.h"
+#include "calibrate/start/study_text.h"
 #include "calibrate/statistics/bench/sheet.h"
 
 namespace repose::calibrate {

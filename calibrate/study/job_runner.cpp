@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
 
 namespace repose::calibrate {
 namespace {
@@ -22,8 +22,8 @@ std::string fault_of(const RunSpec& spec, const Run& run) {
                        possible.rule());
   }
   for (const auto& [name, reading] : run.readings) {
-    if (std::abs(reading) <= kMostReading) continue;
-    return fmt::format("its {} is {:.4g}. Rule: at most {:g}", name, reading, kMostReading);
+    if (std::abs(reading) <= kMaxReading) continue;
+    return fmt::format("its {} is {:.4g}. Rule: at most {:g}", name, reading, kMaxReading);
   }
   return {};
 }

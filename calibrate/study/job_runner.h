@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/fit/problem.h"
 #include "calibrate/study/executor.h"
 
@@ -28,7 +28,7 @@ struct StudyProgress {
 /// By what they are done. All of it must outlive the study.
 struct StudyContext {
   const StudySimulator& simulator;
-  const RunFolder& folder;
+  const RunStore& folder;
   Executor& executor;
   const std::atomic<bool>& is_interrupted;
   std::function<void(const StudyProgress&)> report = [](const StudyProgress&) {};

@@ -8,9 +8,9 @@
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/input_effects.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/sensitivity_check.h"
-#include "calibrate/fit/unit_box.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_run.h"
 
@@ -100,7 +100,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
   std::vector<ExperimentEstimate> estimates;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const std::string& name = experiments[e].name;
-    const int checks = (kMostCheckRounds - 1) * check_runs(problem, name, budget.round_repeats) +
+    const int checks = (kMaxCheckRounds - 1) * check_runs(problem, name, budget.round_repeats) +
                        check_runs(problem, name, budget.verification_repeats) +
                        budget.family_sets * check_runs(problem, name, kFamilyRepeats);
     estimates.push_back({.experiment = name,
@@ -141,7 +141,7 @@ double checks_s(const Problem& problem, const Budget& budget, int rounds) {
 }
 
 std::vector<int> runs_for(const Problem& problem, double seconds) {
-  constexpr double kMost = 1e6;
+  constexpr double kMax = 1e6;
   const std::vector<Experiment> experiments = measured_experiments(problem);
   const std::vector<double> needs = needs_of(experiments);
   double sum = 0;  // shared as rounds of the fit are, see first_round_jobs
@@ -151,7 +151,7 @@ std::vector<int> runs_for(const Problem& problem, double seconds) {
   std::vector<int> runs;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const double bought = seconds * needs[e] / std::sqrt(experiments[e].run_s) / sum;
-    runs.push_back(static_cast<int>(std::min(bought, kMost)));
+    runs.push_back(static_cast<int>(std::min(bought, kMax)));
   }
   return runs;
 }

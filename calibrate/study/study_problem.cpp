@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "base/angle_definition.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "calibrate/experiment/run_result.h"
 #include "calibrate/fit/budget.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/statistics/summary.h"
-#include "calibrate/study/coefficients.h"
+#include "calibrate/study/study_simulator.h"
 #include "dem/contact/adhesion.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/held_inputs.h"
@@ -84,7 +84,7 @@ GrainSpheres spheres_of(const dem::GrainSource& source, const dem::ClumpShape& g
 std::vector<Parameter> open_parameters(const dem::Study& study) {
   std::vector<Parameter> parameters;
   for (const NamedCoefficient& named : coefficients_of(study)) {
-    if (!named.coefficient.is_sought()) continue;
+    if (!named.coefficient.is_free()) continue;
     Parameter parameter{.name = named.name,
                         .min = named.coefficient.min,
                         .max = named.coefficient.max,
@@ -98,7 +98,7 @@ std::vector<Parameter> open_parameters(const dem::Study& study) {
           *named.coefficient.are_bounds_known ? BoundsOrigin::known : BoundsOrigin::convenience;
     }
     for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-      if (entry.tells == parameter.name) parameter.told_by.emplace_back(entry.name);
+      if (entry.tells == parameter.name) parameter.identified_by.emplace_back(entry.name);
     }
     parameters.push_back(std::move(parameter));
   }
@@ -197,9 +197,10 @@ std::vector<FixedInput> fixed_inputs_of(const dem::Study& study, const dem::Clum
   return inputs;
 }
 
-class Maker {
+class StudyProblemBuilder {
  public:
-  Maker(const dem::Study& study, const dem::ClumpFile& grain) : study_(study), grain_(grain) {}
+  StudyProblemBuilder(const dem::Study& study, const dem::ClumpFile& grain)
+      : study_(study), grain_(grain) {}
 
   StudyProblem make(const Budget& budget) {
     made_.problem.settings = budget.settings;
@@ -399,9 +400,9 @@ base::Fault too_large_bias(const dem::Study& study, const std::string& where, do
 void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
                 const dem::Measured& measured, const dem::Range& range,
                 std::vector<base::Fault>& errors) {
-  constexpr double kLeastOfRange = .01;
+  constexpr double kMinOfRange = .01;
   const std::string where = fmt::format("[experiment.{}]", entry.name);
-  double largest = kLeastOfRange * (range.to - range.from);
+  double largest = kMinOfRange * (range.to - range.from);
   for (const double value : measured.values) largest = std::max(largest, std::abs(value));
   if (measured.mean) largest = std::max(largest, std::abs(*measured.mean));
   const bool is_measured = measured.mean || !measured.values.empty();
@@ -503,7 +504,7 @@ Budget budget_named(const std::string& name) {
 
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,
                         const Budget& budget) {
-  return Maker(study, grain).make(budget);
+  return StudyProblemBuilder(study, grain).make(budget);
 }
 
 }  // namespace repose::calibrate

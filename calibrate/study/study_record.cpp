@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/fingerprint.h"
 #include "base/input_error.h"
 #include "base/version.h"
-#include "base/whole_file.h"
-#include "calibrate/experiment/run_folder.h"
-#include "calibrate/study/bench_air.h"
+#include "calibrate/experiment/run_store.h"
+#include "calibrate/study/bench_readings.h"
 
 namespace repose::calibrate {
 namespace {
@@ -254,7 +254,7 @@ bool is_copy(const fs::path& file, const fs::path& study) {
 }  // namespace
 
 std::vector<std::string> foreign_files(const fs::path& folder, const fs::path& study) {
-  if (is_run_folder(folder) || has_notes(folder)) return {};
+  if (is_run_store(folder) || has_notes(folder)) return {};
   std::vector<std::string> foreign;
   for (const char* name : {kStudyCopy, kClumpCopy, kNotesFile, kResultFile, kHeapFile}) {
     std::error_code ignored;

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/study/bench_films.h"
-#include "calibrate/study/bench_pictures.h"
-#include "calibrate/study/bench_sheets.h"
+#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"

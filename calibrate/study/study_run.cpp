@@ -10,12 +10,12 @@
 
 #include "base/distributions.h"
 #include "base/input_error.h"
-#include "calibrate/experiment/run_folder.h"
-#include "calibrate/fit/first_round.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/fit/fit_watch.h"
-#include "calibrate/fit/profile.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/propose.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/rounds.h"
+#include "calibrate/fit/solution.h"
 #include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_estimate.h"
 
@@ -74,20 +74,20 @@ std::vector<Run> joined(std::vector<Run> runs, const std::vector<Run>& more) {
 
 /// Simulates some of the sets that fit as well as the best, for what the surrogates do not know:
 /// the fit that follows has learned from them. False when interrupted.
-bool try_family(const Problem& problem, const Budget& budget, JobRunner& runner,
-                std::vector<std::vector<double>>& tried, StudyOutcome& outcome) {
+bool simulate_equivalent_sets(const Problem& problem, const Budget& budget, JobRunner& runner,
+                              std::vector<std::vector<double>>& tried, StudyOutcome& outcome) {
   if (budget.family_sets < 1) return true;
   const std::vector<ParameterSet> family = fit_jointly(problem, outcome.runs).equivalence_family;
   std::vector<Job> jobs;
   for (const ParameterSet& set : family) {
     if (tried.size() >= static_cast<std::size_t>(budget.family_sets)) break;
-    const int number = kMostCheckRounds + static_cast<int>(tried.size());
+    const int number = kMaxCheckRounds + static_cast<int>(tried.size());
     const auto of_set = verification_jobs(problem, set.values, kFamilyRepeats, number);
     jobs.insert(jobs.end(), of_set.begin(), of_set.end());
     tried.push_back(set.values);
   }
   const auto checks = runner.get("checking equally good sets", jobs,
-                                 checks_s(problem, budget, kMostCheckRounds) +
+                                 checks_s(problem, budget, kMaxCheckRounds) +
                                      last_runs_s(problem, budget.verification_repeats));
   if (!checks) return false;
   outcome.runs = joined(std::move(outcome.runs), *checks);
@@ -155,9 +155,9 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
   outcome.fit = fit_jointly(problem, outcome.runs);
   for (;;) {
     Check check(problem, outcome);
-    const int rounds_left = kMostCheckRounds - outcome.check_rounds;
+    const int rounds_left = kMaxCheckRounds - outcome.check_rounds;
     const auto few = runner.get(
-        fmt::format("check {} of at most {}", outcome.check_rounds, kMostCheckRounds),
+        fmt::format("check {} of at most {}", outcome.check_rounds, kMaxCheckRounds),
         check.jobs(budget.round_repeats), checks_s(problem, budget, rounds_left) + last_s);
     if (!few) return false;
     if (!check.add(*few, tried) && rounds_left > 0) continue;
@@ -202,11 +202,11 @@ bool predict(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
 /// What a check of an assumed input is called, and what to do where it says that the input matters.
 struct InputWords {
   std::string stage;
-  std::string matters;   ///< "the study's grains are too soft for this reading"
-  std::string other;     ///< "with a stiffness_factor of 0.1"
-  std::string fix;       ///< where a reading changes
-  std::string too_dear;  ///< what is not known, and why
-  std::string by_hand;   ///< what to do about that where no budget is larger
+  std::string matters;      ///< "the study's grains are too soft for this reading"
+  std::string other;        ///< "with a stiffness_factor of 0.1"
+  std::string fix;          ///< where a reading changes
+  std::string over_budget;  ///< what is not known, and why
+  std::string by_hand;      ///< what to do about that where no budget is larger
 };
 
 /// `value`: of the input that was simulated.
@@ -216,7 +216,7 @@ InputWords words_of(AssumedInput input, const Problem& problem, double value) {
             .matters = "the study's grains are too soft for this reading",
             .other = fmt::format("with a stiffness_factor of {:.3g}", value),
             .fix = fmt::format("stiffness_factor = {:.3g}, and calibrate again", value),
-            .too_dear = "what its stiffness_factor does to its readings: stiffer grains",
+            .over_budget = "what its stiffness_factor does to its readings: stiffer grains",
             .by_hand = "simulate it at these coefficients with a larger stiffness_factor"};
   }
   const int study = problem.spheres.count;
@@ -232,7 +232,7 @@ InputWords words_of(AssumedInput input, const Problem& problem, double value) {
                              : "damping = \"shared\" in [contact], with which impacts depend less "
                                "on the spheres that touch; or ",
                          value),
-      .too_dear = "what its number of spheres does to its readings: grains of more",
+      .over_budget = "what its number of spheres does to its readings: grains of more",
       .by_hand = "simulate it at these coefficients with more spheres"};
 }
 
@@ -242,11 +242,11 @@ bool vary(const Problem& problem, const Budget& budget, const SensitivityPlan& p
           AssumedInput input, JobRunner& runner, StudyOutcome& outcome, Sensitivity& found) {
   const InputWords words = words_of(input, problem, 0);
   const bool is_largest = budget.settings.budget_s >= budget_named("standard").settings.budget_s;
-  found.too_dear = plan.too_dear;
-  for (const std::string& experiment : plan.too_dear) {
+  found.over_budget = plan.over_budget;
+  for (const std::string& experiment : plan.over_budget) {
     outcome.notes.push_back(fmt::format(
         "{}: it is not known {} would take more than a fifth of this budget. Fix: {}.", experiment,
-        words.too_dear, is_largest ? words.by_hand : "the budget standard"));
+        words.over_budget, is_largest ? words.by_hand : "the budget standard"));
   }
   if (plan.jobs.empty()) return true;
   const auto runs = runner.get(words.stage, plan.jobs, 0);
@@ -258,8 +258,8 @@ bool vary(const Problem& problem, const Budget& budget, const SensitivityPlan& p
 }
 
 /// Stiffer grains, in softened experiments. False when interrupted.
-bool stiffen(const Problem& problem, const Budget& budget, JobRunner& runner,
-             StudyOutcome& outcome) {
+bool check_stiffness(const Problem& problem, const Budget& budget, JobRunner& runner,
+                     StudyOutcome& outcome) {
   const SensitivityPlan plan = plan_sensitivity(problem, AssumedInput::stiffness,
                                                 outcome.best.values, budget.verification_repeats);
   return vary(problem, budget, plan, AssumedInput::stiffness, runner, outcome, outcome.stiffness);
@@ -405,12 +405,12 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budg
   try {
     const FitWatch watch(context.is_interrupted);
     if (!run_rounds(problem, budget, runner, outcome.runs)) return std::nullopt;
-    if (!try_family(problem, budget, runner, tried, outcome)) return std::nullopt;
+    if (!simulate_equivalent_sets(problem, budget, runner, tried, outcome)) return std::nullopt;
     if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
     judge_family(problem, outcome);
     outcome.assumed_scatters = assumed_scatters(problem, outcome.runs, outcome.fit);
     if (!predict(problem, runner, outcome)) return std::nullopt;
-    if (!stiffen(problem, budget, runner, outcome)) return std::nullopt;
+    if (!check_stiffness(problem, budget, runner, outcome)) return std::nullopt;
     if (!refine(problem, budget, context.simulator, runner, outcome)) return std::nullopt;
     if (!vary_inputs(problem, runner, outcome)) return std::nullopt;
   } catch (const FitInterrupted&) {

@@ -7,17 +7,15 @@
 #include "calibrate/fit/assumed_scatter.h"
 #include "calibrate/fit/input_effects.h"
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/fit/moved_coefficients.h"
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/sensitivity_check.h"
-#include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate {
 
-inline constexpr int kMostCheckRounds = 3;
+inline constexpr int kMaxCheckRounds = 3;
 inline constexpr int kFamilyRepeats = 2;  ///< of an equally good set
 
 /// An equally good set of parameters that was simulated.
@@ -30,7 +28,7 @@ struct CheckedSet {
 struct Sensitivity {
   std::vector<SensitivityCheck> readings;      ///< of experiments that the budget allows for
   std::vector<MovedCoefficient> coefficients;  ///< that these changes ask for; none without any
-  std::vector<std::string> too_dear;           ///< experiments that it does not allow for
+  std::vector<std::string> over_budget;        ///< experiments that it does not allow for
 };
 
 /// What more spheres change.

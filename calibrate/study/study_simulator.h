@@ -7,10 +7,25 @@
 
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/fit/problem.h"
+#include "dem/experiment/experiment.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {
+
+/// A coefficient of a study by its name in the file.
+struct NamedCoefficient {
+  std::string name;  ///< "contact.particle_wall.restitution"
+  dem::Coefficient coefficient;
+};
+
+/// The six of plate and grains, walls first, and those of each part of another material.
+std::vector<NamedCoefficient> coefficients_of(const dem::Study& study);
+
+/// Where a bench has it; null where it does not.
+double* find_coefficient(const std::string& name, dem::Model& model);
+/// Likewise. Throws base::InputError for a name that there is not.
+double& coefficient_named(const std::string& name, dem::Model& model);
 
 /// What a fit takes from a job's result: its readings (see readings_of), or why there are none.
 Run run_of(const Job& job, const RunResult& result);
@@ -33,7 +48,7 @@ class StudySimulator {
   const dem::ClumpFile& finer_grain(double multiple) const;
 
   /// Where runs are found and saved, with the final states of heaps; to be there as long as this.
-  void store_in(const RunFolder& folder) { folder_ = &folder; }
+  void store_in(const RunStore& folder) { folder_ = &folder; }
 
   /// Runs it on one thread; may be called from several. An experiment in which nothing can be read,
   /// or that becomes unstable, is a run with a failure.
@@ -53,7 +68,7 @@ class StudySimulator {
   std::shared_ptr<FinerGrains> finer_;
   std::vector<std::string> names_;
   int heap_views_;
-  const RunFolder* folder_ = nullptr;
+  const RunStore* folder_ = nullptr;
 };
 
 }  // namespace repose::calibrate

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 
@@ -15,5 +16,7 @@ struct BoardArguments {
 
 /// Carries out `repose board`.
 ExitCode run_board(const BoardArguments& arguments);
+
+Command board_command();
 
 }  // namespace repose::cli

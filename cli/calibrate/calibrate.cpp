@@ -1,7 +1,11 @@
 #include "cli/calibrate/calibrate.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -9,26 +13,102 @@
 
 #include <fmt/format.h>
 
+#include "base/atomic_file.h"
 #include "base/folder_lock.h"
-#include "base/whole_file.h"
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/plan/offers.h"
 #include "calibrate/result/result.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_record.h"
 #include "calibrate/study/study_run.h"
 #include "cli/calibrate/calibrate_options.h"
-#include "cli/calibrate/calibrate_progress.h"
 #include "cli/calibrate/calibrate_table.h"
-#include "cli/calibrate/check_heaps.h"
 #include "cli/calibrate/dry_run.h"
 #include "cli/calibrate/paper_table.h"
 #include "cli/calibrate/rolling_models.h"
-#include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
+#include "dem/state/state_file.h"
 
 namespace repose::cli {
+
+void StudyProgressLine::report(const calibrate::StudyProgress& progress) {
+  const bool is_new = progress.stage != stage_;
+  if (is_new) earlier_s_ += stage_s_;
+  stage_ = progress.stage;
+  stage_s_ = progress.seconds_done;
+  const double all_s = earlier_s_ + progress.seconds_of + progress.seconds_later.value_or(0);
+  const bool is_known = progress.seconds_later && all_s > 0;
+  const double fraction = is_known ? (earlier_s_ + stage_s_) / all_s : 0;
+  if (is_new) {
+    line_.show_next();
+    if (!line_.is_shown()) {
+      print_error_text(fmt::format("{}: {} simulations{}\n", progress.stage, progress.of,
+                                   line_.left_text(fraction)));
+    }
+  }
+  line_.report(fmt::format("{}: {} of {} simulations", progress.stage, progress.done, progress.of),
+               fraction);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Only what repose wrote.
+void remove_heap(const fs::path& file) {
+  std::error_code ignored;
+  if (dem::is_as_written(file)) fs::remove(file, ignored);
+}
+
+void remove_earlier_heaps(const fs::path& folder) {
+  remove_heap(folder / calibrate::kHeapFile);
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator entry(folder / calibrate::kHeapsFolder, error), end;
+       !error && entry != end; entry.increment(error)) {
+    files.push_back(entry->path());
+  }
+  for (const fs::path& file : files) remove_heap(file);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return;
+  base::refuse(folder, fmt::format("cannot be created ({})", error.message()),
+               "get permission to write there, or move away what has that name.");
+}
+
+}  // namespace
+
+std::size_t most_typical(const std::vector<double>& values) {
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / std::ssize(values);
+  const auto nearest = std::min_element(values.begin(), values.end(), [mean](double a, double b) {
+    return std::abs(a - mean) < std::abs(b - mean);
+  });
+  return static_cast<std::size_t>(nearest - values.begin());
+}
+
+void save_check_heaps(const CalibratePlan& plan, const calibrate::StudyContext& context,
+                      const std::vector<calibrate::Run>& checks) {
+  remove_earlier_heaps(plan.out_folder);
+  const auto copy_to = [&](const calibrate::Job& job, const fs::path& name) {
+    return context.folder.copy_state(context.simulator.spec(job), job.seed, name.string());
+  };
+  std::vector<calibrate::Job> saved;
+  std::vector<double> angles;
+  for (const calibrate::Run& run : checks) {
+    if (run.job.experiment != "heap" || !run.failure.empty()) continue;
+    make_folder(plan.out_folder / calibrate::kHeapsFolder);
+    const std::string name = fmt::format("heap_seed_{}.vtp", run.job.seed);
+    if (!copy_to(run.job, fs::path(calibrate::kHeapsFolder) / name)) continue;
+    saved.push_back(run.job);
+    angles.push_back(run.readings.at("value"));
+  }
+  if (!saved.empty()) copy_to(saved[most_typical(angles)], calibrate::kHeapFile);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,14 +163,14 @@ void write_results(const CalibratePlan& plan, const calibrate::StudyResult& resu
 }
 
 calibrate::StudySimulator simulator_of(const CalibratePlan& plan,
-                                       const calibrate::RunFolder& folder) {
+                                       const calibrate::RunStore& folder) {
   calibrate::StudySimulator simulator(plan.record.study, plan.record.grain,
                                       plan.problem.problem.parameters);
   simulator.store_in(folder);
   return simulator;
 }
 
-ExitCode interrupted(const calibrate::RunFolder& folder) {
+ExitCode interrupted(const calibrate::RunStore& folder) {
   print_line(
       fmt::format("interrupted; no result was written. The same command resumes from here: the "
                   "simulations are in {}.",
@@ -124,7 +204,7 @@ ExitCode run_as_published(const CalibratePlan& plan, const calibrate::StudyConte
 }
 
 /// With what plans have left in the folder.
-calibrate::Problem advised_problem(const CalibratePlan& plan, const calibrate::RunFolder& folder) {
+calibrate::Problem advised_problem(const CalibratePlan& plan, const calibrate::RunStore& folder) {
   calibrate::Problem problem = plan.problem.problem;
   problem.offers = calibrate::offers_in(folder, plan.record.study, plan.record.grain);
   return problem;
@@ -159,7 +239,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
   const CalibratePlan plan = plan_calibrate(arguments);
   if (session.rank() == 0) print_lines(plan.errors);
   if (!plan.errors.empty()) return ExitCode::bad_input;
-  const calibrate::RunFolder folder(plan.out_folder);
+  const calibrate::RunStore folder(plan.out_folder);
   const calibrate::StudySimulator simulator = simulator_of(plan, folder);
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   if (session.rank() > 0) {
@@ -196,7 +276,7 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   print_lines(plan.notes);
   if (arguments.is_dry_run) return run_dry(plan);
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
-  const calibrate::RunFolder folder(plan.out_folder);
+  const calibrate::RunStore folder(plan.out_folder);
   const base::FolderLock lock(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
   enter_folder(plan);
   const calibrate::StudySimulator simulator = simulator_of(plan, folder);

@@ -1,30 +1,146 @@
 #include "cli/calibrate/calibrate_options.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <map>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "calibrate/experiment/heap_angle.h"
+#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_record.h"
-#include "cli/calibrate/bench_films.h"
-#include "cli/common/copies.h"
-#include "cli/common/cores.h"
-#include "cli/common/degrees.h"
-#include "cli/common/number.h"
+#include "cli/calibrate/calibrate.h"
+#include "cli/common/json_text.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output.h"
-#include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
+#include "cli/track/track.h"
 #include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/repose_angle.h"
-#include "vision/measure/status_name.h"
 #include "vision/picture/picture.h"
 
 namespace repose::cli {
+
 namespace {
+
+calibrate::FilmNumber number_of(const vision::Estimate& estimate) {
+  return {.value = estimate.value, .uncertainty = estimate.uncertainty};
+}
+
+/// What a person should look at, warning by warning.
+std::string warnings_text(const TrackedFilm& film) {
+  std::string text;
+  for (const vision::Warning& warning : warnings_of(film)) {
+    text += (text.empty() ? "" : "; ") + warning.message;
+  }
+  return text;
+}
+
+/// As a bench would write it down.
+std::map<std::string, calibrate::FilmNumber> row_of(const TrackedFilm& film) {
+  if (film.filmed == Filmed::tilt) {
+    return {{"angle_deg", number_of(film.tilt.angle_deg)},
+            {"rate_deg_s", number_of(film.tilt.rate_deg_s)}};
+  }
+  if (film.filmed == Filmed::roll) {
+    return {{"incline_deg", number_of(film.roll.incline_deg)},
+            {"released_mm", number_of(film.roll.released_mm)},
+            {"stopped_mm", number_of(film.roll.stopped_mm)}};
+  }
+  const vision::Bounce& first = film.drop.bounces.front();
+  return {{"drop_mm", number_of(first.drop_mm)}, {"rebound_mm", number_of(first.rebound_mm)}};
+}
+
+calibrate::FilmReading reading_of(const TrackedFilm& film, const dem::ExperimentEntry& entry,
+                                  const dem::Protocol& protocol) {
+  const std::string named = film.file + ": ";
+  const bool is_named = film.error.starts_with(named);
+  calibrate::FilmReading reading{.experiment = std::string(entry.name),
+                                 .file = std::filesystem::absolute(film.file),
+                                 .status = "not read",
+                                 .value = {},
+                                 .reason = film.error.substr(is_named ? named.size() : 0)};
+  if (!film.error.empty()) return reading;
+  reading.status = name_of(status_of(film));
+  if (status_of(film) != vision::MeasureStatus::ok) {
+    reading.reason = has_reading(film) ? warnings_text(film) : reason_of(film);
+  }
+  // Its bounces are later ones, whose fall is not the bench's.
+  if (film.filmed == Filmed::drop && !film.drop.has_first_bounce()) return reading;
+  if (has_reading(film)) read_row(entry, protocol, row_of(film), reading);
+  return reading;
+}
+
+/// What to know about a film that is not quite as it should be.
+std::string note_on(const calibrate::FilmReading& film) {
+  const std::string fault = fmt::format("{}: {}", film.file.string(), film.reason);
+  if (!film.value) return fmt::format("{} (this film is left out)", fault);
+  return fmt::format("{} (flagged, but counted; check it with repose track {} --overlay)", fault,
+                     film.experiment);
+}
+
+void read_films_of(const dem::ExperimentEntry& entry, const dem::StudyExperiment& described,
+                   CalibratePlan& plan) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& video : described.measured.videos) {
+    names.push_back(video.string());
+  }
+  FileList list = list_films(names);
+  const auto first_of = copies_among(list.files, std::vector<std::string>(list.files.size()));
+  std::vector<std::filesystem::path> films;
+  for (std::size_t i = 0; i < list.files.size(); ++i) {
+    if (first_of[i]) {
+      list.notes.push_back(text_of_copy(list.files[i], list.files[*first_of[i]]));
+    } else {
+      films.push_back(list.files[i]);
+    }
+  }
+  plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
+  plan.notes.insert(plan.notes.end(), list.notes.begin(), list.notes.end());
+  TrackPlan tracking;
+  if (entry.experiment == dem::Experiment::roll) {
+    tracking.filmed = Filmed::roll;
+    tracking.released_mm = calibrate::protocol_value(entry, described.protocol, "release_mm");
+  }
+  if (entry.experiment == dem::Experiment::tilt) tracking.filmed = Filmed::tilt;
+  tracking.videos = std::move(films);
+  tracking.threads = plan.jobs;
+  // Nothing is written yet that an interrupt could leave half done: it ends the program at once.
+  const std::atomic<bool> is_interrupted = false;
+  bool any = false;
+  std::vector<std::string> said;
+  for (const TrackedFilm& film : track_batch(tracking, is_interrupted)) {
+    if (film.is_internal_error) plan.errors.push_back("internal error: " + film.error);
+    const calibrate::FilmReading& reading =
+        plan.record.films.emplace_back(reading_of(film, entry, described.protocol));
+    any = any || reading.value;
+    if (reading.status != "ok") said.push_back(note_on(reading));
+  }
+  std::vector<std::string>& where = any ? plan.notes : plan.errors;
+  where.insert(where.end(), said.begin(), said.end());
+  if (any || said.empty()) return;
+  plan.errors.push_back(
+      fmt::format("{}: none of the {} films of [experiment.{}] gives a reading. Fix: check them "
+                  "with repose track {} --overlay, or give readings as values.",
+                  plan.record.study.file.string(), said.size(), entry.name, entry.name));
+}
+
+/// Tracks the films that the plan's study names, several at a time: each gives a reading, or it is
+/// said why it gives none. An experiment none of whose films gives one is an error.
+void read_films(CalibratePlan& plan) {
+  for (const auto& [experiment, described] : plan.record.study.experiments) {
+    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    // Those of heaps are measured as pictures are.
+    if (described.measured.videos.empty() || entry.is_pictured) continue;
+    read_films_of(entry, described, plan);
+  }
+}
 
 constexpr int kMaxJobs = 1024;
 
@@ -164,7 +280,7 @@ void measure_heaps(CalibratePlan& plan) {
 void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
   plan.jobs = plan.record.study.threads.value_or(available_cores());
   if (arguments.jobs.empty()) return;
-  const auto jobs = number_in<int>(arguments.jobs);
+  const auto jobs = parse_number<int>(arguments.jobs);
   if (!jobs || *jobs < 1 || *jobs > kMaxJobs) {
     plan.errors.push_back(fmt::format(
         "--jobs {}: must be a whole number from 1 to {}. Fix: leave it out to use all cores.",
@@ -265,6 +381,70 @@ CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
   });
   plan.notes.insert(plan.notes.end(), plan.problem.notes.begin(), plan.problem.notes.end());
   return plan;
+}
+
+namespace {
+
+constexpr const char* kCalibrateNotes = R"(
+STUDY is a study file in which contact coefficients have bounds instead of a
+value, as in restitution = { min = 0.1, max = 0.6 }, and experiments state what
+was measured. All unknowns are fitted to all measurements at once; each gets an
+interval and a verdict: determined, bounded, one-sided, or undetermined by these
+data. The best fit is then simulated with fresh seeds; these runs enter the fit too,
+and a verdict says whether bench and simulation agree: agrees, disagrees, or
+cannot tell.
+
+Simulations are saved in --out: the same command resumes an interrupted study,
+and a study with other bounds or measurements reuses them. The same study gives
+the same result with any number of --jobs.
+
+Methods:
+  joint     all unknowns fitted to all measurements at once, with intervals
+  paper     a published calibration procedure: point estimates, for comparison
+
+Budgets:
+  quick     14 minutes on one core for the fit
+  standard  125 minutes on one core for the fit
+  paper     at most 62 simulations, the number of a published calibration
+The minutes are estimates for heaps of a few hundred grains; verification is
+extra. --dry-run times one run of each experiment, for at most 20 seconds each,
+and reports what each budget would simulate and how long it takes. It needs the
+bench readings, and saves nothing.
+
+--rolling-models constant_torque,elastic_plastic calibrates the study with each
+of them, in folders of their own, and says which one explains the bench readings
+best: their means, and how much they scatter.
+
+Examples:
+  repose calibrate study.toml --dry-run
+  repose calibrate study.toml
+  repose calibrate study.toml --rolling-models constant_torque,elastic_plastic
+  repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
+)";
+
+}  // namespace
+
+Command calibrate_command() {
+  const auto given = std::make_shared<CalibrateArguments>();
+  return {
+      .name = "calibrate",
+      .summary = "Calibrate a study's coefficients",
+      .options = {{"study", "STUDY.toml", "Study file", &given->study, true},
+                  {"--budget", "quick|standard|paper", "Limit on the simulations (quick)",
+                   &given->budget},
+                  {"--method", "joint|paper", "Method of calibration (joint)", &given->method},
+                  {"--rolling-models", "A,B", "Fit the study with each, and compare them",
+                   &given->rolling_models},
+                  {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
+                   &given->settings},
+                  {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
+                  {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
+                  {"--dry-run", "", "Only estimate how long each budget takes", &given->is_dry_run},
+                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
+      .notes = kCalibrateNotes,
+      .missing = "no study file given. Fix: repose calibrate STUDY.toml.",
+      .fields = kCalibrateFields,
+      .run = [given] { return run_calibrate(*given); }};
 }
 
 }  // namespace repose::cli

@@ -1,15 +1,34 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "calibrate/statistics/table/table.h"
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/study_record.h"
-#include "cli/calibrate/calibrate.h"
+#include "cli/common/command.h"
 
 namespace repose::cli {
+
+/// Its options by the fields that the library finds fault with.
+inline constexpr std::array<base::FieldName, 3> kCalibrateFields{
+    {{"budget", "--budget"}, {"setting", "--set"}, {"the joint method", "--method joint"}}};
+
+/// `repose calibrate`, as typed.
+struct CalibrateArguments {
+  std::string study;
+  std::vector<std::string> settings;
+  std::string method = "joint";
+  std::string budget = "quick";
+  std::string rolling_models;
+  std::string jobs;
+  std::string out_folder;
+  std::string json_file;
+  bool is_dry_run = false;
+};
 
 /// What `repose calibrate` will do.
 struct CalibratePlan {
@@ -31,5 +50,7 @@ std::filesystem::path default_folder(const std::filesystem::path& study_file);
 CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows no_rows);
 
 CalibratePlan plan_calibrate(const CalibrateArguments& arguments);
+
+Command calibrate_command();
 
 }  // namespace repose::cli

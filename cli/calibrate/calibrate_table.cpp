@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "calibrate/result/agreement_text.h"
-#include "calibrate/result/bench_errors_text.h"
-#include "calibrate/result/summary_text.h"
-#include "cli/common/page.h"
+#include "calibrate/result/result_text.h"
+#include "cli/common/table.h"
 
 namespace repose::cli {
 
@@ -25,7 +23,7 @@ namespace {
 
 /// "0.310", or with as many digits as a quantity of that size needs.
 std::string four_digits(double value) {
-  if (!std::isfinite(value)) return kNothing;
+  if (!std::isfinite(value)) return kMissing;
   const double size = std::abs(value);
   const double shown = size < .0005 ? 0 : value;  // no "-0.000"
   return fmt::format("{:.{}f}", shown, size < 10 ? 3 : size < 100 ? 2 : 1);
@@ -44,7 +42,7 @@ Table parameters_table(const calibrate::JointResult& joint) {
     const std::string condition = condition_text(joint, parameter);
     if (!condition.empty()) {
       table.add_note(
-          kBelow, fmt::format("{} {}, which was assumed", name_of(parameter.verdict), condition));
+          kIndent, fmt::format("{} {}, which was assumed", name_of(parameter.verdict), condition));
     }
   }
   return table;
@@ -68,7 +66,7 @@ Table observables_table(const calibrate::JointResult& joint) {
          pair(observable.measured, observable.measured_uncertainty),
          pair(checked.simulated, checked.simulated_uncertainty),
          std::isfinite(checked.difference_sigma) ? fmt::format("{:+.1f}", checked.difference_sigma)
-                                                 : kNothing,
+                                                 : kMissing,
          name_of(checked.verdict)});
   }
   return table;
@@ -153,7 +151,7 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
                                four_digits(prediction.interval.high)),
                    std::isfinite(prediction.difference_sigma)
                        ? fmt::format("{:+.1f}", prediction.difference_sigma)
-                       : kNothing,
+                       : kMissing,
                    name_of(prediction.verdict)});
   }
   page.add_gap();
@@ -311,7 +309,7 @@ void add_sets(const calibrate::JointResult& joint, Page& page) {
   for (std::size_t k = 0; k < sets.size(); ++k) {
     std::vector<std::string> cells = {fmt::format("{}", k + 1)};
     for (const double value : sets[k].values) cells.push_back(four_digits(value));
-    cells.push_back(sets[k].verdict ? name_of(*sets[k].verdict) : kNothing);
+    cells.push_back(sets[k].verdict ? name_of(*sets[k].verdict) : kMissing);
     table.add_row(std::move(cells));
   }
   page.add_gap();

@@ -7,13 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/study/study_estimate.h"
 #include "calibrate/study/study_simulator.h"
-#include "cli/common/interrupt.h"
 #include "cli/common/output.h"
-#include "cli/common/page.h"
-#include "cli/common/progress.h"
+#include "cli/common/table.h"
 #include "cli/common/terminal.h"
 
 namespace repose::cli {
@@ -22,7 +20,7 @@ namespace {
 constexpr double kHour_s = 3600;
 
 /// By the name of the experiment: seconds here for a second of the program's own measure.
-using Pace = std::map<std::string, double>;
+using AdaptiveTimestep = std::map<std::string, double>;
 
 struct BudgetPlan {
   calibrate::Budget budget;
@@ -38,8 +36,9 @@ BudgetPlan plan_of(const CalibratePlan& plan, const std::string& name) {
 }
 
 /// A run of each, coefficients in the middle of their bounds.
-Pace timed_pace(const CalibratePlan& plan, const std::vector<calibrate::ExperimentEstimate>& runs,
-                const std::atomic<bool>& is_interrupted) {
+AdaptiveTimestep timed_pace(const CalibratePlan& plan,
+                            const std::vector<calibrate::ExperimentEstimate>& runs,
+                            const std::atomic<bool>& is_interrupted) {
   constexpr double kLongest_s = 20;
   const calibrate::Problem& problem = plan.problem.problem;
   const calibrate::StudySimulator simulator(plan.record.study, plan.record.grain,
@@ -48,7 +47,7 @@ Pace timed_pace(const CalibratePlan& plan, const std::vector<calibrate::Experime
   for (const calibrate::Parameter& parameter : problem.parameters) {
     job.values.push_back((parameter.min + parameter.max) / 2);
   }
-  Pace pace;
+  AdaptiveTimestep pace;
   Progress progress(runs.size(), "timed");
   for (const calibrate::ExperimentEstimate& run : runs) {
     job.experiment = run.experiment;
@@ -74,7 +73,7 @@ struct BudgetColumn {
   std::string time;
 };
 
-BudgetColumn budget_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
+BudgetColumn budget_column(const BudgetPlan& budget, const AdaptiveTimestep& pace, int jobs) {
   BudgetColumn column;
   double all_s = 0;
   for (const calibrate::ExperimentEstimate& estimate : budget.estimates) {
@@ -88,7 +87,7 @@ BudgetColumn budget_column(const BudgetPlan& budget, const Pace& pace, int jobs)
 }
 
 /// What an hour more on all these cores is worth.
-BudgetColumn hour_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
+BudgetColumn hour_column(const BudgetPlan& budget, const AdaptiveTimestep& pace, int jobs) {
   calibrate::Problem problem = budget.problem;
   for (calibrate::Experiment& experiment : problem.experiments) {
     const auto found = pace.find(experiment.name);
@@ -102,7 +101,7 @@ BudgetColumn hour_column(const BudgetPlan& budget, const Pace& pace, int jobs) {
   return column;
 }
 
-Table table_of(const std::vector<BudgetPlan>& budgets, const Pace& pace, int jobs) {
+Table table_of(const std::vector<BudgetPlan>& budgets, const AdaptiveTimestep& pace, int jobs) {
   std::vector<Column> headings = {{.heading = ""}};
   std::vector<BudgetColumn> columns;
   for (const BudgetPlan& budget : budgets) {
@@ -125,7 +124,7 @@ Table table_of(const std::vector<BudgetPlan>& budgets, const Pace& pace, int job
   return table;
 }
 
-std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
+std::string page_of(const CalibratePlan& plan, const AdaptiveTimestep& pace, int columns) {
   const std::vector<BudgetPlan> budgets = {plan_of(plan, "quick"), plan_of(plan, "standard")};
   Page page(columns);
   page.add("Simulations of each experiment, for the fit + for the checks:");
@@ -151,7 +150,7 @@ std::string page_of(const CalibratePlan& plan, const Pace& pace, int columns) {
 }  // namespace
 
 ExitCode run_dry(const CalibratePlan& plan) {
-  Pace pace;
+  AdaptiveTimestep pace;
   try {
     pace = timed_pace(plan, estimate_of(plan.problem.problem, plan.record.budget),
                       watch_for_interrupt());

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/calibrate/calibrate_options.h"
-#include "cli/common/exit_code.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/study/coefficients.h"
+#include "calibrate/study/study_simulator.h"
 #include "cli/calibrate/calibrate_table.h"
-#include "cli/common/page.h"
+#include "cli/common/table.h"
 
 namespace repose::cli {
 namespace {
@@ -46,8 +46,8 @@ Table heaps_table(const std::vector<PublishedHeap>& heaps) {
     table.add_row(
         {fmt::format("{:.3f}", heap.coefficients[0]), fmt::format("{:.3f}", heap.coefficients[1]),
          fmt::format("{:.4f}", heap.coefficients[2]),
-         heap.angle_deg ? fmt::format("{:.2f}", *heap.angle_deg) : kNothing,
-         heap.angle_deg ? fmt::format("{:.2f}", heap.error_percent.value_or(0)) : kNothing});
+         heap.angle_deg ? fmt::format("{:.2f}", *heap.angle_deg) : kMissing,
+         heap.angle_deg ? fmt::format("{:.2f}", heap.error_percent.value_or(0)) : kMissing});
   }
   return table;
 }
@@ -57,7 +57,7 @@ Table values_table(const PublishedResult& published, const dem::Study& study) {
   for (const auto& [name, found] : published.values) {
     const auto value = earlier(study, name);
     table.add_row({short_name(name), fmt::format("{:.4f}", found),
-                   value ? fmt::format("{:.4f}", *value) : kNothing});
+                   value ? fmt::format("{:.4f}", *value) : kMissing});
   }
   return table;
 }

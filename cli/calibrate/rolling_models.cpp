@@ -13,9 +13,9 @@
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
-#include "cli/common/page.h"
+#include "cli/common/table.h"
 #include "cli/common/terminal.h"
-#include "dem/contact/rolling_name.h"
+#include "dem/contact/model_names.h"
 
 namespace repose::cli {
 namespace {
@@ -38,7 +38,7 @@ std::vector<std::string> models_in(const CalibrateArguments& arguments,
                                    std::vector<std::string>& errors) {
   const std::vector<std::string> known = known_models();
   std::vector<std::string> models;
-  const Typed typed{"--rolling-models", arguments.rolling_models, errors};
+  const OptionText typed{"--rolling-models", arguments.rolling_models, errors};
   for (const std::size_t place : read_words(typed, known)) models.push_back(known[place]);
   if (models.size() == 1) {
     errors.push_back(fmt::format(
@@ -82,7 +82,7 @@ void check(const CalibrateArguments& arguments, std::vector<std::string>& errors
 }
 
 std::string score_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.1f}", value) : kNothing;
+  return std::isfinite(value) ? fmt::format("{:.1f}", value) : kMissing;
 }
 
 std::string page_of(const std::vector<calibrate::Candidate>& candidates, const fs::path& folder) {

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 
@@ -18,5 +19,7 @@ struct CameraArguments {
 
 /// Carries out `repose camera`.
 ExitCode run_camera(const CameraArguments& arguments);
+
+Command camera_command();
 
 }  // namespace repose::cli

@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "cli/common/progress.h"
+#include "cli/common/terminal.h"
 
 namespace repose::cli {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/input_error.h"
-#include "cli/common/exit_code.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 

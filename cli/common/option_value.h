@@ -1,23 +1,58 @@
 #pragma once
 
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include <tbb/info.h>
+
 /// Options as typed values: one reader for each type. Each gives nothing for an empty text, which
 /// is an option that was not given, and for a wrong one, which adds an error.
+
 namespace repose::cli {
+
+/// Cores that this process may use: on a cluster fewer than the machine has.
+inline int available_cores() { return tbb::info::default_concurrency(); }
+
+/// The whole text as a finite number, with a point, in any locale.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [stopped_at, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stopped_at != end) return std::nullopt;
+  if (!std::isfinite(static_cast<double>(number))) return std::nullopt;
+  return number;
+}
+
+/// "A,B,C" with as many numbers as asked for.
+template <typename Number, std::size_t count>
+std::optional<std::array<Number, count>> numbers_in(std::string_view text) {
+  std::array<Number, count> numbers{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t comma = text.find(',');
+    if ((comma == std::string_view::npos) != (i + 1 == count)) return std::nullopt;
+    const auto number = parse_number<Number>(text.substr(0, comma));
+    if (!number) return std::nullopt;
+    numbers[i] = *number;
+    if (comma != std::string_view::npos) text.remove_prefix(comma + 1);
+  }
+  return numbers;
+}
 
 inline constexpr int kMaxThreads = 1024;
 
 /// What was typed after an option, and where to say what is wrong with it.
-struct Typed {
+struct OptionText {
   const char* option = "";
   const std::string& text;
   std::vector<std::string>& errors;
@@ -26,48 +61,52 @@ struct Typed {
   void refuse(std::string_view rule, std::string_view fix) const;
 };
 
-std::optional<double> read_number(const Typed& typed, std::string_view what, std::string_view fix);
+std::optional<double> read_number(const OptionText& typed, std::string_view what,
+                                  std::string_view fix);
 
 /// Above 0.
-std::optional<double> read_positive(const Typed& typed, std::string_view what,
+std::optional<double> read_positive(const OptionText& typed, std::string_view what,
                                     std::string_view fix);
 
 /// `min` and `max` may be the value.
-std::optional<double> read_number_within(const Typed& typed, double min, double max,
+std::optional<double> read_number_within(const OptionText& typed, double min, double max,
                                          std::string_view fix);
-std::optional<int> read_whole_number(const Typed& typed, int min, int max, std::string_view fix);
+std::optional<int> read_whole_number(const OptionText& typed, int min, int max,
+                                     std::string_view fix);
 
 /// A seed: from 0 on.
-std::optional<std::uint64_t> read_seed(const Typed& typed);
+std::optional<std::uint64_t> read_seed(const OptionText& typed);
 
 /// How much is done at a time; all of the machine's cores where nothing is typed.
-int read_threads(const Typed& typed);
+int read_threads(const OptionText& typed);
 
 /// An angle that is typed in degrees [rad].
-std::optional<double> read_angle(const Typed& typed, std::string_view fix);
+std::optional<double> read_angle(const OptionText& typed, std::string_view fix);
 
 /// "A,B,...": as many numbers as there are, at least one.
 std::optional<std::vector<double>> numbers_in(std::string_view text);
 
 /// "FROM,TO".
-std::optional<std::array<double, 2>> read_range(const Typed& typed, std::string_view fix);
+std::optional<std::array<double, 2>> read_range(const OptionText& typed, std::string_view fix);
 
 /// "X1,Y1,X2,Y2" or "X,Y": points of a picture in pixels.
-std::optional<std::array<double, 4>> read_line(const Typed& typed);
-std::optional<std::array<double, 2>> read_point(const Typed& typed);
+std::optional<std::array<double, 4>> read_line(const OptionText& typed);
+std::optional<std::array<double, 2>> read_point(const OptionText& typed);
 
 /// "X,Y,W,H" or "W,H" in pixels.
-std::optional<std::array<int, 4>> read_box(const Typed& typed);
-std::optional<std::array<int, 2>> read_size(const Typed& typed);
+std::optional<std::array<int, 4>> read_box(const OptionText& typed);
+std::optional<std::array<int, 2>> read_size(const OptionText& typed);
 
 /// Which of `words` was typed.
-std::optional<std::size_t> read_word(const Typed& typed, const std::vector<std::string>& words);
+std::optional<std::size_t> read_word(const OptionText& typed,
+                                     const std::vector<std::string>& words);
 
 /// "A,B,...": places in `words` of those that were typed, each once, in the order of `words`.
-std::vector<std::size_t> read_words(const Typed& typed, const std::vector<std::string>& words);
+std::vector<std::size_t> read_words(const OptionText& typed, const std::vector<std::string>& words);
 
 /// Which of `endings` (".png") the name of a file has, in small or capital letters.
-std::optional<std::size_t> read_ending(const Typed& typed, const std::vector<std::string>& endings);
+std::optional<std::size_t> read_ending(const OptionText& typed,
+                                       const std::vector<std::string>& endings);
 
 /// The value of the word that was typed, or of a file's ending.
 template <typename Value>
@@ -81,13 +120,13 @@ std::vector<std::string> words_of(const Choices<Value>& choices) {
 }
 
 template <typename Value>
-std::optional<Value> read_choice(const Typed& typed, const Choices<Value>& choices) {
+std::optional<Value> read_choice(const OptionText& typed, const Choices<Value>& choices) {
   const auto found = read_word(typed, words_of(choices));
   return found ? std::optional(choices[*found].second) : std::nullopt;
 }
 
 template <typename Value>
-std::optional<Value> read_format(const Typed& typed, const Choices<Value>& choices) {
+std::optional<Value> read_format(const OptionText& typed, const Choices<Value>& choices) {
   const auto found = read_ending(typed, words_of(choices));
   return found ? std::optional(choices[*found].second) : std::nullopt;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
+#include <fstream>
 #include <iterator>
 #include <set>
 #include <span>
@@ -11,13 +13,81 @@
 
 #include <fmt/format.h>
 
-#include "base/file_pattern.h"
-#include "base/part_file.h"
+#include "base/atomic_file.h"
+#include "base/file_set.h"
+#include "base/fingerprint.h"
 #include "cli/common/option_value.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/made_here.h"
 
 namespace repose::cli {
+
+std::string heap_by_name(const std::filesystem::path& picture) {
+  std::string name = (picture.parent_path() / picture.stem()).string();
+  const std::size_t last = name.find_last_not_of("0123456789");
+  const bool has_number = last != std::string::npos && last + 1 < name.size();
+  if (has_number && last > 0 && (name[last] == '_' || name[last] == '-') && name[last - 1] != '/') {
+    name.resize(last);
+  }
+  return name;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool have_same_bytes(const fs::path& a, const fs::path& b) {
+  constexpr std::size_t kBlock = 1 << 16;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  std::vector<char> one(kBlock), other(kBlock);
+  while (first && second) {
+    first.read(one.data(), kBlock);
+    second.read(other.data(), kBlock);
+    if (first.gcount() != second.gcount() ||
+        !std::equal(one.begin(), one.begin() + first.gcount(), other.begin())) {
+      return false;
+    }
+  }
+  return first.eof() && second.eof();
+}
+
+/// None where it is no file with bytes in it.
+std::optional<std::uintmax_t> size_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  const std::uintmax_t size = fs::file_size(file, error);
+  return error || size == 0 ? std::nullopt : std::optional(size);
+}
+
+}  // namespace
+
+std::string pixels_of(const vision::Picture& picture) {
+  return base::fingerprint({fmt::format("{} {}", picture.width, picture.height),
+                            std::string(picture.bgr.begin(), picture.bgr.end())});
+}
+
+std::vector<std::optional<std::size_t>> copies_among(const std::vector<fs::path>& files,
+                                                     const std::vector<std::string>& pixels) {
+  std::vector<std::optional<std::size_t>> first_of(files.size());
+  std::vector<std::optional<std::uintmax_t>> sizes;
+  sizes.reserve(files.size());
+  for (const fs::path& file : files) sizes.push_back(size_of(file));
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    for (std::size_t k = 0; k < i && !first_of[i]; ++k) {
+      if (first_of[k]) continue;
+      const bool same_pixels = !pixels[i].empty() && pixels[i] == pixels[k];
+      const bool same_size = sizes[i] && sizes[i] == sizes[k];
+      if (same_pixels || (same_size && have_same_bytes(files[i], files[k]))) first_of[i] = k;
+    }
+  }
+  return first_of;
+}
+
+std::string text_of_copy(const fs::path& copy, const fs::path& first) {
+  return fmt::format("{}: the same {} as {}, counted once", copy.string(),
+                     vision::has_film_ending(copy) ? "film" : "picture", first.string());
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,13 +1,36 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/input_error.h"
+#include "cli/common/option_value.h"
+#include "vision/camera/sized_heap.h"
 #include "vision/measure/repose_angle.h"
+#include "vision/measure/scale_bar.h"
 
 /// Options of all commands that measure pictures.
+
 namespace repose::cli {
+
+/// What gives millimetres, and the lens, as typed.
+struct ScaleArguments {
+  std::string scale;
+  bool finds_board = false;
+  std::string square_mm;
+  std::string board_behind_mm;
+  std::string camera_file;
+};
+
+/// "X1,Y1,X2,Y2,MM": two points of a picture and their distance.
+std::optional<vision::ScaleBar> read_scale_bar(const OptionText& typed, std::string_view fix);
+
+/// @param scale_fix  an example of --scale
+/// @param plane  that a board stands in, such as "the heap's middle"
+vision::ScaleOptions read_scale(const ScaleArguments& arguments, std::string_view scale_fix,
+                                std::string_view plane, std::vector<std::string>& errors);
 
 /// As typed; an empty text leaves the default.
 struct TypedMeasuring {

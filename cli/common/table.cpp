@@ -4,10 +4,10 @@
 #include <numeric>
 #include <utility>
 
-#include "base/printable.h"
 #include "base/text.h"
 
 namespace repose::cli {
+
 namespace {
 
 constexpr std::size_t kGap = 2;

@@ -6,14 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "vision/measure/repose_angle.h"
+
 /// What people read on a terminal: tables and paragraphs, as wide as it is. Letters are counted as
 /// UTF-8. What would control the terminal is spelt out, whatever a text comes from.
+
 namespace repose::cli {
 
 /// Stands where a number does not exist.
-inline constexpr const char* kNothing = "–";
+inline constexpr const char* kMissing = "–";
 /// Before what is said below a row.
-inline constexpr const char* kBelow = "  ";
+inline constexpr const char* kIndent = "  ";
 
 enum class Align { left, right };
 enum class Colour { none, green, yellow, red };
@@ -62,5 +65,38 @@ class Table {
 
 /// A text wrapped to the terminal: its first line behind `mark`, the others below its beginning.
 std::string paragraph(std::string_view mark, std::string_view text, int terminal_columns);
+
+/// Tables and paragraphs below each other, for a terminal of some width.
+class Page {
+ public:
+  explicit Page(int terminal_columns) : columns_(terminal_columns) {}
+
+  void add_gap() { text_ += '\n'; }
+  void add(const Table& table) { text_ += table.text(columns_); }
+  void add(std::string_view text) { add("", text); }
+  /// To be copied: as they are, each with its end.
+  void add_lines(std::string_view lines) { text_ += lines; }
+  void add(std::string_view mark, std::string_view text) {
+    text_ += paragraph(mark, text, columns_);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  int columns_;
+  std::string text_;
+};
+
+inline Colour colour_of(vision::MeasureStatus status) {
+  switch (status) {
+    case vision::MeasureStatus::ok:
+      return Colour::green;
+    case vision::MeasureStatus::flagged:
+      return Colour::yellow;
+    case vision::MeasureStatus::refused:
+      break;
+  }
+  return Colour::red;
+}
 
 }  // namespace repose::cli

@@ -2,24 +2,261 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "base/input_error.h"
-#include "cli/common/interrupt.h"
+#include "calibrate/experiment/heap_angle.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/terminal.h"
 #include "cli/compare/compare_json.h"
 #include "cli/compare/compare_options.h"
-#include "cli/compare/compare_sets.h"
 #include "cli/compare/compare_table.h"
+#include "dem/state/state_file.h"
+#include "render/scene/scene.h"
 #include "vision/drawing/heap_comparison_overlay.h"
+#include "vision/drawing/heap_sets_figure.h"
 #include "vision/hints/hint_file.h"
 
 namespace repose::cli {
+
 namespace {
+
+using vision::SeenHeap;
+
+/// One picture to be measured, and where its result belongs.
+struct Task {
+  std::size_t set = 0;
+  std::size_t heap = 0;
+  std::size_t view = 0;
+  const calibrate::HeapViewSession* session = nullptr;  ///< of a simulated heap
+};
+
+/// Both sets while they are measured.
+struct Work {
+  std::array<std::vector<SeenHeap>, 2> sets;
+  std::vector<std::unique_ptr<calibrate::HeapViewSession>> sessions;
+  std::vector<Task> tasks;
+  std::array<std::vector<std::string>, 2> pixels;  ///< of each photograph
+  std::vector<std::string> errors;
+};
+
+void add_pictures(const ComparePlan& plan, std::size_t set, Work& work) {
+  const std::optional<vision::PictureScale>& scale = plan.comparing.scale[set];
+  for (std::size_t heap = 0; heap < plan.sources[set].pictures.size(); ++heap) {
+    SeenHeap seen{.views = std::vector<vision::ReposeAngle>(1), .m_per_px = {}};
+    if (scale) seen.m_per_px = scale->length_m;
+    work.sets[set].push_back(std::move(seen));
+    work.pixels[set].emplace_back();
+    work.tasks.push_back({.set = set, .heap = heap});
+  }
+}
+
+void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
+  const std::vector<std::filesystem::path>& states = plan.sources[set].states;
+  for (std::size_t heap = 0; heap < states.size(); ++heap) {
+    try {
+      work.sessions.push_back(std::make_unique<calibrate::HeapViewSession>(
+          render::scene_of(dem::read_state(states[heap])),
+          calibrate::HeapViewing{.camera = plan.camera}));
+    } catch (const base::InputError& error) {
+      work.errors.push_back(naming_file(states[heap].string(), error.what()));
+      continue;
+    }
+    const calibrate::HeapViewSession& session = *work.sessions.back();
+    const auto views = static_cast<std::size_t>(session.views());
+    work.sets[set].push_back(
+        {.views = std::vector<vision::ReposeAngle>(views), .m_per_px = session.m_per_px()});
+    for (std::size_t view = 0; view < views; ++view) {
+      work.tasks.push_back({.set = set, .heap = heap, .view = view, .session = &session});
+    }
+  }
+}
+
+/// Of a photograph with a saved scale, that too.
+vision::ReposeAngle measured(const ComparePlan& plan, const Task& task, render::Renderer* renderer,
+                             SeenHeap& seen, Work& work) {
+  const vision::MeasureOptions& options = plan.measuring[task.set];
+  if (task.session != nullptr) {
+    return task.session->take(*renderer, static_cast<int>(task.view), options).angle;
+  }
+  const std::filesystem::path& file = plan.sources[task.set].pictures[task.heap];
+  const vision::Picture picture = vision::read_picture(file);
+  work.pixels[task.set][task.heap] = pixels_of(picture);
+  const vision::PictureSettings told =
+      vision::with_saved_hints({.measuring = options, .scale = {}}, file);
+  vision::SizedHeap heap = vision::measure_sized_heap(picture, told.measuring, told.scale);
+  if (!seen.m_per_px && heap.sizes.mm_per_px) {
+    seen.m_per_px = heap.sizes.mm_per_px->value / 1000;
+  }
+  return std::move(heap.angle);
+}
+
+void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupted, Work& work) {
+  Progress progress(work.tasks.size());
+  // Contexts are costly to make, and each belongs to one thread.
+  tbb::enumerable_thread_specific<std::unique_ptr<render::Renderer>> renderers;
+  std::vector<std::string> errors(work.tasks.size());
+  tbb::parallel_for(std::size_t{0}, work.tasks.size(), [&](std::size_t i) {
+    if (is_interrupted) return;
+    const Task& task = work.tasks[i];
+    try {
+      std::unique_ptr<render::Renderer>& renderer = renderers.local();
+      if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
+      SeenHeap& seen = work.sets[task.set][task.heap];
+      vision::ReposeAngle& angle = seen.views[task.view];
+      angle = measured(plan, task, renderer.get(), seen, work);
+    } catch (const base::InputError& error) {
+      const HeapSource& source = plan.sources[task.set];
+      const auto& files = task.session != nullptr ? source.states : source.pictures;
+      errors[i] = naming_file(files[task.heap].string(),
+                              base::text_of(error.faults(), kCompareFields[task.set]));
+    }
+    progress.advance();
+  });
+  for (std::string& error : errors) {
+    if (!error.empty()) work.errors.push_back(std::move(error));
+  }
+}
+
+/// The files of a set.
+std::vector<std::filesystem::path>& files_of(HeapSource& source) {
+  return source.states.empty() ? source.pictures : source.states;
+}
+
+/// Takes copies out of each set, and says how many heaps are in both.
+void drop_copies(ComparePlan& plan, Work& work) {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> pixels;
+  for (const std::size_t set : {0, 1}) {
+    const auto& own = files_of(plan.sources[set]);
+    files.insert(files.end(), own.begin(), own.end());
+    work.pixels[set].resize(own.size());
+    pixels.insert(pixels.end(), work.pixels[set].begin(), work.pixels[set].end());
+  }
+  const std::size_t first_size = files_of(plan.sources[0]).size();
+  const auto first_of = copies_among(files, pixels);
+  std::array<std::vector<std::filesystem::path>, 2> kept;
+  std::array<std::vector<SeenHeap>, 2> heaps;
+  std::set<std::size_t> in_second;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::size_t set = i < first_size ? 0 : 1;
+    const std::size_t same = first_of[i].value_or(i);
+    const bool is_repeated = set == 0 ? same != i : !in_second.insert(same).second;
+    if (is_repeated) {
+      print_line(text_of_copy(files[i], files[same]));
+      continue;
+    }
+    if (set == 1 && same < first_size) ++plan.in_both;
+    kept[set].push_back(files[i]);
+    heaps[set].push_back(std::move(work.sets[set][i - (set == 0 ? 0 : first_size)]));
+  }
+  for (const std::size_t set : {0, 1}) {
+    files_of(plan.sources[set]) = std::move(kept[set]);
+    work.sets[set] = std::move(heaps[set]);
+  }
+}
+
+/// Heaps that have one scale in all their pictures; none where they have several.
+std::optional<double> scale_of_both(const SeenHeap& one, const SeenHeap& other) {
+  constexpr double kAlike = 1e-3;
+  if (!one.m_per_px || !other.m_per_px) return std::nullopt;
+  return std::abs(*one.m_per_px / *other.m_per_px - 1) < kAlike ? one.m_per_px : std::nullopt;
+}
+
+/// Photographs of one heap become its views: a heap's angle is the mean of them.
+void group_by_name(ComparePlan& plan, Work& work) {
+  if (!plan.groups_by_name) return;
+  for (const std::size_t set : {0, 1}) {
+    HeapSource& source = plan.sources[set];
+    std::vector<std::filesystem::path> firsts;
+    std::vector<SeenHeap> heaps;
+    for (std::size_t i = 0; i < source.pictures.size(); ++i) {
+      const std::string name = heap_by_name(source.pictures[i]);
+      const auto same = std::ranges::find(firsts, name, heap_by_name);
+      SeenHeap& seen = work.sets[set][i];
+      if (same == firsts.end()) {
+        firsts.push_back(source.pictures[i]);
+        source.views.push_back({source.pictures[i]});
+        heaps.push_back(std::move(seen));
+        continue;
+      }
+      const auto heap = static_cast<std::size_t>(same - firsts.begin());
+      source.views[heap].push_back(source.pictures[i]);
+      heaps[heap].m_per_px = scale_of_both(heaps[heap], seen);
+      heaps[heap].views.push_back(std::move(seen.views.front()));
+    }
+    if (source.pictures.empty()) continue;
+    source.pictures = std::move(firsts);
+    work.sets[set] = std::move(heaps);
+  }
+}
+
+/// A set agrees with itself, whatever its grains are.
+void warn_of_both(const ComparePlan& plan, vision::SetComparison& comparison) {
+  if (plan.in_both == 0) return;
+  const auto& [first, second] = plan.sources;
+  const auto size = [](const HeapSource& source) {
+    return static_cast<int>(source.pictures.size() + source.states.size());
+  };
+  const bool is_all = plan.in_both == size(first) && plan.in_both == size(second);
+  comparison.warnings.push_back(
+      {"same_heaps",
+       is_all ? "Both sets are the same heaps: a set is compared with itself, and that they agree "
+                "says nothing."
+              : fmt::format("{} of the heaps {} in both sets: that they agree says less.",
+                            plan.in_both, plan.in_both == 1 ? "is" : "are")});
+}
+
+void write_figure(const ComparePlan& plan, const vision::SetComparison& comparison) {
+  if (plan.overlay_file.empty()) return;
+  vision::HeapSetsNotes notes{.titles = {}, .margin_rad = plan.comparing.margin_rad};
+  for (const std::size_t i : {0, 1}) notes.titles[i] = title_of(plan.sources[i]);
+  vision::write_picture(plan.overlay_file, vision::draw_heap_sets(comparison, notes));
+}
+
+/// Carries out `repose compare` where one of both is more than one picture.
+ExitCode compare_sets(ComparePlan plan, const std::atomic<bool>& is_interrupted) {
+  Work work;
+  for (const std::size_t set : {0, 1}) {
+    add_pictures(plan, set, work);
+    add_states(plan, set, work);
+  }
+  if (work.errors.empty()) measure_all(plan, is_interrupted, work);
+  if (is_interrupted) {
+    print_line("interrupted, no results were written");
+    return ExitCode::interrupted;
+  }
+  print_lines(work.errors);
+  if (!work.errors.empty()) return ExitCode::bad_input;
+
+  drop_copies(plan, work);
+  group_by_name(plan, work);
+  vision::SetComparison comparison =
+      vision::compare_sets(work.sets[0], work.sets[1], plan.comparing.margin_rad);
+  warn_of_both(plan, comparison);
+  const bool is_refused = !comparison.sets[0].mean_rad || !comparison.sets[1].mean_rad;
+  if (is_refused && !comparison.iou && !plan.overlay_file.empty()) {
+    print_line(plan.overlay_file + ": not drawn, as there is nothing to compare");
+  } else {
+    write_figure(plan, comparison);
+  }
+  Outputs outputs;
+  outputs.add(plan.json_file, sets_json(plan, work.sets, comparison));
+  outputs.show(sets_table(plan, work.sets, comparison, columns_of(stdout)));
+  outputs.write();
+  return is_refused ? ExitCode::nothing_measurable : ExitCode::done;
+}
 
 struct MeasuredHeap {
   vision::Picture picture;

@@ -1,18 +1,85 @@
 #include "cli/compare/compare_options.h"
 
 #include <algorithm>
+#include <memory>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "cli/common/number.h"
+#include "calibrate/study/study_record.h"
 #include "cli/common/option_value.h"
-#include "cli/common/output_places.h"
+#include "cli/common/output.h"
+#include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
+#include "cli/compare/compare.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/scale_bar.h"
 
 namespace repose::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Those of a folder that `is_wanted` takes, by name; none when it cannot be read.
+template <typename Wanted>
+std::vector<fs::path> files_of(const fs::path& folder, const Wanted& is_wanted) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with('.') && is_wanted(entry->path())) found.push_back(entry->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool is_picture(const fs::path& file) {
+  return has_picture_ending(file) && !is_overlay_of_state(file);
+}
+
+bool is_heap_state(const fs::path& file) {
+  return has_state_ending(file) && file.filename().string().starts_with("heap");
+}
+
+HeapSource folder_source(const std::string& name, std::vector<std::string>& errors) {
+  HeapSource source{.name = name, .pictures = {}, .states = {}, .is_file = false};
+  source.pictures = files_of(name, is_picture);
+  if (!source.pictures.empty()) return source;
+  source.states = files_of(fs::path(name) / calibrate::kHeapsFolder, is_heap_state);
+  if (source.states.empty()) source.states = files_of(name, is_heap_state);
+  if (source.states.empty()) {
+    errors.push_back(fmt::format(
+        "{}: no pictures and no simulated heaps in this folder. Fix: name a folder with "
+        ".jpg, .png, .tif, .bmp or .webp files in it, or one that repose simulate heap "
+        "--out or repose calibrate --out has written.",
+        name));
+  }
+  return source;
+}
+
+}  // namespace
+
+bool has_state_ending(const fs::path& file) { return file.extension() == ".vtp"; }
+
+std::array<HeapSource, 2> heap_sources(const std::vector<std::string>& names,
+                                       std::vector<std::string>& errors) {
+  std::array<HeapSource, 2> sources;
+  for (std::size_t i = 0; i < sources.size() && i < names.size(); ++i) {
+    std::error_code error;
+    if (fs::is_directory(names[i], error)) {
+      sources[i] = folder_source(names[i], errors);
+    } else if (has_state_ending(names[i])) {
+      sources[i] = {.name = names[i], .pictures = {}, .states = {names[i]}};
+    } else {
+      sources[i] = {.name = names[i], .pictures = {names[i]}, .states = {}};
+    }
+  }
+  return sources;
+}
+
 namespace {
 
 using vision::PictureScale;
@@ -37,10 +104,10 @@ void read_scale(const char* option, const std::string& text, PictureScale::From 
   if (text.empty()) return;
   const std::array<std::string, 2> texts = for_each_picture(text);
   for (const std::size_t i : {0, 1}) {
-    const auto mm = number_in<double>(texts[i]);
+    const auto mm = parse_number<double>(texts[i]);
     const auto [least, most] = possible_lengths(from);
     if (!mm || !(*mm >= least && *mm <= most)) {
-      const Typed typed{option, text, plan.errors};
+      const OptionText typed{option, text, plan.errors};
       typed.refuse(
           fmt::format("one number of mm from {:g} to {:g}, or one for each picture with a comma "
                       "between them",
@@ -94,10 +161,10 @@ void read_margin(const std::string& text, ComparePlan& plan) {
 
 void read_camera(const std::string& text, ComparePlan& plan) {
   if (text.empty()) return;
-  const Typed typed{"--camera-mm", text, plan.errors};
+  const OptionText typed{"--camera-mm", text, plan.errors};
   const std::optional<std::vector<double>> mm = numbers_in(text);
-  constexpr double kMostMm = 1e6;
-  const auto is_length = [](double length) { return length > 0 && length <= kMostMm; };
+  constexpr double kMaxMm = 1e6;
+  const auto is_length = [](double length) { return length > 0 && length <= kMaxMm; };
   if (!mm || mm->size() != 2 || !std::all_of(mm->begin(), mm->end(), is_length)) {
     typed.refuse("DISTANCE,HEIGHT in mm, both above 0", "--camera-mm 1500,40");
     return;
@@ -205,6 +272,69 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
       {{"--overlay", plan.overlay_file}, json_place(plan.json_file, "\"margin_deg\"")}, inputs,
       plan.errors);
   return plan;
+}
+
+namespace {
+
+constexpr const char* kCompareNotes = R"(
+Each picture is a level side view of one heap: a photograph or a rendered
+silhouette. Both are measured as by repose measure, rotated until their ground
+is level, and aligned by axis and ground line. The axis is the middle of the
+silhouette between 20 and 80 % of its height; where a side is missing, the
+crests are aligned instead. All differences are the first minus the second.
+
+Verdict on the angles, from the 95 % interval of their difference:
+  equivalent   the interval lies within the margin
+  different    it does not, and it excludes 0
+  cannot tell  otherwise
+The verdict on two pictures is about these two heaps. Heaps of the same grains
+differ too: give folders instead of pictures to compare sets of heaps by their
+means, which is a verdict on the grains. A folder contains photographs, one per
+heap (with --group-by-name those whose names differ in a last number after _ or
+- alone are of one heap, which has their mean), or simulated heaps, as written
+by repose simulate heap --out and repose calibrate --out; a .vtp file is one
+such heap. Its pictures are drawn as from far away. A level camera that stands
+three widths from the heap reads some .8 degrees less, for the nuts of the
+sample: --camera-mm says where the photographs were taken from, by the lens's
+distance from the heap's middle and its height
+above the ground, so that both sets are seen alike.
+
+Scale: mm per pixel, or the known width of the base. One value applies to both
+pictures, A,B to one each. A scale that repose measure --save-hints has saved
+beside both pictures is used if none is given. Without a scale only shapes are
+compared, and lengths are relative to the square root of a silhouette's area.
+)";
+
+}  // namespace
+
+Command compare_command() {
+  const auto given = std::make_shared<CompareArguments>();
+  constexpr int kPictures = 2;
+  return {
+      .name = "compare",
+      .summary = "Compare two heaps, or two sets of heaps",
+      .options =
+          {{"heaps", "HEAPS HEAPS", "Two pictures, or folders of heaps", &given->pictures, true,
+            kPictures},
+           {"--mm-per-px", "A[,B]", "Scale: millimetres per pixel", &given->mm_per_px},
+           {"--base-mm", "A[,B]", "Scale: known width of the base", &given->base_mm},
+           {"--grain-mm", "D", "Grain size, for lengths in grains", &given->grain_mm},
+           {"--margin-deg", "DEGREES", "Negligible difference (2)", &given->margin_deg},
+           {"--camera-mm", "DISTANCE,HEIGHT", "Camera before simulated heaps (far away)",
+            &given->camera_mm},
+           {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
+           {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
+           {"--pitch-deg", "A[,B]", "Cameras' downward pitch (unknown)", &given->pitch_deg},
+           {"--exclude-first", "X,Y,W,H", "Box to ignore; repeatable", &given->exclude_first},
+           {"--exclude-second", "X,Y,W,H", "Box to ignore; repeatable", &given->exclude_second},
+           {"--group-by-name", "", "a_1.jpg and a_2.jpg are of one heap", &given->groups_by_name},
+           {"--overlay", "FILE.png", "Draw both outlines", &given->overlay_file},
+           {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
+      .notes = kCompareNotes,
+      .missing =
+          "two pictures or folders are needed. Fix: repose compare photo.jpg render.png, or repose "
+          "compare photos heaps.",
+      .run = [given] { return run_compare(*given); }};
 }
 
 }  // namespace repose::cli

@@ -2,27 +2,27 @@
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/printable.h"
-#include "base/whole_file.h"
+#include "base/text.h"
 #include "calibrate/export/export.h"
 #include "calibrate/result/result.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_table.h"
-#include "cli/common/interrupt.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
-#include "cli/common/output_places.h"
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
 
 namespace repose::cli {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,9 +86,9 @@ ExportPlan plan_export(const ExportArguments& arguments) {
   check_output_places({json_place(arguments.json_file, "\"conversions\"")}, read, plan.errors);
   plan.request = {.target = target.value_or(calibrate::ExportTarget::liggghts),
                   .takes_approximate = arguments.takes_approximate || !target};
-  constexpr int kMostSets = 1000;
+  constexpr int kMaxSets = 1000;
   if (const auto number = read_whole_number({"--set-number", arguments.set_number, plan.errors}, 1,
-                                            kMostSets, "leave it out for the best set, number 1")) {
+                                            kMaxSets, "leave it out for the best set, number 1")) {
     plan.request.set_number = static_cast<std::size_t>(*number);
   }
   plan.out_folder = arguments.out_folder.empty()
@@ -164,6 +164,51 @@ ExitCode run_export(const ExportArguments& arguments) {
   print_lines(plan.made.warnings);
   outputs.write();
   return ExitCode::done;
+}
+
+namespace {
+
+constexpr const char* kExportNotes = R"(
+FOLDER is the output folder of repose calibrate. Material, contacts, clump and a
+deck for each experiment are written to FOLDER/export/PROGRAM, with a README.txt
+that gives both programs' definitions of each coefficient.
+
+Programs:
+  liggghts    decks for all experiments but fills that are tapped
+  yade        scripts for drop, tilt, roll and heap
+  lammps      decks for drop, tilt and roll
+  edem        tables to type in
+
+Rolling friction is defined differently in each. A coefficient with an exact or
+nearly exact counterpart is converted. If the law differs, the export is refused
+with the reason; --approximate writes the value that is equivalent on average.
+
+Where coefficients are not determined, several sets of them fit equally well. The
+best is written; --set-number 2 writes another. README.txt lists them all. Use
+the values of one set together.
+
+Example:
+  repose export hazelnut --to yade --approximate
+)";
+
+}  // namespace
+
+Command export_command() {
+  const auto given = std::make_shared<ExportArguments>();
+  return {
+      .name = "export",
+      .summary = "Export a calibrated study to another program",
+      .options = {{"folder", "FOLDER", "Folder of a finished study", &given->folder, true},
+                  {"--to", "PROGRAM", "Program to export to", &given->target, true},
+                  {"--approximate", "", "Allow approximate conversions", &given->takes_approximate},
+                  {"--set-number", "N", "Which of the equally good sets (1, the best)",
+                   &given->set_number},
+                  {"--out", "FOLDER", "Output folder (FOLDER/export/PROGRAM)", &given->out_folder},
+                  {"--json", "FILE|-", "Files and conversions, for programs", &given->json_file}},
+      .notes = kExportNotes,
+      .missing =
+          "a study's folder and a program are needed. Fix: repose export FOLDER --to liggghts.",
+      .run = [given] { return run_export(*given); }};
 }
 
 }  // namespace repose::cli

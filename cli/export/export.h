@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 
@@ -18,5 +19,7 @@ struct ExportArguments {
 
 /// Carries out `repose export`.
 ExitCode run_export(const ExportArguments& arguments);
+
+Command export_command();
 
 }  // namespace repose::cli

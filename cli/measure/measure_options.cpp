@@ -1,20 +1,21 @@
 #include "cli/measure/measure_options.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
-#include "cli/common/output_places.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
-#include "cli/common/scale_option.h"
+#include "cli/measure/measure.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/picture.h"
 
 namespace repose::cli {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,6 +124,103 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   plan.overlays = std::move(overlays.files);
   plan.notes.insert(plan.notes.end(), overlays.notes.begin(), overlays.notes.end());
   return plan;
+}
+
+namespace {
+
+constexpr const char* kMeasureNotes = R"(
+PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP; or a film of one by
+a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A folder stands for
+all pictures and films in it, except films that share a photo's name, as phones
+save both at once. FILE may be - for standard output.
+
+Films: the heap at rest is measured in the mean of the frames of the last second
+in which nothing moves. A heap that still moves when the film ends is refused:
+film on until 1 s after the last grain has stopped. --every 0.1 also measures
+the frame nearest to each tenth of a second, for the angle over time; means and
+the report are of heaps at rest alone.
+
+Methods:
+  auto   Segments the heap in several ways and takes the most convincing
+         silhouette. Finds the ground line; leaves out thin aprons at the
+         toe, the crest, and stray grains; fits a robust line to each side
+         within the window. Angles are measured from the ground line.
+  paper  The method of the published hazelnut study: grey picture, Otsu
+         threshold, holes filled, edge, ordinary least squares through each
+         side's edge over the whole window, mean of the absolute slopes of
+         the two sides.
+
+Window: the part of each side that is fitted, as fractions of the heap's
+height. Sides are concave at the toe and round at the crest, so the angle
+depends on the window: always state it. --definitions and the JSON list the
+angle by other definitions (height over base, tangent at half height, whole
+flank, other windows).
+
+Hints: if the heap is not found, mark where it is. --heap alone is often enough;
+--ground is needed if the foot is hidden. Positions are in pixels from the
+picture's top left corner. --save-hints saves them, with --exclude, --pitch-deg
+and what gives millimetres, in PICTURE.repose.toml, which is read whenever
+PICTURE is measured again. For a refused picture, hints are tried and the best
+one is suggested.
+
+Sizes: with a board (repose board) upright beside the heap and in the plane of
+its middle, or with --scale of two points in that plane, heights and widths are
+also in millimetres, with the volume of the cone. A camera file (repose camera)
+corrects the lens's distortion before the picture is measured; with it the board
+also gives the camera's pitch. Hints are in the pixels of the picture as it is,
+overlays show the corrected one.
+
+Uncertainties are half-widths of 95 % intervals. The mean of several pictures
+includes all that could be measured, but for flagged ones that are outliers
+among them; the mean of those that are ok stands beside it. A flagged picture
+counts, but has a warning to check; a refused one has a reason instead of an
+angle. Photographs of one heap from several sides are one heap: with
+--group-by-name those whose names differ in a last number after _ or - alone
+count once, with their mean.
+)";
+
+}  // namespace
+
+Command measure_command() {
+  const auto given = std::make_shared<MeasureArguments>();
+  return {
+      .name = "measure",
+      .summary = "Measure heaps in pictures and films",
+      .options =
+          {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
+            &given->pictures, true},
+           {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
+           {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
+           {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
+           {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
+           {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
+           {"--keep", "X,Y", "Point on the heap; repeatable", &given->keep},
+           {"--drop", "X,Y", "Point off the heap; repeatable", &given->drop},
+           {"--mask", "FILE", "Picture with the heap light, rest dark", &given->mask_file},
+           {"--save-hints", "", "Save these hints beside each picture", &given->saves_hints},
+           {"--pitch-deg", "DEGREES", "Camera's downward pitch (unknown)", &given->pitch_deg},
+           {"--camera-file", "FILE.toml", "Camera whose lens distortion to correct",
+            &given->scale.camera_file},
+           {"--board", "", "Find the board of repose board: sizes in mm",
+            &given->scale.finds_board},
+           {"--square-mm", "MM", "Side of a printed square (24)", &given->scale.square_mm},
+           {"--board-behind", "MM", "How far behind the heap's middle it is (0)",
+            &given->scale.board_behind_mm},
+           {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale.scale},
+           {"--overlay", "FOLDER", "Folder for pictures with the measurement",
+            &given->overlay_folder},
+           {"--json", "FILE|-", "Full results, for programs", &given->json_file},
+           {"--csv", "FILE|-", "One row per picture or frame", &given->csv_file},
+           {"--summary", "FILE|-", "Mean and its interval, as JSON", &given->summary_file},
+           {"--report", "FILE.html", "Report as a web page", &given->report_file},
+           {"--group-by-name", "", "a_1.jpg and a_2.jpg are of one heap", &given->groups_by_name},
+           {"--fps", "N", "Folders are films, their pictures the frames", &given->fps},
+           {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
+           {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
+           {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
+      .notes = kMeasureNotes,
+      .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
+      .run = [given] { return run_measure(*given); }};
 }
 
 }  // namespace repose::cli

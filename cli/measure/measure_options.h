@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "base/input_error.h"
-#include "cli/measure/measure.h"
+#include "cli/common/command.h"
+#include "cli/common/picture_options.h"
 #include "vision/camera/sized_heap.h"
 #include "vision/measure/repose_angle.h"
 
@@ -22,6 +23,32 @@ inline constexpr std::array<base::FieldName, 7> kMeasureFields{
      {"point to keep", "--keep"},
      {"point to drop", "--drop"},
      {"camera file", "--camera-file"}}};
+
+/// What `repose measure` is asked to do, as typed.
+struct MeasureArguments {
+  std::vector<std::string> pictures;  ///< and films: files and folders
+  std::string method;
+  std::string window;
+  std::vector<std::string> exclude;
+  std::string heap;
+  std::string ground;
+  std::vector<std::string> keep;
+  std::vector<std::string> drop;
+  std::string mask_file;
+  std::string pitch_deg;
+  ScaleArguments scale;
+  std::string every;
+  std::string fps;
+  std::string threads;
+  std::string overlay_folder;
+  std::string json_file;
+  std::string csv_file;
+  std::string summary_file;
+  std::string report_file;
+  bool shows_definitions = false;
+  bool groups_by_name = false;
+  bool saves_hints = false;
+};
 
 /// A `repose measure` that can be carried out.
 struct MeasurePlan {
@@ -42,5 +69,7 @@ struct MeasurePlan {
 /// Reads and checks all that was typed, also whether the output can be written, so that no work is
 /// lost. All errors at once.
 MeasurePlan plan_measure(const MeasureArguments& arguments);
+
+Command measure_command();
 
 }  // namespace repose::cli

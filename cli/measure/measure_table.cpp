@@ -1,22 +1,135 @@
 #include "cli/measure/measure_table.h"
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/common/degrees.h"
+#include "cli/common/json_text.h"
 #include "cli/common/table.h"
-#include "cli/common/verdict_colour.h"
-#include "cli/measure/proposal_text.h"
-#include "vision/measure/status_name.h"
+#include "cli/measure/measure.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
+
 namespace {
+
+/// In quotes where a shell would take it for something else.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kHarmless = "/._-+,:=@%";
+  const auto is_harmless = [&](unsigned char c) {
+    return std::isalnum(c) != 0 || c >= 0x80 ||
+           kHarmless.find(static_cast<char>(c)) != kHarmless.npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_harmless)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string value_of(const vision::Box& box) {
+  return fmt::format("{},{},{},{}", box.x, box.y, box.width, box.height);
+}
+
+std::string value_of(const vision::Segment& line) {
+  return fmt::format("{:.0f},{:.0f},{:.0f},{:.0f}", line.from.x, line.from.y, line.to.x, line.to.y);
+}
+
+std::string value_of(const vision::Point& place) {
+  return fmt::format("{:g},{:g}", place.x, place.y);
+}
+
+/// Options of a command, one after the other.
+class Options {
+ public:
+  void add(const char* name, const std::string& value) {
+    text_ += fmt::format(" {} {}", name, value);
+  }
+  void add(const char* name) { text_ += fmt::format(" {}", name); }
+  template <class Item>
+  void add_each(const char* name, const std::vector<Item>& items) {
+    for (const Item& item : items) add(name, value_of(item));
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void add_scale(const vision::ScaleOptions& scale, Options& options) {
+  if (!scale.lens_file.empty()) options.add("--camera-file", shell_word(scale.lens_file.string()));
+  if (scale.scale) {
+    options.add("--scale",
+                fmt::format("{},{:g}", value_of(scale.scale->line), scale.scale->length_mm));
+  }
+  if (!scale.finds_board) return;
+  options.add("--board");
+  if (scale.square_mm != vision::kBoardSquare_mm) {
+    options.add("--square-mm", fmt::format("{:g}", scale.square_mm));
+  }
+  if (scale.board_offset_mm > 0)
+    options.add("--board-behind", fmt::format("{:g}", scale.board_offset_mm));
+}
+
+void add_measuring(const vision::MeasureOptions& told, Options& options) {
+  const vision::MeasureOptions usual;
+  if (told.method != usual.method) options.add("--method", "paper");
+  if (told.window_from != usual.window_from || told.window_to != usual.window_to) {
+    options.add("--window", fmt::format("{:g},{:g}", told.window_from, told.window_to));
+  }
+  options.add_each("--exclude", told.excluded);
+  options.add_each("--keep", told.hints.keep);
+  options.add_each("--drop", told.hints.drop);
+  if (!told.hints.mask_file.empty()) {
+    options.add("--mask", shell_word(told.hints.mask_file.string()));
+  }
+  if (told.camera_pitch_rad) {
+    options.add("--pitch-deg", fmt::format("{:g}", to_degrees(*told.camera_pitch_rad)));
+  }
+}
+
+/// What makes a folder of frames a film.
+void add_frame_rate(const MeasuredPicture& picture, Options& options) {
+  std::error_code ignored;
+  if (!picture.filmed || !std::filesystem::is_directory(picture.file, ignored)) return;
+  options.add("--fps", fmt::format("{:g}", picture.filmed->film.frames_per_s));
+}
+
+/// The command that measures a refused picture with its proposal and with all else that was said of
+/// it, as a shell takes it; and what it gives, or that its places are to be corrected.
+std::string proposal_text(const MeasuredPicture& picture) {
+  const vision::Proposal& proposal = *picture.proposal;
+  const vision::Hints& hints = picture.told.measuring.hints;
+  Options options;
+  add_measuring(picture.told.measuring, options);
+  add_scale(picture.told.scale, options);
+  add_frame_rate(picture, options);
+  if (proposal.excluded) options.add("--exclude", value_of(*proposal.excluded));
+  if (const auto& heap = proposal.heap ? proposal.heap : hints.heap) {
+    options.add("--heap", value_of(*heap));
+  }
+  if (const auto& ground = proposal.ground ? proposal.ground : hints.ground) {
+    options.add("--ground", value_of(*ground));
+  }
+  const std::string command =
+      fmt::format("repose measure {}{}", shell_word(picture.file), options.text());
+  if (!proposal.angle_rad)
+    return command + "  with your own corners of the heap and its ground line";
+  return fmt::format("{}  which gives {:.2f} ± {:.2f}; look at its overlay", command,
+                     to_degrees(*proposal.angle_rad),
+                     to_degrees(proposal.uncertainty_rad.value_or(0)));
+}
 
 std::string degrees_cell(const std::optional<double>& angle_rad,
                          const std::optional<double>& uncertainty_rad) {
-  if (!angle_rad) return kNothing;
+  if (!angle_rad) return kMissing;
   std::string angle = fmt::format("{:5.2f}", to_degrees(*angle_rad));
   if (!uncertainty_rad) return angle;
   return fmt::format("{} ± {:.2f}", angle, to_degrees(*uncertainty_rad));
@@ -24,7 +137,7 @@ std::string degrees_cell(const std::optional<double>& angle_rad,
 
 std::string flank_cell(const vision::Flank& flank, vision::MeasureStatus status) {
   if (flank.angle_rad) return degrees_cell(flank.angle_rad, flank.uncertainty_rad);
-  return status == vision::MeasureStatus::refused ? kNothing : name_of(flank.status);
+  return status == vision::MeasureStatus::refused ? kMissing : name_of(flank.status);
 }
 
 Colour row_colour(const MeasuredPicture& picture, bool has_colour) {
@@ -35,12 +148,12 @@ Colour row_colour(const MeasuredPicture& picture, bool has_colour) {
 
 void add_definitions(Table& table, const vision::ReposeAngle& angle) {
   for (const vision::NamedAngle& definition : angle.definitions) {
-    table.add_note(fmt::format("{}{:5.2f}°  ", kBelow, to_degrees(definition.angle_rad)),
+    table.add_note(fmt::format("{}{:5.2f}°  ", kIndent, to_degrees(definition.angle_rad)),
                    fmt::format("{}: {}", definition.name, definition.description));
   }
   for (const auto& [side, flank] : {std::pair("left", &angle.left), {"right", &angle.right}}) {
     for (const vision::WindowAngle& other : flank->other_windows) {
-      table.add_note(fmt::format("{}{:5.2f}°  ", kBelow, to_degrees(other.angle_rad)),
+      table.add_note(fmt::format("{}{:5.2f}°  ", kIndent, to_degrees(other.angle_rad)),
                      fmt::format("{} side, window {:.0f}–{:.0f} % of the height", side,
                                  100 * other.window_from, 100 * other.window_to));
     }
@@ -64,7 +177,7 @@ void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& s
       {fmt::format("{:7.2f} s", *picture.filmed->time_s),
        degrees_cell(angle.angle_rad, angle.uncertainty_rad), flank_cell(angle.left, angle.status),
        flank_cell(angle.right, angle.status),
-       angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
+       angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kMissing,
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
       row_colour(picture, style.has_colour));
 }
@@ -105,10 +218,10 @@ std::string board_text(const vision::SeenBoard& board) {
 }
 
 void add_sizes(Table& table, const MeasuredPicture& picture) {
-  if (picture.sizes.mm_per_px) table.add_note(kBelow, sizes_text(picture));
-  if (picture.board) table.add_note(fmt::format("{}board: ", kBelow), board_text(*picture.board));
+  if (picture.sizes.mm_per_px) table.add_note(kIndent, sizes_text(picture));
+  if (picture.board) table.add_note(fmt::format("{}board: ", kIndent), board_text(*picture.board));
   if (picture.angle.status != vision::MeasureStatus::refused && !picture.sizes.reason.empty()) {
-    table.add_note(fmt::format("{}no sizes: ", kBelow), picture.sizes.reason);
+    table.add_note(fmt::format("{}no sizes: ", kIndent), picture.sizes.reason);
   }
 }
 
@@ -117,26 +230,26 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
   const vision::ReposeAngle& angle = picture.angle;
   const Colour colour = row_colour(picture, style.has_colour);
   if (picture.outcome != Outcome::measured) {
-    table.add_row({picture.file, kNothing, kNothing, kNothing, kNothing, kNothing, "not read"},
+    table.add_row({picture.file, kMissing, kMissing, kMissing, kMissing, kMissing, "not read"},
                   colour);
     return;
   }
   table.add_row(
       {picture.file, degrees_cell(angle.angle_rad, angle.uncertainty_rad),
        flank_cell(angle.left, angle.status), flank_cell(angle.right, angle.status),
-       angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kNothing,
+       angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kMissing,
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
       colour);
-  if (picture.filmed) table.add_note(kBelow, film_text(*picture.filmed));
+  if (picture.filmed) table.add_note(kIndent, film_text(*picture.filmed));
   if (angle.status == vision::MeasureStatus::refused) {
-    table.add_note(fmt::format("{}refused: ", kBelow), angle.reason);
+    table.add_note(fmt::format("{}refused: ", kIndent), angle.reason);
     if (picture.proposal) {
-      table.add_note(fmt::format("{}try: ", kBelow), proposal_text(picture));
+      table.add_note(fmt::format("{}try: ", kIndent), proposal_text(picture));
     }
   }
   add_sizes(table, picture);
   for (const vision::Warning& warning : angle.warnings) {
-    table.add_note(fmt::format("{}! ", kBelow), warning.message);
+    table.add_note(fmt::format("{}! ", kIndent), warning.message);
   }
   if (style.shows_definitions) add_definitions(table, angle);
 }

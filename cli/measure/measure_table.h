@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/measure/measure_batch.h"
+#include "cli/measure/measure.h"
 
 namespace repose::cli {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibrate/experiment/picture_set.h"
-#include "cli/measure/measure_batch.h"
+#include "cli/measure/measure.h"
 
 namespace repose::cli {
 

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 
@@ -22,5 +23,7 @@ struct NewArguments {
 
 /// Carries out `repose new`.
 ExitCode run_new(const NewArguments& arguments);
+
+Command new_command();
 
 }  // namespace repose::cli

@@ -1,5 +1,6 @@
 #include "cli/plan/plan.h"
 
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -7,12 +8,11 @@
 
 #include "base/folder_lock.h"
 #include "base/input_error.h"
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/plan/plan.h"
 #include "calibrate/study/executor.h"
+#include "cli/calibrate/calibrate.h"
 #include "cli/calibrate/calibrate_options.h"
-#include "cli/calibrate/calibrate_progress.h"
-#include "cli/common/interrupt.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
@@ -20,6 +20,7 @@
 #include "dem/study/experiment_table.h"
 
 namespace repose::cli {
+
 namespace {
 
 constexpr double kMinute_s = 60;
@@ -54,8 +55,8 @@ void offer(double core_s, const std::set<dem::Experiment>& possible, PlanOptions
 }
 
 PlanOptions options_of(const PlanArguments& arguments) {
-  constexpr int kMostReadings = 10000;
-  constexpr double kLeast_minutes = .1, kUsual_minutes = 15, kMost_minutes = 1e5;
+  constexpr int kMaxReadings = 10000;
+  constexpr double kMin_minutes = .1, kUsual_minutes = 15, kMax_minutes = 1e5;
   PlanOptions options{.study = read_bench({.study = arguments.study,
                                            .settings = arguments.settings,
                                            .rolling_models = {},
@@ -66,18 +67,18 @@ PlanOptions options_of(const PlanArguments& arguments) {
                       .offered = {}};
   std::vector<std::string>& errors = options.study.errors;
   if (const auto readings = read_whole_number({"--readings", arguments.readings, errors}, 1,
-                                              kMostReadings, "leave it out for 10")) {
+                                              kMaxReadings, "leave it out for 10")) {
     options.readings = *readings;
   }
-  const auto minutes = read_number_within({"--minutes", arguments.minutes, errors}, kLeast_minutes,
-                                          kMost_minutes, "leave it out for 15");
+  const auto minutes = read_number_within({"--minutes", arguments.minutes, errors}, kMin_minutes,
+                                          kMax_minutes, "leave it out for 15");
   const std::set<dem::Experiment> possible = possible_experiments(arguments.experiments, errors);
   if (errors.empty()) offer(kMinute_s * minutes.value_or(kUsual_minutes), possible, options);
   return options;
 }
 
 std::optional<calibrate::Plan> plan_of(const PlanOptions& options,
-                                       const calibrate::RunFolder& folder) {
+                                       const calibrate::RunStore& folder) {
   calibrate::StudySimulator simulator(options.offered.study, options.study.record.grain,
                                       options.offered.problem.parameters);
   simulator.store_in(folder);
@@ -96,7 +97,7 @@ ExitCode run_plan(const PlanArguments& arguments) {
   print_lines(options.study.errors);
   if (!options.study.errors.empty()) return ExitCode::bad_input;
   print_lines(options.study.notes);
-  const calibrate::RunFolder folder(options.study.out_folder);
+  const calibrate::RunStore folder(options.study.out_folder);
   const base::FolderLock lock(options.study.out_folder,
                               calibrate::lock_file_in(options.study.out_folder));
   const std::optional<calibrate::Plan> plan = plan_of(options, folder);
@@ -114,6 +115,48 @@ ExitCode run_plan(const PlanArguments& arguments) {
   outputs.show(plan_table(*plan, options.offered, columns_of(stdout)));
   outputs.write();
   return ExitCode::done;
+}
+
+namespace {
+
+constexpr const char* kPlanNotes = R"(
+Which experiments would determine the coefficients that a study seeks? Simulates
+every experiment that repose offers, those of the study as it describes them and
+the others in the usual way, all over the bounds of the coefficients, and prints
+  - what each experiment tells: by how many of its uncertainties its mean
+    reading changes while a coefficient goes from bound to bound
+  - the smallest set of experiments that would determine what is open, and the
+    95 % interval of each coefficient to be expected with it
+  - what to add to the study for them
+Experiments that the study has readings of count as done; none need have any.
+
+Simulations are saved in --out: an interrupted plan is resumed by the same
+command, and repose calibrate uses them too.
+
+Examples:
+  repose plan study.toml
+  repose plan study.toml --experiments pendulum,fill,draw_down --readings 20
+)";
+
+}  // namespace
+
+Command plan_command() {
+  const auto given = std::make_shared<PlanArguments>();
+  return {
+      .name = "plan",
+      .summary = "Find out which experiments to do",
+      .options =
+          {{"study", "STUDY.toml", "Study file", &given->study, true},
+           {"--set", "KEY=VALUE", "Replace a value of the study; repeatable", &given->settings},
+           {"--experiments", "A,B,...", "Experiments that you could do (all)", &given->experiments},
+           {"--readings", "N", "Readings of each experiment to be done (10)", &given->readings},
+           {"--minutes", "M", "Simulate for about M minutes of one core (15)", &given->minutes},
+           {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
+           {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
+           {"--json", "FILE|-", "The plan, for programs", &given->json_file}},
+      .notes = kPlanNotes,
+      .missing = "no study file given. Fix: repose plan STUDY.toml.",
+      .run = [given] { return run_plan(*given); }};
 }
 
 }  // namespace repose::cli

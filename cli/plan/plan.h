@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 
@@ -21,5 +22,8 @@ struct PlanArguments {
 
 /// Carries out `repose plan`.
 ExitCode run_plan(const PlanArguments& arguments);
+
+/// `repose plan`.
+Command plan_command();
 
 }  // namespace repose::cli

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "calibrate/start/usual_experiment.h"
-#include "cli/common/page.h"
+#include "cli/common/table.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::cli {
@@ -43,11 +43,11 @@ std::string seconds_text(double seconds) {
 }
 
 std::string effect_text(double effect) {
-  if (effect < kSeen) return kNothing;
+  if (effect < kSeen) return kMissing;
   return fmt::format("{:.{}f}", effect, effect < 9.95 ? 1 : 0);
 }
 
-std::string state_of(const calibrate::Prospect& prospect) {
+std::string state_of(const calibrate::ForecastTerm& prospect) {
   std::string text = prospect.is_measured ? "measured" : "";
   if (prospect.failed_runs == 0) return text;
   if (!text.empty()) text += "; ";
@@ -59,10 +59,10 @@ Table effects_table(const calibrate::Plan& plan) {
       with_parameters({{.heading = "experiment"}, number_column("a run")}, plan);
   columns.push_back({.heading = ""});
   Table table(columns);
-  for (const calibrate::Prospect& prospect : plan.prospects) {
+  for (const calibrate::ForecastTerm& prospect : plan.prospects) {
     const auto run_s = plan.run_s.find(prospect.experiment);
     std::vector<std::string> row = {
-        prospect.experiment, run_s == plan.run_s.end() ? kNothing : seconds_text(run_s->second)};
+        prospect.experiment, run_s == plan.run_s.end() ? kMissing : seconds_text(run_s->second)};
     for (const double effect : prospect.effects) row.push_back(effect_text(effect));
     row.push_back(state_of(prospect));
     table.add_row(row);
@@ -70,7 +70,8 @@ Table effects_table(const calibrate::Plan& plan) {
   return table;
 }
 
-std::vector<std::string> outlook_row(const std::string& name, const calibrate::Outlook& outlook) {
+std::vector<std::string> outlook_row(const std::string& name,
+                                     const calibrate::DesignForecast& outlook) {
   std::vector<std::string> row = {name};
   for (std::size_t k = 0; k < outlook.widths.size(); ++k) {
     const std::string width = fmt::format("{:.0f} %", 100 * outlook.widths[k]);
@@ -82,7 +83,7 @@ std::vector<std::string> outlook_row(const std::string& name, const calibrate::O
 
 Table outlook_table(const calibrate::Plan& plan) {
   Table table(with_parameters({{.heading = "with"}}, plan));
-  const bool any = std::ranges::any_of(plan.prospects, &calibrate::Prospect::is_measured);
+  const bool any = std::ranges::any_of(plan.prospects, &calibrate::ForecastTerm::is_measured);
   table.add_row(outlook_row(any ? "what is measured" : "nothing measured", plan.now));
   for (const calibrate::PlannedStep& step : plan.steps) {
     table.add_row(outlook_row("+ " + plan.prospects[step.experiment].experiment, step.outlook));
@@ -92,7 +93,7 @@ Table outlook_table(const calibrate::Plan& plan) {
 
 /// Names of the parameters that stay open in more than one material of five.
 std::vector<std::string> open_after(const calibrate::Plan& plan,
-                                    const calibrate::Outlook& outlook) {
+                                    const calibrate::DesignForecast& outlook) {
   std::vector<std::string> open;
   for (std::size_t k = 0; k < plan.parameters.size(); ++k) {
     if (outlook.determined[k] < calibrate::kEnough) open.push_back(heading_of(plan.parameters[k]));
@@ -101,7 +102,7 @@ std::vector<std::string> open_after(const calibrate::Plan& plan,
 }
 
 std::string conclusion(const calibrate::Plan& plan) {
-  const calibrate::Outlook& last = plan.steps.empty() ? plan.now : plan.steps.back().outlook;
+  const calibrate::DesignForecast& last = plan.steps.empty() ? plan.now : plan.steps.back().outlook;
   const std::vector<std::string> open = open_after(plan, last);
   const char* others = plan.steps.empty() ? "Further experiments" : "Others";
   if (open.empty()) {

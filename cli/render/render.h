@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 

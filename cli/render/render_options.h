@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "cli/common/command.h"
 #include "cli/render/render.h"
 #include "render/run/filmed_run.h"
 #include "render/scene/camera.h"
@@ -45,5 +46,7 @@ struct RenderPlan {
 render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene);
 
 RenderPlan plan_render(const RenderArguments& arguments);
+
+Command render_command();
 
 }  // namespace repose::cli

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 
@@ -22,5 +23,7 @@ struct ShapeArguments {
 
 /// Carries out `repose shape`.
 ExitCode run_shape(const ShapeArguments& arguments);
+
+Command shape_command();
 
 }  // namespace repose::cli

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/common/interrupt.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
 #include "cli/simulate/simulate_output.h"

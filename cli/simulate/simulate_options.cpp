@@ -9,16 +9,12 @@
 
 #include "base/input_error.h"
 #include "calibrate/experiment/heap_angle.h"
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/statistics/summary.h"
-#include "calibrate/study/bench_air.h"
-#include "calibrate/study/bench_sheets.h"
+#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_problem.h"
-#include "cli/common/cores.h"
-#include "cli/common/number.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
-#include "cli/common/output_places.h"
 #include "cli/simulate/simulate_runs.h"
 
 namespace repose::cli {
@@ -33,7 +29,7 @@ template <typename Number>
 std::optional<Number> number_of(const std::string& option, const std::string& text, Number least,
                                 Number most, const std::string& fix, SimulatePlan& plan) {
   if (text.empty()) return std::nullopt;
-  const auto number = number_in<Number>(text);
+  const auto number = parse_number<Number>(text);
   if (number && *number >= least && *number <= most) return number;
   plan.errors.push_back(fmt::format("{} {}: must be a {}number from {} to {}. Fix: {}.", option,
                                     text, std::is_integral_v<Number> ? "whole " : "", least, most,
@@ -110,7 +106,7 @@ void check_places(SimulatePlan& plan) {
 void lock_folder(SimulatePlan& plan) {
   if (plan.out_folder.empty() || !plan.errors.empty()) return;
   try {
-    const calibrate::RunFolder folder(plan.out_folder);
+    const calibrate::RunStore folder(plan.out_folder);
     plan.lock.emplace(plan.out_folder, calibrate::lock_file_in(plan.out_folder));
   } catch (const base::InputError& error) {
     plan.errors.push_back(fmt::format("--out {}", error.what()));

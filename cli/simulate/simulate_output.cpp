@@ -9,12 +9,11 @@
 #include "base/angle_definition.h"
 #include "base/version.h"
 #include "calibrate/experiment/model_fields.h"
-#include "cli/common/degrees.h"
-#include "cli/common/page.h"
+#include "cli/common/json_text.h"
+#include "cli/common/table.h"
 #include "cli/simulate/simulate_summary.h"
-#include "dem/contact/damping_name.h"
-#include "dem/contact/rolling_name.h"
-#include "vision/measure/status_name.h"
+#include "dem/contact/model_names.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
 namespace {
@@ -49,7 +48,7 @@ Json clump_json(const SimulatePlan& plan) {
           {"mass_g", shape.volume_m3 * plan.spec.model.grain_material.density_kg_m3 * 1e3},
           {"volume_error", plan.grain.errors.volume_error},
           {"inertia_error", plan.grain.errors.inertia_error},
-          {"size_sd_percent", 100 * plan.spec.model.size_sd_fraction}};
+          {"size_sd_percent", 100 * plan.spec.model.size_cv}};
 }
 
 /// All that a value belongs to but its seed and time step.
@@ -175,7 +174,7 @@ Table repeats_table(const SimulatePlan& plan, const std::vector<calibrate::RunRe
                {}});
   for (const calibrate::RunResult& run : runs) {
     const auto value = calibrate::value_of(run);
-    table.add_row({std::to_string(run.seed), value ? fmt::format("{:.3f}", *value) : kNothing,
+    table.add_row({std::to_string(run.seed), value ? fmt::format("{:.3f}", *value) : kMissing,
                    std::to_string(run.steps), fmt::format("{:.3f}", run.timestep_s * kMicroseconds),
                    fmt::format("{:.1f}", run.wall_s),
                    fmt::format("{:.3f}", run.clump_steps / run.wall_s / kMillion),
@@ -205,7 +204,7 @@ std::string mean_text(const SimulatePlan& plan, const std::vector<calibrate::Run
 }
 
 std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f}", *value) : kNothing;
+  return value ? fmt::format("{:.2f}", *value) : kMissing;
 }
 
 /// A heap's angle from its pictures and from where its grains lie.
@@ -219,8 +218,8 @@ void add_sources_table(const std::vector<calibrate::RunResult>& runs, Page& page
                {}});
   const auto add = [&](const char* source, const std::optional<calibrate::Summary>& repeats,
                        const std::optional<double>& between_views, std::size_t count) {
-    const std::string mean = repeats ? cell(repeats->mean) : kNothing;
-    const std::string sd = repeats ? cell(repeats->sd) : kNothing;
+    const std::string mean = repeats ? cell(repeats->mean) : kMissing;
+    const std::string sd = repeats ? cell(repeats->sd) : kMissing;
     const std::string use = count == 0             ? ""
                             : count == runs.size() ? "the value"
                                                    : fmt::format("the value of {}", count);
@@ -306,7 +305,7 @@ void add_readings(const std::vector<calibrate::RunResult>& runs, Page& page) {
   for (const std::string& name : names) {
     const std::vector<double> values = readings_named(runs, name);
     if (values.empty()) {
-      table.add_row({"  " + name, kNothing, ""});
+      table.add_row({"  " + name, kMissing, ""});
       continue;
     }
     table.add_row({"  " + name, fmt::format("{:.4g}", calibrate::summarise(values).mean),
@@ -343,9 +342,9 @@ Table belongs_to_table(const SimulatePlan& plan) {
       {"  clump", fmt::format("{} sphere{}, volume error {:.1f} % ({})", model.grain.spheres.size(),
                               model.grain.spheres.size() == 1 ? "" : "s",
                               100 * plan.grain.errors.volume_error, plan.grain.source)});
-  if (model.size_sd_fraction > 0) {
-    table.add_row({"  sizes", fmt::format("standard deviation {:.3g} % of the mean",
-                                          100 * model.size_sd_fraction)});
+  if (model.size_cv > 0) {
+    table.add_row(
+        {"  sizes", fmt::format("standard deviation {:.3g} % of the mean", 100 * model.size_cv)});
   }
   table.add_row({"  stiffness factor", fmt::format("{:g}", model.stiffness_factor)});
   table.add_row({"  time step", step});

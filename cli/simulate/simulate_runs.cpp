@@ -16,13 +16,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "calibrate/experiment/draw_down_front.h"
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/experiment/simulator_version.h"
 #include "cli/common/output.h"
-#include "cli/common/progress.h"
+#include "cli/common/terminal.h"
 #include "dem/state/state_file.h"
 
 namespace repose::cli {
@@ -83,7 +83,7 @@ fs::path place_of(const SimulatePlan& plan, std::uint64_t seed) {
 
 /// Names that this run writes and that are there, in a folder that is none of repose: "a, b".
 std::string foreign_files(const SimulatePlan& plan) {
-  if (calibrate::is_run_folder(plan.out_folder) || is_there(plan.out_folder / "study.json")) {
+  if (calibrate::is_run_store(plan.out_folder) || is_there(plan.out_folder / "study.json")) {
     return {};
   }
   std::vector<std::string> foreign;
@@ -105,7 +105,7 @@ void save_identity(const SimulatePlan& plan) {
 
 /// Threads that work on one repeat: those that are left over when each has one. What is finished
 /// already needs none.
-int threads_each(const SimulatePlan& plan, const std::optional<calibrate::RunFolder>& folder) {
+int threads_each(const SimulatePlan& plan, const std::optional<calibrate::RunStore>& folder) {
   const auto open = std::count_if(plan.seeds.begin(), plan.seeds.end(), [&](std::uint64_t seed) {
     return !folder || !folder->find(plan.spec, seed);
   });
@@ -238,7 +238,7 @@ class Batch {
   const SimulatePlan& plan_;
   calibrate::RunSpec spec_;
   const std::atomic<bool>& is_interrupted_;
-  std::optional<calibrate::RunFolder> folder_;
+  std::optional<calibrate::RunStore> folder_;
   std::atomic<bool> has_failed_{false};
   RepeatsProgress progress_;
   std::mutex mutex_;
@@ -276,7 +276,7 @@ std::string error_of_saved(const SimulatePlan& plan) {
 
 std::vector<std::string> notes_on_saved(const SimulatePlan& plan) {
   if (plan.out_folder.empty()) return {};
-  const calibrate::RunFolder folder(plan.out_folder);
+  const calibrate::RunStore folder(plan.out_folder);
   std::size_t finished = 0, begun = 0;
   for (const std::uint64_t seed : plan.seeds) {
     if (folder.find(plan.spec, seed) && folder.has_state(plan.spec, seed)) {

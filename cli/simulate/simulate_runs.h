@@ -10,7 +10,7 @@
 #include "cli/simulate/simulate_options.h"
 
 /// The repeats of a `repose simulate`, and what they leave in its --out FOLDER beside the store of
-/// runs (calibrate/experiment/run_folder.h): run.json, which says whose the files named after seeds
+/// runs (calibrate/experiment/run_store.h): run.json, which says whose the files named after seeds
 /// are, those files, and the result.
 namespace repose::cli {
 

@@ -251,8 +251,8 @@ std::vector<RunWarning> warnings_of(const SimulatePlan& plan,
   const auto summary = summarise(runs);
   if (summary && summary->n > 1 && !summary->sd) warnings.push_back(no_scatter(plan, runs.size()));
   if (summary && plan.spec.entry().is_pictured) {
-    const bool is_usual = base::is_usual_definition(plan.spec.definition);
-    auto warning = is_usual ? window_matters(*summary, runs) : std::nullopt;
+    const bool is_default = base::is_usual_definition(plan.spec.definition);
+    auto warning = is_default ? window_matters(*summary, runs) : std::nullopt;
     if (warning) warnings.push_back(*std::move(warning));
     add_picture_warnings(runs, warnings);
     add_definition_warning(plan, runs, warnings);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 

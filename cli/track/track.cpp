@@ -1,20 +1,147 @@
 #include "cli/track/track.h"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "cli/common/copies.h"
-#include "cli/common/interrupt.h"
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "cli/common/batch.h"
+#include "cli/common/memory.h"
+#include "cli/common/option_value.h"
 #include "cli/common/output.h"
+#include "cli/common/picture_list.h"
+#include "cli/common/picture_options.h"
 #include "cli/common/terminal.h"
-#include "cli/track/track_batch.h"
-#include "cli/track/track_json.h"
-#include "cli/track/track_options.h"
+#include "cli/track/track_output.h"
 #include "cli/track/track_table.h"
+#include "vision/drawing/track_overlays.h"
 
 namespace repose::cli {
+
+namespace {
+
+/// What is read of the track of the experiment that was filmed.
+template <typename Read>
+decltype(auto) of_track(const TrackedFilm& film, const Read& read) {
+  switch (film.filmed) {
+    case Filmed::drop:
+      return read(film.drop);
+    case Filmed::roll:
+      return read(film.roll);
+    case Filmed::tilt:
+      break;
+  }
+  return read(film.tilt);
+}
+
+vision::Picture overlay_of(const TrackedFilm& film, const std::string& title) {
+  switch (film.filmed) {
+    case Filmed::drop:
+      return vision::draw_drop_overlay(film.drop, title);
+    case Filmed::roll:
+      return vision::draw_roll_overlay(film.roll, title);
+    case Filmed::tilt:
+      break;
+  }
+  return vision::draw_tilt_overlay(film.tilt, title);
+}
+
+void track(const vision::FilmFile& film, const vision::TrackOptions& options,
+           TrackedFilm& tracked) {
+  switch (tracked.filmed) {
+    case Filmed::drop:
+      tracked.drop = vision::track_drop(film, options);
+      break;
+    case Filmed::roll:
+      tracked.roll = vision::track_roll(film, options);
+      break;
+    case Filmed::tilt:
+      tracked.tilt = vision::track_tilt(film, options);
+      break;
+  }
+}
+
+void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
+  try {
+    const std::string title = plan.videos[index].filename().string();
+    vision::write_picture(plan.overlays[index], overlay_of(tracked, title));
+  } catch (const base::InputError& error) {
+    tracked.overlay_error = error.what();
+  }
+}
+
+TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
+                      const std::function<void(double)>& progress) {
+  TrackedFilm tracked{.file = plan.videos[index].string(), .filmed = plan.filmed};
+  try {
+    vision::TrackOptions options{.scale = plan.scale.scale,
+                                 .released_mm = plan.released_mm,
+                                 .draws_strobe = !plan.overlays.empty(),
+                                 .progress = progress};
+    if (plan.scale.finds_board) {
+      options.board = vision::BoardPlacing{plan.scale.square_mm, plan.scale.board_offset_mm};
+    }
+    track({plan.videos[index], plan.frames_per_s, plan.scale.lens}, options, tracked);
+    if (!plan.overlays.empty()) draw(plan, index, tracked);
+    tracked.drop.strobe = {};
+    tracked.roll.strobe = {};
+    tracked.tilt.strobe = {};
+  } catch (const base::InputError& error) {
+    tracked.error = naming_file(tracked.file, error.what());
+  } catch (const std::exception& error) {
+    tracked.is_internal_error = !is_out_of_memory(error);
+    tracked.error = tracked.is_internal_error
+                        ? naming_file(tracked.file, error.what())
+                        : no_memory(tracked.file, "a smaller film, or fewer --threads");
+  }
+  return tracked;
+}
+
+}  // namespace
+
+vision::MeasureStatus status_of(const TrackedFilm& film) {
+  return of_track(film, [](const auto& track) { return track.status; });
+}
+
+const std::string& reason_of(const TrackedFilm& film) {
+  return of_track(film, [](const auto& track) -> const std::string& { return track.reason; });
+}
+
+const std::vector<vision::Warning>& warnings_of(const TrackedFilm& film) {
+  return of_track(film, [](const auto& track) -> const std::vector<vision::Warning>& {
+    return track.warnings;
+  });
+}
+
+const vision::FilmFacts& facts_of(const TrackedFilm& film) {
+  return of_track(film, [](const auto& track) -> const vision::FilmFacts& { return track.film; });
+}
+
+bool has_reading(const TrackedFilm& film) {
+  switch (film.filmed) {
+    case Filmed::drop:
+      return !film.drop.bounces.empty();
+    case Filmed::roll:
+      return film.roll.has_reading;
+    case Filmed::tilt:
+      break;
+  }
+  return film.tilt.has_reading;
+}
+
+std::vector<TrackedFilm> track_batch(const TrackPlan& plan,
+                                     const std::atomic<bool>& is_interrupted) {
+  return batch_of<TrackedFilm>(
+      plan.videos.size(), plan.threads, "tracked", is_interrupted,
+      [&](std::size_t number, const auto& report) { return track_one(plan, number, report); });
+}
+
 namespace {
 
 void print_errors(const std::vector<TrackedFilm>& films) {
@@ -74,6 +201,149 @@ ExitCode run_track(const TrackArguments& arguments) {
   print_errors(films);
   outputs.write();
   return exit_code(films);
+}
+
+namespace {
+
+/// What one experiment has and others do not.
+void read_own_options(const TrackArguments& arguments, TrackPlan& plan) {
+  constexpr double kShortest_mm = 1, kLongest_mm = 10000;  // of inclines that can be filmed
+  plan.released_mm =
+      read_number_within({"--released", arguments.released, plan.errors}, kShortest_mm, kLongest_mm,
+                         "how far up the incline from its foot, in mm");
+  const auto belongs = [&](bool does, const std::string& given, const char* message) {
+    if (!does && !given.empty()) plan.errors.emplace_back(message);
+  };
+  belongs(plan.filmed == Filmed::roll, arguments.released,
+          "--released: is for track roll. Fix: leave it out.");
+  belongs(plan.filmed == Filmed::drop, arguments.bounces,
+          "--bounces: is for track drop. Fix: leave it out.");
+  const bool has_scale = !arguments.scale.scale.empty() || arguments.scale.finds_board;
+  belongs(plan.filmed != Filmed::tilt, arguments.scale.scale,
+          "--scale: is for track drop and roll; angles need none. Fix: leave it out.");
+  belongs(plan.filmed != Filmed::tilt, arguments.scale.finds_board ? "--board" : "",
+          "--board: is for track drop and roll; angles need no scale. Fix: leave it out.");
+  if (plan.filmed == Filmed::roll && has_scale == !arguments.released.empty()) {
+    plan.errors.push_back(fmt::format(
+        "track roll: {}. Rule: millimetres come from --scale, --board or --released. Fix: --scale "
+        "X1,Y1,X2,Y2,MM of a ruler beside the way, --board with the printed board there, or "
+        "--released MM, how far up the incline from its foot the grains were let go.",
+        has_scale ? "there are two scales" : "there is no scale"));
+  }
+}
+
+void read_overlay(const TrackArguments& arguments, TrackPlan& plan,
+                  std::vector<OutputPlace>& places) {
+  if (arguments.overlay.empty()) return;
+  if (arguments.overlay.ends_with(".png")) {
+    places.push_back({"--overlay", arguments.overlay});
+    plan.overlays.emplace_back(arguments.overlay);
+    if (plan.videos.size() > 1) {
+      plan.errors.push_back(
+          fmt::format("--overlay {}: is one picture, and there are {} films. Fix: name a folder.",
+                      arguments.overlay, plan.videos.size()));
+    }
+    return;
+  }
+  make_output_folder("--overlay", arguments.overlay, plan.errors);
+  OverlayFiles overlays = name_overlays(plan.videos, arguments.overlay);
+  plan.overlays = std::move(overlays.files);
+  plan.notes = std::move(overlays.notes);
+}
+
+}  // namespace
+
+TrackPlan plan_track(const TrackArguments& arguments) {
+  TrackPlan plan;
+  plan.filmed =
+      read_choice<Filmed>({"track", arguments.experiment, plan.errors},
+                          {{"drop", Filmed::drop}, {"roll", Filmed::roll}, {"tilt", Filmed::tilt}})
+          .value_or(plan.filmed);
+  for (const std::string& video : arguments.videos) plan.videos.push_back(without_slash(video));
+  plan.frames_per_s = read_frame_rate(arguments.fps, arguments.videos, plan.errors);
+  plan.scale =
+      read_scale(arguments.scale, "--scale 310,95,310,980,500, of a ruler in the grain's plane",
+                 "the grain's way", plan.errors);
+  read_own_options(arguments, plan);
+  plan.tells_all_bounces = read_choice<bool>({"--bounces", arguments.bounces, plan.errors},
+                                             {{"first", false}, {"all", true}})
+                               .value_or(false);
+  plan.threads = read_threads({"--threads", arguments.threads, plan.errors});
+  std::vector<OutputPlace> places = {json_place(arguments.json_file, "\"experiment\""),
+                                     csv_place("--csv", arguments.csv_file, "_uncertainty_")};
+  read_overlay(arguments, plan, places);
+  check_output_places(places, plan.videos, plan.errors);
+  return plan;
+}
+
+namespace {
+
+constexpr const char* kTrackNotes = R"(
+VIDEO is a film of one grain from the side, by a camera that stands still: MP4,
+MOV, AVI, MKV, WebM or GIF. With --fps it may be a folder of its frames, pictures
+with numbers in their names. FILE may be - for standard output.
+
+  drop   The grain falls on a level plate and bounces. Parabolas are fitted
+         to its flights, all with one gravity, which is the ruler: the ratio
+         of the speeds at an impact needs no scale.
+  roll   The grain rolls down an incline and on along the flat until it lies
+         still. Two straight lines are fitted to its path; the foot is where
+         the planes below them meet. Distances are along the planes from
+         there, in millimetres of --scale or --board, or of --released: how far
+         up the incline the grains were let go.
+  tilt   The plate is level at first and is tilted slowly until the grain, or
+         grains that are bonded, slides. A line is fitted to the plate's edge
+         in each frame, and the slide is traced back to its onset: the angle
+         is what the plate has turned until then. No scale is needed.
+
+Heights of a drop are those of a fall without air to the speed at the impact.
+With a scale they are in its millimetres, and the film's frame rate is checked
+against gravity. The scale is --scale, or with --board the printed board (repose
+board) upright beside the grain's way, in its plane, facing the camera. Without,
+they follow from gravity and the frame rate, and are wrong where a film does not
+play as fast as it was taken (slow motion).
+
+The table for --csv has the columns that repose bench restitution reads, or
+rolling, or sliding, and a film's name as sample.
+
+Uncertainties are half-widths of 95 % intervals.
+
+Examples:
+  repose track drop drop_01.mp4 --overlay drop_01.png
+  repose track drop drop_01.mp4 drop_02.mp4 --csv drops.csv
+  repose bench restitution drops.csv
+  repose track drop frames_01 --fps 240 --overlay drop_01.png
+  repose track roll roll_01.mp4 --released 150 --csv rolls.csv
+  repose track tilt tilt_01.mp4 --overlay tilt_01.png --csv tilts.csv
+)";
+
+}  // namespace
+
+Command track_command() {
+  const auto given = std::make_shared<TrackArguments>();
+  return {
+      .name = "track",
+      .summary = "Read bench experiments off films",
+      .options =
+          {{"experiment", "drop|roll|tilt", "Which experiment is filmed", &given->experiment, true},
+           {"videos", "VIDEO ...", "Films, a repeat each", &given->videos, true},
+           {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale.scale},
+           {"--board", "", "Find the board of repose board: the scale", &given->scale.finds_board},
+           {"--square-mm", "MM", "Side of a printed square (24)", &given->scale.square_mm},
+           {"--board-behind", "MM", "How far behind the grain's way it is (0)",
+            &given->scale.board_behind_mm},
+           {"--camera-file", "FILE.toml", "Camera whose lens distortion to correct",
+            &given->scale.camera_file},
+           {"--released", "MM", "Of rolls: way up the incline", &given->released},
+           {"--fps", "N", "Of folders of frames: how many a second", &given->fps},
+           {"--bounces", "first|all", "Bounces in the CSV table (first)", &given->bounces},
+           {"--overlay", "FILE.png|FOLDER", "Draw what was tracked", &given->overlay},
+           {"--json", "FILE|-", "All results, for programs", &given->json_file},
+           {"--csv", "FILE|-", "A row for each bounce, roll or tilt", &given->csv_file},
+           {"--threads", "N", "Films at a time (all cores)", &given->threads}},
+      .notes = kTrackNotes,
+      .missing = "an experiment and a film are needed. Fix: repose track drop VIDEO.",
+      .run = [given] { return run_track(*given); }};
 }
 
 }  // namespace repose::cli

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <atomic>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/common/exit_code.h"
-#include "cli/common/scale_option.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
+#include "cli/common/picture_options.h"
+#include "vision/track/drop_track.h"
+#include "vision/track/roll_track.h"
+#include "vision/track/tilt_track.h"
+#include "vision/track/track.h"
 
 namespace repose::cli {
 
@@ -24,5 +32,52 @@ struct TrackArguments {
 
 /// Carries out `repose track`.
 ExitCode run_track(const TrackArguments& arguments);
+
+/// The experiments that films are read of.
+enum class Filmed { drop, roll, tilt };
+
+/// A `repose track` that can be carried out.
+struct TrackPlan {
+  Filmed filmed = Filmed::drop;
+  std::vector<std::filesystem::path> videos;
+  std::vector<std::filesystem::path> overlays;  ///< one a film, or none
+  vision::ScaleOptions scale;
+  std::optional<double> released_mm;   ///< of rolls; in place of a scale
+  std::optional<double> frames_per_s;  ///< of films that are folders of frames
+  bool tells_all_bounces = false;
+  int threads = 1;
+
+  std::vector<std::string> errors;  ///< empty: it can be carried out
+  std::vector<std::string> notes;   ///< for the user to know
+};
+
+/// Reads and checks all that was typed, also whether the output can be written. All errors at once.
+TrackPlan plan_track(const TrackArguments& arguments);
+
+struct TrackedFilm {
+  std::string file;
+  std::string error = {};    ///< why it could not be read; empty: its track says
+  std::string copy_of = {};  ///< an earlier film of the same bytes; empty: it is no copy
+  bool is_internal_error = false;
+  Filmed filmed = Filmed::drop;
+  vision::DropTrack drop = {};  ///< of what was filmed, without the
+  vision::RollTrack roll = {};  ///< strobe picture, which is large
+  vision::TiltTrack tilt = {};
+  std::string overlay_error = {};  ///< why there is no overlay
+};
+
+/// What every track has.
+vision::MeasureStatus status_of(const TrackedFilm& film);
+const std::string& reason_of(const TrackedFilm& film);
+const std::vector<vision::Warning>& warnings_of(const TrackedFilm& film);
+const vision::FilmFacts& facts_of(const TrackedFilm& film);
+bool has_reading(const TrackedFilm& film);
+
+/// Tracks the plan's films, several at a time; in the plan's order, and the same at any number of
+/// threads. Stops in the middle of a film when `is_interrupted`; the result is then worth nothing.
+std::vector<TrackedFilm> track_batch(const TrackPlan& plan,
+                                     const std::atomic<bool>& is_interrupted);
+
+Command track_command();
 
 }  // namespace repose::cli

@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "calibrate/statistics/summary.h"
-#include "cli/common/page.h"
-#include "cli/common/verdict_colour.h"
-#include "vision/measure/status_name.h"
+#include "cli/common/table.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
 namespace {
@@ -33,10 +32,10 @@ std::string scale_text(const vision::DropTrack& drop) {
 /// Why there is no number, and what to know.
 void add_notes(Table& table, const TrackedFilm& film) {
   if (film.error.empty() && status_of(film) == vision::MeasureStatus::refused) {
-    table.add_note(fmt::format("{}refused: ", kBelow), reason_of(film));
+    table.add_note(fmt::format("{}refused: ", kIndent), reason_of(film));
   }
   for (const vision::Warning& warning : warnings_of(film)) {
-    table.add_note(fmt::format("{}! ", kBelow), warning.message);
+    table.add_note(fmt::format("{}! ", kIndent), warning.message);
   }
 }
 
@@ -49,7 +48,7 @@ void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
   const Colour colour = has_colour ? colour_of(status_of(film)) : Colour::none;
   const std::string status = status_text(film);
   if (drop.bounces.empty()) {
-    table.add_row({film.file, kNothing, kNothing, kNothing, kNothing, kNothing, status}, colour);
+    table.add_row({film.file, kMissing, kMissing, kMissing, kMissing, kMissing, status}, colour);
   }
   bool is_first = true;
   const auto add_row = [&](int number, const std::string& time, const std::string& restitution,
@@ -62,8 +61,8 @@ void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
   auto unread = drop.unread_bounces.begin();
   const auto add_unread = [&](int before) {
     for (; unread != drop.unread_bounces.end() && unread->number < before; ++unread) {
-      add_row(unread->number, unread->time_s ? fmt::format("{:.3f}", *unread->time_s) : kNothing,
-              kNothing, kNothing, kNothing);
+      add_row(unread->number, unread->time_s ? fmt::format("{:.3f}", *unread->time_s) : kMissing,
+              kMissing, kMissing, kMissing);
     }
   };
   for (const vision::Bounce& bounce : drop.bounces) {
@@ -72,7 +71,7 @@ void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
             cell(bounce.drop_mm, 1), cell(bounce.rebound_mm, 1));
   }
   add_unread(std::numeric_limits<int>::max());
-  if (!drop.bounces.empty()) table.add_note(kBelow, scale_text(drop));
+  if (!drop.bounces.empty()) table.add_note(kIndent, scale_text(drop));
   add_notes(table, film);
 }
 
@@ -85,7 +84,7 @@ void add_roll(Table& table, const TrackedFilm& film, bool has_colour) {
                    cell(roll.stopped_mm, 1), fmt::format("{:.2f}", roll.stopped_s), status},
                   colour);
   } else {
-    table.add_row({film.file, kNothing, kNothing, kNothing, kNothing, status}, colour);
+    table.add_row({film.file, kMissing, kMissing, kMissing, kMissing, status}, colour);
   }
   add_notes(table, film);
 }
@@ -99,7 +98,7 @@ void add_tilt(Table& table, const TrackedFilm& film, bool has_colour) {
                    fmt::format("{:.2f}", tilt.onset_s), status},
                   colour);
   } else {
-    table.add_row({film.file, kNothing, kNothing, kNothing, status}, colour);
+    table.add_row({film.file, kMissing, kMissing, kMissing, status}, colour);
   }
   add_notes(table, film);
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/common/table.h"
-#include "cli/track/track_batch.h"
+#include "cli/track/track.h"
 
 namespace repose::cli {
 

@@ -1,6 +1,7 @@
 #include "cli/verify/verify.h"
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -8,13 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common/output.h"
-#include "cli/common/output_places.h"
-#include "cli/common/progress.h"
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
 #include "dem/verify/verify.h"
 
 namespace repose::cli {
+
 namespace {
 
 /// A case's name and source, then a row for each of its numbers.
@@ -81,6 +81,14 @@ ExitCode run_verify(const VerifyArguments& arguments) {
   const bool all_hold = std::all_of(results.begin(), results.end(),
                                     [](const dem::CaseResult& result) { return result.holds; });
   return all_hold ? ExitCode::done : ExitCode::internal_error;
+}
+
+Command verify_command() {
+  const auto given = std::make_shared<VerifyArguments>();
+  return {.name = "verify",
+          .summary = "Check the physics against known solutions",
+          .options = {{"--json", "FILE|-", "Full results, for programs", &given->json_file}},
+          .run = [given] { return run_verify(*given); }};
 }
 
 }  // namespace repose::cli

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "cli/common/exit_code.h"
+#include "cli/common/command.h"
+#include "cli/common/output.h"
 
 namespace repose::cli {
 
@@ -13,5 +14,7 @@ struct VerifyArguments {
 
 /// Carries out `repose verify`: internal_error when some number is out of tolerance.
 ExitCode run_verify(const VerifyArguments& arguments);
+
+Command verify_command();
 
 }  // namespace repose::cli

@@ -31,7 +31,7 @@ void check(const Material& material, base::Faults& errors) {
 
 void check(const PairCoefficients& pair, const std::string& names, base::Faults& errors) {
   const auto friction = [](double value) { return value >= 0 && value <= 100; };
-  require(errors, pair.restitution >= kLeastRestitution && pair.restitution <= 1, names,
+  require(errors, pair.restitution >= kMinRestitution && pair.restitution <= 1, names,
           "restitution", pair.restitution, ".01 to 1");
   require(errors, friction(pair.sliding_friction), names, "sliding_friction", pair.sliding_friction,
           "0 or above");
@@ -39,12 +39,12 @@ void check(const PairCoefficients& pair, const std::string& names, base::Faults&
           "0 or above");
   if (pair.restitution_exponent == 0) return;
   require(errors,
-          pair.restitution_exponent > 0 && pair.restitution_exponent <= kMostRestitutionExponent,
+          pair.restitution_exponent > 0 && pair.restitution_exponent <= kMaxRestitutionExponent,
           names, "restitution_exponent", pair.restitution_exponent, "0 to .25");
   require(errors, pair.restitution_speed_m_s > 0 && std::isfinite(pair.restitution_speed_m_s),
           names, "restitution_speed_m_s", pair.restitution_speed_m_s,
           "above 0, the speed that the restitution is of");
-  require(errors, !(pair.restitution > kMostRestitutionBySpeed), names, "restitution",
+  require(errors, !(pair.restitution > kMaxRestitutionBySpeed), names, "restitution",
           pair.restitution, "at most .99 where it depends on the speed");
 }
 

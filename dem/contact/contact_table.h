@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dem/contact/material.h"
-#include "dem/contact/speed_damping.h"
+#include "dem/contact/restitution.h"
 
 namespace repose::dem {
 

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "dem/contact/material.h"
+
 namespace repose::dem {
 
 /// The damping factor that gives a Hertz contact the wanted coefficient of restitution when it may
@@ -22,5 +28,58 @@ double textbook_damping_factor(double restitution);
 
 /// The coefficient of restitution that a damping factor (>= 0) gives: the inverse.
 double restitution_of(double damping_factor);
+
+/// What a central impact at this speed restores where restitution depends on it:
+/// e0 (v / v0)^-alpha, .01 ... kMaxRestitutionBySpeed. Without an exponent e0.
+double restitution_at(const PairCoefficients& pair, double speed_m_s);
+
+/// The damping factors of a contact whose restitution depends on the speed of impact.
+///
+/// An impact is not told apart from a contact that lasts: damping goes by the contact's own
+/// equivalent speed, w^2 = v_n^2 + 2 U / m*, U its elastic energy. An impact begins at w = v and
+/// ends at w = e v, and restores as if damped by the e of a speed in between. So the damper at w is
+/// that of restitution
+///   l(w) = c^(1 + alpha (m - 1/2) / (1 - alpha m) + .095 alpha^2),
+///   c    = e0 (w / (v0 sqrt(e0)))^(-alpha / (1 - alpha / 2)),
+///   m    = .32 + .2 sqrt(c) - .02 c.
+/// c is the solution where the speed in between is v sqrt(e); it is v e^m. m, from the impact's
+/// equation for alpha -> 0, and the last term are fitted: e comes out within .2 % for e from .05 on
+/// and alpha up to 1/4 (dem/THEORY.md, "Restitution that depends on the speed"). Proved by
+/// RestitutionBySpeed.* and, in `repose verify`, "restitution by speed".
+class SpeedDamping {
+ public:
+  struct Factors {
+    double normal = 0;      ///< see restitution.h
+    double tangential = 0;  ///< textbook_damping_factor()
+  };
+
+  SpeedDamping() = default;
+  explicit SpeedDamping(const PairCoefficients& pair);
+
+  /// Restitution is the same at all speeds: the factors are not here.
+  bool is_constant() const { return nodes_.empty(); }
+
+  /// @param speed2  w^2, m^2/s^2
+  Factors at(double speed2) const {
+    // Nodes lie at 1, 1 1/4, 1 1/2, 1 3/4 of powers of 2: a double's first bits are their number.
+    const auto bits = std::bit_cast<std::uint64_t>(speed2);
+    const std::uint64_t number = bits >> kFractionBits;
+    if (number < kFirst) return nodes_.front();
+    if (number - kFirst + 1 >= nodes_.size()) return nodes_.back();
+    constexpr std::uint64_t kOne = std::uint64_t{1} << kFractionBits;
+    const double part = static_cast<double>(bits & (kOne - 1)) / static_cast<double>(kOne);
+    const Factors& below = nodes_[number - kFirst];
+    const Factors& above = nodes_[number - kFirst + 1];
+    return {below.normal + part * (above.normal - below.normal),
+            below.tangential + part * (above.tangential - below.tangential)};
+  }
+
+ private:
+  static constexpr int kFractionBits = 50;  ///< of 52
+  static constexpr std::uint64_t kFirst = std::bit_cast<std::uint64_t>(0x1p-60) >> kFractionBits;
+  static constexpr std::uint64_t kLast = std::bit_cast<std::uint64_t>(0x1p20) >> kFractionBits;
+
+  std::vector<Factors> nodes_;
+};
 
 }  // namespace repose::dem

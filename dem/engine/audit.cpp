@@ -3,9 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/engine/eigenvalues.h"
+#include <Eigen/Eigenvalues>
 
 namespace repose::dem {
+
+double greatest_eigenvalue(const Matrices& matrices) {
+  if (matrices.empty()) return 0;
+  // No eigenvalue is above the norm: few others are needed after that of the greatest norm.
+  const auto norm = [](const Matrix6& matrix) { return matrix.squaredNorm(); };
+  const Matrix6& first = *std::ranges::max_element(matrices, {}, norm);
+  double greatest = 0;
+  const auto see = [&greatest](const Matrix6& matrix) {
+    if (matrix.squaredNorm() <= greatest * greatest) return;
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(matrix, Eigen::EigenvaluesOnly);
+    greatest = std::max(greatest, solver.eigenvalues()[5]);
+  };
+  see(first);
+  for (const Matrix6& matrix : matrices) see(matrix);
+  return greatest;
+}
+
 namespace {
 
 int material_of(const Bodies& bodies, int body) {
@@ -21,14 +38,14 @@ struct AuditedTouch {
   double reduced_radius = 0;
   double smaller_radius = 0;
   Vector point;
-  const ContactMemory& memory;
+  const ContactHistory& memory;
 };
 
 /// Calls visit(AuditedTouch) for each.
 template <typename Visit>
 void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
                     const NeighbourList& list, const Visit& visit) {
-  for (const NearGrains& pair : list.grains) {
+  for (const NeighbourPair& pair : list.grains) {
     const ContactLaw& law = contacts.law(material_of(bodies, pair.a), material_of(bodies, pair.b));
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const auto at = static_cast<std::size_t>(k);

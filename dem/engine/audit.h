@@ -1,12 +1,23 @@
 #pragma once
 
 #include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/StdVector>
 
 #include "dem/engine/bodies.h"
 #include "dem/engine/neighbour_list.h"
 #include "dem/wall/wall_set.h"
 
 namespace repose::dem {
+
+/// A body's three ways to move and three to turn.
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrices = std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>>;
+
+/// Of any of these matrices, symmetric and with no negative eigenvalue; 0 of none.
+double greatest_eigenvalue(const Matrices& matrices);
 
 /// Highest angular frequency that the touching contacts can make bodies swing with, rad/s; none
 /// without contacts.

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "dem/engine/rows.h"
+#include "dem/engine/lanes.h"
 #include "dem/engine/simulation.h"
 
 namespace repose::dem {

@@ -1,13 +1,21 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "dem/contact/contact_table.h"
+#include "dem/engine/bodies.h"
 #include "dem/engine/lanes.h"
 #include "dem/vector.h"
+
+/// Who touches whom: looked up when the first sphere of a pair touches or parts, and kept until the
+/// next one does.
 
 namespace repose::dem {
 
 /// What a contact remembers from step to step. All zero: it does not touch.
-struct alignas(64) ContactMemory {
+struct alignas(64) ContactHistory {
   Vector tangential = Vector::Zero();  ///< tangential spring's force on a, N
   double radius = 0;                   ///< of the contact area, m
   Vector rolling = Vector::Zero();     ///< rolling spring's torque on a, N m
@@ -34,16 +42,16 @@ REPOSE_INLINE Law<Number> law_of(const ContactLaw& law) {
 
 /// Two surfaces that overlap, seen from body a. Velocities are those of b's surface against a's.
 template <typename Number>
-struct Touch {
+struct ContactGeometry {
   Vec3<Number> normal;  ///< unit, from a to b
   Number overlap = {};  ///< m, > 0
   Number reduced_radius = {};
-  Number reduced_mass = {};    ///< of the whole bodies, or this contact's share: share_damping.h
-  Number damper_limit = {};    ///< see damper_limit(), N s/m
-  Number shared_limit = {};    ///< see shared_limit(), N s/m
-  Vec3<Number> half_velocity;  ///< half a step back: what the springs were stretched by
-  Vec3<Number> velocity;       ///< now, as the last step's forces have it
-  Number twist = {};           ///< mean spin of both about the normal, rad/s
+  Number reduced_mass = {};  ///< of the whole bodies, or this contact's share: share_damping.h
+  Number damper_limit = {};  ///< see damper_limit(), N s/m
+  Number max_stable_damping = {};  ///< see max_stable_damping(), N s/m
+  Vec3<Number> half_velocity;      ///< half a step back: what the springs were stretched by
+  Vec3<Number> velocity;           ///< now, as the last step's forces have it
+  Number twist = {};               ///< mean spin of both about the normal, rad/s
 };
 
 /// The springs, from step to step, and the push of the last one.
@@ -78,8 +86,8 @@ REPOSE_INLINE Number damper_limit(const Number& reduced_mass, double timestep,
 /// The same, shared by all that either body touches: so many contacts for its mass, 1/kg. Explicit
 /// dampers must stay below it, or they overshoot (dem/THEORY.md; RoughDeadGrains.*).
 template <typename Number>
-REPOSE_INLINE Number shared_limit(const Number& contacts_a_per_kg, const Number& contacts_b_per_kg,
-                                  double timestep) {
+REPOSE_INLINE Number max_stable_damping(const Number& contacts_a_per_kg,
+                                        const Number& contacts_b_per_kg, double timestep) {
   return 1 / (timestep * (contacts_a_per_kg + contacts_b_per_kg));
 }
 
@@ -105,15 +113,17 @@ struct NormalPush {
 /// the damper B overlap^(1/4) balance at overlap^(5/4) = B / A, and from `top` to there the mean is
 /// .4 A (top^(5/4) - B / A)^2 / travel.
 template <typename Number>
-REPOSE_INLINE NormalPush<Number> brief_push(const Touch<Number>& touch, const Law<Number>& law,
-                                            const Number& approach, const Number& travel) {
+REPOSE_INLINE NormalPush<Number> averaged_hertz_force(const ContactGeometry<Number>& touch,
+                                                      const Law<Number>& law,
+                                                      const Number& approach,
+                                                      const Number& travel) {
   const Number young_root = law.reduced_young * sqrt(touch.reduced_radius);
   const Number spring = 4.0 / 3 * young_root;
   const Number damper = law.normal_damping * sqrt(2 * young_root * touch.reduced_mass);
   const Number top = touch.overlap + travel * .5;
   const Number top_power = top * sqrt(sqrt(top));
-  const Number end_power = greatest(-approach, Number{}) * damper / spring;
-  const Number ends = least(end_power, top_power);
+  const Number end_power = max(-approach, Number{}) * damper / spring;
+  const Number ends = min(end_power, top_power);
   return {.4 * spring * (top_power * top_power + ends * ends) / travel,
           .8 * damper * top_power / travel};
 }
@@ -125,13 +135,14 @@ REPOSE_INLINE NormalPush<Number> brief_push(const Touch<Number>& touch, const La
 ///   F = spring + damper (approach + (F_last - F) / (2 limit)),
 /// solved for F. Restitution then comes out a third to a fifth as wrong as with `approach` itself.
 template <typename Number>
-REPOSE_INLINE Number normal_force(const NormalPush<Number>& push, const Touch<Number>& touch,
-                                  const Number& approach, const Number& last) {
-  const Number half_damper = .5 * least(push.damper, kNormalDamperFraction * touch.shared_limit);
+REPOSE_INLINE Number normal_force(const NormalPush<Number>& push,
+                                  const ContactGeometry<Number>& touch, const Number& approach,
+                                  const Number& last) {
+  const Number half_damper =
+      .5 * min(push.damper, kNormalDamperFraction * touch.max_stable_damping);
   const Number now = push.spring + 2 * half_damper * approach;
-  return greatest(
-      (now * touch.damper_limit + half_damper * last) / (touch.damper_limit + half_damper),
-      Number{});
+  return max((now * touch.damper_limit + half_damper * last) / (touch.damper_limit + half_damper),
+             Number{});
 }
 
 /// Hertz-Mindlin without slip, Coulomb's limit, damping.
@@ -142,24 +153,25 @@ REPOSE_INLINE Number normal_force(const NormalPush<Number>& push, const Touch<Nu
 /// Cummins, Cleary 2013, Powder Technology 233, eqs. 15-17). Small strains: delta << R*. Proved by
 /// tests/dem/impact_test.cpp.
 template <typename Number>
-REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, const Law<Number>& law,
-                                                 double timestep, Springs<Number>& springs) {
+REPOSE_INLINE ContactForce<Number> contact_force(const ContactGeometry<Number>& touch,
+                                                 const Law<Number>& law, double timestep,
+                                                 Springs<Number>& springs) {
   const Vec3<Number>& n = touch.normal;
   const Number a = sqrt(touch.reduced_radius * touch.overlap);
   const Number normal_stiffness = 2 * law.reduced_young * a;
   const Number tangential_stiffness = 8 * law.reduced_shear * a;
   const Number mass_root = sqrt(normal_stiffness * touch.reduced_mass);
   const Number tangential_damper =
-      least(law.tangential_damping * mass_root, kTangentialDamperFraction * touch.shared_limit);
+      min(law.tangential_damping * mass_root, kTangentialDamperFraction * touch.max_stable_damping);
 
   const Number approach = -touch.velocity.dot(n);
-  const Number travel = size_of(approach) * timestep;
+  const Number travel = abs(approach) * timestep;
   NormalPush<Number> push = {2.0 / 3 * normal_stiffness * touch.overlap,
                              law.normal_damping * mass_root};
   // A little more: the way may be just one step long, but for rounding.
   const auto is_brief = touch.overlap <= 1.000001 * travel;
   if (any(is_brief)) {
-    const NormalPush<Number> brief = brief_push(touch, law, approach, travel);
+    const NormalPush<Number> brief = averaged_hertz_force(touch, law, approach, travel);
     push = {select(is_brief, brief.spring, push.spring),
             select(is_brief, brief.damper, push.damper)};
   }
@@ -175,7 +187,7 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   const Number more = lost - 1;
   Number scale = 1 + more * (.5 - .125 * more);
   if (any(lost >= Number(1.00001))) scale = select(lost >= Number(1.00001), sqrt(lost), scale);
-  scale = scale * least(a / springs.radius, Number(1));
+  scale = scale * min(a / springs.radius, Number(1));
   const Vec3<Number> carried = (spring + n.cross(spring) * (timestep * touch.twist)) * scale;
   const Vec3<Number> half_slip = touch.half_velocity - n * n.dot(touch.half_velocity);
   const Vec3<Number> stretch = half_slip * (tangential_stiffness * timestep);
@@ -201,5 +213,35 @@ REPOSE_INLINE ContactForce<Number> contact_force(const Touch<Number>& touch, con
   force.total = tangential - n * force.normal;
   return force;
 }
+
+/// Pairs of grains worked on together: few enough for their loads to stay in the nearest cache.
+inline constexpr std::size_t kPairsTogether = 64;
+
+/// What all contacts of a pair of grains, or of a grain and a wall, share for as long as the same
+/// spheres touch. Small: of many grains these do not stay in the caches from step to step.
+struct ActivePair {
+  int a = 0;  ///< a body
+  int b = 0;  ///< a body, or a wall
+  const ContactLaw* law = nullptr;
+  int number = 0;           ///< among the pairs that are worked on together
+  int touching = 0;         ///< how many spheres
+  double reduced_mass = 0;  ///< of both bodies, kg
+  double damper_limit = 0;  ///< see damper_limit(), N s/m
+};
+
+/// A sphere of body a that touches something: numbers.
+struct ActiveContact {
+  int sphere = 0;
+  int other = 0;   ///< a sphere of body b, or a facet of a wall
+  int memory = 0;  ///< its ContactHistory
+  int pair = 0;    ///< its ActivePair
+};
+
+/// The contacts of up to kPairsTogether pairs of grains.
+struct TouchingChunk {
+  bool is_known = false;  ///< false: what follows is to be looked up
+  std::vector<ActivePair> pairs;
+  std::vector<ActiveContact> contacts;
+};
 
 }  // namespace repose::dem

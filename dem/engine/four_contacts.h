@@ -2,24 +2,385 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
+#include <vector>
 
+#include "dem/contact/contact_table.h"
+#include "dem/engine/contact_lanes.h"
 #include "dem/engine/contact_step.h"
-#include "dem/engine/damp_by_speed.h"
-#include "dem/engine/find_contacts.h"
-#include "dem/engine/finish_contacts.h"
-#include "dem/engine/share_damping.h"
+#include "dem/engine/rolling.h"
+#include "dem/wall/wall_set.h"
 
 /// The forces of contacts, four at a time: of one pair of grains or of several, or of grains and
 /// walls. Some fours go together through three passes: where they are and how they move, what
 /// pushes, and what that does to the bodies. In short passes a processor works on several fours at
 /// once; in one long one each would wait for its own square roots.
+///
+/// Shared damping: each contact of a pair damps with its share of the reduced mass, by elastic
+/// energy U,
+///   D_i = c sqrt(S_i m* U_i / sum U_j),
+/// c sqrt(S m* / N) for N equal ones. Together they are D = b sqrt(m*) F / sqrt(2 U), F and U the
+/// sums, b = c sqrt(6/5), which restores the same whatever F(d) is (dem/THEORY.md, "Several
+/// contacts at once"; Feng 2026, arXiv:2604.02533; for the cause Kodam et al. 2009, Chemical
+/// Engineering Science 64, 3466). Of a contact in another direction U_j cos^2 counts. Proved by
+/// SharedDamping.* and, in `repose verify`, "spheres one after another".
+
 namespace repose::dem {
+
+/// From sphere to sphere; w: the sum of the radii.
+REPOSE_INLINE Columns others_of(const FourActiveContacts<PlacedSphere>& four) {
+  const Double4 minus_w = Double4::Vector4{1, 1, 1, -1};
+  return gather([&](std::size_t k) {
+    return load_row(*four.other[k]) - load_row(*four.sphere[k]) * minus_w;
+  });
+}
+
+/// The facets' normals; w: how far they are.
+REPOSE_INLINE Columns others_of(const FourActiveContacts<FacetContact>& four) {
+  return gather([&](std::size_t k) { return load_row(*four.other[k]); });
+}
+
+/// What depends on whether two spheres meet or a sphere and a wall: how deep, and reduced sizes.
+REPOSE_INLINE void set_geometry(const FourActiveContacts<PlacedSphere>& /*four*/,
+                                const Columns& apart, const Double4& radius, Contacts& c) {
+  const Double4 distance = sqrt(apart.xyz.squared_norm());
+  const Double4 other_radius = apart.w - radius;
+  c.touch.normal = apart.xyz * (1 / distance);
+  c.touch.overlap = apart.w - distance;
+  c.touch.reduced_radius = radius * other_radius / apart.w;
+  c.smaller_radius = min(radius, other_radius);
+}
+
+REPOSE_INLINE void set_geometry(const FourActiveContacts<FacetContact>& four, const Columns& facet,
+                                const Double4& radius, Contacts& c) {
+  const Double4 curvature = each([&](std::size_t k) { return four.other[k]->curvature; });
+  c.touch.normal = -facet.xyz;
+  c.touch.overlap = radius - facet.w;
+  c.touch.reduced_radius = radius / (1 + radius * curvature);
+  c.smaller_radius = radius / max(Double4(1), radius * curvature);
+}
+
+template <typename Other>
+REPOSE_INLINE Columns gather(const FourActiveContacts<Other>& four, Row PairMotion::*row) {
+  return gather([&](std::size_t k) { return load_row(four.motion[k]->*row); });
+}
+
+template <typename Other>
+REPOSE_INLINE Motions motions_of(const FourActiveContacts<Other>& four) {
+  return {.apart = gather(four, &PairMotion::apart).xyz,
+          .velocity = gather(four, &PairMotion::velocity),
+          .spin = gather(four, &PairMotion::spin),
+          .velocity_kick = gather(four, &PairMotion::velocity_kick),
+          .spin_kick = gather(four, &PairMotion::spin_kick).xyz,
+          .mean_spin = gather(four, &PairMotion::mean_spin).xyz};
+}
+
+/// BodyMotion, in lanes.
+struct BodyMotions {
+  Columns velocity;
+  Columns spin;
+  Vec3<Double4> velocity_kick;
+  Vec3<Double4> spin_kick;
+
+  template <typename MotionOfLane>
+  REPOSE_INLINE explicit BodyMotions(const MotionOfLane& motion)
+      : velocity(gather([&](std::size_t k) { return load_row(motion(k).velocity); })),
+        spin(gather([&](std::size_t k) { return load_row(motion(k).spin); })),
+        velocity_kick(gather([&](std::size_t k) { return load_row(motion(k).velocity_kick); }).xyz),
+        spin_kick(gather([&](std::size_t k) { return load_row(motion(k).spin_kick); }).xyz) {}
+
+  /// See contacts_per_kg(): a round grain's pair has one.
+  REPOSE_INLINE Double4 contacts_per_kg() const { return max(Double4(1), velocity.w) / spin.w; }
+};
+
+/// Of round grains, straight from the bodies: each pair has one contact, so that nothing is saved
+/// by working it out once a pair. The same as set_motion().
+REPOSE_INLINE Motions motions_of_round(const FourActiveContacts<PlacedSphere>& four,
+                                       const Sides<PlacedSphere>& sides, const Vec3<Double4>& apart,
+                                       double timestep) {
+  const BodyMotions a(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_a[four.pair[k]->a]; });
+  const BodyMotions b(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_b[four.pair[k]->b]; });
+  const auto of_pairs = [&](double ActivePair::*number) __attribute__((always_inline)) {
+    return each([&](std::size_t k) { return four.pair[k]->*number; });
+  };
+  return {.apart = apart,
+          .velocity = {b.velocity.xyz - a.velocity.xyz - b.spin.xyz.cross(apart),
+                       of_pairs(&ActivePair::reduced_mass)},
+          .spin = {b.spin.xyz - a.spin.xyz,
+                   max_stable_damping(a.contacts_per_kg(), b.contacts_per_kg(), timestep)},
+          .velocity_kick = {b.velocity_kick - a.velocity_kick - b.spin_kick.cross(apart),
+                            of_pairs(&ActivePair::damper_limit)},
+          .spin_kick = b.spin_kick - a.spin_kick,
+          .mean_spin = (a.spin.xyz + b.spin.xyz) * Double4(.5)};
+}
+
+/// From a's centre to that of its sphere; w: the radius.
+template <typename Other>
+REPOSE_INLINE Columns to_sphere(const FourActiveContacts<Other>& four) {
+  return gather([&](std::size_t k) {
+    return load_row(*four.sphere[k]) - load_row(four.motion[k]->position_a);
+  });
+}
+
+REPOSE_INLINE void set_contacts(const Motions& motions, const Columns& to_a, Contacts& c) {
+  c.spin = motions.spin.xyz;
+  c.touch.max_stable_damping = motions.spin.w;
+  c.arm_a = to_a.xyz + c.touch.normal * (to_a.w - c.touch.overlap * .5);
+  c.arm_b = c.arm_a - motions.apart;
+  c.apart = motions.apart;
+  c.touch.reduced_mass = motions.velocity.w;
+  c.touch.damper_limit = motions.velocity_kick.w;
+  c.touch.half_velocity = motions.velocity.xyz + c.spin.cross(c.arm_a);
+  c.touch.velocity =
+      c.touch.half_velocity + motions.velocity_kick.xyz + motions.spin_kick.cross(c.arm_a);
+  c.touch.twist = c.touch.normal.dot(motions.mean_spin);
+}
+
+template <bool is_round, typename Other>
+REPOSE_INLINE void find_contacts(Four<Other>& of, const Sides<Other>& sides, double timestep) {
+  const FourActiveContacts<Other>& four = of.touching;
+  Contacts c;
+  const Columns others = others_of(four);
+  if constexpr (is_round) {
+    const Double4 radius = each([&](std::size_t k) { return four.sphere[k]->radius; });
+    set_geometry(four, others, radius, c);
+    set_contacts(motions_of_round(four, sides, others.xyz, timestep), {{}, radius}, c);
+  } else {
+    const Columns to_a = to_sphere(four);
+    set_geometry(four, others, to_a.w, c);
+    set_contacts(motions_of(four), to_a, c);
+  }
+  of.contacts = c;
+  const Columns memory = gather([&](std::size_t k) { return load_row(*four.memory[k]); });
+  of.last_normal_force = each([&](std::size_t k) { return four.memory[k]->push; });
+  of.springs = {memory.xyz, memory.w, of.last_normal_force};
+}
+
+/// Adds the contact in a lane.
+REPOSE_INLINE void add_energy(double energy, const Vec3<Double4>& normals, std::size_t lane,
+                              DirectedEnergy& sum) {
+  const Vec3<double> n = {normals.x[lane], normals.y[lane], normals.z[lane]};
+  sum.xx += energy * (n.x * n.x);
+  sum.yy += energy * (n.y * n.y);
+  sum.zz += energy * (n.z * n.z);
+  sum.xy += energy * (n.x * n.y);
+  sum.yz += energy * (n.y * n.z);
+  sum.zx += energy * (n.z * n.x);
+}
+
+/// Hertz's, 8/15 E* sqrt(R* d) d^2, without the factor that is the same for all contacts of a pair.
+REPOSE_INLINE Double4 elastic_energy(const ContactGeometry<Double4>& touch) {
+  return sqrt(touch.reduced_radius * touch.overlap) * (touch.overlap * touch.overlap);
+}
+
+/// Parallel contacts are those of several spheres: one sphere in the corner of a mesh, or among
+/// glued grains, touches several things.
+template <typename Other>
+REPOSE_INLINE bool shares_damping(const ActivePair& pair, const Bodies& bodies) {
+  if (pair.touching < 2) return false;
+  if constexpr (std::is_same_v<Other, PlacedSphere>) return true;
+  const auto a = static_cast<std::size_t>(pair.a);
+  return bodies.first_sphere[a + 1] - bodies.first_sphere[a] > 1;
+}
+
+/// Leaves to each contact the mass that it damps.
+/// @param energies  of each pair; zero: it does not share
+template <typename Other>
+REPOSE_INLINE void share_damping(std::span<Four<Other>> fours, const ActivePair* pairs,
+                                 const std::vector<DirectedEnergy>& energies) {
+  for (Four<Other>& four : fours) {
+    const auto all = [&](double DirectedEnergy::*part) __attribute__((always_inline)) {
+      return each([&](std::size_t k) {
+        return energies[static_cast<std::size_t>(four.touching.pair[k] - pairs)].*part;
+      });
+    };
+    ContactGeometry<Double4>& touch = four.contacts.touch;
+    const Vec3<Double4>& n = touch.normal;
+    const Double4 along =
+        n.x * n.x * all(&DirectedEnergy::xx) + n.y * n.y * all(&DirectedEnergy::yy) +
+        n.z * n.z * all(&DirectedEnergy::zz) +
+        2 * (n.x * n.y * all(&DirectedEnergy::xy) + n.y * n.z * all(&DirectedEnergy::yz) +
+             n.z * n.x * all(&DirectedEnergy::zx));
+    const Double4 own = elastic_energy(touch);
+    touch.reduced_mass =
+        select(along > own, touch.reduced_mass * (own / along), touch.reduced_mass);
+  }
+}
+
+/// Sets the damping of contacts whose restitution depends on the speed, by the equivalent speed of
+/// each (speed_damping.h). Where damping is shared the mass is a contact's share, by elastic
+/// energy: all contacts of a pair then have the same.
+template <typename Other>
+REPOSE_INLINE void damp_by_speed(const Four<Other>& four, Law<Double4>& law) {
+  const ContactGeometry<Double4>& touch = four.contacts.touch;
+  const Double4 approach = touch.velocity.dot(touch.normal);
+  // 2 U / m*, U = 8/15 E* sqrt(R* d) d^2.
+  const Double4 stored = 16.0 / 15 * law.reduced_young * elastic_energy(touch) / touch.reduced_mass;
+  const Double4 speed2 = approach * approach + stored;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const ContactLaw& own = *four.touching.pair[k]->law;
+    if (own.by_speed.is_constant()) continue;
+    const SpeedDamping::Factors factors = own.by_speed.at(speed2[k]);
+    law.normal_damping.set(k, factors.normal);
+    law.tangential_damping.set(k, factors.tangential * own.tangential_root);
+  }
+}
+
+/// Of both bodies about the contact; a wall has no inertia.
+template <typename Other>
+REPOSE_INLINE Double4 contact_inertia(const Four<Other>& of, const Sides<Other>& sides) {
+  const auto about_contact =
+      [](const auto& motion, const Vec3<Double4>& arm) __attribute__((always_inline)) {
+    return each([&](std::size_t k) { return motion(k).spin_kick.w; }) +
+           each([&](std::size_t k) { return motion(k).spin.w; }) * arm.squared_norm();
+  };
+  const auto& pair = of.touching.pair;
+  const Double4 a =
+      about_contact([&](std::size_t k) -> const BodyMotion& { return sides.motions_a[pair[k]->a]; },
+                    of.contacts.arm_a);
+  if constexpr (std::is_same_v<Other, FacetContact>) return a;
+  const Double4 b =
+      about_contact([&](std::size_t k) -> const BodyMotion& { return sides.motions_b[pair[k]->b]; },
+                    of.contacts.arm_b);
+  return reduced(a, b);
+}
+
+/// The moment of inertia that a contact's torques may act on as if alone: of each body the smallest
+/// one, shared by all that it touches; a wall has no end of it.
+template <typename Other>
+REPOSE_INLINE Double4 inertia_share(const Four<Other>& of, const Sides<Other>& sides) {
+  const auto& pair = of.touching.pair;
+  const auto contacts_per_inertia = [&](const auto& motion) __attribute__((always_inline)) {
+    return each([&](std::size_t k) { return contacts_of(*pair[k], motion(k)); }) /
+           each([&](std::size_t k) { return motion(k).spin_kick.w; });
+  };
+  const Double4 a = contacts_per_inertia(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_a[pair[k]->a]; });
+  if constexpr (std::is_same_v<Other, FacetContact>) return 1 / a;
+  const Double4 b = contacts_per_inertia(
+      [&](std::size_t k) -> const BodyMotion& { return sides.motions_b[pair[k]->b]; });
+  return 1 / (a + b);
+}
+
+/// The torque on a of the models that work on the relative spin.
+template <RollingModel model, typename Other>
+REPOSE_INLINE Vec3<Double4> rolling_torque(const Four<Other>& of, const Sides<Other>& sides,
+                                           const Law<Double4>& law, double timestep) {
+  const Contacts& c = of.contacts;
+  Roll<Double4> roll = {.normal = c.touch.normal,
+                        .spin = -c.spin,
+                        .normal_force = of.force.normal,
+                        .last_force = of.last_normal_force,
+                        .overlap = c.touch.overlap,
+                        .reduced_radius = c.touch.reduced_radius,
+                        .inertia_share = {},
+                        .contact_inertia = {}};
+  const auto& memory = of.touching.memory;
+  // The row's w is the push: read, and left alone.
+  Vec3<Double4> spring = gather([&](std::size_t k) { return load(memory[k]->rolling.data()); }).xyz;
+  Vec3<Double4> torque;
+  if constexpr (model == RollingModel::relative_constant_torque) {
+    roll.inertia_share = inertia_share(of, sides);
+    torque = relative_constant_torque(roll, law, timestep, spring);
+  } else {
+    roll.contact_inertia = contact_inertia(of, sides);
+    torque = elastic_plastic_torque(roll, law, timestep, spring);
+  }
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    memory[k]->rolling = {spring.x[k], spring.y[k], spring.z[k]};
+  }
+  return torque;
+}
+
+/// What four contacts do to the bodies: in lanes.
+struct Loads {
+  Vec3<Double4> torque_a;
+  Double4 rolling_a;  ///< what constant-torque rolling friction may take
+  Double4 rolling_b;
+};
+
+template <RollingModel model, typename Other>
+REPOSE_INLINE Loads loads_of(const Four<Other>& of, const Sides<Other>& sides, double timestep) {
+  const Contacts& c = of.contacts;
+  Loads loads = {.torque_a = c.arm_a.cross(of.force.total), .rolling_a = {}, .rolling_b = {}};
+  if constexpr (model == RollingModel::constant_torque) {
+    const Double4 resistance = laws_of(of.touching).rolling_friction * of.force.normal;
+    loads.rolling_a = resistance * sqrt(c.arm_a.squared_norm());
+    loads.rolling_b = resistance * sqrt(c.arm_b.squared_norm());
+  } else if constexpr (model != RollingModel::none) {
+    loads.torque_a += rolling_torque<model>(of, sides, laws_of(of.touching), timestep);
+  }
+  return loads;
+}
+
+/// Adds to the loads of their pairs. Those of round grains, which have one contact, are whole then.
+template <bool is_round, typename Other>
+REPOSE_INLINE void add_loads(const Four<Other>& of, const Loads& loads) {
+  const Rows torques_a = rows_of(loads.torque_a, loads.rolling_a);
+  if constexpr (is_round) {
+    const Vec3<Double4> torque_b = of.contacts.apart.cross(of.force.total) - loads.torque_a;
+    const Rows torques_b = rows_of(torque_b, loads.rolling_b);
+    const Rows forces = rows_of(of.force.total, Double4(1));
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      *of.touching.load[k] = {forces.row[k], torques_a.row[k], torques_b.row[k]};
+    }
+    return;
+  }
+  const Rows forces = rows_of(of.force.total, loads.rolling_b);
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    PairLoad& load = *of.touching.load[k];
+    load.force += forces.row[k];
+    load.torque_a += torques_a.row[k];
+  }
+}
+
+/// @return how deep they are, as fractions of the smaller sphere's radius
+template <bool is_round, RollingModel model, typename Other>
+REPOSE_INLINE Double4 finish_contacts(const Four<Other>& of, const Sides<Other>& sides,
+                                      double timestep) {
+  add_loads<is_round>(of, loads_of<model>(of, sides, timestep));
+  const Rows memories = rows_of(of.springs.tangential, of.springs.radius);
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    ContactHistory& own = *of.touching.memory[k];
+    store_row(memories.row[k], own);
+    own.push = of.springs.push[k];
+  }
+  return of.contacts.touch.overlap / of.contacts.smaller_radius;
+}
+
+template <bool is_round, RollingModel model, typename Other>
+REPOSE_INLINE Double4 finish_all(std::span<const Four<Other>> fours, const Sides<Other>& sides,
+                                 double timestep) {
+  Double4 deepest;
+  for (const Four<Other>& four : fours) {
+    deepest = max(finish_contacts<is_round, model>(four, sides, timestep), deepest);
+  }
+  return deepest;
+}
+
+template <bool is_round, typename Other>
+REPOSE_INLINE Double4 finish_all(std::span<const Four<Other>> fours, const Sides<Other>& sides,
+                                 RollingModel model, double timestep) {
+  switch (model) {
+    case RollingModel::none:
+      return finish_all<is_round, RollingModel::none>(fours, sides, timestep);
+    case RollingModel::constant_torque:
+      return finish_all<is_round, RollingModel::constant_torque>(fours, sides, timestep);
+    case RollingModel::relative_constant_torque:
+      return finish_all<is_round, RollingModel::relative_constant_torque>(fours, sides, timestep);
+    case RollingModel::elastic_plastic:
+      return finish_all<is_round, RollingModel::elastic_plastic>(fours, sides, timestep);
+  }
+  return {};
+}
 
 /// The second pass: what pushes.
 template <bool is_by_speed, typename Other>
 REPOSE_INLINE void find_forces(Four<Other>& four, double timestep) {
-  Springs<Lanes> springs = four.springs;
-  Law<Lanes> law = laws_of(four.touching);
+  Springs<Double4> springs = four.springs;
+  Law<Double4> law = laws_of(four.touching);
   if constexpr (is_by_speed) damp_by_speed(four, law);
   four.force = contact_force(four.contacts.touch, law, timestep, springs);
   four.springs = springs;
@@ -27,14 +388,14 @@ REPOSE_INLINE void find_forces(Four<Other>& four, double timestep) {
 
 /// What lanes beyond the last contact write, for nothing.
 struct SpareLane {
-  ContactMemory memory;
+  ContactHistory memory;
   PairLoad load;
 };
 
 /// What the contacts of some pairs are worked out from, and with.
 template <typename Other>
-struct Meeting {
-  std::span<const TouchingPair> pairs;
+struct ContactBatch {
+  std::span<const ActivePair> pairs;
   const Sides<Other>& sides;
   PairMotion* motions = nullptr;
   PairLoad* loads = nullptr;
@@ -42,9 +403,9 @@ struct Meeting {
 
 /// Puts a contact into a lane.
 template <typename Other>
-REPOSE_INLINE void set_lane(FourTouching<Other>& four, std::size_t lane, const Touching& touching,
-                            const Meeting<Other>& meeting) {
-  const TouchingPair& pair = meeting.pairs[static_cast<std::size_t>(touching.pair)];
+REPOSE_INLINE void set_lane(FourActiveContacts<Other>& four, std::size_t lane,
+                            const ActiveContact& touching, const ContactBatch<Other>& meeting) {
+  const ActivePair& pair = meeting.pairs[static_cast<std::size_t>(touching.pair)];
   four.sphere[lane] = &meeting.sides.spheres[touching.sphere];
   four.other[lane] = &meeting.sides.others[touching.other];
   four.memory[lane] = &meeting.sides.memories[touching.memory];
@@ -55,8 +416,8 @@ REPOSE_INLINE void set_lane(FourTouching<Other>& four, std::size_t lane, const T
 
 /// Puts the last contacts into lanes, fewer than four: the lanes beyond repeat the last one.
 template <typename Other>
-void set_last(FourTouching<Other>& four, std::span<const Touching> last,
-              const Meeting<Other>& meeting, SpareLane& spare) {
+void set_last(FourActiveContacts<Other>& four, std::span<const ActiveContact> last,
+              const ContactBatch<Other>& meeting, SpareLane& spare) {
   spare.memory = meeting.sides.memories[last.back().memory];
   for (std::size_t k = 0; k < kLanes; ++k) {
     set_lane(four, k, last[std::min(k, last.size() - 1)], meeting);
@@ -68,8 +429,8 @@ void set_last(FourTouching<Other>& four, std::span<const Touching> last,
 
 /// Puts the next contacts into lanes, up to four.
 template <typename Other>
-REPOSE_INLINE void set_lanes(FourTouching<Other>& four, std::span<const Touching> left,
-                             const Meeting<Other>& meeting, SpareLane& spare) {
+REPOSE_INLINE void set_lanes(FourActiveContacts<Other>& four, std::span<const ActiveContact> left,
+                             const ContactBatch<Other>& meeting, SpareLane& spare) {
   if (left.size() < kLanes) {
     set_last(four, left, meeting, spare);
   } else {
@@ -77,11 +438,11 @@ REPOSE_INLINE void set_lanes(FourTouching<Other>& four, std::span<const Touching
   }
 }
 
-/// The first pass, of up to kFoursTogether fours.
+/// The first pass, of up to kBatchesPerBlock fours.
 /// @return what goes on to the others
 template <bool is_round, typename Other>
-REPOSE_INLINE std::span<Four<Other>> find_all(std::span<const Touching> touching,
-                                              const Meeting<Other>& meeting, double timestep,
+REPOSE_INLINE std::span<Four<Other>> find_all(std::span<const ActiveContact> touching,
+                                              const ContactBatch<Other>& meeting, double timestep,
                                               std::span<Four<Other>> fours, SpareLane& spare) {
   std::size_t count = 0;
   for (std::size_t at = 0; at < touching.size(); at += kLanes, ++count) {
@@ -93,18 +454,18 @@ REPOSE_INLINE std::span<Four<Other>> find_all(std::span<const Touching> touching
 
 /// Before the passes, with shared damping: where the elastic energy of each pair's contacts acts.
 template <typename Other>
-REPOSE_INLINE void find_energies(std::span<const Touching> touching, const Meeting<Other>& meeting,
-                                 const Bodies& bodies, std::vector<DirectedEnergy>& energies,
-                                 SpareLane& spare) {
+REPOSE_INLINE void find_energies(std::span<const ActiveContact> touching,
+                                 const ContactBatch<Other>& meeting, const Bodies& bodies,
+                                 std::vector<DirectedEnergy>& energies, SpareLane& spare) {
   energies.assign(meeting.pairs.size(), {});
   for (std::size_t at = 0; at < touching.size(); at += kLanes) {
-    const std::span<const Touching> left = touching.subspan(at);
-    FourTouching<Other> four = {};
+    const std::span<const ActiveContact> left = touching.subspan(at);
+    FourActiveContacts<Other> four = {};
     set_lanes(four, left, meeting, spare);
     Contacts c;
-    const Lanes radius = each([&](std::size_t k) { return four.sphere[k]->radius; });
+    const Double4 radius = each([&](std::size_t k) { return four.sphere[k]->radius; });
     set_geometry(four, others_of(four), radius, c);
-    const Lanes energy = elastic_energy(c.touch);
+    const Double4 energy = elastic_energy(c.touch);
     for (std::size_t k = 0; k < std::min(left.size(), kLanes); ++k) {
       if (!shares_damping<Other>(*four.pair[k], bodies)) continue;
       add_energy(energy[k], c.touch.normal, k, energies[static_cast<std::size_t>(left[k].pair)]);
@@ -117,17 +478,17 @@ REPOSE_INLINE void find_energies(std::span<const Touching> touching, const Meeti
 /// @tparam is_round  that each body is one sphere about its centre is known, which saves time
 /// @return the deepest overlap, as a fraction of the smaller sphere's radius
 template <bool is_round, typename Other>
-REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
-                                  std::span<const TouchingPair> pairs, const Sides<Other>& sides,
+REPOSE_INLINE double add_contacts(std::span<const ActiveContact> touching,
+                                  std::span<const ActivePair> pairs, const Sides<Other>& sides,
                                   const ContactStep& step, ContactWork<Other>& work,
                                   PairLoad* loads) {
-  constexpr std::size_t kTogether = kLanes * kFoursTogether;
-  const Meeting<Other> meeting = {pairs, sides, work.motions.data(), loads};
+  constexpr std::size_t kTogether = kLanes * kBatchesPerBlock;
+  const ContactBatch<Other> meeting = {pairs, sides, work.motions.data(), loads};
   for (std::size_t k = 0; k < pairs.size() && !is_round; ++k) {
     begin_load(loads[pairs[k].number]);
     set_motion(pairs[k], sides, step.timestep_s, work.motions[k]);
   }
-  Lanes deepest;
+  Double4 deepest;
   SpareLane spare;
   // Round grains have one contact, which shares with nobody.
   const bool is_shared = !is_round && step.contacts.damping() == DampingModel::shared;
@@ -142,9 +503,9 @@ REPOSE_INLINE double add_contacts(std::span<const Touching> touching,
     } else {
       for (Four<Other>& four : fours) find_forces<false>(four, step.timestep_s);
     }
-    deepest = greatest(
-        finish_all<is_round, Other>(fours, sides, step.contacts.rolling(), step.timestep_s),
-        deepest);
+    deepest =
+        max(finish_all<is_round, Other>(fours, sides, step.contacts.rolling(), step.timestep_s),
+            deepest);
   }
   for (std::size_t k = 0; k < pairs.size() && !is_round; ++k) {
     finish_load(pairs[k], work.motions[k], loads[pairs[k].number]);

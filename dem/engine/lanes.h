@@ -7,15 +7,18 @@
 
 /// Four numbers in one: the inner loops work on four bodies or four contacts at once.
 ///
-/// Formulas are templates on Number, which is double or Lanes. Each lane is rounded as a double is,
-/// whatever the machine's vectors are like, so that results do not depend on the machine nor on
+/// Formulas are templates on Number, which is double or Double4. Each lane is rounded as a double
+/// is, whatever the machine's vectors are like, so that results do not depend on the machine nor on
 /// which four go together. Vectors of this kind are an extension of GCC and Clang.
+///
+/// Rows are four numbers in memory: four rows are read and written by lane or by coordinate.
+
 namespace repose::dem {
 
 inline constexpr std::size_t kLanes = 4;
 
 /// Fours that go through a step's passes together: few enough to stay in the nearest cache.
-inline constexpr std::size_t kFoursTogether = 8;
+inline constexpr std::size_t kBatchesPerBlock = 8;
 
 /// Functions of lanes are only fast as part of a loop.
 #define REPOSE_INLINE inline __attribute__((always_inline))
@@ -25,9 +28,9 @@ inline constexpr std::size_t kFoursTogether = 8;
 /// compile, and that of threads is not ready when the program chooses.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define REPOSE_FOR_EACH_MACHINE __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
+#define REPOSE_TARGET_CLONES __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
 #else
-#define REPOSE_FOR_EACH_MACHINE
+#define REPOSE_TARGET_CLONES
 #endif
 
 /// Yes or no in each lane.
@@ -44,63 +47,63 @@ struct alignas(32) LaneMask {
 };
 
 // Aligned by name: on its own a vector's alignment would differ from machine to machine.
-struct alignas(32) Lanes {
+struct alignas(32) Double4 {
   using Vector4 = double __attribute__((vector_size(32)));
   Vector4 numbers = {};
 
-  Lanes() = default;
+  Double4() = default;
   // By hand, so that structures of lanes too are copied as whole vectors and not in halves.
-  REPOSE_INLINE Lanes(const Lanes& from) : numbers(from.numbers) {}
-  REPOSE_INLINE Lanes& operator=(const Lanes& from) {
+  REPOSE_INLINE Double4(const Double4& from) : numbers(from.numbers) {}
+  REPOSE_INLINE Double4& operator=(const Double4& from) {
     numbers = from.numbers;
     return *this;
   }
-  ~Lanes() = default;
+  ~Double4() = default;
   // NOLINTNEXTLINE(google-explicit-constructor): a vector of four is nothing else
-  REPOSE_INLINE Lanes(const Vector4& from) : numbers(from) {}
-  REPOSE_INLINE explicit Lanes(double of_all) : numbers(Vector4{} + of_all) {}
+  REPOSE_INLINE Double4(const Vector4& from) : numbers(from) {}
+  REPOSE_INLINE explicit Double4(double of_all) : numbers(Vector4{} + of_all) {}
 
   REPOSE_INLINE double operator[](std::size_t lane) const { return numbers[lane]; }
   REPOSE_INLINE void set(std::size_t lane, double number) { numbers[lane] = number; }
-  REPOSE_INLINE Lanes operator-() const { return -numbers; }
-  REPOSE_INLINE Lanes& operator+=(const Lanes& y) { return *this = *this + y; }
+  REPOSE_INLINE Double4 operator-() const { return -numbers; }
+  REPOSE_INLINE Double4& operator+=(const Double4& y) { return *this = *this + y; }
 
-  friend REPOSE_INLINE Lanes operator+(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE Double4 operator+(const Double4& x, const Double4& y) {
     return x.numbers + y.numbers;
   }
-  friend REPOSE_INLINE Lanes operator-(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE Double4 operator-(const Double4& x, const Double4& y) {
     return x.numbers - y.numbers;
   }
-  friend REPOSE_INLINE Lanes operator*(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE Double4 operator*(const Double4& x, const Double4& y) {
     return x.numbers * y.numbers;
   }
-  friend REPOSE_INLINE Lanes operator/(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE Double4 operator/(const Double4& x, const Double4& y) {
     return x.numbers / y.numbers;
   }
-  friend REPOSE_INLINE Lanes operator*(double x, const Lanes& y) { return x * y.numbers; }
-  friend REPOSE_INLINE Lanes operator*(const Lanes& x, double y) { return x.numbers * y; }
-  friend REPOSE_INLINE Lanes operator/(double x, const Lanes& y) { return x / y.numbers; }
-  friend REPOSE_INLINE Lanes operator/(const Lanes& x, double y) { return x.numbers / y; }
-  friend REPOSE_INLINE Lanes operator+(double x, const Lanes& y) { return x + y.numbers; }
-  friend REPOSE_INLINE Lanes operator-(const Lanes& x, double y) { return x.numbers - y; }
-  friend REPOSE_INLINE Lanes operator-(double x, const Lanes& y) { return x - y.numbers; }
-  friend REPOSE_INLINE LaneMask operator<(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE Double4 operator*(double x, const Double4& y) { return x * y.numbers; }
+  friend REPOSE_INLINE Double4 operator*(const Double4& x, double y) { return x.numbers * y; }
+  friend REPOSE_INLINE Double4 operator/(double x, const Double4& y) { return x / y.numbers; }
+  friend REPOSE_INLINE Double4 operator/(const Double4& x, double y) { return x.numbers / y; }
+  friend REPOSE_INLINE Double4 operator+(double x, const Double4& y) { return x + y.numbers; }
+  friend REPOSE_INLINE Double4 operator-(const Double4& x, double y) { return x.numbers - y; }
+  friend REPOSE_INLINE Double4 operator-(double x, const Double4& y) { return x - y.numbers; }
+  friend REPOSE_INLINE LaneMask operator<(const Double4& x, const Double4& y) {
     return {x.numbers < y.numbers};
   }
-  friend REPOSE_INLINE LaneMask operator>(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE LaneMask operator>(const Double4& x, const Double4& y) {
     return {x.numbers > y.numbers};
   }
-  friend REPOSE_INLINE LaneMask operator<=(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE LaneMask operator<=(const Double4& x, const Double4& y) {
     return {x.numbers <= y.numbers};
   }
-  friend REPOSE_INLINE LaneMask operator>=(const Lanes& x, const Lanes& y) {
+  friend REPOSE_INLINE LaneMask operator>=(const Double4& x, const Double4& y) {
     return {x.numbers >= y.numbers};
   }
 };
 
 REPOSE_INLINE double sqrt(double value) { return std::sqrt(value); }
-REPOSE_INLINE Lanes sqrt(const Lanes& values) {
-  Lanes roots;
+REPOSE_INLINE Double4 sqrt(const Double4& values) {
+  Double4 roots;
   for (std::size_t lane = 0; lane < kLanes; ++lane) roots.set(lane, std::sqrt(values[lane]));
   return roots;
 }
@@ -118,20 +121,20 @@ REPOSE_INLINE unsigned bits_of(const LaneMask& mask) {
 }
 
 REPOSE_INLINE double select(bool mask, double yes, double no) { return mask ? yes : no; }
-REPOSE_INLINE Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no) {
+REPOSE_INLINE Double4 select(const LaneMask& mask, const Double4& yes, const Double4& no) {
   return mask.bits ? yes.numbers : no.numbers;
 }
 template <typename Number>
-REPOSE_INLINE Number least(const Number& x, const Number& y) {
+REPOSE_INLINE Number min(const Number& x, const Number& y) {
   return select(x < y, x, y);
 }
 template <typename Number>
-REPOSE_INLINE Number greatest(const Number& x, const Number& y) {
+REPOSE_INLINE Number max(const Number& x, const Number& y) {
   return select(x > y, x, y);
 }
 template <typename Number>
-REPOSE_INLINE Number size_of(const Number& x) {
-  return greatest(x, -x);
+REPOSE_INLINE Number abs(const Number& x) {
+  return max(x, -x);
 }
 
 /// Four numbers anywhere in memory. (memcpy would move them in halves. `using` would lose the
@@ -140,10 +143,10 @@ REPOSE_INLINE Number size_of(const Number& x) {
 typedef double FourNumbers __attribute__((vector_size(32), aligned(8), may_alias));
 static_assert(alignof(FourNumbers) == alignof(double));
 
-REPOSE_INLINE Lanes load(const double* from) {
-  return Lanes(Lanes::Vector4(*reinterpret_cast<const FourNumbers*>(from)));
+REPOSE_INLINE Double4 load(const double* from) {
+  return Double4(Double4::Vector4(*reinterpret_cast<const FourNumbers*>(from)));
 }
-REPOSE_INLINE void store(const Lanes& lanes, double* to) {
+REPOSE_INLINE void store(const Double4& lanes, double* to) {
   *reinterpret_cast<FourNumbers*>(to) = lanes.numbers;
 }
 
@@ -183,6 +186,75 @@ template <typename Mask, typename Number>
 REPOSE_INLINE Vec3<Number> select(const Mask& mask, const Vec3<Number>& yes,
                                   const Vec3<Number>& no) {
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+/// A vector and a number beside it, as long as Double4.
+struct alignas(32) Row {
+  Vector xyz = Vector::Zero();
+  double w = 0;
+};
+
+/// The first four numbers of a structure of doubles: a Row, say.
+template <typename Structure>
+REPOSE_INLINE Double4 load_row(const Structure& from) {
+  static_assert(sizeof(Structure) >= sizeof(Double4));
+  return load(reinterpret_cast<const double*>(&from));
+}
+template <typename Structure>
+REPOSE_INLINE void store_row(const Double4& lanes, Structure& to) {
+  static_assert(sizeof(Structure) >= sizeof(Double4));
+  store(lanes, reinterpret_cast<double*>(&to));
+}
+
+/// Four rows: by lane, or by coordinate.
+struct Rows {
+  Double4 row[kLanes];
+};
+struct Columns {
+  Vec3<Double4> xyz;
+  Double4 w;
+};
+
+REPOSE_INLINE Rows turned(const Rows& r) {
+  using Vector4 = Double4::Vector4;
+  const Vector4 a = __builtin_shufflevector(r.row[0].numbers, r.row[1].numbers, 0, 4, 2, 6);
+  const Vector4 b = __builtin_shufflevector(r.row[0].numbers, r.row[1].numbers, 1, 5, 3, 7);
+  const Vector4 c = __builtin_shufflevector(r.row[2].numbers, r.row[3].numbers, 0, 4, 2, 6);
+  const Vector4 d = __builtin_shufflevector(r.row[2].numbers, r.row[3].numbers, 1, 5, 3, 7);
+  return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
+           __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
+}
+REPOSE_INLINE Columns columns_of(const Rows& rows) {
+  const Rows columns = turned(rows);
+  return {{columns.row[0], columns.row[1], columns.row[2]}, columns.row[3]};
+}
+REPOSE_INLINE Rows rows_of(const Vec3<Double4>& xyz, const Double4& w) {
+  return turned({{xyz.x, xyz.y, xyz.z, w}});
+}
+
+/// Gathers a row of each lane.
+template <typename RowOfLane>
+REPOSE_INLINE Columns gather(const RowOfLane& row) {
+  return columns_of({{row(0), row(1), row(2), row(3)}});
+}
+
+/// Gathers a number of each lane.
+template <typename NumberOfLane>
+REPOSE_INLINE Double4 each(const NumberOfLane& number) {
+  return Double4::Vector4{number(0), number(1), number(2), number(3)};
+}
+
+/// Of two rows; w: 0.
+REPOSE_INLINE Double4 cross_of_rows(const Double4& u, const Double4& v) {
+  const auto next = [](const Double4& row) __attribute__((always_inline)) {
+    return Double4(__builtin_shufflevector(row.numbers, row.numbers, 1, 2, 0, 3));
+  };
+  return next(u * next(v) - next(u) * v);
+}
+
+/// Puts a number into a row's w.
+REPOSE_INLINE Double4 with_w(const Double4& row, double number) {
+  return select(Double4(Double4::Vector4{0, 0, 0, 1}) > Double4(0), Double4(number), row);
 }
 
 }  // namespace repose::dem

@@ -30,7 +30,7 @@ template <typename Group, typename Item>
 struct Groups {
   std::vector<Group>& groups;
   std::vector<Item>& items;
-  std::vector<ContactMemory>& memories;
+  std::vector<ContactHistory>& memories;
 
   void clear() {
     groups.clear();
@@ -39,7 +39,7 @@ struct Groups {
   }
 };
 
-Groups<NearGrains, NearSpheres> pairs_in(NeighbourList& list) {
+Groups<NeighbourPair, NearSpheres> pairs_in(NeighbourList& list) {
   return {list.grains, list.spheres, list.memories};
 }
 Groups<NearWall, NearFacet> walls_in(NeighbourList& list) {
@@ -195,7 +195,7 @@ void Neighbours::find_pairs(const Bodies& bodies, int threads) {
     pairs_.insert(pairs_.end(), found.pairs.begin(), found.pairs.end());
   }
   sort_all(pairs_, threads,
-           [](const NearGrains& x, const NearGrains& y) { return comes_before(x, y); });
+           [](const NeighbourPair& x, const NeighbourPair& y) { return comes_before(x, y); });
 }
 
 /// Those that a body has, if it has moved; with another that has moved too, if it is the first.
@@ -220,7 +220,7 @@ void Neighbours::find_spheres(const Bodies& bodies, int threads) {
     std::vector<NearSpheres>& spheres = found_[chunk.number].spheres;
     spheres.clear();
     for (std::size_t k = chunk.first; k < chunk.end; ++k) {
-      NearGrains& pair = pairs_[k];
+      NeighbourPair& pair = pairs_[k];
       pair.first = static_cast<int>(spheres.size());
       columns_.add_near(bodies, margins_, pair.a, pair.b, spheres);
       pair.count = static_cast<int>(spheres.size()) - pair.first;
@@ -229,13 +229,13 @@ void Neighbours::find_spheres(const Bodies& bodies, int threads) {
 }
 
 void Neighbours::list_grains() {
-  const auto has_moved = [&](const NearGrains& pair) {
+  const auto has_moved = [&](const NeighbourPair& pair) {
     return (has_moved_[static_cast<std::size_t>(pair.a)] |
             has_moved_[static_cast<std::size_t>(pair.b)]) != 0;
   };
   Renewal renewal(pairs_in(list_), pairs_in(next_), has_moved);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const NearGrains& pair = pairs_[k];
+    const NeighbourPair& pair = pairs_[k];
     const auto first = found_[k / kLookedAtTogether].spheres.begin() + pair.first;
     renewal.add(pair,
                 [&] { next_.spheres.insert(next_.spheres.end(), first, first + pair.count); });
@@ -284,7 +284,7 @@ void Neighbours::note_touching() {
 void Neighbours::index_by_body(std::size_t bodies) {
   auto& start = list_.body_start;
   start.assign(bodies + 2, 0);
-  for (const NearGrains& pair : list_.grains) {
+  for (const NeighbourPair& pair : list_.grains) {
     ++start[static_cast<std::size_t>(pair.a) + 2];
     ++start[static_cast<std::size_t>(pair.b) + 2];
   }
@@ -301,13 +301,13 @@ void Neighbours::index_by_body(std::size_t bodies) {
 
 void Neighbours::forget_grain(int grain) {
   is_expired_ = true;
-  for (const NearGrains& pair : list_.grains) {
+  for (const NeighbourPair& pair : list_.grains) {
     if (pair.a != grain && pair.b != grain) continue;
-    std::fill_n(list_.memories.begin() + pair.first, pair.count, ContactMemory{});
+    std::fill_n(list_.memories.begin() + pair.first, pair.count, ContactHistory{});
   }
   for (const NearWall& pair : list_.walls) {
     if (pair.body != grain) continue;
-    std::fill_n(list_.wall_memories.begin() + pair.first, pair.count, ContactMemory{});
+    std::fill_n(list_.wall_memories.begin() + pair.first, pair.count, ContactHistory{});
   }
 }
 
@@ -315,7 +315,7 @@ void Neighbours::forget_wall(int wall) {
   is_expired_ = true;
   for (const NearWall& pair : list_.walls) {
     if (pair.wall != wall) continue;
-    std::fill_n(list_.wall_memories.begin() + pair.first, pair.count, ContactMemory{});
+    std::fill_n(list_.wall_memories.begin() + pair.first, pair.count, ContactHistory{});
   }
 }
 
@@ -325,7 +325,7 @@ std::vector<ContactState> Neighbours::touching(const Bodies& bodies) const {
     const auto k = static_cast<std::size_t>(sphere);
     return sphere - bodies.first_sphere[static_cast<std::size_t>(bodies.sphere_body[k])];
   };
-  const auto add = [&](int a, int sphere_a, int b, int sphere_b, const ContactMemory& memory) {
+  const auto add = [&](int a, int sphere_a, int b, int sphere_b, const ContactHistory& memory) {
     if (memory.radius == 0) return;
     contacts.push_back({.grain_a = a,
                         .sphere_a = within(sphere_a),
@@ -334,9 +334,9 @@ std::vector<ContactState> Neighbours::touching(const Bodies& bodies) const {
                         .contact_radius_m = memory.radius,
                         .tangential_n = memory.tangential,
                         .rolling_n_m = memory.rolling,
-                        .push_n = memory.push});
+                        .normal_force_n = memory.push});
   };
-  for (const NearGrains& pair : list_.grains) {
+  for (const NeighbourPair& pair : list_.grains) {
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const NearSpheres& spheres = list_.spheres[at];
@@ -358,10 +358,10 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
   for (const ContactState& contact : contacts) {
     const auto a = static_cast<std::size_t>(contact.grain_a);
     const int sphere_a = bodies.first_sphere.at(a) + contact.sphere_a;
-    const ContactMemory memory{.tangential = contact.tangential_n,
-                               .radius = contact.contact_radius_m,
-                               .rolling = contact.rolling_n_m,
-                               .push = contact.push_n};
+    const ContactHistory memory{.tangential = contact.tangential_n,
+                                .radius = contact.contact_radius_m,
+                                .rolling = contact.rolling_n_m,
+                                .push = contact.normal_force_n};
     if (contact.grain_b >= 0) {
       const auto b = static_cast<std::size_t>(contact.grain_b);
       const auto first = static_cast<int>(remembered.spheres.size());
@@ -389,9 +389,9 @@ void Neighbours::restore(const Bodies& bodies, const std::vector<ContactState>& 
   carry_all(pairs_in(remembered), pairs_in(list_));
   carry_all(walls_in(remembered), walls_in(list_));
   note_touching();
-  const auto touching = [](const std::vector<ContactMemory>& memories) {
+  const auto touching = [](const std::vector<ContactHistory>& memories) {
     return std::count_if(memories.begin(), memories.end(),
-                         [](const ContactMemory& memory) { return memory.radius > 0; });
+                         [](const ContactHistory& memory) { return memory.radius > 0; });
   };
   if (touching(list_.memories) + touching(list_.wall_memories) !=
       static_cast<std::ptrdiff_t>(contacts.size())) {

@@ -4,17 +4,14 @@
 #include <vector>
 
 #include "dem/engine/bodies.h"
-#include "dem/engine/cell_grid.h"
 #include "dem/engine/contact_force.h"
-#include "dem/engine/margins.h"
 #include "dem/engine/near_spheres.h"
-#include "dem/engine/touching.h"
 #include "dem/wall/wall_set.h"
 
 namespace repose::dem {
 
 /// Two grains near each other, and where their near spheres are listed. a < b.
-struct NearGrains {
+struct NeighbourPair {
   int a = 0;
   int b = 0;
   int first = 0;
@@ -38,9 +35,9 @@ struct NearFacet {
 /// All that may touch soon, in the one order in which forces are summed: by grain, then by sphere.
 /// It does not show in the results when the list was made: what does not touch adds nothing.
 struct NeighbourList {
-  std::vector<NearGrains> grains;
+  std::vector<NeighbourPair> grains;
   std::vector<NearSpheres> spheres;
-  std::vector<ContactMemory> memories;  ///< one for each of `spheres`
+  std::vector<ContactHistory> memories;  ///< one for each of `spheres`
   std::vector<std::uint8_t>
       has_touched;                      ///< whether each of `spheres` did at the last step, 1 or 0
   std::vector<TouchingChunk> touching;  ///< of each kPairsTogether `grains`
@@ -50,7 +47,7 @@ struct NeighbourList {
                                 ///< more threads than one alone, as `body_start`
   std::vector<NearWall> walls;
   std::vector<NearFacet> facets;
-  std::vector<ContactMemory> wall_memories;  ///< one for each of `facets`
+  std::vector<ContactHistory> wall_memories;  ///< one for each of `facets`
 };
 
 /// Keeps a NeighbourList up to date. Once some grain has used up its margin, what is near it and
@@ -84,7 +81,7 @@ class Neighbours {
   /// What one thread has found: of a part of the bodies, or of the pairs.
   struct Found {
     std::vector<int> near;
-    std::vector<NearGrains> pairs;
+    std::vector<NeighbourPair> pairs;
     std::vector<NearSpheres> spheres;
   };
 
@@ -109,8 +106,8 @@ class Neighbours {
   CellGrid grid_;
   SphereColumns columns_;
   std::vector<int> near_;
-  std::vector<Found> found_;       ///< of each part
-  std::vector<NearGrains> pairs_;  ///< of bodies that have moved; their spheres in found_
+  std::vector<Found> found_;          ///< of each part
+  std::vector<NeighbourPair> pairs_;  ///< of bodies that have moved; their spheres in found_
 };
 
 }  // namespace repose::dem

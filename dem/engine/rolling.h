@@ -56,8 +56,7 @@ REPOSE_INLINE Number part_below(const Number& old_limit, const Number& limit,
                                 const Number& old_size, const Number& size) {
   const auto yields = size >= limit;
   const auto yielded = old_size >= .999999999 * old_limit;  // less than by rounding
-  const Number begins =
-      greatest(Number{}, least(Number(1), Number(limit - old_size) / (size - old_size)));
+  const Number begins = max(Number{}, min(Number(1), Number(limit - old_size) / (size - old_size)));
   const auto grows = size > old_size;
   const Number up_to_there = select(grows, begins, Number{});
   return select(yields, select(yielded, Number{}, up_to_there), Number(1));

@@ -12,7 +12,6 @@
 #include "dem/engine/bodies.h"
 #include "dem/engine/interactions.h"
 #include "dem/engine/neighbour_list.h"
-#include "dem/engine/overlap_watch.h"
 #include "dem/engine/parallel.h"
 #include "dem/engine/unstable_run.h"
 

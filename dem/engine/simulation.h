@@ -59,7 +59,7 @@ struct ContactState {
   double contact_radius_m = 0;           ///< at the last step
   Vector tangential_n = Vector::Zero();  ///< spring force on a
   Vector rolling_n_m = Vector::Zero();   ///< rolling spring's torque on a
-  double push_n = 0;                     ///< normal force of the last step
+  double normal_force_n = 0;             ///< normal force of the last step
 };
 
 /// Since when all steps are as long as they are now.

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "dem/engine/eigenvalues.h"
+#include "dem/engine/audit.h"
 
 namespace repose::dem {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace repose::dem {
@@ -8,6 +9,39 @@ namespace repose::dem {
 class UnstableRun : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// How deep a run's contacts get. It sees every step: an impact is over long before the next audit.
+/// Overlaps are fractions of the smaller sphere's radius.
+class OverlapWatch {
+ public:
+  /// Hertz's law is one of small strains: no impact of a run worth reporting is as deep as that ...
+  static constexpr double kDeepest = .3;
+  /// ... and nothing lies as deep as that in what carries it.
+  static constexpr double kDeepestAtRest = .2;
+
+  /// @param deepest  overlap of this step
+  /// @return whether it is so much deeper than any before that the run must be looked at now
+  bool see(double deepest) {
+    lasting_ = std::min(lasting_, deepest);
+    if (deepest <= next_look_) return false;
+    // The frequency of a contact goes with the fourth root.
+    next_look_ = std::min(2 * deepest, kDeepest);
+    return true;
+  }
+
+  /// The least of all steps since this was asked last; 0 the first time, when they may be few.
+  double take_lasting() {
+    const double lasting = has_begun_ ? lasting_ : 0;
+    lasting_ = 1;
+    has_begun_ = true;
+    return lasting;
+  }
+
+ private:
+  bool has_begun_ = false;
+  double lasting_ = 1;
+  double next_look_ = 0;
 };
 
 }  // namespace repose::dem

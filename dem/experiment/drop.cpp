@@ -1,3 +1,5 @@
+#include "dem/experiment/drop.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -8,16 +10,57 @@
 #include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
-#include "dem/experiment/free_flight.h"
 #include "dem/experiment/glued_bed.h"
-#include "dem/experiment/grain_limit.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/experiment/placing.h"
-#include "dem/experiment/random.h"
 #include "dem/experiment/rest_test.h"
-#include "dem/experiment/spacing.h"
 
 namespace repose::dem {
+
+namespace {
+
+constexpr double kLongestTurn = .1;
+
+using Parts = Eigen::Vector4d;  // of a quaternion: x, y, z, w
+
+/// How an orientation turns with a spin about the body's own axes.
+Parts rate_of(const Quaternion& orientation, const Vector& own_spin) {
+  return .5 * (orientation * Quaternion(0, own_spin.x(), own_spin.y(), own_spin.z())).coeffs();
+}
+
+}  // namespace
+
+Grain after_flight(const Grain& grain, const ClumpShape& shape, const Vector& gravity_m_s2,
+                   double time_s) {
+  Grain after = grain;
+  after.position += time_s * grain.velocity + .5 * time_s * time_s * gravity_m_s2;
+  after.velocity += time_s * gravity_m_s2;
+
+  // Angular momentum by mass.
+  const Vector momentum =
+      grain.orientation *
+      (grain.orientation.conjugate() * grain.spin).cwiseProduct(shape.gyration_m2);
+  const auto own_spin = [&](const Quaternion& orientation) -> Vector {
+    return (orientation.conjugate() * momentum).cwiseQuotient(shape.gyration_m2);
+  };
+  const auto rate = [&](const Parts& parts) {
+    const Quaternion orientation = Quaternion(parts).normalized();
+    return rate_of(orientation, own_spin(orientation));
+  };
+  const double fastest = momentum.norm() / shape.gyration_m2.minCoeff();
+  const double steps = std::max(1.0, std::ceil(fastest * time_s / kLongestTurn));
+  const double step_s = time_s / steps;
+  for (int k = 0; k < static_cast<int>(steps); ++k) {
+    const Parts q = after.orientation.coeffs();
+    const Parts a = rate(q);
+    const Parts b = rate(q + .5 * step_s * a);
+    const Parts c = rate(q + .5 * step_s * b);
+    const Parts d = rate(q + step_s * c);
+    after.orientation = Quaternion(Parts(q + step_s / 6 * (a + 2 * b + 2 * c + d))).normalized();
+  }
+  after.spin = after.orientation * own_spin(after.orientation);
+  return after;
+}
+
 namespace {
 
 /// Steps between two reports; every step is looked at, since an impact is some 48 steps long.
@@ -142,13 +185,13 @@ Readings readings_of(const std::vector<Bounce>& bounces) {
 /// where they bounce or roll on and on, for many times as long as they fall.
 void show_drop(const Model& model, const Dropping& dropping, Random random,
                const Observers& observers) {
-  constexpr double kMostFalls = 30;
+  constexpr double kMaxFalls = 30;
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * dropping.height_m);
   ExperimentRun run(Simulation(model_setup(model, model.grain, dropping.ground, speed)), observers);
   drop_grains(run.simulation(), dropping, {.above_m = dropping.height_m}, random);
   RestTest rest(run.simulation().setup());
   const std::int64_t steps = run.steps_of(rest.interval_s());
-  const double longest_s = kMostFalls * speed / kStandardGravity_m_s2;
+  const double longest_s = kMaxFalls * speed / kStandardGravity_m_s2;
   while (run.simulation().time_s() < longest_s && !rest.is_at_rest(run.simulation())) {
     run.advance(steps);
     run.report_progress(run.simulation().time_s() / longest_s);

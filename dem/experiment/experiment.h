@@ -10,14 +10,48 @@
 #include <vector>
 
 #include "dem/contact/material.h"
-#include "dem/contact/wall_part.h"
 #include "dem/engine/simulation.h"
-#include "dem/experiment/heap_envelope.h"
-#include "dem/experiment/heap_progress.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/protocol.h"
 #include "dem/shape/clump/clump_shape.h"
+#include "dem/vector.h"
 
 namespace repose::dem {
+
+/// What a run has cost so far.
+struct Work {
+  std::int64_t steps = 0;
+  double clump_steps = 0;
+  double shortest_timestep_s = 1e300;  ///< as long as there are no steps
+};
+
+/// What a rest test remembers from one look to the next.
+struct RestMemory {
+  double since_s = 0;          ///< when the window at hand began
+  std::vector<Vector> before;  ///< the centres then; empty before the first look
+};
+
+/// What goes on in a heap experiment, in this order.
+enum class HeapStage { rain, settle_in_tube, lift, settle };
+
+/// Where a heap experiment stands: with the state of its simulation all that it needs to go on.
+struct HeapProgress {
+  HeapStage stage = HeapStage::rain;
+  Work work = {};
+  std::int64_t steps_left = 0;     ///< of the stretch between two looks that is under way
+  std::uint64_t random_draws = 0;  ///< taken so far by the rain
+  RestMemory rest = {};            ///< of the settling under way
+  double until_s = 0;              ///< when that settling ends at the latest
+  int grains = 0;                  ///< when the lift began
+  double start_m = 0;              ///< how high they lay then
+};
+
+/// A heap experiment interrupted on its way.
+struct HeapRestart {
+  SimulationSetup setup;
+  Checkpoint checkpoint;
+  HeapProgress progress;
+};
 
 /// What all experiments share: grain, materials, coefficients, and how to compute.
 struct Model {
@@ -25,7 +59,7 @@ struct Model {
   /// Standard deviation of the grains' sizes in bulks, as a fraction of their mean
   /// (size_classes.h); 0: all are alike. Grains that are alone, on a plate or glued, have the mean
   /// size.
-  double size_sd_fraction = 0;
+  double size_cv = 0;
   Material grain_material;
   Material wall_material;  ///< of the plate, and of all parts that `parts` does not name
   PairCoefficients grain_wall;
@@ -91,7 +125,7 @@ class Interrupted : public std::runtime_error {
 };
 
 /// Thrown when the experiment ran and what it measures did not happen: says what happened instead.
-class NoReading : public std::runtime_error {
+class NoMeasurement : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -101,7 +135,7 @@ std::string damping_definition(const Model& model);
 
 // Each runs one repeat. The same seed gives the same bytes at any number of threads. They throw
 // base::InputError for a protocol that cannot be run (every error at once), UnstableRun for a
-// run that went wrong, NoReading and Interrupted as said there.
+// run that went wrong, NoMeasurement and Interrupted as said there.
 Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
 Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t seed,

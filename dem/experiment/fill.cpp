@@ -8,13 +8,8 @@
 #include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
-#include "dem/experiment/filling_height.h"
-#include "dem/experiment/grain_limit.h"
-#include "dem/experiment/heap_fill.h"
+#include "dem/experiment/filling.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/experiment/placing.h"
-#include "dem/experiment/rain.h"
-#include "dem/experiment/tapping.h"
 
 namespace repose::dem {
 namespace {
@@ -48,10 +43,10 @@ void check_sizes(const FillProtocol& protocol, double grain_m, base::Faults& err
 
 void check_taps(const FillProtocol& protocol, base::Faults& errors) {
   if (!protocol.taps) return;
-  errors.require(*protocol.taps >= 1 && *protocol.taps <= kMostTaps,
+  errors.require(*protocol.taps >= 1 && *protocol.taps <= kMaxTaps,
                  {.subject = "fill.taps",
                   .value = fmt::format("is {}", *protocol.taps),
-                  .rule = fmt::format("1 to {}", kMostTaps),
+                  .rule = fmt::format("1 to {}", kMaxTaps),
                   .fix = "leave it out not to tap."});
   errors.require(
       protocol.tap_m > 0 && protocol.tap_m <= protocol.tube_height_m,
@@ -130,7 +125,7 @@ double tapped(ExperimentRun& run, const FillProtocol& protocol) {
   const double poured = bulk_below(run.simulation(), protocol.tube_height_m).relative_mass;
   tap(run, *protocol.taps, protocol.tap_m);
   if (above_rim(run.simulation(), protocol.tube_height_m).empty()) {
-    throw NoReading("the grains sank below the rim of the tube when it was tapped");
+    throw NoMeasurement("the grains sank below the rim of the tube when it was tapped");
   }
   return bulk_below(run.simulation(), protocol.tube_height_m).relative_mass / poured;
 }

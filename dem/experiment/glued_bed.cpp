@@ -9,19 +9,18 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/experiment/placing.h"
-#include "dem/wall/bed_facets.h"
+#include "dem/wall/facets.h"
 
 namespace repose::dem {
 namespace {
 
 constexpr int kGrains = 100;
-constexpr int kMostTries = 20;
+constexpr int kMaxTries = 20;
 constexpr int kSpreadings = 600;
 /// While they are spread the grains are as large as if they hid so much: that leaves no holes.
 constexpr double kSpreadCoverage = .88;
 /// How far glued grains may press into each other, as a fraction of their thickness.
-constexpr double kMostOverlap = .1;
+constexpr double kMaxOverlap = .1;
 /// Places where a hole is looked for, in a grain's thickness.
 constexpr int kPlacesPerGrain = 8;
 
@@ -137,27 +136,27 @@ class Spreading {
 }  // namespace
 
 void find_coverage_error(std::string_view experiment, double coverage, base::Faults& errors) {
-  errors.require(coverage >= kLeastCoverage && coverage <= kMostCoverage,
+  errors.require(coverage >= kMinCoverage && coverage <= kMaxCoverage,
                  {.subject = fmt::format("{}.coverage", experiment),
                   .value = fmt::format("is {:g}", coverage),
                   .rule = fmt::format("{:g} to {:g}: below, the bed has holes that a grain falls "
                                       "into; above, glued grains would lie on each other",
-                                      kLeastCoverage, kMostCoverage),
+                                      kMinCoverage, kMaxCoverage),
                   .fix = "0.75."});
 }
 
 SphereBed glued_bed(const ClumpShape& grain, double coverage, Random& random) {
   const double thickness = width_along(grain, lying_pose(grain), Vector::UnitZ());
-  for (int k = 0; k < kMostTries; ++k) {
+  for (int k = 0; k < kMaxTries; ++k) {
     const Spreading spreading(grain, coverage, random);
-    if (spreading.deepest_m() > kMostOverlap * thickness) continue;
+    if (spreading.deepest_m() > kMaxOverlap * thickness) continue;
     SphereBed bed = spreading.bed();
     if (!has_hole(bed, .5 * thickness)) return bed;
   }
-  throw NoReading(fmt::format(
+  throw NoMeasurement(fmt::format(
       "the board could not be covered in {} tries: with a coverage of {:g} these grains lie on "
       "each other, or leave holes that one of them fits in. Fix: another coverage, such as 0.75.",
-      kMostTries, coverage));
+      kMaxTries, coverage));
 }
 
 std::vector<Wall> grain_covered(const Wall& board, const SphereBed& bed, double height_m) {

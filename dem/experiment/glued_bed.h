@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "base/input_error.h"
-#include "dem/experiment/random.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/wall/wall.h"
 
 namespace repose::dem {
 
 /// Coverage of a board that can be glued without holes, and without grains on each other.
-inline constexpr double kLeastCoverage = .65;
-inline constexpr double kMostCoverage = .85;
+inline constexpr double kMinCoverage = .65;
+inline constexpr double kMaxCoverage = .85;
 
 /// Notes a coverage that is not between them, by the name of the experiment.
 void find_coverage_error(std::string_view experiment, double coverage, base::Faults& errors);
@@ -23,8 +23,8 @@ void find_coverage_error(std::string_view experiment, double coverage, base::Fau
 /// `coverage` is the part of the board that the grains hide, seen from above: each hides an ellipse
 /// as long and as wide as itself. The tile has a hundred grains. They are spread until none
 /// overlaps another by more than a tenth of its thickness, and no grain fits onto the board between
-/// them; their places are drawn anew until that is so. Throws NoReading when twenty beds failed.
-/// Proved by GluedBed.* in tests/dem/glued_bed_test.cpp.
+/// them; their places are drawn anew until that is so. Throws NoMeasurement when twenty beds
+/// failed. Proved by GluedBed.* in tests/dem/glued_bed_test.cpp.
 SphereBed glued_bed(const ClumpShape& grain, double coverage, Random& random);
 
 /// The board and the grains on it, both of the grains' material: what shows of the board between

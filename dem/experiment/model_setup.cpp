@@ -1,16 +1,99 @@
 #include "dem/experiment/model_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "dem/contact/damping_name.h"
-#include "dem/shape/clump/size_classes.h"
+#include "dem/contact/model_names.h"
+#include "dem/shape/clump/clump_shape.h"
 
 namespace repose::dem {
+
+Quaternion Random::orientation() {
+  // In this order: the order of evaluation of arguments is not fixed.
+  const double fraction = uniform();
+  const double first = 2 * std::numbers::pi * uniform();
+  const double second = 2 * std::numbers::pi * uniform();
+  const double a = std::sqrt(1 - fraction);
+  const double b = std::sqrt(fraction);
+  return Quaternion(b * std::cos(second), a * std::sin(first), a * std::cos(first),
+                    b * std::sin(second))
+      .normalized();
+}
+
+double reach_towards(const ClumpShape& shape, const Quaternion& orientation,
+                     const Vector& direction) {
+  const Vector own = orientation.conjugate() * direction;
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const ClumpSphere& sphere : shape.spheres) {
+    reach = std::max(reach, own.dot(sphere.centre) + sphere.radius);
+  }
+  return reach;
+}
+
+double lowest_m(const ClumpShape& shape, const Grain& grain) {
+  return grain.position.z() - reach_towards(shape, grain.orientation, -Vector::UnitZ());
+}
+
+double highest_m(const ClumpShape& shape, const Grain& grain) {
+  return grain.position.z() + reach_towards(shape, grain.orientation, Vector::UnitZ());
+}
+
+const ClumpShape& shape_of(const Simulation& simulation, const Grain& grain) {
+  return simulation.setup().kinds[static_cast<std::size_t>(grain.kind)].shape;
+}
+
+double reach_m(const SimulationSetup& setup) {
+  double reach = 0;
+  for (const GrainKind& kind : setup.kinds) reach = std::max(reach, kind.shape.reach_m());
+  return reach;
+}
+
+void Bulk::add(const Simulation& simulation, int grain) {
+  const ClumpShape& mean = simulation.setup().kinds.front().shape;
+  ++grains;
+  relative_mass += shape_of(simulation, simulation.grain(grain)).volume_m3 / mean.volume_m3;
+}
+
+double highest_m(const Simulation& simulation, int grain) {
+  const Grain now = simulation.grain(grain);
+  return highest_m(shape_of(simulation, now), now);
+}
+
+Quaternion lying_pose(const ClumpShape& shape) {
+  std::array<int, 3> axes = {0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](int a, int b) { return shape.gyration_m2[a] < shape.gyration_m2[b]; });
+  const Vector along_y = Vector::Unit(axes[0]);
+  const Vector along_z = Vector::Unit(axes[2]);
+  Eigen::Matrix3d own_axes;  // rows: what becomes x, y, z
+  own_axes << along_y.cross(along_z).transpose(), along_y.transpose(), along_z.transpose();
+  return Quaternion(own_axes).normalized();
+}
+
+double diameter_m(const ClumpShape& shape) {
+  return std::cbrt(6 / std::numbers::pi * shape.volume_m3);
+}
+
+std::vector<ClumpSphere> placed_spheres(const Simulation& simulation) {
+  std::vector<ClumpSphere> placed;
+  for (int k = 0; k < simulation.grain_count(); ++k) {
+    if (!simulation.is_present(k)) continue;
+    const Grain grain = simulation.grain(k);
+    for (const ClumpSphere& sphere : shape_of(simulation, grain).spheres) {
+      placed.push_back(
+          {.centre = grain.position + grain.orientation * sphere.centre, .radius = sphere.radius});
+    }
+  }
+  return placed;
+}
+
 namespace {
 
 Material softened(Material material, double factor) {
@@ -68,9 +151,9 @@ void find_errors(const Model& model, base::Faults& errors) {
                   .value = "it has no spheres, volume or inertia",
                   .fix = "make it from a scan or from its sizes."});
   errors.require(
-      model.size_sd_fraction >= 0 && model.size_sd_fraction <= kMaxSizeSd,
+      model.size_cv >= 0 && model.size_cv <= kMaxSizeSd,
       {.subject = "size_sd_fraction",
-       .value = fmt::format("is {:g}", model.size_sd_fraction),
+       .value = fmt::format("is {:g}", model.size_cv),
        .rule = fmt::format("0 to {:g}", kMaxSizeSd),
        .fix = "the standard deviation of the sizes by their mean; 0 for grains that are alike."});
   const bool has_stiffness = is_positive(model.stiffness_factor);
@@ -107,7 +190,7 @@ std::string damping_definition(const Model& model) {
     text += fmt::format(
         "; particle_{0}.restitution is that of impacts at {1:g} m/s, at v it is multiplied by "
         "(v / {1:g} m/s)^-restitution_exponent, up to {2:g}",
-        other, pair.restitution_speed_m_s, kMostRestitutionBySpeed);
+        other, pair.restitution_speed_m_s, kMaxRestitutionBySpeed);
   };
   add("wall", model.grain_wall);
   for (const auto& [part, surface] : model.parts) add(name_of(part), surface.with_grain);
@@ -135,13 +218,13 @@ SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::ve
 }
 
 SimulationSetup bulk_setup(const Model& model, std::vector<Wall> walls, double speed_m_s) {
-  return setup_of(model, size_classes(model.grain, model.size_sd_fraction), std::move(walls),
-                  speed_m_s, kBulkFraction);
+  return setup_of(model, size_classes(model.grain, model.size_cv), std::move(walls), speed_m_s,
+                  kBulkFraction);
 }
 
 double largest_reach_m(const Model& model) {
   double reach = 0;
-  for (const ClumpShape& shape : size_classes(model.grain, model.size_sd_fraction)) {
+  for (const ClumpShape& shape : size_classes(model.grain, model.size_cv)) {
     reach = std::max(reach, shape.reach_m());
   }
   return reach;

@@ -31,7 +31,7 @@ struct DropProtocol {
 /// Value: the plate's angle at the onset of sliding, degrees. Slip grows as the cube of the time
 /// since the onset; the line through its cube root is followed back to no slip. Readings:
 /// "half_mm_slip_deg" (the plate's angle once the body has slipped half a millimetre; what others
-/// report) and "begin_deg" (where the turning began). Throws NoReading for a body that tips or
+/// report) and "begin_deg" (where the turning began). Throws NoMeasurement for a body that tips or
 /// rolls, creeps from where the turning began, or holds up to 89 degrees. Restitution does not
 /// matter: plates of more than .5 are taken to have .5, or bodies would rattle. There is no chance
 /// in it: the seed changes nothing. Nor would chance be of use: as long as the body slides, its
@@ -53,8 +53,8 @@ struct TiltProtocol {
 /// that stays on the incline is released again, up to ten times, as at a bench; then it counts as
 /// 0, which is also what the distance of a ball goes to as its rolling friction nears the slope
 /// above which it stays. Readings: "lateral_mm" (aside), "stopped_on_incline" (0 or 1), "releases",
-/// "hop_mm" (how high its lowest point rose above the flat), "time_s". Throws NoReading for a grain
-/// that does not stop.
+/// "hop_mm" (how high its lowest point rose above the flat), "time_s". Throws NoMeasurement for a
+/// grain that does not stop.
 struct RollProtocol {
   double incline_deg = 20;
   double release_m = .15;        ///< from the foot of the incline, along it
@@ -68,7 +68,7 @@ struct RollProtocol {
 /// "grains_on_plate", "grains_off_plate", "height_mm", "no_heap" (1: the grains spread in a layer
 /// too low to be a heap, below 2.5 grain diameters), "at_rest" (0: still creeping 5 s after the
 /// tube was away, as constant torques let heaps do), "time_s" (of lift and settling). Throws
-/// NoReading when the grains stay in the tube or leave the plate.
+/// NoMeasurement when the grains stay in the tube or leave the plate.
 struct HeapProtocol {
   double tube_diameter_m = .1;  ///< inner
   double tube_height_m = .4;
@@ -83,7 +83,7 @@ struct HeapProtocol {
   double camera_height_m = .04;  ///< of its lens, above the plate
   /// How many fit depends on their friction: where `grains` do not, take those that do. Without it
   /// they are refused.
-  bool may_be_fewer = false;
+  bool allow_partial_fill = false;
 };
 
 /// Grains bonded side by side, as in TiltProtocol, on a plate that is covered with glued grains of
@@ -94,7 +94,7 @@ struct HeapProtocol {
 /// diameter, degrees, mean of the places: shifts within a hollow do not count. It has interlocking
 /// in it, and is above the angle of friction. Readings: "first_shift_deg" (the angle at a shift of
 /// a tenth of a diameter, their mean) and "sd_deg" (scatter of the value between places). Throws
-/// NoReading for grains that hold on up to 89 degrees.
+/// NoMeasurement for grains that hold on up to 89 degrees.
 struct GrainTiltProtocol {
   int bonded = 3;
   double rate_deg_s = 5;
@@ -131,7 +131,7 @@ struct GrainDropProtocol {
 /// Engineering 72 (2), 163) has it: it is filled over the collar's rim, dropped `taps` times
 /// by `tap_m` onto a base that does not give (tapping.h), and struck at its own rim. The value is
 /// then the tapped bulk density, and "hausner_ratio" that by the one before the taps (Hausner 1967,
-/// International Journal of Powder Metallurgy 3 (4), 7). Throws NoReading when the grains sink
+/// International Journal of Powder Metallurgy 3 (4), 7). Throws NoMeasurement when the grains sink
 /// below the rim.
 struct FillProtocol {
   double tube_diameter_m = .1;  ///< inner
@@ -141,7 +141,7 @@ struct FillProtocol {
   std::optional<int> taps = {};          ///< none: it is not tapped
   double tap_m = .003;                   ///< the drop of ISO 3953
 };
-inline constexpr int kMostTaps = 10'000;
+inline constexpr int kMaxTaps = 10'000;
 /// Longer pours would be simulated for too long; up to here most has settled.
 inline constexpr double kLongestPour_s = 60;
 
@@ -168,7 +168,7 @@ struct PendulumProtocol {
 /// last grains trickle), "rate_g_s" (mean from 10 to 50 % of it, while the flow is steady),
 /// "grains", "grains_out", "at_rest" (0: still creeping 5 s after the last grain ran out). The
 /// angles of the two slopes that stay and of the heap below are measured in pictures of its state.
-/// Throws NoReading when no grains run out, when so many do that no slope stays (nothing, or a
+/// Throws NoMeasurement when no grains run out, when so many do that no slope stays (nothing, or a
 /// single layer), when they arch over the slot, or when the lower heap reaches it.
 struct DrawDownProtocol {
   double length_m = .5;

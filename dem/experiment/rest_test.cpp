@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "dem/experiment/placing.h"
+#include "dem/experiment/model_setup.h"
 
 namespace repose::dem {
 namespace {
@@ -32,8 +32,9 @@ std::vector<int> contacts_of_each(const Simulation& simulation) {
   const auto count = static_cast<std::size_t>(simulation.grain_count());
   const auto for_each_side = [&all](const auto& visit) {
     for (const ContactState& contact : all) {
-      visit(static_cast<std::size_t>(contact.grain_a), contact.push_n);
-      if (contact.grain_b >= 0) visit(static_cast<std::size_t>(contact.grain_b), contact.push_n);
+      visit(static_cast<std::size_t>(contact.grain_a), contact.normal_force_n);
+      if (contact.grain_b >= 0)
+        visit(static_cast<std::size_t>(contact.grain_b), contact.normal_force_n);
     }
   };
   std::vector<double> hardest(count);

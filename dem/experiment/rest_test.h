@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/engine/simulation.h"
-#include "dem/experiment/heap_progress.h"
+#include "dem/experiment/experiment.h"
 
 namespace repose::dem {
 

@@ -1,5 +1,8 @@
+#include "dem/experiment/roll.h"
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,16 +12,38 @@
 #include "base/input_error.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
-#include "dem/experiment/incline.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
 
 namespace repose::dem {
+
+Incline incline_of(const RollProtocol& protocol) {
+  const double angle = protocol.incline_deg * std::numbers::pi / 180;
+  Incline slope{.orientation = Quaternion(Eigen::AngleAxisd(angle, Vector::UnitY()))};
+  slope.down = slope.orientation * Vector::UnitX();
+  slope.normal = slope.orientation * Vector::UnitZ();
+  return slope;
+}
+
+Grain released(const ClumpShape& shape, const RollProtocol& protocol, Random& random) {
+  const Incline slope = incline_of(protocol);
+  const double turn = protocol.release_turn_deg * std::numbers::pi / 180;
+  const double which_end = random.uniform() < .5 ? 0 : std::numbers::pi;
+  const double about_normal = which_end + random.between(-turn, turn);
+  const double about_long_axis = 2 * std::numbers::pi * random.uniform();
+  Grain grain;
+  grain.orientation =
+      slope.orientation * Quaternion(Eigen::AngleAxisd(about_normal, Vector::UnitZ())) *
+      Quaternion(Eigen::AngleAxisd(about_long_axis, Vector::UnitY())) * lying_pose(shape);
+  grain.position = -protocol.release_m * slope.down +
+                   reach_towards(shape, grain.orientation, -slope.normal) * slope.normal;
+  return grain;
+}
+
 namespace {
 
 constexpr double kLongestRun_s = 60;
-constexpr int kMostReleases = 10;
+constexpr int kMaxReleases = 10;
 
 void check(const Model& model, const RollProtocol& protocol) {
   base::Faults errors;
@@ -93,7 +118,7 @@ double roll_to_rest(ExperimentRun& run, const Model& model) {
       hop_m = std::max(hop_m, lowest_m(model.grain, grain));
     }
     if (run.simulation().time_s() > kLongestRun_s) {
-      throw NoReading(
+      throw NoMeasurement(
           fmt::format("roll: the grain still moves after {:g} s, {:.2f} m from the "
                       "foot: {}.",
                       kLongestRun_s, grain.position.x(), unrest(model, grain)));
@@ -136,7 +161,7 @@ Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t 
                 const ProgressReport& report, const RunRecord& record) {
   check(model, protocol);
   // A ball lies alike however it is put down.
-  const int most_releases = model.grain.spheres.size() == 1 ? 1 : kMostReleases;
+  const int most_releases = model.grain.spheres.size() == 1 ? 1 : kMaxReleases;
   const RunRecord unseen;
   Random random(seed);
   for (int releases = 1;; ++releases) {

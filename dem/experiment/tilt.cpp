@@ -1,3 +1,5 @@
+#include "dem/experiment/tilt.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -6,21 +8,68 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "dem/experiment/bonded.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
-#include "dem/experiment/tilting_plate.h"
 
 namespace repose::dem {
+
+Quaternion slope(double angle_deg) {
+  return Quaternion(Eigen::AngleAxisd(angle_deg * kDegree, Vector::UnitY()));
+}
+
+Vector on_plate(const Simulation& simulation, int wall, int grain) {
+  return simulation.wall(wall).pose.orientation.conjugate() * simulation.grain(grain).position;
+}
+
+Quaternion turn_on_plate(const Simulation& simulation, int wall, int grain) {
+  return simulation.wall(wall).pose.orientation.conjugate() * simulation.grain(grain).orientation;
+}
+
+namespace {
+
+/// How far apart along `direction` (unit) two equal grains are that just touch.
+double touching_distance_m(const ClumpShape& grain, const Vector& direction) {
+  double distance = 0;
+  for (const ClumpSphere& a : grain.spheres) {
+    for (const ClumpSphere& b : grain.spheres) {
+      const Vector apart = a.centre - b.centre;
+      const double along = direction.dot(apart);
+      const double aside2 = apart.squaredNorm() - along * along;
+      const double reach = a.radius + b.radius;
+      const double chord2 = reach * reach - aside2;
+      if (chord2 > 0) distance = std::max(distance, along + std::sqrt(chord2));
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
+ClumpShape bonded_shape(const ClumpShape& grain, int count) {
+  const Vector row = lying_pose(grain).conjugate() * Vector::UnitX();
+  const double distance = touching_distance_m(grain, row);
+  ClumpShape body;
+  body.volume_m3 = count * grain.volume_m3;
+  double mean_square = 0;
+  for (int k = 0; k < count; ++k) {
+    const double place = (k - .5 * (count - 1)) * distance;
+    mean_square += place * place / count;
+    for (const ClumpSphere& sphere : grain.spheres) {
+      body.spheres.push_back({.centre = sphere.centre + place * row, .radius = sphere.radius});
+    }
+  }
+  body.gyration_m2 = grain.gyration_m2 + mean_square * (Vector::Ones() - row.cwiseAbs2());
+  return body;
+}
+
 namespace {
 
 constexpr int kPlate = 0;
 /// How long before it slides or tips the plate begins to turn, and how far short of that at least.
 constexpr double kLead_s = .375;
-constexpr double kLeastLead_deg = .5;
+constexpr double kMinLead_deg = .5;
 /// Slip that the onset is read from, as fractions of the grain's reach: from well above the
 /// springs' stretch to where the plate has turned by less than a degree or so.
 constexpr double kMinSlip = .002;
@@ -34,10 +83,10 @@ constexpr double kLongestGrainSettling_s = 2;
 /// little even where it is put down on a slope, until its weight has come on, and would rattle on
 /// from there. What is read, the angle at which it sets off from rest, has no restitution in it
 /// (Tilt.RestitutionDoesNotMatter).
-constexpr double kMostRestitution = .5;
+constexpr double kMaxRestitution = .5;
 /// How far the cube root of the slip may rise from how it rises from rest, as a fraction of that.
 /// Bodies that slide from rest keep within a hundredth.
-constexpr double kMostCreep = .2;
+constexpr double kMaxCreep = .2;
 
 void check(const Model& model, const TiltProtocol& protocol) {
   base::Faults errors;
@@ -75,7 +124,7 @@ double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
 
 /// The same bench with contacts that do not rattle.
 Model quiet(Model model) {
-  model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMostRestitution);
+  model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMaxRestitution);
   model.grain_wall.restitution_exponent = 0;  // slow contacts would restore more than that
   return model;
 }
@@ -114,8 +163,8 @@ double onset_deg(const Slide& slide, double begin_deg, double rate_deg_s) {
   const double rate = rate_deg_s * kDegree;
   const double from_rest =
       kDegree * std::cbrt(kStandardGravity_m_s2 / (6 * rate * rate * std::cos(onset * kDegree)));
-  if (onset >= begin_deg && std::abs(product / square / from_rest - 1) < kMostCreep) return onset;
-  throw NoReading(
+  if (onset >= begin_deg && std::abs(product / square / from_rest - 1) < kMaxCreep) return onset;
+  throw NoMeasurement(
       fmt::format("tilt: the body does not set off from rest: it creeps from {:.2f} degrees on, "
                   "where the plate begins to turn. Fix: start_deg = 0, and a lower rate_deg_s.",
                   begin_deg));
@@ -127,7 +176,7 @@ void settle_grain(ExperimentRun& run, double begin_deg) {
   const std::int64_t steps = run.steps_of(rest.interval_s());
   while (!rest.is_at_rest(run.simulation())) {
     if (run.simulation().time_s() > kLongestGrainSettling_s) {
-      throw NoReading(fmt::format(
+      throw NoMeasurement(fmt::format(
           "tilt: the body still moves on the plate at {:.2f} degrees, where that begins to turn, "
           "after {:g} s: it rolls, or that is too near to where it slides. Fix: start_deg = 0, and "
           "bond 2 grains or more.",
@@ -166,13 +215,13 @@ Slide slide_off(ExperimentRun& run, const ClumpShape& grain, double begin_deg, d
     }
     if (slip > kReportedSlip_m && !slide.reported_deg) slide.reported_deg = angle;
     if (turn_on_plate(simulation, kPlate, 0).angularDistance(lay) > kTipped_deg * kDegree) {
-      throw NoReading(
+      throw NoMeasurement(
           fmt::format("tilt: the body tipped or rolled at {:.2f} degrees instead of "
                       "sliding. Fix: bond more grains, or lower the sliding friction.",
                       angle));
     }
     if (angle > kSteepest_deg) {
-      throw NoReading(
+      throw NoMeasurement(
           fmt::format("tilt: the body did not slide up to {:g} degrees", kSteepest_deg));
     }
     run.report_progress(angle / kSteepest_deg);
@@ -220,10 +269,10 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
   const Quaternion lying = lying_pose(model.grain);
   const double hold_deg =
       std::min(std::atan(model.grain_wall.sliding_friction) / kDegree, tipping_deg(body, lying));
-  const double lead_deg = std::max(kLeastLead_deg, kLead_s * protocol.rate_deg_s);
+  const double lead_deg = std::max(kMinLead_deg, kLead_s * protocol.rate_deg_s);
   const double begin_deg = std::max(protocol.start_deg, hold_deg - lead_deg);
   if (protocol.start_deg > 0 && protocol.start_deg >= hold_deg) {
-    throw NoReading(fmt::format(
+    throw NoMeasurement(fmt::format(
         "tilt: the plate begins to turn at start_deg = {:g}, where the body slides or tips at "
         "once: it holds up to {:.2f} degrees. Fix: start_deg = 0.",
         protocol.start_deg, hold_deg));

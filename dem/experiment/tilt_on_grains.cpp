@@ -7,23 +7,19 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "dem/experiment/bonded.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/glued_bed.h"
-#include "dem/experiment/grain_limit.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/experiment/placing.h"
 #include "dem/experiment/rest_test.h"
-#include "dem/experiment/spacing.h"
-#include "dem/experiment/tilting_plate.h"
+#include "dem/experiment/tilt.h"
 
 namespace repose::dem {
 namespace {
 
 constexpr int kBoard = 0;
 constexpr int kBed = 1;
-constexpr int kMostBonded = 10;
+constexpr int kMaxBonded = 10;
 constexpr double kLongestBedSettling_s = 5;
 /// Shifts down the slope, in diameters of a grain: a body moves, and has set off for good.
 constexpr double kShift = .1;
@@ -44,10 +40,10 @@ void check(const Model& model, const Tilting& tilting) {
   base::Faults errors;
   find_errors(model, errors);
   find_coverage_error(tilting.name, tilting.coverage, errors);
-  errors.require(tilting.bonded >= 1 && tilting.bonded <= kMostBonded,
+  errors.require(tilting.bonded >= 1 && tilting.bonded <= kMaxBonded,
                  {.subject = fmt::format("{}.bonded", tilting.name),
                   .value = fmt::format("is {}", tilting.bonded),
-                  .rule = fmt::format("1 to {}", kMostBonded),
+                  .rule = fmt::format("1 to {}", kMaxBonded),
                   .fix = "3."});
   errors.require(tilting.places >= 1 && tilting.places <= kMaxGrains,
                  {.subject = fmt::format("{}.places", tilting.name),
@@ -125,7 +121,7 @@ class TiltRun {
     const std::int64_t steps = run_.steps_of(rest.interval_s());
     while (!rest.is_at_rest(run_.simulation())) {
       if (run_.simulation().time_s() > kLongestBedSettling_s) {
-        throw NoReading(fmt::format(
+        throw NoMeasurement(fmt::format(
             "{}: the grains do not come to rest on the level plate in {:g} s. Fix: more rolling "
             "friction between particles, which is {:g}, or less restitution, which is {:g}.",
             tilting_.name, kLongestBedSettling_s, between_.rolling_friction, between_.restitution));
@@ -151,7 +147,7 @@ class TiltRun {
       are_over = true;
       for (int k = 0; k < tilting_.places; ++k) are_over = look_at(k, angle, steps) && are_over;
       if (angle > kSteepest_deg && !are_over) {
-        throw NoReading(
+        throw NoMeasurement(
             fmt::format("{}: grains hold on up to {:g} degrees. Fix: fewer bonded "
                         "grains, or less friction.",
                         tilting_.name, kSteepest_deg));

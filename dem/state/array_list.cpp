@@ -53,12 +53,12 @@ template class ArrayStream<double>;
 template class ArrayStream<std::int64_t>;
 
 Vector take_vector(NumberStream& numbers) {
-  constexpr double kMost = 1e12;  // in any SI unit; sums and squares of these are still numbers
+  constexpr double kMax = 1e12;  // in any SI unit; sums and squares of these are still numbers
   const double x = numbers.take();
   const double y = numbers.take();
   const Vector vector(x, y, numbers.take());
-  if (!(vector.cwiseAbs().maxCoeff() <= kMost)) {
-    refuse_array(numbers.name(), fmt::format("holds a number beyond {:g}", kMost));
+  if (!(vector.cwiseAbs().maxCoeff() <= kMax)) {
+    refuse_array(numbers.name(), fmt::format("holds a number beyond {:g}", kMax));
   }
   return vector;
 }

@@ -97,7 +97,7 @@ void add_contacts(ArrayWriter& arrays, const std::vector<ContactState>& contacts
     values.push_back(contact.contact_radius_m);
     append(values, contact.tangential_n);
     append(values, contact.rolling_n_m);
-    pushes.push_back(contact.push_n);
+    pushes.push_back(contact.normal_force_n);
   }
   arrays.integers("contact_grain_sphere", 4, std::move(parts));
   arrays.numbers("contact_radius_tangential_rolling", kContactNumbers, std::move(values));
@@ -126,7 +126,7 @@ int take_partner(IntegerStream& integers, std::size_t grains, std::size_t walls)
 
 /// States of before version 3 hold none, and are not gone on from.
 void take_pushes(NumberStream pushes, std::vector<ContactState>& contacts) {
-  for (ContactState& contact : contacts) contact.push_n = pushes.take();
+  for (ContactState& contact : contacts) contact.normal_force_n = pushes.take();
   check_end(pushes.is_at_end(), pushes.name());
 }
 

@@ -4,6 +4,7 @@
 #include "dem/state/array_list.h"
 
 /// A simulation's setup as named arrays, and back.
+
 namespace repose::dem {
 
 void add_setup(ArrayWriter& arrays, const SimulationSetup& setup);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,38 @@
 #include "base/toml_nesting.h"
 
 namespace repose::dem {
+
+std::string Place::text() const {
+  return setting == 0 ? fmt::format("{}:{}:{}", file, line, column)
+                      : fmt::format("{}:{}:{}", base::field(file), setting, column);
+}
+
+void StudyErrors::add(const Place& place, const std::string& what, const std::string& rule,
+                      const std::string& fix) {
+  errors_.push_back(
+      {place, {.where = place.text(), .value = what, .rule = rule, .fix = fix + '.'}});
+}
+
+void StudyErrors::throw_if_any() const {
+  std::vector<Error> sorted = errors_;
+  const auto order = [](const Error& error) {
+    return std::tuple(error.place.setting, error.place.line, error.place.column);
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const Error& a, const Error& b) { return order(a) < order(b); });
+  constexpr std::size_t kMax = 100;  // errors that are listed
+  std::vector<base::Fault> faults;
+  for (const Error& error : sorted) {
+    if (faults.size() < kMax) faults.push_back(error.fault);
+  }
+  if (sorted.size() > kMax) {
+    faults.push_back(
+        {.value = fmt::format("and {} more, which are not listed", sorted.size() - kMax),
+         .fix = "correct these first."});
+  }
+  if (!faults.empty()) throw base::InputError(std::move(faults));
+}
+
 namespace {
 
 using Kind = ConfigValue::Kind;
@@ -59,8 +92,8 @@ class SourceText {
  private:
   /// Enough to know it again.
   static std::string cut(std::string_view shown) {
-    constexpr std::size_t kMostLetters = 120;
-    const std::size_t end = byte_of(shown, kMostLetters + 1);
+    constexpr std::size_t kMaxLetters = 120;
+    const std::size_t end = byte_of(shown, kMaxLetters + 1);
     return std::string(shown.substr(0, end)) + (end < shown.size() ? "..." : "");
   }
 
@@ -156,7 +189,7 @@ ConfigValue parsed(const SourceText& source, const std::string& fix, StudyErrors
     place.line = *line;
     place.column = 1;
     errors.add(place, "a key has too many parts",
-               fmt::format("at most {} points in a key", base::kMostPointsInAKey), fix);
+               fmt::format("at most {} points in a key", base::kMaxPointsInAKey), fix);
     return {};
   }
   try {

@@ -45,7 +45,7 @@ ExperimentEntry draw_down_entry() {
           .parts = {WallPart::pane},
           .sheet = {.test = "draw_down", .value = "discharged_percent", .protocol = {}},
           .is_bulk = true,
-          .is_usual = false,
+          .is_default = false,
           .usual_model_error = .03,
           .usual = DrawDownProtocol{},
           .keys = keys_of_draw_down,

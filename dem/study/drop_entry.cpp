@@ -1,4 +1,4 @@
-#include "dem/experiment/grain_limit.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/study/entries.h"
 
 namespace repose::dem {

@@ -40,7 +40,7 @@ double step_on_grains_s(const Model& model, int bonded);
 
 /// Time steps of the model's grains that meet each other or a plane this fast, s (time_step.h): of
 /// grains that roll or slide, and of bulks.
-double course_timestep_s(const Model& model, double speed_m_s);
+double rolling_timestep_s(const Model& model, double speed_m_s);
 double bulk_timestep_s(const Model& model, double speed_m_s);
 
 }  // namespace repose::dem

@@ -112,7 +112,7 @@ double step_on_grains_s(const Model& model, int bonded) {
   return 4.5e-7 + 8e-8 * spheres_of(model) * bonded;
 }
 
-double course_timestep_s(const Model& model, double speed_m_s) {
+double rolling_timestep_s(const Model& model, double speed_m_s) {
   return model_setup(model, model.grain, {study_wall(Plane{})}, speed_m_s, kCourseFraction)
       .timestep_s;
 }

@@ -69,7 +69,7 @@ struct ExperimentEntry {
   BenchSheet sheet;
   bool is_stochastic = true;  ///< false: the seed changes nothing
   bool is_bulk = false;       ///< many loose grains, of all the sizes that they have
-  bool is_usual = true;       ///< part of a new study that names no experiments
+  bool is_default = true;     ///< part of a new study that names no experiments
   bool is_pictured = false;   ///< its value is measured in pictures, on the bench and simulated
   bool is_in_air = false;     ///< the drag of the air lowers its readings, and is not simulated
   bool is_filmed = false;     ///< a film of it on the bench gives a row of its sheet, or a picture

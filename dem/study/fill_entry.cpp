@@ -19,7 +19,7 @@ std::vector<ProtocolKey> keys_of_fill(Protocol& protocol) {
            .unit = 1e-3,
            .value = &fill.pour_kg_s,
            .absence = "as fast as grains fall"},
-          count_key("taps", "50", kMostTaps, fill.taps, "none"),
+          count_key("taps", "50", kMaxTaps, fill.taps, "none"),
           tap};
 }
 
@@ -69,7 +69,7 @@ ExperimentEntry fill_entry() {
           .parts = {WallPart::tube},
           .sheet = {.test = "fill", .value = "bulk_density_kg_m3", .protocol = {}},
           .is_bulk = true,
-          .is_usual = false,
+          .is_default = false,
           .systematic = systematic_of_fill,
           .usual_scatter = .02,
           .usual_model_error = .02,

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "dem/shape/clump/size_classes.h"
+#include "dem/shape/clump/clump_shape.h"
 
 namespace repose::dem {
 namespace {

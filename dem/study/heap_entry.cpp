@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "dem/experiment/grain_limit.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/study/entries.h"
 
 namespace repose::dem {

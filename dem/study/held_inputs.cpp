@@ -10,7 +10,7 @@
 
 #include "base/input_error.h"
 #include "base/units.h"
-#include "dem/shape/clump/size_classes.h"
+#include "dem/shape/clump/clump_shape.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/read_particle.h"
 
@@ -55,10 +55,9 @@ Numbers numbers_of_particle(Study& study) {
     numbers.keys.push_back(number_key("tip", "0.1", from_to(0, 1), sizes.tip_fraction));
   }
   Model& model = study.model;
-  if (model.size_sd_fraction > 0) {
-    constexpr double kMost = kMaxSizeSd / kPerPercent;
-    numbers.keys.push_back(
-        percent_key("size_sd_percent", "0.5", above(0, kMost), model.size_sd_fraction));
+  if (model.size_cv > 0) {
+    constexpr double kMax = kMaxSizeSd / kPerPercent;
+    numbers.keys.push_back(percent_key("size_sd_percent", "0.5", above(0, kMax), model.size_cv));
   }
   numbers.keys.push_back(number_key("density_kg_m3", "20", kPossibleDensity_kg_m3,
                                     model.grain_material.density_kg_m3));
@@ -172,7 +171,7 @@ void read_numbers(Section section, const Numbers& numbers, Study& study) {
         section.number(key.name, {.from = 0}, fmt::format("{} = {}", key.name, key.example));
     if (sd) take(section, *stated, numbers.section + '.' + key.name, key, *sd, study);
   }
-  section.refuse_others();
+  section.reject_unknown_keys();
 }
 
 /// Of a key by its name: "lift_speed_mm_s" is in mm/s.
@@ -229,8 +228,8 @@ void read_uncertainty(Section uncertainty, Study& study) {
     }
   }
   read_numbers(wall, *std::ranges::find(all, "wall", &Numbers::section), study);
-  experiments.refuse_others();
-  uncertainty.refuse_others();
+  experiments.reject_unknown_keys();
+  uncertainty.reject_unknown_keys();
 }
 
 std::vector<HeldInput> held_inputs(const Study& study) {

@@ -1,5 +1,5 @@
 #include "dem/experiment/glued_bed.h"
-#include "dem/experiment/grain_limit.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/study/entries.h"
 
 /// Plates that are covered with glued grains: nothing but grains touch.
@@ -7,7 +7,7 @@ namespace repose::dem {
 namespace {
 
 ProtocolKey coverage_key(double& coverage) {
-  return number_key("coverage", "0.75", from_to(kLeastCoverage, kMostCoverage), coverage);
+  return number_key("coverage", "0.75", from_to(kMinCoverage, kMaxCoverage), coverage);
 }
 
 std::vector<ProtocolKey> drop_keys(Protocol& protocol) {
@@ -51,7 +51,7 @@ double drop_cost_s(const Model& model, const Protocol& protocol) {
 double tilt_cost_s(const Model& model, double rate_deg_s, int bonded, int places) {
   constexpr double kSpeed_m_s = .3, kSettling_s = 1, kLeaves_deg = 45;
   return step_on_grains_s(model, bonded) * places * (kSettling_s + kLeaves_deg / rate_deg_s) /
-         course_timestep_s(model, kSpeed_m_s);
+         rolling_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ ExperimentEntry drop_on_grains_entry() {
           .sheet = {.test = "drop_on_grains",
                     .value = "rebound_mm",
                     .protocol = {{"drop_mm", "height_mm"}}},
-          .is_usual = false,
+          .is_default = false,
           .is_in_air = true,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainDropProtocol>(protocol).grains; },
@@ -107,7 +107,7 @@ ExperimentEntry tilt_on_grains_entry() {
           .coefficients = {kGrainSliding, kGrainRolling},
           .tells = kGrainSliding,
           .sheet = {.test = "tilt_on_grains", .value = "angle_deg"},
-          .is_usual = false,
+          .is_default = false,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainTiltProtocol>(protocol).places; },
           .usual_scatter = .2,
@@ -142,7 +142,7 @@ ExperimentEntry roll_on_grains_entry() {
           .coefficients = {kGrainSliding, kGrainRolling},
           .tells = kGrainRolling,
           .sheet = {.test = "roll_on_grains", .value = "angle_deg"},
-          .is_usual = false,
+          .is_default = false,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<GrainRollProtocol>(protocol).places; },
           .usual_scatter = .25,

@@ -1,4 +1,4 @@
-#include "dem/experiment/grain_limit.h"
+#include "dem/experiment/model_setup.h"
 #include "dem/study/entries.h"
 
 namespace repose::dem {
@@ -31,7 +31,7 @@ ExperimentEntry pendulum_entry() {
           .sheet = {.test = "pendulum",
                     .value = "swing_deg",
                     .protocol = {{"release_deg", "release_deg"}}},
-          .is_usual = false,
+          .is_default = false,
           .readings_per_run =
               [](const Protocol& protocol) { return std::get<PendulumProtocol>(protocol).pairs; },
           .softening_effect = "swings less far than one with the real stiffness",

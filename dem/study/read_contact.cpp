@@ -7,23 +7,22 @@
 
 #include <fmt/format.h>
 
-#include "dem/contact/damping_name.h"
-#include "dem/contact/rolling_name.h"
+#include "dem/contact/model_names.h"
 
 namespace repose::dem {
 namespace {
 
 // What ContactTable accepts.
-constexpr Range kRestitution = from_to(kLeastRestitution, 1);
-constexpr Range kRestitutionBySpeed = from_to(kLeastRestitution, kMostRestitutionBySpeed);
-constexpr Range kExponent = from_to(0, kMostRestitutionExponent);
+constexpr Range kRestitution = from_to(kMinRestitution, 1);
+constexpr Range kRestitutionBySpeed = from_to(kMinRestitution, kMaxRestitutionBySpeed);
+constexpr Range kExponent = from_to(0, kMaxRestitutionExponent);
 constexpr Range kFriction = from_to(0, 100);
 
 /// What is known beforehand: { min = 0.1, max = 0.6, mean = 0.3, sd = 0.05 }.
 void read_known(Section& bounds, Coefficient& coefficient) {
-  constexpr double kMost = 100;
-  coefficient.known_mean = bounds.number("mean", from_to(0, kMost), "mean = 0.3");
-  coefficient.known_sd = bounds.number("sd", above(0, kMost), "sd = 0.05");
+  constexpr double kMax = 100;
+  coefficient.known_mean = bounds.number("mean", from_to(0, kMax), "mean = 0.3");
+  coefficient.known_sd = bounds.number("sd", above(0, kMax), "sd = 0.05");
   if (bounds.has("mean") != bounds.has("sd")) {
     bounds.errors().add(bounds.place(),
                         fmt::format("{} has {}", bounds.path(),
@@ -59,10 +58,10 @@ void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
   }
   read_known(bounds, coefficient);
   read_origin(bounds, coefficient);
-  constexpr double kMostWidth = 100;
+  constexpr double kMaxWidth = 100;
   coefficient.useful_half_width =
-      bounds.number("useful_half_width", above(0, kMostWidth), "useful_half_width = 0.05");
-  bounds.refuse_others();
+      bounds.number("useful_half_width", above(0, kMaxWidth), "useful_half_width = 0.05");
+  bounds.reject_unknown_keys();
   if (!min || !max) return;
   coefficient.min = *min;
   coefficient.max = *max;
@@ -142,7 +141,7 @@ CoefficientSet read_pair(Section& contact, const std::string& key) {
       .sliding_friction = read_coefficient(pair, "sliding_friction", kFriction, "0.4"),
       .rolling_friction = read_coefficient(pair, "rolling_friction", kFriction, "0.04")};
   read_speed(pair, set);
-  pair.refuse_others();
+  pair.reject_unknown_keys();
   return set;
 }
 
@@ -207,7 +206,7 @@ void read_contact(Section contact, Study& study) {
   study.model.grain_wall = values_of(study.particle_wall);
   study.model.grain_grain = values_of(study.particle_particle);
   for (const auto& [part, part_name] : kWallParts) read_part(contact, part, study);
-  contact.refuse_others();
+  contact.reject_unknown_keys();
 }
 
 }  // namespace repose::dem

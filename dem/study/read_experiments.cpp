@@ -12,8 +12,8 @@
 #include <fmt/ranges.h>
 
 #include "base/angle_definition.h"
-#include "base/closest_word.h"
-#include "base/file_pattern.h"
+#include "base/file_set.h"
+#include "base/text.h"
 #include "dem/study/experiment_table.h"
 
 namespace repose::dem {
@@ -82,7 +82,7 @@ void read_pictures_of_heap(const Section& measured, const ConfigValue& item,
     result.pictures.push_back(std::move(path));
     result.picture_heaps.push_back(heap.value_or(""));
   }
-  group.refuse_others();
+  group.reject_unknown_keys();
 }
 
 /// pictures = ["photos"], of a heap each, or groups of several of one heap, or both.
@@ -170,7 +170,7 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
                      "take this line out");
     }
   }
-  measured.refuse_others();
+  measured.reject_unknown_keys();
   return result;
 }
 
@@ -203,10 +203,10 @@ void read_also(Section& experiment, const ExperimentEntry& entry, Measured& meas
     if (const auto n = reading.integer("n", 1, 1'000'000, "n = 10")) {
       read.count = static_cast<int>(*n);
     }
-    reading.refuse_others();
+    reading.reject_unknown_keys();
     measured.also.push_back(std::move(read));
   }
-  also.refuse_others();
+  also.reject_unknown_keys();
 }
 
 /// Reads what the section says over the value that the protocol has.
@@ -266,7 +266,7 @@ void read_experiment(Section section, const ExperimentEntry& entry, const NamedF
   const auto model_error =
       section.number("model_error_percent", from_to(0, kPercent), "model_error_percent = 3");
   if (model_error) described.model_error = *model_error / kPercent;
-  section.refuse_others();
+  section.reject_unknown_keys();
   study.experiments.emplace(entry.experiment, std::move(described));
 }
 
@@ -276,7 +276,7 @@ void read_experiments(Section experiments, const NamedFiles& files, Study& study
   for (const ExperimentEntry& entry : all_experiments()) {
     read_experiment(experiments.section(std::string(entry.name)), entry, files, study);
   }
-  experiments.refuse_others();
+  experiments.reject_unknown_keys();
 }
 
 }  // namespace repose::dem

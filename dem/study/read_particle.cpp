@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
-#include "dem/shape/clump/size_classes.h"
+#include "dem/shape/clump/clump_shape.h"
 
 namespace repose::dem {
 namespace {
@@ -142,7 +142,7 @@ void read_sizes(Section& particle, GrainSource& grain) {
                               .tip_fraction = tip.value_or(0)};
 }
 
-double size_sd_fraction(Section& particle) {
+double size_cv(Section& particle) {
   constexpr double kPercent = 100;
   return particle
              .number("size_sd_percent", from_to(0, kPercent * kMaxSizeSd), "size_sd_percent = 4.3")
@@ -221,13 +221,13 @@ void read_particle(Section particle, const NamedFiles& files, Study& study) {
     study.grain.clump = file_named(particle, *particle.value("clump"), *clump, files);
   }
   check_one_shape(particle);
-  study.model.size_sd_fraction = size_sd_fraction(particle);
+  study.model.size_cv = size_cv(particle);
   read_filling(particle, study.grain);
   read_colour(particle, study);
   read_material(particle, "particle", study.model.grain_material);
   study.model.grain_material.density_kg_m3 =
       particle.needed_number("density_kg_m3", kDensity.possible, "density_kg_m3 = 851");
-  particle.refuse_others();
+  particle.reject_unknown_keys();
 }
 
 void read_wall(Section wall, Study& study) {
@@ -237,9 +237,9 @@ void read_wall(Section wall, Study& study) {
     Section own = wall.section(key);
     if (!wall.has(key)) continue;
     read_wall_material(own, key, study.model.parts[part].material);
-    own.refuse_others();
+    own.reject_unknown_keys();
   }
-  wall.refuse_others();
+  wall.reject_unknown_keys();
 }
 
 }  // namespace repose::dem

@@ -11,7 +11,7 @@ std::vector<ProtocolKey> keys_of_roll(Protocol& protocol) {
           number_key("release_turn_deg", "10", {.from = 0, .to = 90}, roll.release_turn_deg)};
 }
 
-/// Nothing limits how far it may roll but the fit, see kMostReading.
+/// Nothing limits how far it may roll but the fit, see kMaxReading.
 Range possible_roll(const Model& /*model*/, const Protocol& /*protocol*/) { return {.from = 0}; }
 
 double cost_of_roll_s(const Model& model, const Protocol& /*protocol*/) {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/closest_word.h"
+#include "base/text.h"
 
 namespace repose::dem {
 namespace {
@@ -175,7 +175,7 @@ std::optional<std::vector<std::string>> Section::texts(const std::string& key,
   return result;
 }
 
-void Section::refuse_others() const {
+void Section::reject_unknown_keys() const {
   if (table_ == nullptr) return;
   for (const ConfigValue& item : table_->items) {
     if (std::find(known_.begin(), known_.end(), item.name) != known_.end()) continue;

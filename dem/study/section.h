@@ -7,7 +7,6 @@
 
 #include "dem/study/config.h"
 #include "dem/study/range.h"
-#include "dem/study/study_errors.h"
 
 namespace repose::dem {
 
@@ -47,7 +46,7 @@ class Section {
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   /// To be called when all keys have been asked for: the others are errors.
-  void refuse_others() const;
+  void reject_unknown_keys() const;
 
  private:
   bool is_number(const ConfigValue& value, const Range& range, const std::string& example) const;

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "base/closest_word.h"
+#include "base/atomic_file.h"
 #include "base/fingerprint.h"
-#include "base/whole_file.h"
+#include "base/text.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/held_inputs.h"
 #include "dem/study/read_contact.h"
@@ -101,14 +101,14 @@ void read_simulation(Section simulation, Study& study) {
     study.threads = static_cast<int>(*threads);
     study.model.threads = *study.threads;
   }
-  simulation.refuse_others();
+  simulation.reject_unknown_keys();
 }
 
 void read_sections(const ConfigValue& config, Section root, const NamedFiles& files, Study& study) {
   Section about = root.section("study");
   read_heading(about, study.heading);
   read_assumed(about, config, study.assumed);
-  about.refuse_others();
+  about.reject_unknown_keys();
   read_particle(needed_section(root, "particle", "a study has a particle",
                                "[particle] with size_mm = [22.5, 18.2, 17.5] (or scan, or clump), "
                                "density_kg_m3, young_modulus_pa and poisson_ratio"),
@@ -126,7 +126,7 @@ void read_sections(const ConfigValue& config, Section root, const NamedFiles& fi
   read_experiments(experiments, files, study);
   read_simulation(root.section("simulation"), study);
   read_uncertainty(root.section("uncertainty"), study);
-  root.refuse_others();
+  root.reject_unknown_keys();
 }
 
 Study read_text(const fs::path& file, const std::string& text,
@@ -220,7 +220,7 @@ Model model_for(const Study& study, Experiment experiment) {
     model.stiffness_factor = described->second.stiffness_factor;
   }
   const ExperimentEntry& entry = entry_of(experiment);
-  if (!entry.is_bulk) model.size_sd_fraction = 0;
+  if (!entry.is_bulk) model.size_cv = 0;
   std::erase_if(model.parts, [&entry](const auto& one) {
     return std::ranges::find(entry.parts, one.first) == entry.parts.end();
   });

@@ -30,7 +30,7 @@ struct Coefficient {
   /// The bounds are what is known, or no more than convenient to search; none: not said.
   std::optional<bool> are_bounds_known = {};
 
-  bool is_sought() const { return max > min; }
+  bool is_free() const { return max > min; }
 };
 
 struct CoefficientSet {

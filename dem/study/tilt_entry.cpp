@@ -1,4 +1,4 @@
-#include "dem/experiment/tilting_plate.h"
+#include "dem/experiment/tilt.h"
 #include "dem/study/entries.h"
 
 namespace repose::dem {
@@ -15,7 +15,7 @@ std::vector<ProtocolKey> keys_of_tilt(Protocol& protocol) {
 double cost_of_tilt_s(const Model& model, const Protocol& protocol) {
   constexpr double kSpeed_m_s = 1, kRun_s = .7;
   const int bonded = std::get<TiltProtocol>(protocol).bonded;
-  return step_on_wall_s(model, bonded) * kRun_s / course_timestep_s(model, kSpeed_m_s);
+  return step_on_wall_s(model, bonded) * kRun_s / rolling_timestep_s(model, kSpeed_m_s);
 }
 
 }  // namespace

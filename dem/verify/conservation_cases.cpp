@@ -1,15 +1,19 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "dem/verify/cases.h"
+#include "dem/contact/model_names.h"
+#include "dem/contact/restitution.h"
 #include "dem/verify/scene.h"
 
 namespace repose::dem {
+
 namespace {
 
 const Material kSteel{
@@ -167,6 +171,187 @@ std::vector<VerifyCase> conservation_cases() {
           {.name = "momentum of colliding clumps",
            .source = "Newton's third law",
            .run = momentum_of_many_clumps}};
+}
+
+namespace {
+
+/// Of equal balls, as far from each other as in a large tile.
+Wall bed_of(const std::vector<Vector>& centres) {
+  SphereBed bed{.spheres = {}, .tile = 100 * kBallRadius_m};
+  for (const Vector& centre : centres) {
+    bed.spheres.push_back({.centre = centre, .radius = kBallRadius_m});
+  }
+  Wall wall;
+  wall.shape = bed;
+  wall.material = 1;
+  return wall;
+}
+
+/// A ball strikes a fixed one like it head-on: Hertz's impact with half the radius and all of the
+/// ball's mass.
+void ball_on_fixed_ball(Trial& trial) {
+  constexpr double kSpeed = .1;
+  for (const double restitution : {1.0, .5}) {
+    SimulationSetup setup = ball_scene({.restitution = restitution, .sliding_friction = .3});
+    setup.walls = {bed_of({Vector::Zero()})};
+    const double mass = setup.contacts.material(0).density_kg_m3 * setup.kinds[0].shape.volume_m3;
+    const double young = setup.contacts.law(0, 1).reduced_young_pa;
+    Simulation simulation = trial.simulate(setup, kSpeed);
+    simulation.add({.position = {0, 0, 2.0001 * kBallRadius_m}, .velocity = {0, 0, -kSpeed}});
+    const Collision collision = collide(simulation, Vector::UnitZ(), kBallRadius_m);
+    trial.expect(fmt::format("restitution, {:.1f} put in", restitution), restitution,
+                 collision.after.velocity.z() / kSpeed, .005);
+    if (restitution < 1) continue;
+    const double radius = kBallRadius_m / 2;
+    const double deepest =
+        std::pow(15 * mass * kSpeed * kSpeed / (16 * young * std::sqrt(radius)), .4);
+    const double duration =
+        2.868266 * std::pow(mass * mass / (radius * young * young * kSpeed), .2);
+    trial.expect("deepest overlap, um", 1e6 * deepest, 1e6 * collision.deepest_m,
+                 .005 * 1e6 * deepest);
+    trial.expect("duration, us", 1e6 * duration, 1e6 * collision.duration_s, .01 * 1e6 * duration);
+  }
+}
+
+/// A rough ball in the hollow of three balls that touch leaves it between two of them once its
+/// weight points over the line of their centres: tan(tilt) = (d / 2 sqrt 3) / (d sqrt(2 / 3)), so
+/// that sin(tilt) = 1 / 3, whatever the friction.
+void ball_leaves_its_hollow(Trial& trial) {
+  constexpr double kRate = 2 * kDegree;  // per second
+  constexpr double kStart = 18 * kDegree;
+  constexpr double kSettled_s = .3;
+  const double across = 2 * kBallRadius_m;
+  const double front = across / (2 * std::sqrt(3.0));
+  for (const double friction : {.5, 1.0}) {
+    SimulationSetup setup = ball_scene({.restitution = .3, .sliding_friction = friction});
+    Wall bed = bed_of({{front, across / 2, 0}, {front, -across / 2, 0}, {-2 * front, 0, 0}});
+    const Quaternion tilt(Eigen::AngleAxisd(kStart, Vector::UnitY()));
+    bed.pose.orientation = tilt;
+    setup.walls = {bed};
+    setup.gravity = {0, 0, -kStandardGravity_m_s2};
+    Simulation simulation = trial.simulate(setup, .1);
+    simulation.add(
+        {.position = tilt * Vector(0, 0, std::sqrt(2. / 3) * across), .orientation = tilt});
+    const auto advance_to = [&simulation](double time) {
+      while (simulation.time_s() < time) simulation.advance(20);
+    };
+    advance_to(kSettled_s);
+    simulation.set_motions(0, {{.spin = {0, kRate, 0}, .start_s = kSettled_s}});
+    const auto place = [&simulation]() -> Vector {
+      return simulation.wall(0).pose.orientation.conjugate() * simulation.grain(0).position;
+    };
+    const double rest = place().x();
+    // From a hundredth of its radius on it is fast: the tilt grows by .2 degrees until then.
+    while (place().x() - rest < .01 * kBallRadius_m && simulation.time_s() < 3) {
+      simulation.advance(20);
+    }
+    const double left = kStart + kRate * (simulation.time_s() - kSettled_s);
+    trial.expect(fmt::format("leaves at mu {:.1f}, deg", friction), std::asin(1. / 3) / kDegree,
+                 left / kDegree, .4);
+  }
+}
+
+}  // namespace
+
+std::vector<VerifyCase> bed_cases() {
+  return {{.name = "ball on a fixed ball",
+           .source = "Johnson 1985, section 11.4",
+           .run = ball_on_fixed_ball},
+          {.name = "ball leaves its hollow",
+           .source = "rigid body mechanics",
+           .run = ball_leaves_its_hollow}};
+}
+
+namespace {
+
+constexpr double kLandingSpeed = 1;
+constexpr double kHalfHeight = .01;
+constexpr double kCornerRadius = .005;
+constexpr double kClumpTolerance = .005;
+
+/// A block that lands flat on the spheres in its four lower corners.
+ClumpShape flat_block() { return block_shape({.02, .02, kHalfHeight}, kCornerRadius); }
+
+/// The same with more spheres beneath, each ring `step_m` higher than the one before: they begin to
+/// touch one after another.
+ClumpShape block_of_rings(double step_m) {
+  ClumpShape shape = flat_block();
+  const auto add = [&](double x, double y, int ring) {
+    const double z = -kHalfHeight + kCornerRadius + ring * step_m;
+    shape.spheres.push_back({.centre = {x, y, z}, .radius = kCornerRadius});
+  };
+  add(0, 0, 1);
+  for (const double side : {-1.0, 1.0}) {
+    add(side * .006, 0, 2);
+    add(0, side * .006, 3);
+    add(side * .012, 0, 4);
+    add(0, side * .012, 5);
+  }
+  return shape;
+}
+
+Simulation clump_scene(Trial& trial, const ClumpShape& shape, double restitution,
+                       DampingModel damping, bool on_block) {
+  const Material wood{
+      .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e8, .poisson_ratio = .3};
+  SimulationSetup setup =
+      scene_of(shape, wood, wood, {.restitution = restitution}, RollingModel::none, damping);
+  if (!on_block) setup.walls = {tilted_plane(0)};
+  Simulation simulation = trial.simulate(std::move(setup), kLandingSpeed);
+  Grain falling;
+  falling.position.z() = kHalfHeight;
+  falling.velocity.z() = -kLandingSpeed;
+  simulation.add(falling);
+  if (on_block) {
+    Grain struck;
+    struck.position.z() = -kHalfHeight;
+    struck.orientation = Eigen::AngleAxisd(std::acos(-1.0), Vector::UnitX());
+    simulation.add(struck);
+  }
+  return simulation;
+}
+
+/// What a clump that lands flat keeps of its speed, against what it should.
+void expect_restitution(Trial& trial, const ClumpShape& shape, DampingModel damping,
+                        const std::function<double(double)>& restitution_for, bool on_block) {
+  double pull = 0;
+  const std::string where = on_block ? "block" : "wall";
+  for (const double e : {.1, .4, .8}) {
+    Simulation simulation = clump_scene(trial, shape, e, damping, on_block);
+    const Collision hit = collide(simulation, Vector::UnitZ(), kCornerRadius);
+    const double other = on_block ? simulation.grain(1).velocity.z() : 0;
+    trial.expect(fmt::format("restitution on a {}, set to {:.2f}", where, e), restitution_for(e),
+                 (hit.after.velocity.z() - other) / kLandingSpeed, kClumpTolerance);
+    pull = std::max(pull, hit.pull_n);
+  }
+  trial.expect(fmt::format("greatest pull of a {}, N", where), 0, pull, 0);
+}
+
+VerifyCase landing(const std::string& name, const ClumpShape& shape, DampingModel damping,
+                   const std::function<double(double)>& restitution_for) {
+  return {.name = fmt::format("{}, {} damping", name, name_of(damping)),
+          .source = "impact of a Hertz contact",
+          .run = [=](Trial& trial) {
+            for (const bool on_block : {false, true}) {
+              expect_restitution(trial, shape, damping, restitution_for, on_block);
+            }
+          }};
+}
+
+}  // namespace
+
+std::vector<VerifyCase> clump_cases() {
+  constexpr int kContacts = 4;
+  const auto as_set = [](double e) { return e; };
+  // Equal contacts of the whole mass each: one contact with sqrt(N) times the factor.
+  const auto of_factors = [](double e) {
+    return restitution_of(std::sqrt(kContacts) * damping_factor(e));
+  };
+  constexpr double kStep = 2e-5;  // a tenth of the deepest overlap
+  return {
+      landing("four spheres at once", flat_block(), DampingModel::per_contact, of_factors),
+      landing("four spheres at once", flat_block(), DampingModel::shared, as_set),
+      landing("spheres one after another", block_of_rings(kStep), DampingModel::shared, as_set)};
 }
 
 }  // namespace repose::dem

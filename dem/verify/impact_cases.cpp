@@ -1,13 +1,16 @@
+#include "dem/verify/impact_cases.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "dem/verify/cases.h"
 #include "dem/verify/scene.h"
 
 namespace repose::dem {
+
 namespace {
 
 constexpr const char* kChungOoiHertz = "Chung & Ooi (2011); Hertz";
@@ -144,6 +147,221 @@ std::vector<VerifyCase> impact_cases() {
           restitution_by_speed(.2, .25),
           restitution_by_speed(.6, .25),
           {.name = "bounce heights", .source = "ballistics", .run = bounce}};
+}
+
+namespace {
+
+// From 20 degrees on the readings scatter by 1 degree, .03 and 8 %. Nearer to the normal the
+// contact only slips at its rim (Mindlin & Deresiewicz 1953), which the engine's no-slip spring
+// leaves out: there it returns too much, and the tolerance is the size of that known error.
+struct Shot {
+  double impact_deg;
+  double value;
+
+  double tolerance(double near_normal, double sliding) const {
+    return impact_deg < 15 ? near_normal : sliding;
+  }
+};
+
+void rebound_angles(Trial& trial) {
+  for (const Shot& reading :
+       {Shot{.24, .12}, Shot{2.29, 1.76}, Shot{4.29, 2.96}, Shot{9.94, 6.69}, Shot{20.56, 12.36},
+        Shot{30.38, 21.78}, Shot{39.62, 32.55}, Shot{49.78, 45.11}, Shot{60.06, 57.37}}) {
+    trial.expect(fmt::format("rebound angle at {:.2f} deg, deg", reading.impact_deg), reading.value,
+                 kharaz_impact(trial, reading.impact_deg).angle_deg, 1.2);
+  }
+}
+
+void tangential_restitution(Trial& trial) {
+  for (const Shot& reading :
+       {Shot{2.03, .794}, Shot{3.93, .745}, Shot{9.63, .673}, Shot{20.08, .596}, Shot{30.22, .688},
+        Shot{39.30, .772}, Shot{49.55, .847}, Shot{59.84, .902}}) {
+    trial.expect(fmt::format("tangential restitution at {:.2f} deg", reading.impact_deg),
+                 reading.value, kharaz_impact(trial, reading.impact_deg).tangential_restitution,
+                 reading.tolerance(.13, .04));
+  }
+}
+
+void spins(Trial& trial) {
+  for (const Shot& reading :
+       {Shot{5.99, 135.6}, Shot{10.98, 264.5}, Shot{21.19, 577.0}, Shot{31.09, 612.6},
+        Shot{39.03, 595.5}, Shot{50.22, 452.9}, Shot{60.25, 381.3}}) {
+    trial.expect(fmt::format("spin at {:.2f} deg, rad/s", reading.impact_deg), reading.value,
+                 kharaz_impact(trial, reading.impact_deg).spin_rad_s,
+                 reading.tolerance(80, .1 * reading.value));
+  }
+}
+
+}  // namespace
+
+ObliqueRebound kharaz_impact(Trial& trial, double angle_deg) {
+  const Material alumina{
+      .name = "Al2O3", .density_kg_m3 = 4000, .young_modulus_pa = 380e9, .poisson_ratio = .23};
+  const Material glass{
+      .name = "glass", .density_kg_m3 = 2500, .young_modulus_pa = 70e9, .poisson_ratio = .25};
+  const SimulationSetup setup =
+      scene_of(sphere_shape(kKharazRadius_m), alumina, glass,
+               {.restitution = kKharazRestitution, .sliding_friction = kKharazFriction});
+  const double across = kKharazSpeed_m_s * std::sin(angle_deg * kDegree);
+  const double down = kKharazSpeed_m_s * std::cos(angle_deg * kDegree);
+  const Grain after = strike_wall(trial, setup, {across, 0, -down}).after;
+  return {.tangential_restitution = after.velocity.x() / across,
+          .angle_deg = std::atan2(after.velocity.x(), after.velocity.z()) / kDegree,
+          .spin_rad_s = after.spin.y()};
+}
+
+std::vector<VerifyCase> kharaz_cases() {
+  constexpr const char* kSource = "Kharaz et al. (2001), experiment";
+  return {
+      {.name = "Kharaz, rebound angle", .source = kSource, .run = rebound_angles},
+      {.name = "Kharaz, tangential restitution", .source = kSource, .run = tangential_restitution},
+      {.name = "Kharaz, spin", .source = kSource, .run = spins}};
+}
+
+namespace {
+
+constexpr const char* kChungOoi = "Chung & Ooi (2011)";
+
+/// An impact that slides all the time: the tangential impulse is mu times the normal one.
+struct Sliding {
+  double restitution;
+  double friction;
+  double normal_speed;
+
+  /// Tangential speed that is lost.
+  double speed_change() const { return friction * (1 + restitution) * normal_speed; }
+  /// Spin times radius that comes of it: the moment of inertia of a sphere is 2/5 m r^2.
+  double spin_change() const { return 2.5 * speed_change(); }
+};
+
+/// T4: angles at which the ball slides throughout.
+void slides_over_glass(Trial& trial) {
+  for (const double angle_deg : {30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0}) {
+    const double angle = angle_deg * kDegree;
+    const ObliqueRebound hit = kharaz_impact(trial, angle_deg);
+    const Sliding law{kKharazRestitution, kKharazFriction, kKharazSpeed_m_s * std::cos(angle)};
+    const double speed = kKharazSpeed_m_s * std::sin(angle);
+    trial.expect(fmt::format("tangential restitution at {:.0f} deg", angle_deg),
+                 1 - law.speed_change() / speed, hit.tangential_restitution, .005);
+    trial.expect(fmt::format("spin at {:.0f} deg, rad/s", angle_deg),
+                 law.spin_change() / kKharazRadius_m, hit.spin_rad_s,
+                 .01 * law.spin_change() / kKharazRadius_m);
+  }
+}
+
+/// T4: angles at which the ball sticks for a time; values read off the paper's figures.
+void sticks_to_glass(Trial& trial) {
+  struct Point {
+    double angle_deg, tangential_restitution, spin_rad_s;
+    double model;  ///< share by which the spring of the paper's codes differs, see below
+  };
+  constexpr double kReading = .025;
+  // Those codes stretch one spring, F = S_t(now) x. Integrated on its own, it gives .698 and 204
+  // rad/s at 10 deg, this engine's .711 and 196; from 15 deg on they agree within 1 %.
+  for (const Point& point : {Point{10, .687, 213, .05}, Point{15, .624, 378, 0},
+                             Point{20, .616, 511, 0}, Point{25, .634, 599, 0}}) {
+    const ObliqueRebound hit = kharaz_impact(trial, point.angle_deg);
+    trial.expect(fmt::format("tangential restitution at {:.0f} deg", point.angle_deg),
+                 point.tangential_restitution, hit.tangential_restitution,
+                 (kReading + point.model) * point.tangential_restitution);
+    trial.expect(fmt::format("spin at {:.0f} deg, rad/s", point.angle_deg), point.spin_rad_s,
+                 hit.spin_rad_s, (kReading + point.model) * point.spin_rad_s);
+  }
+}
+
+/// T5: |r w| / (mu v_n) = 2.5 (1 + e).
+void elastic_sliding(Trial& trial) {
+  constexpr double kRadius = 1e-5;
+  constexpr double kNormalSpeed = 5;
+  constexpr double kFriction = .3;
+  const Material steel{
+      .name = "steel", .density_kg_m3 = 7850, .young_modulus_pa = 208e9, .poisson_ratio = .3};
+  const SimulationSetup setup =
+      scene_of(sphere_shape(kRadius), steel, steel, {.sliding_friction = kFriction});
+  for (const double angle_deg : {70.0, 75.0, 80.0, 85.0}) {
+    const double across = kNormalSpeed * std::tan(angle_deg * kDegree);
+    const Collision hit = strike_wall(trial, setup, {across, 0, -kNormalSpeed});
+    trial.expect(fmt::format("r w / (mu v_n) at {:.0f} deg", angle_deg), 5.0,
+                 kRadius * hit.after.spin.y() / (kFriction * kNormalSpeed), .025);
+  }
+}
+
+const Material kAlloy{
+    .name = "Al alloy", .density_kg_m3 = 2700, .young_modulus_pa = 70e9, .poisson_ratio = .33};
+constexpr double kAlloyRadius = .1;
+constexpr Sliding kSpinning{.restitution = .5, .friction = .4, .normal_speed = .2};
+constexpr PairCoefficients kSpinningPair{.restitution = .5, .sliding_friction = .4};
+
+/// What is left of a spin about y when it slides on what is below, and the speed that it gave.
+void expect_spinning(Trial& trial, double spin, const Grain& after) {
+  constexpr double kTolerance = .03;
+  const double speed = kSpinning.speed_change();
+  trial.expect(fmt::format("tangential speed from {:.0f} rad/s, m/s", spin), speed,
+               std::abs(after.velocity.x()), kTolerance * speed);
+  const double left = spin - kSpinning.spin_change() / kAlloyRadius;
+  trial.expect(fmt::format("spin left of {:.0f} rad/s, rad/s", spin), left,
+               std::abs(after.spin.y()), kTolerance * left);
+}
+
+/// T6: a spinning sphere falls on a wall.
+void spinning_on_wall(Trial& trial) {
+  for (const double spin : {8.0, 16.0, 32.0}) {
+    const SimulationSetup setup =
+        scene_of(sphere_shape(kAlloyRadius), kAlloy, kAlloy, kSpinningPair);
+    expect_spinning(trial, spin,
+                    strike_wall(trial, setup, {0, 0, -kSpinning.normal_speed}, {0, spin, 0}).after);
+  }
+}
+
+/// T7: two spheres whose surfaces move alike where they meet.
+void opposite_spins(Trial& trial) {
+  constexpr double kSpeed = .2;
+  for (const double spin : {4.0, 16.0}) {
+    Simulation simulation = trial.simulate(
+        scene_of(sphere_shape(kAlloyRadius), kAlloy, kAlloy, kSpinningPair), 2 * kSpeed);
+    const Vector turn(0, spin, 0);
+    simulation.add({.position = {0, 0, kAlloyRadius}, .velocity = {0, 0, -kSpeed}, .spin = turn});
+    simulation.add({.position = {0, 0, -kAlloyRadius}, .velocity = {0, 0, kSpeed}, .spin = -turn});
+    const Grain after = collide(simulation, Vector::UnitZ(), kAlloyRadius).after;
+    trial.expect(fmt::format("tangential speed from {:.0f} rad/s, m/s", spin), 0,
+                 after.velocity.head<2>().norm(), .01 * kSpeed);
+    trial.expect(fmt::format("spin left of {:.0f} rad/s, rad/s", spin), spin, after.spin.y(),
+                 .01 * spin);
+  }
+}
+
+/// T8: as T6, with a great heavy stiff sphere for the wall.
+void spinning_on_great_sphere(Trial& trial) {
+  constexpr double kGreatRadius = .5;
+  Material great = kAlloy;
+  great.name = "heavy alloy";
+  great.density_kg_m3 *= 1000;
+  great.young_modulus_pa *= 1000;
+  for (const double spin : {8.0, 16.0, 32.0}) {
+    SimulationSetup setup = scene_of(sphere_shape(kAlloyRadius), kAlloy, great, kSpinningPair);
+    setup.kinds.push_back({.shape = sphere_shape(kGreatRadius), .material = 1});
+    Simulation simulation = trial.simulate(setup, kSpinning.normal_speed);
+    simulation.add({.position = {0, 0, kAlloyRadius},
+                    .velocity = {0, 0, -kSpinning.normal_speed},
+                    .spin = {0, spin, 0}});
+    simulation.add({.kind = 1, .position = {0, 0, -kGreatRadius}});
+    expect_spinning(trial, spin, collide(simulation, Vector::UnitZ(), kAlloyRadius).after);
+  }
+}
+
+}  // namespace
+
+std::vector<VerifyCase> oblique_cases() {
+  return {{.name = "T4 oblique, sliding", .source = kChungOoi, .run = slides_over_glass},
+          {.name = "T4 oblique, sticking",
+           .source = "Chung & Ooi (2011), read off the figures",
+           .run = sticks_to_glass},
+          {.name = "T5 oblique, elastic", .source = kChungOoi, .run = elastic_sliding},
+          {.name = "T6 spinning sphere on a wall", .source = kChungOoi, .run = spinning_on_wall},
+          {.name = "T7 opposite spins", .source = kChungOoi, .run = opposite_spins},
+          {.name = "T8 spinning sphere on a great sphere",
+           .source = kChungOoi,
+           .run = spinning_on_great_sphere}};
 }
 
 }  // namespace repose::dem

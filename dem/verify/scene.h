@@ -1,9 +1,64 @@
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "base/units.h"
 #include "dem/engine/simulation.h"
+#include "dem/verify/verify.h"
 
 namespace repose::dem {
+
+class Trial;
+
+/// A setup with a known outcome.
+struct VerifyCase {
+  std::string name;
+  std::string source;
+  std::function<void(Trial&)> run;
+};
+
+/// One run of a case: at one fraction of the accepted time step. Collects what comes out.
+class Trial {
+ public:
+  Trial(const VerifyCase& which, double timestep_fraction);
+
+  /// The simulation of a setup, with this trial's share of the longest time step that is accepted
+  /// for impacts at up to `speed_m_s`.
+  Simulation simulate(SimulationSetup setup, double speed_m_s);
+
+  /// Holds when `measured` is no further than `tolerance` from `expected`.
+  void expect(const std::string& quantity, double expected, double measured, double tolerance);
+
+  const std::vector<CaseResult>& results() const { return results_; }
+
+ private:
+  std::string name_;
+  std::string source_;
+  double timestep_share_;
+  double timestep_s_ = 0;  ///< of the latest simulation
+  std::vector<CaseResult> results_;
+};
+
+/// Central impacts: Chung & Ooi T1-T3, restitution, bounce heights.
+std::vector<VerifyCase> impact_cases();
+/// Impacts of clumps on several spheres at once.
+std::vector<VerifyCase> clump_cases();
+/// Impacts with sliding: Chung & Ooi T4-T8.
+std::vector<VerifyCase> oblique_cases();
+/// Impacts measured by Kharaz et al.
+std::vector<VerifyCase> kharaz_cases();
+/// Sliding, and rolling without resistance.
+std::vector<VerifyCase> motion_cases();
+/// The three models of rolling resistance.
+std::vector<VerifyCase> rolling_cases();
+/// Free rotation.
+std::vector<VerifyCase> rotation_cases();
+/// Beds of fixed spheres.
+std::vector<VerifyCase> bed_cases();
+/// Energy and momentum of collisions.
+std::vector<VerifyCase> conservation_cases();
 
 class Trial;
 

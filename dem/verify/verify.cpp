@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/input_error.h"
-#include "dem/verify/cases.h"
+#include "dem/verify/scene.h"
 
 namespace repose::dem {
 namespace {

@@ -6,9 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "dem/wall/bed_facets.h"
-#include "dem/wall/closest.h"
-#include "dem/wall/mesh_facets.h"
+#include "dem/wall/facets.h"
 #include "dem/wall/wall.h"
 
 namespace repose::dem {

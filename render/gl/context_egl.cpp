@@ -34,12 +34,12 @@ bool is_software(EGLDeviceEXT device) {
 
 /// Of all contexts; EGL ends it with the program.
 EGLDisplay software_display() {
-  constexpr EGLint kMostDevices = 32;
+  constexpr EGLint kMaxDevices = 32;
   const auto query =
       function_named<std::remove_pointer_t<PFNEGLQUERYDEVICESEXTPROC>>("eglQueryDevicesEXT");
-  std::array<EGLDeviceEXT, kMostDevices> devices{};
+  std::array<EGLDeviceEXT, kMaxDevices> devices{};
   EGLint count = 0;
-  query(kMostDevices, devices.data(), &count);
+  query(kMaxDevices, devices.data(), &count);
   for (EGLint k = 0; k < count; ++k) {
     EGLDeviceEXT device = devices.at(static_cast<std::size_t>(k));
     if (!is_software(device)) continue;

@@ -18,7 +18,7 @@ using dem::Vector;
 /// How far the corners that are left out may have stood off the triangles, pixels. The edge of a
 /// drawn heap is then within .25 px, .07 px on average (tests/render/detail_test.cpp).
 constexpr double kTolerance_px = 0.4;
-constexpr std::size_t kMostKept = 64;
+constexpr std::size_t kMaxKept = 64;
 /// A wall's edges when a lens bends them, in parts of the scene's size.
 constexpr double kWallPart = 0.02;
 /// Half the side of the slab that stands for an endless plane, in parts of the grains' extent.
@@ -94,7 +94,7 @@ SceneUploader::GrainShape SceneUploader::grain_shape(const dem::ClumpShape& shap
   const Key key{hash_of(shape), as_spheres, step};
   const auto found = saved_.find(key);
   if (found != saved_.end()) return found->second;
-  if (saved_.size() >= kMostKept) saved_.clear();
+  if (saved_.size() >= kMaxKept) saved_.clear();
   auto surface =
       std::make_shared<const Surface>(as_spheres ? sphere_surface(shape.spheres, stepped_m)
                                                  : grain_surface(shape.surface, stepped_m));

@@ -5,7 +5,7 @@
 
 #include "render/gl/objects.h"
 #include "render/gl/scene_uploader.h"
-#include "render/photo/light.h"
+#include "render/photo/tone_mapping.h"
 #include "render/scene/scene.h"
 #include "render/scene/style.h"
 #include "render/scene/view.h"

@@ -8,6 +8,7 @@
 #include "render/scene/counter_random.h"
 
 namespace repose::render {
+
 namespace {
 
 double linear_of(double value) {

@@ -1,10 +1,18 @@
 #pragma once
 
-#include "render/photo/light.h"
+#include <vector>
+
 #include "render/scene/style.h"
 #include "vision/picture/picture.h"
 
 namespace repose::render {
+
+/// Linear light, red green blue a pixel, rows from the top; 1 is white paper in full light.
+struct Light {
+  int width = 0;
+  int height = 0;
+  std::vector<float> rgb;
+};
 
 /// sRGB to light, each channel. Source: IEC 61966-2-1:1999, section 5.2.
 Colour linear(const Colour& colour);

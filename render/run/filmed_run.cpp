@@ -7,14 +7,48 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "render/run/between.h"
 #include "render/scene/bench.h"
+#include "render/scene/view.h"
 
 namespace repose::render {
+
 namespace {
 
-constexpr double kMostFramesPerS = 10000;
-constexpr int kMostFrames = 1'000'000;
+using dem::Vector;
+
+bool are_alike(const Scene& a, const Scene& b) {
+  if (a.grains.size() != b.grains.size() || a.walls.size() != b.walls.size()) return false;
+  for (std::size_t k = 0; k < a.grains.size(); ++k) {
+    if (a.grains[k].number != b.grains[k].number) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Scene between(const Scene& a, const Scene& b, double part, double interval_s) {
+  if (!are_alike(a, b)) return a;
+  Scene scene = a;
+  const double s = part, s2 = s * s, s3 = s2 * s;
+  for (std::size_t k = 0; k < scene.grains.size(); ++k) {
+    const PlacedGrain &from = a.grains[k], &to = b.grains[k];
+    scene.grains[k].pose.position =
+        (2 * s3 - 3 * s2 + 1) * from.pose.position + (3 * s2 - 2 * s3) * to.pose.position +
+        interval_s * ((s3 - 2 * s2 + s) * from.velocity + (s3 - s2) * to.velocity);
+    scene.grains[k].pose.orientation = from.pose.orientation.slerp(part, to.pose.orientation);
+  }
+  for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+    const dem::Pose &from = a.walls[k].pose, &to = b.walls[k].pose;
+    scene.walls[k].pose.position = (1 - part) * from.position + part * to.position;
+    scene.walls[k].pose.orientation = from.orientation.slerp(part, to.orientation);
+  }
+  return scene;
+}
+
+namespace {
+
+constexpr double kMaxFramesPerS = 10000;
+constexpr int kMaxFrames = 1'000'000;
 
 /// @throws base::InputError
 void check(const RunStates& states, const Shutter& shutter) {
@@ -25,9 +59,9 @@ void check(const RunStates& states, const Shutter& shutter) {
   require(std::is_sorted(states.times_s.begin(), states.times_s.end()),
           {.value = "its states are not in the order of their times",
            .fix = "simulate the run again."});
-  require(shutter.frames_per_s > 0 && shutter.frames_per_s <= kMostFramesPerS,
+  require(shutter.frames_per_s > 0 && shutter.frames_per_s <= kMaxFramesPerS,
           {.value = fmt::format("{:g} frames per second", shutter.frames_per_s),
-           .rule = fmt::format("above 0, at most {:g}", kMostFramesPerS),
+           .rule = fmt::format("above 0, at most {:g}", kMaxFramesPerS),
            .fix = "60."});
   constexpr double kRounding = 1 + 1e-9;
   require(shutter.exposure_s >= 0 && shutter.exposure_s * shutter.frames_per_s <= kRounding,
@@ -48,10 +82,10 @@ FilmedRun::FilmedRun(RunStates states, const Shutter& shutter)
   const std::size_t count = states_.times_s.size();
   const double lasts_s = states_.times_s.back() - states_.times_s.front() + 2 * shutter_.hold_s;
   const double frames = std::floor(lasts_s * shutter_.frames_per_s) + 1;
-  if (!(frames <= kMostFrames)) {
+  if (!(frames <= kMaxFrames)) {
     throw base::InputError({.where = "film",
                             .value = fmt::format("{:.0f} frames", frames),
-                            .rule = fmt::format("at most {}", kMostFrames),
+                            .rule = fmt::format("at most {}", kMaxFrames),
                             .fix = "fewer frames per second."});
   }
   frames_ = static_cast<int>(frames);
@@ -100,6 +134,47 @@ std::vector<Scene> FilmedRun::moments(int frame, int count) {
     moments.push_back(scene_at(time_s(frame) + part * shutter_.exposure_s));
   }
   return moments;
+}
+
+namespace {
+
+/// 1, 2 or 5 times a power of ten, at most a length.
+double round_length(double length) {
+  const double power = std::pow(10, std::floor(std::log10(length)));
+  const double part = length / power;
+  return (part >= 5 ? 5 : part >= 2 ? 2 : 1) * power;
+}
+
+}  // namespace
+
+FilmTruth film_truth_of(FilmedRun& run, const Camera& camera, const PictureSize& size) {
+  constexpr double kPart = .8;  // of the picture's width
+  const View view = view_of(run.first(), camera, size);
+  const dem::Vector middle = run.first().setting->extent.center();
+  FilmTruth truth{.camera = camera,
+                  .size = size,
+                  .frames_per_s = run.shutter().frames_per_s,
+                  .exposure_s = run.shutter().exposure_s,
+                  .mm_per_px = view.mm_per_px(view.in_camera(middle).z()),
+                  .scale = {},
+                  .frames = {}};
+  truth.scale_mm = round_length(kPart * truth.mm_per_px * size.width);
+  dem::Vector right = view.axes.row(0);
+  right.z() = 0;
+  right.normalize();
+  const dem::Vector half = .5e-3 * truth.scale_mm * right;
+  const auto from = view.project(middle - half), to = view.project(middle + half);
+  if (from && to) truth.scale = {*from, *to};
+  if (run.first().grains.size() > kMaxPlaced) return truth;
+  for (int frame = 0; frame < run.frames(); ++frame) {
+    FilmTruth::Frame& now = truth.frames.emplace_back();
+    now.run_s = run.time_s(frame);
+    for (const PlacedGrain& grain : run.scene_at(now.run_s).grains) {
+      const auto seen = view.project(grain.pose.position);
+      now.grains.push_back({grain.pose.position, seen.value_or(vision::Point{})});
+    }
+  }
+  return truth;
 }
 
 }  // namespace repose::render

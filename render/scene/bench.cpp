@@ -70,14 +70,14 @@ Bench::Bench(const std::vector<Scene>& moments) {
 std::optional<Bench::Plate> Bench::plate_of(const std::vector<Scene>& moments,
                                             std::size_t wall) const {
   // In reaches of the grains: how far a plate goes on beyond their way, and how thick it is.
-  constexpr double kBeyond = 4, kBeside = 6, kBehindHinge = 2, kThick = 1.5;
+  constexpr double kBeyond = 4, kSameEdgeTolerance = 6, kBehindHinge = 2, kThick = 1.5;
   constexpr double kOfWay = .75;  // of the extent: a plate that does not turn is longer
   constexpr double kMuchWider = 10;
   const PlacedWall& placed = moments.front().walls[wall];
   const double reach = greatest_reach_m(moments);
   const Eigen::AlignedBox3d way = way_on(moments, wall);
   if (way.isEmpty()) return std::nullopt;
-  const double half_width = .5 * way.sizes().y() + kBeside * reach;
+  const double half_width = .5 * way.sizes().y() + kSameEdgeTolerance * reach;
   if (const auto* box = std::get_if<dem::Box>(&placed.shape)) {
     if (box->half_size.y() < kMuchWider * half_width) return std::nullopt;
     return Plate{.middle = {0, way.center().y(), 0},

@@ -239,9 +239,9 @@ void append_flat(Surface& surface, const dem::Mesh& mesh) {
 
 /// The spheres of a bed within half a side of a place, as many as can be drawn.
 void append_bed(Surface& surface, const dem::SphereBed& bed, const Vector& middle, double half_m) {
-  constexpr double kMostSpheres = 20000, kTolerance = .02;  // of the radius
+  constexpr double kMaxSpheres = 20000, kTolerance = .02;  // of the radius
   const double most =
-      .5 * bed.tile * std::sqrt(kMostSpheres / static_cast<double>(bed.spheres.size()));
+      .5 * bed.tile * std::sqrt(kMaxSpheres / static_cast<double>(bed.spheres.size()));
   const double half = std::min(half_m, most);
   const auto from = [&](double place, double centre) {
     return std::ceil((place - half - centre) / bed.tile) * bed.tile + centre;
@@ -279,8 +279,8 @@ double area_of(const Surface& surface) {
 /// is a quarter of its surface. Proved by Surface.FewerTrianglesKeepTheSilhouettesArea.
 void restore_area(Surface& surface, double area) {
   const double now = area_of(surface);
-  constexpr double kMost = 1.2;  // more is no rounding but a surface fallen to pieces
-  if (!(now > 0) || !(area > now) || area > kMost * now) return;
+  constexpr double kMax = 1.2;  // more is no rounding but a surface fallen to pieces
+  if (!(now > 0) || !(area > now) || area > kMax * now) return;
   const auto growth = static_cast<float>(std::sqrt(area / now));
   for (std::size_t k = 0; k < surface.vertices.size(); k += Surface::kFloats) {
     for (std::size_t i = k; i < k + 3; ++i) surface.vertices[i] *= growth;

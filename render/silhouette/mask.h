@@ -1,14 +1,52 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "render/gl/functions.h"
 #include "render/gl/objects.h"
 #include "render/gl/scene_uploader.h"
+#include "render/scene/camera.h"
 #include "render/scene/view.h"
-#include "render/silhouette/covered_area.h"
+#include "vision/picture/picture.h"
 
 namespace repose::render {
+
+/// Sets all pixels to 255 whose middles lie in a disc.
+void cover_disc(std::vector<std::uint8_t>& mask, const PictureSize& size,
+                const vision::Point& middle, double radius_px);
+
+/// Pixels from the first ones to before the last ones.
+struct PixelBox {
+  int first_x = 0;
+  int end_x = 0;
+  int first_y = 0;
+  int end_y = 0;
+};
+
+/// Tells of any part of a picture whether all of its pixels are covered.
+class CoveredArea {
+ public:
+  /// @param mask  0 where a pixel is not covered
+  CoveredArea(const std::vector<std::uint8_t>& mask, const PictureSize& size);
+
+  /// Those in the picture; also true when there are none.
+  bool hides_box(const PixelBox& box) const;
+  bool hides_disc(const vision::Point& middle, double radius_px) const;
+
+ private:
+  /// Covered pixels above and left of a corner between pixels.
+  std::uint32_t& before(int y, int x) { return before_[at(y, x)]; }
+  std::uint32_t before(int y, int x) const { return before_[at(y, x)]; }
+  std::size_t at(int y, int x) const {
+    return static_cast<std::size_t>(y) * (static_cast<std::size_t>(size_.width) + 1) +
+           static_cast<std::size_t>(x);
+  }
+
+  PictureSize size_;
+  std::vector<std::uint32_t> before_;
+};
 
 /// Draws which pixels show grains: a byte a pixel, 255 where the pixel's middle shows one.
 class MaskPainter {
@@ -30,5 +68,12 @@ class MaskPainter {
   const gl::Functions& gl_;
   gl::Program program_;
 };
+
+/// Draws the grains' triangles, with the program in use, that may reach pixels which are not
+/// covered: of a heap a tenth of those of its visible grains. Pixels that are not covered look as
+/// if all had been drawn.
+/// @param view  with parallel rays
+void draw_uncovered(const gl::Functions& gl, const View& view, const Stage& stage,
+                    const CoveredArea& covered);
 
 }  // namespace repose::render

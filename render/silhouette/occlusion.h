@@ -6,7 +6,7 @@
 #include "render/scene/scene.h"
 #include "render/scene/style.h"
 #include "render/scene/view.h"
-#include "render/silhouette/covered_area.h"
+#include "render/silhouette/mask.h"
 
 namespace repose::render {
 

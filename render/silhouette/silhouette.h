@@ -10,6 +10,10 @@
 
 namespace repose::render {
 
+/// Upper edge of all grains in the middle of each pixel column that shows any, left to right, at
+/// most the picture's width. Of whole meshes and of spheres finer than any picture.
+std::vector<vision::Point> upper_edge(const Scene& scene, const View& view, Shown shown);
+
 /// The grains' mask as a picture: black on white.
 vision::Picture silhouette_of(const Scene& scene, const View& view, const SilhouetteStyle& style,
                               const std::vector<std::uint8_t>& grain_mask);

@@ -1,6 +1,6 @@
-#include "base/printable.h"
-
 #include <gmock/gmock.h>
+
+#include "base/text.h"
 
 namespace repose::base {
 namespace {

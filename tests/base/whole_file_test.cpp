@@ -1,5 +1,3 @@
-#include "base/whole_file.h"
-
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +7,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -135,7 +134,7 @@ TEST(WholeFile, WhatAKilledProcessLeftGoesAwayAndWhatIsBeingWrittenStays) {
   const testing::TemporaryFolder folder;
   folder.write(".table.csv.1234-0.part.csv", std::string("half a ta"));
   folder.write(".table.csv.mine", std::string("not ours"));
-  const PartFile busy(folder.path() / "table.csv");
+  const TemporaryFile busy(folder.path() / "table.csv");
   check_can_write(folder.path() / "table.csv");
   EXPECT_THAT(folder.names(), UnorderedElementsAre(".table.csv.mine", busy.path().filename()));
 }

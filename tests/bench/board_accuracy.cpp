@@ -157,7 +157,7 @@ vision::SizedHeap measured(const HeapWithBoard& heap, const Way& way) {
   vision::ScaleOptions scale{.lens = {},
                              .finds_board = true,
                              .square_mm = heap.square_mm,
-                             .behind_mm = heap.behind_mm,
+                             .board_offset_mm = heap.board_offset_mm,
                              .scale = {}};
   if (way.has_lens) scale.lens = lens_of(heap.camera);
   if (!way.has_bar) return vision::measure_sized_heap(heap.picture, {}, scale);

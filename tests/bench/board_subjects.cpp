@@ -27,8 +27,8 @@ constexpr double kMm_per_m = 250;
 
 render::PhotoStyle photo_style(Random& random) {
   testing::HeapScene scene;
-  constexpr double kLeastContrast = 32;
-  testing::choose_colors(scene, kLeastContrast, 200, random);
+  constexpr double kMinContrast = 32;
+  testing::choose_colors(scene, kMinContrast, 200, random);
   render::PhotoStyle style;
   style.grain = colour_of(scene.grain.color);
   style.gloss = scene.grain.gloss;
@@ -112,9 +112,9 @@ void set_views(const Eigen::Matrix3d& view, const Vector3d& eye_mm, HeapWithBoar
 testing::BoardPlace board_beside(const Eigen::Matrix3d& view, const Vector3d& eye_mm,
                                  double beside_mm, const HeapWithBoard& heap, Random& random) {
   const double printed_mm = heap.square_mm * random.normal(1, .0025);
-  const double really_behind_mm = heap.behind_mm + random.normal(0, 5);
+  const double really_behind_mm = heap.board_offset_mm + random.normal(0, 5);
   // Board and heap stand in a plane that does not quite face the camera, nor the board it.
-  const double plane_rad = heap.behind_mm > 0 ? 0 : radians(random.uniform(-8, 8));
+  const double plane_rad = heap.board_offset_mm > 0 ? 0 : radians(random.uniform(-8, 8));
   const auto upright = testing::placed_board(
       Vector3d::Zero(), plane_rad + radians(random.normal(0, 1.5)), radians(random.normal(0, .5)),
       radians(random.normal(0, .3)), printed_mm);
@@ -189,7 +189,8 @@ HeapWithBoard heap_with_board(std::uint64_t seed, bool stands_behind) {
   const Eigen::Matrix3d view = testing::camera_from_world(heap.pitch_rad, heap.roll_rad);
   const Vector3d eye_mm = camera.position_m * kMm_per_m;
   set_views(view, eye_mm, heap);
-  if (stands_behind) heap.behind_mm = std::round(random.uniform(.3, 1) * radius_m * kMm_per_m);
+  if (stands_behind)
+    heap.board_offset_mm = std::round(random.uniform(.3, 1) * radius_m * kMm_per_m);
   const double beside_mm = side * (radius_m * kMm_per_m + 6.6 * heap.square_mm);
   const testing::BoardPlace place = board_beside(view, eye_mm, beside_mm, heap, random);
   heap.board_box = testing::sheet_box(heap.camera, place);

@@ -24,7 +24,7 @@ std::vector<vision::BoardPicture> board_pictures(const testing::BoardCamera& cam
 struct HeapWithBoard {
   vision::Picture picture;
   testing::BoardCamera camera;
-  double behind_mm = 0;  ///< as it is told
+  double board_offset_mm = 0;  ///< as it is told
   double square_mm = 24;
   double pitch_rad = 0;
   double roll_rad = 0;

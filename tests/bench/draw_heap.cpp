@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "tests/bench/benches.h"
 #include "tests/support/heap_conditions.h"
 #include "tests/support/heap_picture.h"

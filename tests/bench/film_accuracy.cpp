@@ -22,7 +22,6 @@
 #include "tests/support/heap_picture.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/film/film_angle.h"
-#include "vision/film/frame_series.h"
 #include "vision/video/film_writer.h"
 
 namespace repose::bench {

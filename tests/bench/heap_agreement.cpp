@@ -17,7 +17,7 @@
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/export/export.h"
 #include "calibrate/statistics/summary.h"
-#include "dem/experiment/heap_envelope.h"
+#include "dem/experiment/heap.h"
 #include "dem/study/grain_source.h"
 #include "tests/bench/benches.h"
 #include "tests/peers/exported.h"

@@ -8,7 +8,7 @@
 
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/export/export.h"
-#include "calibrate/study/coefficients.h"
+#include "calibrate/study/study_simulator.h"
 #include "dem/experiment/experiment.h"
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"

@@ -19,7 +19,7 @@ using dem::Vector;
 
 constexpr double kSphereStepsARun = 6e6;
 constexpr double kClumpStepsARun = 6e5;
-constexpr int kMostPoured = 10000;
+constexpr int kMaxPoured = 10000;
 constexpr const char* kRestart = "read_restart packing.restart";
 
 std::int64_t steps_for(double grain_steps, std::size_t grains) {
@@ -108,8 +108,8 @@ std::string clump_file(const dem::ClumpShape& shape) {
 }  // namespace
 
 Packing settled_spheres(const testing::TemporaryFolder& folder, int grains) {
-  const dem::Simulation poured = grains > kMostPoured ? testing::wide_box_of_spheres(grains, 1)
-                                                      : testing::box_of_spheres(grains, 1);
+  const dem::Simulation poured = grains > kMaxPoured ? testing::wide_box_of_spheres(grains, 1)
+                                                     : testing::box_of_spheres(grains, 1);
   Packing packing = {.setup = with_their_rolling(poured.setup()),
                      .grains = {},
                      .start = "read_data spheres.txt",

@@ -43,7 +43,7 @@ void add_speed(CLI::App& bench) {
 
 int main(int argc, char** argv) {
   using namespace repose::bench;
-  repose::base::keep_freed_memory();  // as the program does
+  repose::base::disable_heap_trimming();  // as the program does
   CLI::App bench("How near repose comes, and how fast");
   bench.require_subcommand(1);
   add_draw_heap(bench);

@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/fit/random.h"
+#include "calibrate/fit/points.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/recovery_tally.h"
 #include "tests/bench/simulated_recovery.h"

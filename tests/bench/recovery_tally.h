@@ -6,8 +6,8 @@
 
 #include "calibrate/fit/agreement.h"
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/problem.h"
-#include "calibrate/fit/random.h"
 #include "calibrate/study/study_run.h"
 
 namespace repose::bench {

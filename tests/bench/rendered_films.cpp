@@ -16,7 +16,6 @@
 #include "base/units.h"
 #include "dem/experiment/experiment.h"
 #include "render/renderer.h"
-#include "render/run/film_truth.h"
 #include "render/run/filmed_run.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/track/drop_track.h"
@@ -260,7 +259,7 @@ FilmRow tilt_row(double frames_per_s, unsigned seed) {
   dem::Repeat repeat;
   try {
     repeat = run_tilt(model, protocol, seed, {}, recorder.record(.01));
-  } catch (const dem::NoReading& nothing) {
+  } catch (const dem::NoMeasurement& nothing) {
     row.reason = nothing.what();
     return row;
   }

@@ -44,9 +44,9 @@ struct Draft {
 /// A seed's heap is the same under all conditions.
 GrainCone cone_of(std::uint64_t seed) {
   Random random(seed * 0x9E3779B97F4A7C15 ^ hash_of("cone"));
-  constexpr double kFewest = 10, kMost = 24, kWidestRadius = 42;
+  constexpr double kFewest = 10, kMax = 24, kWidestRadius = 42;
   GrainCone cone{.angle_rad = radians(random.uniform(15, 35))};
-  const double most = std::clamp(kWidestRadius * std::tan(cone.angle_rad), kFewest, kMost);
+  const double most = std::clamp(kWidestRadius * std::tan(cone.angle_rad), kFewest, kMax);
   cone.grains_high = random.uniform(kFewest, most);
   cone.crest = random.uniform(.05, .2);
   cone.lopsided = random.uniform(0, .06);
@@ -77,7 +77,7 @@ render::PhotoStyle photo_style(double least_contrast, Random& random) {
 
 /// A well-lit photograph by parallel rays, the start of every condition.
 Draft draft_of(const GrainCone& cone, std::string_view condition, std::uint64_t seed) {
-  constexpr double kLeastContrast = 32;
+  constexpr double kMinContrast = 32;
   Draft draft{.staging = {.cone = cone},
               .scene = {},
               .random = Random(seed * 0x9E3779B97F4A7C15 ^ hash_of(condition))};
@@ -93,7 +93,7 @@ Draft draft_of(const GrainCone& cone, std::string_view condition, std::uint64_t 
       .azimuth_rad = azimuth_rad,
       .mm_per_px = 1e3 * m_per_px,
       .middle_m = dem::Vector(0, 0, random.uniform(.15, .3) * kPhotograph.height * m_per_px)};
-  staging.style = photo_style(kLeastContrast, random);
+  staging.style = photo_style(kMinContrast, random);
   staging.jpeg_quality = random.integer(85, 96);
   return draft;
 }

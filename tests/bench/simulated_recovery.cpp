@@ -11,8 +11,8 @@
 #include <fmt/core.h>
 
 #include "base/input_error.h"
-#include "calibrate/fit/first_round.h"
-#include "calibrate/fit/random.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/fit/rounds.h"
 #include "calibrate/plan/foresight.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/job_runner.h"
@@ -25,7 +25,8 @@ namespace {
 
 constexpr int kReadings = 8, kSingleReadings = 30;
 constexpr double kReading_deg = .5, kReadingFraction = .03;
-constexpr std::uint64_t kBenchSeeds = 1'000'000;  // no study uses these
+constexpr std::uint64_t kBenchSeeds = 1'000'000;       // no study uses these
+constexpr std::uint64_t kStudySeeds = 10'000'000'000;  // a study uses fewer
 
 /// The study, less the experiments that are not made.
 dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::string>& more) {
@@ -68,7 +69,7 @@ calibrate::Problem problem_in(dem::Study study, const dem::ClumpFile& grain,
 struct Calibrated {
   const dem::Study& study;
   const dem::ClumpFile& grain;
-  const calibrate::RunFolder& folder;
+  const calibrate::RunStore& folder;
 };
 
 int cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
@@ -106,6 +107,8 @@ class Material {
         truth_(std::move(truth)),
         number_(number),
         random_(number) {
+    // With the seeds of one study all materials would be checked in the same few poses.
+    study_.seed = kStudySeeds * (number_ + 1);
     simulator_.store_in(folder_);
     bench_.store_in(bench.folder);
   }
@@ -145,7 +148,7 @@ class Material {
 
   dem::Study study_;
   const dem::ClumpFile& grain_;
-  const calibrate::RunFolder& folder_;
+  const calibrate::RunStore& folder_;
   calibrate::StudySimulator simulator_, bench_;
   std::optional<int> count_;  ///< readings of each experiment
   std::vector<double> truth_;
@@ -165,7 +168,7 @@ void recover_simulated(const SimulatedRecovery& plan) {
   budget.settings.budget_s = plan.budget_s;
   budget.family_sets = 0;
   const calibrate::Problem problem = problem_in(study, grain, budget);
-  const calibrate::RunFolder folder(plan.folder);
+  const calibrate::RunStore folder(plan.folder);
   const Calibrated calibrated{study, grain, folder};
   const Calibrated measured{bench, bench_grain, folder};
   RecoveryTally tally(problem.parameters);

@@ -9,7 +9,7 @@
 
 #include "base/input_error.h"
 #include "base/random.h"
-#include "dem/contact/rolling_name.h"
+#include "dem/contact/model_names.h"
 #include "dem/engine/unstable_run.h"
 #include "dem/shape/clump/fill.h"
 #include "dem/shape/scan/calliper.h"
@@ -82,7 +82,7 @@ dem::HeapProtocol heap(double reach_m, base::Random& random) {
           .lift_speed_m_s = spread(random, .05, .5),
           .plate_m = reach_m * random.between(40, 60),
           .grains = whole(random, 5, 30),
-          .may_be_fewer = true};
+          .allow_partial_fill = true};
 }
 
 dem::DrawDownProtocol draw_down(double reach_m, base::Random& random) {
@@ -160,7 +160,7 @@ std::string ending(dem::Experiment experiment, std::uint64_t number, const Soak&
     const dem::Repeat repeat =
         dem::entry_of(experiment).run(simulated, done, number + 1, report, {});
     return is_finite(repeat) ? "readings" : "NOT FINITE";
-  } catch (const dem::NoReading&) {
+  } catch (const dem::NoMeasurement&) {
     return "no reading";
   } catch (const dem::UnstableRun& error) {
     why = error.what();

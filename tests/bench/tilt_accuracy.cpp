@@ -55,7 +55,7 @@ DrawnTilt random_tilt(double frames_per_s, unsigned seed) {
   tilt.grain_part = std::min(between(.35, .6), farthest);
   tilt.has_texture = one_of(2);
   tilt.goes_left = one_of(2);
-  tilt.lean_rad = between(-.02, .02);
+  tilt.roll_rad = between(-.02, .02);
   tilt.exposure = between(.05, .8);
   tilt.noise = between(1, 4);
   return tilt;

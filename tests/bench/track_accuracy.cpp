@@ -56,7 +56,7 @@ DrawnDrop random_drop(double frames_per_s, unsigned seed) {
   drop.exposure = between(.05, .8);
   drop.noise = between(1, 4);
   drop.readout_s = between(0, .012);
-  drop.lean_rad = between(-.03, .03);
+  drop.roll_rad = between(-.03, .03);
   drop.has_hand = random() % 2 == 0;
   return drop;
 }
@@ -116,7 +116,7 @@ DrawnRoll random_roll(double frames_per_s, unsigned seed) {
   roll.roll_s = between(.9, 1.5);
   roll.exposure = between(.05, .8);
   roll.noise = between(1, 4);
-  roll.lean_rad = between(-.02, .02);
+  roll.roll_rad = between(-.02, .02);
   roll.has_hand = random() % 2 == 0;
   roll.goes_left = random() % 2 == 0;
   return roll;

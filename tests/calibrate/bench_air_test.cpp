@@ -1,11 +1,10 @@
-#include "calibrate/study/bench_air.h"
-
 #include <cmath>
 #include <string>
 
 #include <gmock/gmock.h>
 
 #include "base/air_drag.h"
+#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_record.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"

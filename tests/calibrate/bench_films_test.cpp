@@ -1,5 +1,3 @@
-#include "calibrate/study/bench_films.h"
-
 #include <cmath>
 #include <string>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "base/distributions.h"
+#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/grain_source.h"

@@ -1,11 +1,10 @@
-#include "calibrate/study/bench_sheets.h"
-
 #include <algorithm>
 #include <string>
 
 #include <gmock/gmock.h>
 
 #include "calibrate/statistics/bench/sheet.h"
+#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/grain_source.h"

@@ -8,7 +8,6 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/statistics/bench/formulas.h"
 #include "tests/support/error_of.h"
 
 namespace repose::calibrate {

@@ -9,7 +9,6 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/statistics/design/steepest_ascent.h"
 #include "tests/calibrate/hazelnut_runs.h"
 #include "tests/support/error_of.h"
 

@@ -92,7 +92,7 @@ TEST(ExportStudy, SizesThatVaryAreSaidNotToCarryOver) {
   dem::Study study = hazelnuts();
   EXPECT_THAT(file_text(exported(study, ExportTarget::yade), "README.txt"),
               Not(HasSubstr("Sizes:")));
-  study.model.size_sd_fraction = .043;
+  study.model.size_cv = .043;
   EXPECT_THAT(file_text(exported(study, ExportTarget::yade), "README.txt"),
               AllOf(HasSubstr("standard deviation of 4.3 %"), HasSubstr("all have the mean size")));
   EXPECT_THAT(file_text(exported(study, ExportTarget::edem), "README.txt"),

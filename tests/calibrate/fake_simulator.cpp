@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "calibrate/fit/first_round.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/propose.h"
-#include "calibrate/fit/random.h"
+#include "calibrate/fit/rounds.h"
 
 namespace repose::calibrate::fake {
 namespace {

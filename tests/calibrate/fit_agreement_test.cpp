@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/agreement.h"
-#include "calibrate/fit/random.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/verification.h"
 #include "tests/support/texts_of.h"
 
@@ -132,18 +132,18 @@ TEST(Agreement, RunsToDecideDecide) {
   const auto after = [&](int runs) {
     return difference_of({1, 2.5 / std::sqrt(runs), 40}, measured);
   };
-  EXPECT_GT(not_ruled_out(after(3)).high, 2);
+  EXPECT_GT(equivalence_interval(after(3)).high, 2);
   const std::optional<int> needed = runs_to_decide(after(3), .3, 3, 2, .05);
   ASSERT_TRUE(needed);
   EXPECT_GT(*needed, 30);
   EXPECT_LT(*needed, 90);
-  EXPECT_LT(not_ruled_out(after(*needed)).high, 2);
+  EXPECT_LT(equivalence_interval(after(*needed)).high, 2);
   EXPECT_FALSE(runs_to_decide(after(3), 1.5, 3, 2, .05)) << "the bench is too unsure";
 }
 
 TEST(Agreement, FewRunsCountAsStudentSays) {
   const UncertainMean few = difference_of({1, 1, 2}, {0, 0, kInfinite});
-  EXPECT_NEAR(not_ruled_out(few).high, 1 + 2.91999, 1e-4);
+  EXPECT_NEAR(equivalence_interval(few).high, 1 + 2.91999, 1e-4);
   EXPECT_NEAR(chance_of(few), .42265, 1e-4);
   EXPECT_NEAR(difference_of({1, 3, 4}, {0, 3, 4}).df, 8, 1e-9) << "alike: both together";
 }
@@ -173,11 +173,11 @@ TEST(Agreement, ReadingsToDecideDecide) {
   const auto after = [](int readings) {
     return difference_of({101, .1, 40}, {100, 60 / std::sqrt(readings), readings - 1.});
   };
-  EXPECT_GT(not_ruled_out(after(3)).high, 10);
+  EXPECT_GT(equivalence_interval(after(3)).high, 10);
   const std::optional<int> needed = readings_to_decide(after(3), 60 / std::sqrt(3), 3, 10, .05);
   ASSERT_TRUE(needed);
   EXPECT_NEAR(*needed, std::pow(60 * (1.645 + .842) / 9, 2), 3);
-  EXPECT_LT(not_ruled_out(after(*needed)).high, 10);
+  EXPECT_LT(equivalence_interval(after(*needed)).high, 10);
   EXPECT_FALSE(readings_to_decide(difference_of({101, 8, 40}, {100, 1, 9}), 1, 10, 10, .05))
       << "the runs leave too much open";
 }

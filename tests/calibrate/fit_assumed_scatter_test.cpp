@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/assumed_scatter.h"
-#include "calibrate/result/bench_errors_text.h"
+#include "calibrate/result/result_text.h"
 #include "tests/calibrate/fake_simulator.h"
 #include "tests/calibrate/made_up_result.h"
 

@@ -6,7 +6,7 @@
 
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/propose.h"
-#include "calibrate/fit/training_set.h"
+#include "calibrate/fit/surrogate.h"
 #include "calibrate/fit/verification.h"
 
 namespace repose::calibrate {

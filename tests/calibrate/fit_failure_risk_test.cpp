@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/failure_risk.h"
+#include "calibrate/fit/misfit.h"
 
 namespace repose::calibrate {
 namespace {

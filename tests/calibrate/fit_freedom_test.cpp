@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/fit/random.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/verification.h"
 #include "tests/calibrate/fake_simulator.h"
 

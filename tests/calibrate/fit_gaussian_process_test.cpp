@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/gaussian_process.h"
-#include "calibrate/fit/random.h"
-#include "calibrate/fit/sequence.h"
+#include "calibrate/fit/points.h"
 
 namespace repose::calibrate {
 namespace {

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
-#include "calibrate/fit/first_round.h"
-#include "calibrate/fit/minimum.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/plausible.h"
-#include "calibrate/fit/training_set.h"
+#include "calibrate/fit/rounds.h"
+#include "calibrate/fit/solution.h"
+#include "calibrate/fit/surrogate.h"
 #include "tests/calibrate/fake_simulator.h"
 #include "tests/support/error_of.h"
 
@@ -262,7 +262,7 @@ TEST(Minimum, StaysInTheBoxAndHoldsWhatIsHeld) {
 TEST(Plausible, SpreadIsThatOfTheKnowledge) {
   // Only the prior tells anything of the restitution between grains: its own spread comes back.
   const Problem problem = full_problem(false);
-  const PlausibleSets sets = plausible_sets(misfit_of(problem, false), 7);
+  const PosteriorSamples sets = posterior_samples(misfit_of(problem, false), 7);
   const double width = problem.parameters[3].max - problem.parameters[3].min;
   EXPECT_NEAR(problem.parameters[3].min + mean_of(sets.points)[3] * width, .2, .012);
   EXPECT_NEAR(sd_of(sets.points)[3] * width, .05, .008);

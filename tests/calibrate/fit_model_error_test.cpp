@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/fit/random.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/grain_source.h"

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/moved_coefficients.h"
+#include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/verification.h"
 #include "tests/calibrate/fake_simulator.h"
 

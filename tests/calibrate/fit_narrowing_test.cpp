@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/fit/advice.h"
 #include "calibrate/fit/joint_fit.h"
-#include "calibrate/fit/narrowing.h"
-#include "calibrate/fit/training_set.h"
+#include "calibrate/fit/surrogate.h"
 #include "tests/calibrate/fake_simulator.h"
 
 namespace repose::calibrate {

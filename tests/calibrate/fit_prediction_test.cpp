@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/propose.h"
-#include "calibrate/fit/random.h"
 #include "calibrate/fit/verification.h"
 #include "tests/calibrate/fake_simulator.h"
 #include "tests/support/error_of.h"

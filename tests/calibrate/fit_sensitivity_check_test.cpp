@@ -107,7 +107,7 @@ TEST(StiffnessCheck, WhatIsTooDearForTheBudgetIsNamedAndTheCheaperOnesAreSimulat
   experiment_of(problem, "roll").real_stiffness = 10;
   problem.settings.budget_s = 1000;
   const SensitivityPlan plan = plan_stiffer(problem, kTruth, 6);
-  EXPECT_THAT(plan.too_dear, ElementsAre("heap"));
+  EXPECT_THAT(plan.over_budget, ElementsAre("heap"));
   ASSERT_THAT(plan.jobs, SizeIs(6));
   EXPECT_EQ(plan.jobs[0].experiment, "roll");
   EXPECT_THAT(check_sensitivity(problem, AssumedInput::stiffness, kTruth, fake::run_all(plan.jobs),

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/sequence.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/fit/points.h"
 
 namespace repose::calibrate {
 namespace {

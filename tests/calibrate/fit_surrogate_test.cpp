@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/random.h"
-#include "calibrate/fit/sequence.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/fit/surrogate.h"
 
 namespace repose::calibrate {

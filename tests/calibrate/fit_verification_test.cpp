@@ -6,7 +6,6 @@
 
 #include "base/input_error.h"
 #include "calibrate/fit/propose.h"
-#include "calibrate/fit/surrogate_check.h"
 #include "calibrate/fit/verification.h"
 #include "tests/calibrate/fake_simulator.h"
 

@@ -104,7 +104,7 @@ TEST(HeapViews, AnotherCameraTakesPicturesAnewOfTheSameHeap) {
                .grain_fingerprint = "ball",
                .viewing = {.views = 2}};
   const repose::testing::TemporaryFolder files;
-  const RunFolder folder(files.path());
+  const RunStore folder(files.path());
   SimulateOptions options;
   options.folder = &folder;
   const std::string far = text_of(simulate_experiment(spec, 1, options));

@@ -10,7 +10,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_run.h"
 #include "tests/calibrate/sphere_study.h"
@@ -181,7 +181,7 @@ struct VariedStudy : ::testing::Test {
     Budget budget = budget_named("quick");
     budget.family_sets = 0;
     StudySimulator simulator(study, grain, problem.parameters, 0);
-    const RunFolder runs(folder_.path() / "runs");
+    const RunStore runs(folder_.path() / "runs");
     simulator.store_in(runs);
     ThreadExecutor executor(simulator, 2);
     const std::atomic<bool> is_interrupted = false;

@@ -222,7 +222,7 @@ ShapeCheck finer_drop() {
   ShapeCheck shape;
   shape.readings = {drop};
   shape.coefficients = {{"particle_wall.restitution", .44, {.4, .49}, Verdict::determined}};
-  shape.too_dear = {"heap"};
+  shape.over_budget = {"heap"};
   shape.spheres = 11;
   shape.finer_spheres = 44;
   shape.finer_volume_error = .0425;

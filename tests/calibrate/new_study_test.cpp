@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/start/usual_experiment.h"
-#include "calibrate/study/bench_sheets.h"
+#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/study.h"
 #include "tests/support/error_of.h"
@@ -91,9 +91,9 @@ TEST_F(NewStudyTest, AsksForNothingButItsReadings) {
 
 TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
   const dem::Study study = written(study_of(grain("wheat"), {dem::Experiment::tilt}));
-  EXPECT_TRUE(study.particle_wall.sliding_friction.is_sought());
-  EXPECT_FALSE(study.particle_wall.restitution.is_sought());
-  EXPECT_FALSE(study.particle_particle.sliding_friction.is_sought());
+  EXPECT_TRUE(study.particle_wall.sliding_friction.is_free());
+  EXPECT_FALSE(study.particle_wall.restitution.is_free());
+  EXPECT_FALSE(study.particle_particle.sliding_friction.is_free());
   EXPECT_EQ(study.experiments.size(), 1U);
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "new/tilts.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new/drops.csv"));
@@ -129,9 +129,9 @@ TEST_F(NewStudyTest, CanHaveATubeOfAnotherMaterial) {
 TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
   const dem::Study study = written(
       study_of(grain("pea"), {dem::Experiment::tilt_on_grains, dem::Experiment::roll_on_grains}));
-  EXPECT_TRUE(study.particle_particle.sliding_friction.is_sought());
-  EXPECT_FALSE(study.particle_particle.restitution.is_sought());
-  EXPECT_FALSE(study.particle_wall.sliding_friction.is_sought());
+  EXPECT_TRUE(study.particle_particle.sliding_friction.is_free());
+  EXPECT_FALSE(study.particle_particle.restitution.is_free());
+  EXPECT_FALSE(study.particle_wall.sliding_friction.is_free());
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "new/tilt_on_grains.csv"));
 }
 

@@ -6,10 +6,8 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/experiment/run_folder.h"
-#include "calibrate/fit/random.h"
-#include "calibrate/fit/sequence.h"
-#include "calibrate/fit/unit_box.h"
+#include "calibrate/experiment/run_store.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/plan/offers.h"
 #include "calibrate/start/usual_experiment.h"
 #include "calibrate/study/study_simulator.h"
@@ -94,7 +92,7 @@ std::vector<std::string> planned(const Foresight& foresight) {
 }
 
 TEST(Foresight, AnIntervalIsThatOfAStraightLineThroughReadingsThatScatterByFivePercent) {
-  const Outlook outlook = foresight_of(problem_with({"first"})).with({0});
+  const DesignForecast outlook = foresight_of(problem_with({"first"})).with({0});
   // Evenly spread from 0 to 1: a variance of 1/12. Single readings of 120 scatter by 6.
   const double u = .05 * (kBase + kSlope / 2) / std::sqrt(10.) / kSlope;
   const double sd = 1 / std::sqrt(12 + 1 / (u * u));
@@ -235,7 +233,7 @@ TEST_F(OfferedStudyTest, OfLargeGrainsHasTubesThatHoldABulkOfThem) {
 TEST_F(OfferedStudyTest, WhatAPlanSimulatedIsOfferedToACalibrationInTheSameFolder) {
   const dem::Study study = study_of(test::kSphereStudy);
   const dem::ClumpFile grain = dem::build_grain(study.grain);
-  const RunFolder folder(folder_.path() / "runs");
+  const RunStore folder(folder_.path() / "runs");
   for (const Offer& offer : offers_in(folder, study, grain)) {
     EXPECT_THAT(offer.runs, IsEmpty()) << offer.experiment.name;
     EXPECT_THAT(offer.study_lines, HasSubstr("[experiment." + offer.experiment.name + "]"));

@@ -75,7 +75,7 @@ class PublishedMethod : public ::testing::Test {
     const dem::ClumpFile grain = dem::build_grain(study.grain);
     const Problem problem = problem_of(study, grain, budget_named("quick")).problem;
     const StudySimulator simulator(study, grain, problem.parameters, 0);
-    const RunFolder folder(folder_.path() / "runs");
+    const RunStore folder(folder_.path() / "runs");
     const auto report = [this](const StudyProgress& now) {
       is_interrupted_ = now.stage == stop_at_;
     };

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/fit/random.h"
+#include "calibrate/fit/points.h"
 #include "calibrate/statistics/design/design.h"
 #include "calibrate/statistics/regress/surface.h"
 #include "tests/calibrate/hazelnut_runs.h"

@@ -4,11 +4,10 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/report/figures.h"
+#include "calibrate/report/document.h"
 #include "calibrate/report/heap_model.h"
 #include "calibrate/report/measure_report.h"
 #include "calibrate/report/page.h"
-#include "calibrate/report/tables.h"
 #include "calibrate/report/wording.h"
 
 namespace repose::calibrate::report {

@@ -9,8 +9,7 @@
 
 #include "base/input_error.h"
 #include "calibrate/fit/propose.h"
-#include "calibrate/result/agreement_text.h"
-#include "calibrate/result/summary_text.h"
+#include "calibrate/result/result_text.h"
 #include "tests/calibrate/made_up_result.h"
 #include "tests/support/temporary_folder.h"
 
@@ -93,7 +92,7 @@ TEST(Result, KnowsWhichInputWasVaried) {
 TEST(Result, SaysWhyTheNumberOfSpheresWasNotChecked) {
   ShapeCheck shape;
   EXPECT_THAT(shape_check_text(shape), IsEmpty());
-  shape.too_dear = {"roll", "heap"};
+  shape.over_budget = {"roll", "heap"};
   EXPECT_THAT(shape_check_text(shape),
               HasSubstr("for roll, heap: it would take more than a fifth"));
   shape.not_made = "one sphere is exactly the shape of this particle";

@@ -96,7 +96,7 @@ TEST(SimulatorVersion, IsRaisedWhenWhatASimulationGivesHasChanged) {
       if (has_key(study, entry, reading.needs)) known.emplace_back(reading.name);
     }
     EXPECT_THAT(given, ::testing::UnorderedElementsAreArray(known)) << "as its entry says";
-    (entry.is_usual ? lines : others).push_back(std::string(entry.name) + ' ' + line_of(run));
+    (entry.is_default ? lines : others).push_back(std::string(entry.name) + ' ' + line_of(run));
   }
   constexpr const char* kChanged =
       "what a simulation gives has changed: raise kSimulatorVersion and store the new hash in "

@@ -15,7 +15,7 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_problem.h"
 #include "tests/calibrate/sphere_study.h"
@@ -70,7 +70,7 @@ class StudyRun : public ::testing::Test {
                                   const std::vector<std::string>& settings = {}) const {
     const dem::Study study = read(settings);
     StudySimulator simulator = simulator_of(study);
-    const RunFolder runs(folder_.path() / folder);
+    const RunStore runs(folder_.path() / folder);
     simulator.store_in(runs);
     ThreadExecutor executor(simulator, threads);
     std::atomic<bool> is_interrupted = false;
@@ -99,7 +99,7 @@ TEST_F(StudyRun, TakesItsProblemFromTheStudy) {
   ASSERT_THAT(made.problem.parameters, SizeIs(2));
   EXPECT_EQ(made.problem.parameters[0].name, "contact.particle_wall.restitution");
   EXPECT_EQ(made.problem.parameters[0].min, .2);
-  EXPECT_THAT(made.problem.parameters[0].told_by, ElementsAre("drop"));
+  EXPECT_THAT(made.problem.parameters[0].identified_by, ElementsAre("drop"));
   ASSERT_THAT(made.problem.observables, SizeIs(2));
   EXPECT_EQ(made.problem.observables[0].mean, 25);
   EXPECT_EQ(made.problem.observables[0].n, 5);
@@ -236,7 +236,7 @@ TEST_F(StudyRun, WhereTheBudgetAllowsForNoStifferGrainsThatIsSaid) {
   problem.settings.budget_s = .1;
   Budget many = budget();
   StudySimulator simulator = simulator_of(study);
-  const RunFolder runs(folder_.path() / "dear");
+  const RunStore runs(folder_.path() / "dear");
   ThreadExecutor executor(simulator, 2);
   const std::atomic<bool> is_interrupted = false;
   const auto outcome = run_study(problem, many, {simulator, runs, executor, is_interrupted});
@@ -298,7 +298,7 @@ TEST_F(StudyRun, AClumpThatCannotHaveMoreSpheresIsNamedAndDoesNotStopTheStudy) {
   const Problem problem = small_problem(study);
   study.grain.sizes.reset();  // as a scan that was moved away meanwhile
   StudySimulator simulator(study, grain, problem.parameters, 0);
-  const RunFolder runs(folder_.path() / "moved");
+  const RunStore runs(folder_.path() / "moved");
   simulator.store_in(runs);
   ThreadExecutor executor(simulator, 2);
   const std::atomic<bool> is_interrupted = false;
@@ -311,7 +311,7 @@ TEST_F(StudyRun, AClumpThatCannotHaveMoreSpheresIsNamedAndDoesNotStopTheStudy) {
   for (Experiment& experiment : slow.experiments) experiment.spheres_share = 1e6;
   const auto dear = run_study(slow, budget(), {simulator, runs, executor, is_interrupted});
   ASSERT_TRUE(dear);
-  EXPECT_THAT(dear->shape.too_dear, ElementsAre("drop", "tilt"));
+  EXPECT_THAT(dear->shape.over_budget, ElementsAre("drop", "tilt"));
   EXPECT_THAT(dear->notes, Contains(HasSubstr("drop: it is not known what its number of spheres")));
 }
 
@@ -413,7 +413,7 @@ TEST_F(StudyRun, AStudyAsksForTheRunsThatASingleExperimentMakes) {
       spec_of(single, dem::Experiment::drop, NamedGrain(grain_of(single)), kHeapViews);
   const Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
   EXPECT_EQ(key_of(alone, job.seed), key_of(simulator_of(read()).spec(job), job.seed));
-  const RunFolder folder(folder_.path() / "single");
+  const RunStore folder(folder_.path() / "single");
   simulate_experiment(alone, job.seed, {.folder = &folder, .trajectory = {}, .report = {}});
   EXPECT_TRUE(folder.find_whole(simulator_of(read()).spec(job), job.seed));
 }
@@ -576,7 +576,7 @@ TEST_F(StudyRun, AReadingThatCannotBeCountsAsAFailedRunAndIsNamed) {
   const dem::Study study = read();
   const StudySimulator simulator = simulator_of(study);
   for (const auto& [name, rebound_mm] : {std::pair("huge", 1e200), std::pair("high", 200.)}) {
-    const RunFolder runs(folder_.path() / name);  // the ball falls 100 mm
+    const RunStore runs(folder_.path() / name);  // the ball falls 100 mm
     WrongExecutor executor(simulator, rebound_mm);
     const std::atomic<bool> is_interrupted = false;
     const auto outcome =
@@ -595,7 +595,7 @@ TEST_F(StudyRun, AReadingThatCannotBeCountsAsAFailedRunAndIsNamed) {
 
 TEST_F(StudyRun, AFolderThatCannotBeMadeIsRefused) {
   folder_.write("file", std::string("x"));
-  EXPECT_THROW(RunFolder(folder_.path() / "file"), base::InputError);
+  EXPECT_THROW(RunStore(folder_.path() / "file"), base::InputError);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include "cli/calibrate/check_heaps.h"
-
 #include <gmock/gmock.h>
+
+#include "cli/calibrate/calibrate.h"
 
 namespace repose::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "cli/commands.h"
+#include "cli/program.h"
 #include "tests/cli/command_test.h"
 
 namespace repose::testing {

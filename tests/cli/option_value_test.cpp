@@ -16,7 +16,7 @@ using ::testing::SizeIs;
 
 class OptionValue : public ::testing::Test {
  protected:
-  Typed typed(const std::string& text) { return {"--option", text_ = text, errors_}; }
+  OptionText typed(const std::string& text) { return {"--option", text_ = text, errors_}; }
 
   std::string text_;
   std::vector<std::string> errors_;

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "dem/state/state_file.h"
-#include "dem/state/trajectory.h"
 #include "tests/cli/command_test.h"
 #include "vision/picture/picture.h"
 

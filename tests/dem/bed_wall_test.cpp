@@ -3,7 +3,7 @@
 
 #include "base/input_error.h"
 #include "dem/engine/simulation.h"
-#include "dem/wall/bed_facets.h"
+#include "dem/wall/facets.h"
 #include "tests/support/error_of.h"
 
 namespace repose::dem {

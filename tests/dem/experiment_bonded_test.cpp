@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dem/experiment/bonded.h"
-#include "dem/experiment/placing.h"
+#include "dem/experiment/model_setup.h"
+#include "dem/experiment/tilt.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

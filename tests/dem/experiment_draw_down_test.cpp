@@ -34,7 +34,7 @@ constexpr DrawDownProtocol kBoxes{
 std::string no_reading_of(const std::function<void()>& run) {
   try {
     run();
-  } catch (const NoReading& error) {
+  } catch (const NoMeasurement& error) {
     return error.what();
   }
   return "a reading";

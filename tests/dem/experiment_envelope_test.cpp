@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/input_error.h"
-#include "dem/experiment/heap_envelope.h"
+#include "dem/experiment/heap.h"
 #include "tests/support/sphere_heap.h"
 
 namespace repose::dem {

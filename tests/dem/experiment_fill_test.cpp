@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/engine/unstable_run.h"
-#include "dem/experiment/filling_height.h"
+#include "dem/experiment/filling.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

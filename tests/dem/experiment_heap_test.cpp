@@ -88,7 +88,7 @@ TEST(Heap, TakesThoseThatFitWhereFewerWillDo) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .05;
   protocol.grains = 100000;
-  protocol.may_be_fewer = true;
+  protocol.allow_partial_fill = true;
   const double grains = run_heap(test::soft_bench(), protocol, 1).readings.at("grains");
   EXPECT_GT(grains, 2);
   EXPECT_LT(grains, 1000);
@@ -111,7 +111,7 @@ TEST(Heap, GrainsThatHangInTheTubeAreNoReading) {
   protocol.tube_height_m = .06;
   // Of this seed three spheres make an arch, and go up with the tube.
   const std::string message =
-      error_of<NoReading>([&] { run_heap(test::soft_bench(), protocol, 3); });
+      error_of<NoMeasurement>([&] { run_heap(test::soft_bench(), protocol, 3); });
   EXPECT_NE(message.find("hang in the tube"), std::string::npos) << message;
 }
 

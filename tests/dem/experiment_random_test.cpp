@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "dem/experiment/random.h"
+#include "dem/experiment/model_setup.h"
 
 namespace repose::dem {
 namespace {

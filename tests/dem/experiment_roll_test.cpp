@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dem/experiment/incline.h"
-#include "dem/experiment/placing.h"
+#include "dem/experiment/model_setup.h"
+#include "dem/experiment/roll.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -108,14 +108,14 @@ TEST(Roll, AGrainThatDoesNotStopIsNoReadingAndSaysWhatWouldStopIt) {
     Model model = test::sphere_bench();
     model.stiffness_factor = .001;
     model.grain_wall = one.grain_wall;
-    const std::string message = error_of<NoReading>([&] { run_roll(model, {}, 1); });
+    const std::string message = error_of<NoMeasurement>([&] { run_roll(model, {}, 1); });
     EXPECT_NE(message.find("still moves"), std::string::npos) << message;
     EXPECT_NE(message.find(one.says), std::string::npos) << message;
   }
   Model model = test::sphere_bench();
   model.stiffness_factor = .001;
   model.rolling = RollingModel::none;
-  const std::string message = error_of<NoReading>([&] { run_roll(model, {}, 1); });
+  const std::string message = error_of<NoMeasurement>([&] { run_roll(model, {}, 1); });
   EXPECT_NE(message.find("a rolling_model other than none"), std::string::npos) << message;
 }
 

@@ -78,19 +78,20 @@ TEST(Tilt, DoesNotDependOnTheRate) {
 TEST(Tilt, GrainsTipWhenFrictionHoldsThem) {
   Model model = test::clump_bench();
   model.grain_wall.sliding_friction = 1.3;
-  const std::string message = error_of<NoReading>([&] { run_tilt(model, {.rate_deg_s = 10}, 1); });
+  const std::string message =
+      error_of<NoMeasurement>([&] { run_tilt(model, {.rate_deg_s = 10}, 1); });
   EXPECT_NE(message.find("tipped"), std::string::npos) << message;
 }
 
 TEST(Tilt, ASingleGrainRolls) {
-  const std::string message = error_of<NoReading>(
+  const std::string message = error_of<NoMeasurement>(
       [&] { run_tilt(test::sphere_bench(), {.bonded = 1, .rate_deg_s = 10}, 1); });
   EXPECT_NE(message.find("rolled"), std::string::npos) << message;
 }
 
 TEST(Tilt, BeginningAboveTheAngleOfFrictionIsNoReading) {
   const std::string message =
-      error_of<NoReading>([] { run_tilt(test::clump_bench(), {.start_deg = 30}, 1); });
+      error_of<NoMeasurement>([] { run_tilt(test::clump_bench(), {.start_deg = 30}, 1); });
   EXPECT_NE(message.find("holds up to 21.31 degrees. Fix: start_deg = 0"), std::string::npos)
       << message;
 }
@@ -98,7 +99,8 @@ TEST(Tilt, BeginningAboveTheAngleOfFrictionIsNoReading) {
 TEST(Tilt, NoReadingIsBelowWhereThePlateBegins) {
   Model model = test::clump_bench();
   model.grain_wall.sliding_friction = .1;  // slides at 5.711
-  const std::string creeps = error_of<NoReading>([&] { run_tilt(model, {.start_deg = 5.7}, 1); });
+  const std::string creeps =
+      error_of<NoMeasurement>([&] { run_tilt(model, {.start_deg = 5.7}, 1); });
   EXPECT_NE(creeps.find("creeps from 5.70 degrees on"), std::string::npos) << creeps;
   EXPECT_NE(creeps.find("Fix: start_deg = 0"), std::string::npos) << creeps;
 }

@@ -1,7 +1,6 @@
-#include "dem/experiment/free_flight.h"
-
 #include <gtest/gtest.h>
 
+#include "dem/experiment/drop.h"
 #include "tests/dem/packing.h"
 
 namespace repose::dem {

@@ -17,7 +17,7 @@ TEST(GluedBed, HidesAsMuchOfTheBoardAsItIsTold) {
 
 TEST(GluedBed, HasNoHolesAndNoGrainsOnEachOther) {
   for (const ClumpShape& grain : {sphere_shape(.003), test::spheroid_clump(5)}) {
-    for (const double coverage : {kLeastCoverage, kMostCoverage}) {
+    for (const double coverage : {kMinCoverage, kMaxCoverage}) {
       Random random(7);
       const SphereBed bed = glued_bed(grain, coverage, random);
       EXPECT_FALSE(has_hole(bed, .5 * top_m(bed))) << coverage;

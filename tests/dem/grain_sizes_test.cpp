@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/clump/size_classes.h"
+#include "dem/shape/clump/clump_shape.h"
 #include "dem/state/state_file.h"
 #include "dem/study/experiment_table.h"
 #include "tests/dem/experiment_model.h"
@@ -58,7 +58,7 @@ TEST(SizeClasses, EachIsTheSameShapeInAnotherSize) {
 
 Model of_many_sizes() {
   Model model = test::soft_bench();
-  model.size_sd_fraction = .15;
+  model.size_cv = .15;
   return model;
 }
 
@@ -125,7 +125,7 @@ TEST(FillOfManySizes, ItsMassIsTheSumOfItsGrains) {
 TEST(GrainSizes, ThatVaryTooMuchAreRefusedWithTheRule) {
   Model model = test::soft_bench();
   for (const double sd : {-.01, .21, std::nan("")}) {
-    model.size_sd_fraction = sd;
+    model.size_cv = sd;
     EXPECT_THAT(error_of([&] { run_heap(model, tube_for_many_sizes(), 1); }),
                 HasSubstr("Rule: 0 to 0.2"));
   }

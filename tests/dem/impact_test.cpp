@@ -17,25 +17,25 @@ Law<double> glass_law(double restitution, double friction) {
 }
 
 /// At rest, b above a.
-Touch<double> touch_of(double overlap) {
-  Touch<double> touch;
+ContactGeometry<double> touch_of(double overlap) {
+  ContactGeometry<double> touch;
   touch.normal = {0, 0, 1};
   touch.overlap = overlap;
   touch.reduced_radius = .002;
   touch.reduced_mass = 1e-4;
   touch.damper_limit = 1e300;
-  touch.shared_limit = 1e300;
+  touch.max_stable_damping = 1e300;
   return touch;
 }
 
 /// b's surface slides by `slip` in one step.
-ContactForce<double> slide(Touch<double> touch, const Vec3<double>& slip, const Law<double>& law,
-                           Springs<double>& springs) {
+ContactForce<double> slide(ContactGeometry<double> touch, const Vec3<double>& slip,
+                           const Law<double>& law, Springs<double>& springs) {
   touch.half_velocity = slip * (1 / kTimestep);
   return contact_force(touch, law, kTimestep, springs);
 }
 
-double tangential_stiffness(const Touch<double>& touch, const Law<double>& law) {
+double tangential_stiffness(const ContactGeometry<double>& touch, const Law<double>& law) {
   return 8 * law.reduced_shear * std::sqrt(touch.reduced_radius * touch.overlap);
 }
 
@@ -63,7 +63,7 @@ TEST(ContactForce, ModuliAreThoseOfThePair) {
 }
 
 TEST(ContactForce, FastPartingDoesNotPull) {
-  Touch<double> touch = touch_of(1e-6);
+  ContactGeometry<double> touch = touch_of(1e-6);
   touch.velocity.z = 100;  // b flies off
   Springs<double> springs;
   const ContactForce<double> force = contact_force(touch, glass_law(.1, .5), kTimestep, springs);
@@ -73,7 +73,7 @@ TEST(ContactForce, FastPartingDoesNotPull) {
 
 TEST(ContactForce, SmallSlipStretchesMindlinsSpring) {
   const Law<double> law = glass_law(1, 1);
-  const Touch<double> touch = touch_of(1e-6);
+  const ContactGeometry<double> touch = touch_of(1e-6);
   Springs<double> springs;
   const ContactForce<double> force = slide(touch, {1e-9, 0, 0}, law, springs);
   EXPECT_NEAR(force.total.x, tangential_stiffness(touch, law) * 1e-9, 1e-12);  // a is dragged
@@ -92,7 +92,7 @@ TEST(ContactForce, SlidingStopsAtCoulombsLimit) {
 }
 
 TEST(ContactForce, DamperDoesNotPassCoulombsLimit) {
-  Touch<double> touch = touch_of(1e-6);
+  ContactGeometry<double> touch = touch_of(1e-6);
   touch.velocity.x = 1e3;
   Springs<double> springs;
   const ContactForce<double> force = contact_force(touch, glass_law(.2, .3), kTimestep, springs);
@@ -115,7 +115,7 @@ TEST(ContactForce, SpringTurnsWithTheContact) {
   Springs<double> springs;
   slide(touch_of(1e-6), {3e-9, 4e-9, 0}, law, springs);
   const double size = std::sqrt(springs.tangential.squared_norm());
-  Touch<double> turned = touch_of(1e-6);
+  ContactGeometry<double> turned = touch_of(1e-6);
   turned.normal = {std::sin(.1), 0, std::cos(.1)};
   contact_force(turned, law, kTimestep, springs);
   EXPECT_NEAR(std::sqrt(springs.tangential.squared_norm()), size, 1e-12 * size);
@@ -126,7 +126,7 @@ TEST(ContactForce, SpringTurnsWithSpinAboutTheNormal) {
   const Law<double> law = glass_law(1, 1);
   Springs<double> springs;
   slide(touch_of(1e-6), {1e-9, 0, 0}, law, springs);
-  Touch twisting = touch_of(1e-6);
+  ContactGeometry twisting = touch_of(1e-6);
   constexpr int kSteps = 1000;
   twisting.twist = .5 / (kSteps * kTimestep);  // half a radian in all
   for (int k = 0; k < kSteps; ++k) contact_force(twisting, law, kTimestep, springs);

@@ -1,36 +1,37 @@
+#include "dem/engine/lanes.h"
+
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "dem/engine/contact_force.h"
-#include "dem/engine/rows.h"
 
 namespace repose::dem {
 namespace {
 
-Lanes lanes_of(double a, double b, double c, double d) { return Lanes::Vector4{a, b, c, d}; }
+Double4 lanes_of(double a, double b, double c, double d) { return Double4::Vector4{a, b, c, d}; }
 
-TEST(Lanes, EachLaneIsOnItsOwn) {
-  const Lanes x = lanes_of(1, 4, 9, 16);
-  const Lanes roots = sqrt(x);
-  const Lanes chosen = select(x > Lanes(5), x, -x);
+TEST(Double4, EachLaneIsOnItsOwn) {
+  const Double4 x = lanes_of(1, 4, 9, 16);
+  const Double4 roots = sqrt(x);
+  const Double4 chosen = select(x > Double4(5), x, -x);
   for (std::size_t k = 0; k < kLanes; ++k) {
     EXPECT_EQ(roots[k], static_cast<double>(k + 1));
     EXPECT_EQ(chosen[k], k < 2 ? -x[k] : x[k]);
-    EXPECT_EQ(size_of(-x)[k], x[k]);
+    EXPECT_EQ(abs(-x)[k], x[k]);
   }
 }
 
-TEST(Lanes, AnyIsTrueOfOneLaneAlone) {
+TEST(Double4, AnyIsTrueOfOneLaneAlone) {
   for (std::size_t k = 0; k < kLanes; ++k) {
-    Lanes x(0);
+    Double4 x(0);
     x.set(k, 1);
-    EXPECT_TRUE(any(x > Lanes(.5)));
+    EXPECT_TRUE(any(x > Double4(.5)));
   }
-  EXPECT_FALSE(any(Lanes(0) > Lanes(.5)));
+  EXPECT_FALSE(any(Double4(0) > Double4(.5)));
 }
 
-TEST(Lanes, TurningRowsTwiceGivesThemBack) {
+TEST(Double4, TurningRowsTwiceGivesThemBack) {
   Rows rows;
   for (std::size_t k = 0; k < kLanes; ++k) {
     const auto first = static_cast<double>(10 * k);
@@ -45,9 +46,9 @@ TEST(Lanes, TurningRowsTwiceGivesThemBack) {
   }
 }
 
-/// Touching at the overlap, with everything else at random.
+/// ActiveContact at the overlap, with everything else at random.
 struct Case {
-  Touch<double> touch;
+  ContactGeometry<double> touch;
   Springs<double> springs;
 };
 
@@ -63,7 +64,7 @@ Case random_case(std::mt19937& random) {
   one.touch.reduced_radius = .002;
   one.touch.reduced_mass = 1e-4;
   one.touch.damper_limit = 10;
-  one.touch.shared_limit = 8;
+  one.touch.max_stable_damping = 8;
   one.touch.half_velocity = vector(2);
   one.touch.velocity = vector(random() % 4 == 0 ? 4 : .01);  // brief and long impacts
   one.touch.twist = uniform();
@@ -71,7 +72,7 @@ Case random_case(std::mt19937& random) {
   return one;
 }
 
-TEST(Lanes, ContactForceIsTheSameAloneAsWithThreeOthers) {
+TEST(Double4, ContactForceIsTheSameAloneAsWithThreeOthers) {
   const ContactLaw law = {.reduced_young_pa = 1e9,
                           .reduced_shear_pa = 2e8,
                           .normal_damping = .3,
@@ -80,30 +81,30 @@ TEST(Lanes, ContactForceIsTheSameAloneAsWithThreeOthers) {
                           .rolling_friction = 0};
   std::mt19937 random(1);
   for (int trial = 0; trial < 500; ++trial) {
-    Touch<Lanes> touches;
-    Springs<Lanes> all_springs;
+    ContactGeometry<Double4> touches;
+    Springs<Double4> all_springs;
     std::array<Case, kLanes> cases;
-    const auto set = [](Vec3<Lanes>& to, std::size_t k, const Vec3<double>& from) {
+    const auto set = [](Vec3<Double4>& to, std::size_t k, const Vec3<double>& from) {
       to.x.set(k, from.x);
       to.y.set(k, from.y);
       to.z.set(k, from.z);
     };
     for (std::size_t k = 0; k < kLanes; ++k) {
       cases[k] = random_case(random);
-      const Touch<double>& touch = cases[k].touch;
+      const ContactGeometry<double>& touch = cases[k].touch;
       set(touches.normal, k, touch.normal);
       touches.overlap.set(k, touch.overlap);
       touches.reduced_radius.set(k, touch.reduced_radius);
       touches.reduced_mass.set(k, touch.reduced_mass);
       touches.damper_limit.set(k, touch.damper_limit);
-      touches.shared_limit.set(k, touch.shared_limit);
+      touches.max_stable_damping.set(k, touch.max_stable_damping);
       set(touches.half_velocity, k, touch.half_velocity);
       set(touches.velocity, k, touch.velocity);
       touches.twist.set(k, touch.twist);
       set(all_springs.tangential, k, cases[k].springs.tangential);
       all_springs.radius.set(k, cases[k].springs.radius);
     }
-    const auto together = contact_force(touches, law_of<Lanes>(law), 1e-6, all_springs);
+    const auto together = contact_force(touches, law_of<Double4>(law), 1e-6, all_springs);
     for (std::size_t k = 0; k < kLanes; ++k) {
       const auto alone = contact_force(cases[k].touch, law_of<double>(law), 1e-6, cases[k].springs);
       EXPECT_EQ(together.normal[k], alone.normal);

@@ -5,7 +5,7 @@
 
 #include "base/input_error.h"
 #include "dem/engine/simulation.h"
-#include "dem/wall/mesh_facets.h"
+#include "dem/wall/facets.h"
 
 namespace repose::testing {
 namespace {

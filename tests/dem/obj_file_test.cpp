@@ -1,10 +1,9 @@
-#include "dem/shape/scan/obj_file.h"
-
 #include <string>
 
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "dem/shape/scan/mesh_file.h"
 
 namespace repose::dem {
 namespace {

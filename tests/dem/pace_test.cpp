@@ -1,5 +1,3 @@
-#include "dem/experiment/pace.h"
-
 #include <cmath>
 #include <limits>
 
@@ -7,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "dem/engine/time_step.h"
+#include "dem/experiment/experiment_run.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/verify/scene.h"
 #include "tests/dem/experiment_model.h"
@@ -25,7 +24,7 @@ Simulation flying(const Model& model, double speed_m_s, double spin_rad_s = 0) {
 }
 
 double step_at(const Model& model, double speed_m_s, double spin_rad_s = 0, double ahead_s = 0) {
-  Pace pace(model, kUsual_m_s);
+  AdaptiveTimestep pace(model, kUsual_m_s);
   return pace.timestep_s(flying(model, speed_m_s, spin_rad_s), ahead_s);
 }
 
@@ -33,7 +32,7 @@ double accurate_at(const Model& model, double speed_m_s) {
   return bulk_setup(model, {study_wall(Plane{})}, speed_m_s).timestep_s;
 }
 
-TEST(Pace, IsWhatTheFastestGrainAllows) {
+TEST(AdaptiveTimestep, IsWhatTheFastestGrainAllows) {
   const Model model = test::sphere_bench();
   for (double speed = .14; speed < 10; speed *= 1.07) {
     const double allowed = accurate_at(model, speed);
@@ -43,14 +42,14 @@ TEST(Pace, IsWhatTheFastestGrainAllows) {
   }
 }
 
-TEST(Pace, GrainsAtRestMoveInStepsOfATenthOfTheUsualSpeed) {
+TEST(AdaptiveTimestep, GrainsAtRestMoveInStepsOfATenthOfTheUsualSpeed) {
   const Model model = test::sphere_bench();
   const double usual = accurate_at(model, kUsual_m_s);
   EXPECT_NEAR(step_at(model, 0) / usual, std::pow(1.15, 16. / 5), 1e-9);
   EXPECT_EQ(step_at(model, 1e-3), step_at(model, 0));
 }
 
-TEST(Pace, SpinAndTheFallAheadCount) {
+TEST(AdaptiveTimestep, SpinAndTheFallAheadCount) {
   const Model model = test::sphere_bench();
   const double turning = .5 / model.grain.reach_m();
   EXPECT_EQ(step_at(model, 0, turning * .999), step_at(model, .5 * .999));
@@ -58,23 +57,23 @@ TEST(Pace, SpinAndTheFallAheadCount) {
   EXPECT_EQ(step_at(model, .2, 0, .03), step_at(model, .2 + .03 * kStandardGravity_m_s2));
 }
 
-TEST(Pace, AFractionAskedForIsKept) {
+TEST(AdaptiveTimestep, AFractionAskedForIsKept) {
   Model model = test::sphere_bench();
   const double whole = step_at(model, .3);
   model.timestep_fraction = .4;
   EXPECT_NEAR(step_at(model, .3), .4 * whole, 1e-12 * whole);
 }
 
-TEST(Pace, AStepAskedForStays) {
+TEST(AdaptiveTimestep, AStepAskedForStays) {
   Model model = test::sphere_bench();
   model.timestep_s = 1e-6;
   EXPECT_EQ(step_at(model, 0), 1e-6);
   EXPECT_EQ(step_at(model, 9), 1e-6);
 }
 
-TEST(Pace, SmallChangesOfSpeedChangeNothing) {
+TEST(AdaptiveTimestep, SmallChangesOfSpeedChangeNothing) {
   const Model model = test::sphere_bench();
-  Pace pace(model, kUsual_m_s);
+  AdaptiveTimestep pace(model, kUsual_m_s);
   Simulation simulation = flying(model, .5);
   simulation.set_timestep(pace.timestep_s(simulation, 0));
   const double step = simulation.setup().timestep_s;
@@ -86,7 +85,7 @@ TEST(Pace, SmallChangesOfSpeedChangeNothing) {
 }
 
 // In the middle of an impact nothing moves.
-TEST(Pace, WhatContactsHaveInStoreCounts) {
+TEST(AdaptiveTimestep, WhatContactsHaveInStoreCounts) {
   const Model model = test::sphere_bench();
   const double radius = model.grain.spheres[0].radius;
   SimulationSetup setup = bulk_setup(model, {study_wall(Plane{})}, kUsual_m_s);
@@ -96,7 +95,8 @@ TEST(Pace, WhatContactsHaveInStoreCounts) {
   simulation.advance(1);
   const double stable = simulation.stable_timestep_s().value();
   ASSERT_LT(kBulkFraction * stable, accurate_at(model, kUsual_m_s / 9));
-  EXPECT_DOUBLE_EQ(Pace(model, kUsual_m_s).timestep_s(simulation, 0), kBulkFraction * stable);
+  EXPECT_DOUBLE_EQ(AdaptiveTimestep(model, kUsual_m_s).timestep_s(simulation, 0),
+                   kBulkFraction * stable);
 }
 
 TEST(SetTimestep, TimeGoesOnFromWhereItIs) {

@@ -212,8 +212,8 @@ TEST(RestitutionBySpeed, IsHeldBetweenItsLeastAndItsMost) {
   const PairCoefficients pair{
       .restitution = .5, .restitution_exponent = .25, .restitution_speed_m_s = 1};
   EXPECT_DOUBLE_EQ(restitution_at(pair, 16), .25);
-  EXPECT_DOUBLE_EQ(restitution_at(pair, .01), kMostRestitutionBySpeed);
-  EXPECT_DOUBLE_EQ(restitution_at(pair, 1e9), kLeastRestitution);
+  EXPECT_DOUBLE_EQ(restitution_at(pair, .01), kMaxRestitutionBySpeed);
+  EXPECT_DOUBLE_EQ(restitution_at(pair, 1e9), kMinRestitution);
   EXPECT_EQ(restitution_at({.restitution = .5}, .01), .5);
 }
 

@@ -4,9 +4,8 @@
 
 #include "base/input_error.h"
 #include "dem/shape/scan/calliper.h"
-#include "dem/shape/scan/mass_properties.h"
-#include "dem/shape/scan/mesh_edges.h"
-#include "dem/shape/scan/self_crossing.h"
+#include "dem/shape/scan/mesh.h"
+#include "dem/shape/scan/repair.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {

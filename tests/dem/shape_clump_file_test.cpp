@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "dem/shape/clump/clump_errors.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/shape/clump/shape_export.h"
-#include "dem/shape/clump/sphere_groups.h"
 #include "dem/shape/scan/scan.h"
 #include "tests/dem/shapes.h"
 #include "tests/support/temporary_folder.h"

@@ -4,9 +4,8 @@
 
 #include "base/input_error.h"
 #include "dem/shape/clump/fill.h"
-#include "dem/shape/clump/inscribed_spheres.h"
-#include "dem/shape/clump/surface_distance.h"
-#include "dem/shape/scan/mass_properties.h"
+#include "dem/shape/clump/surface.h"
+#include "dem/shape/scan/mesh.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {

@@ -5,7 +5,7 @@
 
 #include "base/input_error.h"
 #include "dem/shape/clump/clump_shape.h"
-#include "dem/shape/scan/mass_properties.h"
+#include "dem/shape/scan/mesh.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {

@@ -8,8 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/input_error.h"
-#include "dem/shape/scan/mass_properties.h"
-#include "dem/shape/scan/mesh_edges.h"
+#include "dem/shape/scan/mesh.h"
 #include "dem/shape/scan/scan.h"
 #include "tests/dem/shapes.h"
 #include "tests/support/temporary_folder.h"

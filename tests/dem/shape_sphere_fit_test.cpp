@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/shape/clump/sphere_fit.h"
-#include "dem/shape/clump/surface_samples.h"
+#include "dem/shape/clump/surface.h"
 
 namespace repose::testing {
 namespace {

@@ -3,9 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/shape/clump/columns.h"
-#include "dem/shape/clump/surface_distance.h"
-#include "dem/shape/clump/surface_samples.h"
+#include "dem/shape/clump/surface.h"
 #include "tests/dem/shapes.h"
 
 namespace repose::testing {

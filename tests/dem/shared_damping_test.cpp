@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/contact/restitution.h"
-#include "dem/engine/share_damping.h"
+#include "dem/engine/four_contacts.h"
 #include "dem/engine/time_step.h"
 #include "dem/verify/scene.h"
 

@@ -11,7 +11,6 @@
 #include "base/base64.h"
 #include "base/input_error.h"
 #include "dem/state/state_file.h"
-#include "dem/state/trajectory.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 

@@ -56,9 +56,9 @@ TEST_F(StudyFile, GrainsMayHaveAColourForPictures) {
 TEST_F(StudyFile, SizesThatVaryDoSoInBulksOnly) {
   const std::string heap = "\n[experiment.heap]\n";
   const Study study = read(kStudy + heap, {"particle.size_sd_percent = 4.3"});
-  EXPECT_DOUBLE_EQ(model_for(study, Experiment::heap).size_sd_fraction, .043);
-  EXPECT_EQ(model_for(study, Experiment::drop).size_sd_fraction, 0);
-  EXPECT_EQ(read(kStudy + heap).model.size_sd_fraction, 0);
+  EXPECT_DOUBLE_EQ(model_for(study, Experiment::heap).size_cv, .043);
+  EXPECT_EQ(model_for(study, Experiment::drop).size_cv, 0);
+  EXPECT_EQ(read(kStudy + heap).model.size_cv, 0);
   EXPECT_THAT(errors(kStudy, {"particle.size_sd_percent = 43"}),
               HasSubstr("particle.size_sd_percent"));
   EXPECT_THAT(errors(kStudy, {"particle.size_sd_percent = -1"}),
@@ -297,13 +297,13 @@ TEST_F(StudyFile, WhatIsSoughtMayHaveAValueForRunsBefore) {
       read(kStudy, {"contact.particle_wall.restitution = "
                     "{ value = 0.3, min = 0.1, max = 0.6, mean = 0.35, sd = 0.1 }"});
   const Coefficient& restitution = study.particle_wall.restitution;
-  EXPECT_TRUE(restitution.is_sought());
+  EXPECT_TRUE(restitution.is_free());
   EXPECT_EQ(restitution.value, .3);
   EXPECT_EQ(restitution.known_mean, .35);
   EXPECT_EQ(restitution.known_sd, .1);
   EXPECT_EQ(study.model.grain_wall.restitution, .3);
   EXPECT_THAT(open_coefficients(study, Experiment::drop), IsEmpty());
-  EXPECT_FALSE(study.particle_wall.sliding_friction.is_sought());
+  EXPECT_FALSE(study.particle_wall.sliding_friction.is_free());
 }
 
 TEST_F(StudyFile, BoundsSayWhatTheyAreAndWhatWidthIsUseful) {
@@ -394,7 +394,7 @@ TEST_F(StudyFile, RestitutionMayDependOnTheSpeed) {
   EXPECT_EQ(known.model.grain_wall.restitution_speed_m_s, 3);
   EXPECT_EQ(known.model.grain_grain.restitution_exponent, 0);
   const Study sought = read(kStudy, {exponent + "{ min = 0, max = 0.25 }", speed});
-  EXPECT_TRUE(sought.particle_wall.restitution_exponent.is_sought());
+  EXPECT_TRUE(sought.particle_wall.restitution_exponent.is_free());
   EXPECT_THAT(open_coefficients(sought, Experiment::drop),
               Contains("contact.particle_wall.restitution_exponent"));
   EXPECT_TRUE(depends_on(entry_of(Experiment::drop), "contact.particle_wall.restitution_exponent"));

@@ -1,10 +1,8 @@
-#include "dem/experiment/tapping.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "dem/experiment/heap_fill.h"
+#include "dem/experiment/filling.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

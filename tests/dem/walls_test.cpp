@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dem/wall/closest.h"
+#include "dem/wall/facets.h"
 #include "dem/wall/wall_set.h"
 
 namespace repose::dem {

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSide_px = 800, kQuality = 80;
-constexpr std::size_t kMost_bytes = 150'000;
+constexpr std::size_t kMax_bytes = 150'000;
 
 struct Figure {
   const char* name = "";
@@ -49,7 +49,7 @@ bool write(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
-  if (bytes.size() <= kMost_bytes) return true;
+  if (bytes.size() <= kMax_bytes) return true;
   std::fprintf(stderr, "%s: %zu bytes are too many\n", file.c_str(), bytes.size());
   return false;
 }

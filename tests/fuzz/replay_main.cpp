@@ -13,8 +13,8 @@
 
 #include <fmt/format.h>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "tests/fuzz/readers.h"
 
 namespace {
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using repose::fuzz::Reader;
 
-constexpr double kMost_s = 20;  // under a sanitizer too
+constexpr double kMax_s = 20;  // under a sanitizer too
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -43,10 +43,10 @@ std::string fault_of(const Reader& reader, const fs::path& file) {
     return fmt::format("threw what is no refusal: {}", error.what());
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return elapsed.count() > kMost_s ? fmt::format("took {:.0f} s", elapsed.count()) : "";
+  return elapsed.count() > kMax_s ? fmt::format("took {:.0f} s", elapsed.count()) : "";
 }
 
-int replay(const fs::path& corpus) {
+int reconstruct_rounds(const fs::path& corpus) {
   int faults = 0;
   std::size_t files = 0;
   for (const Reader& reader : repose::fuzz::kReaders) {
@@ -68,7 +68,7 @@ int replay(const fs::path& corpus) {
 
 int main(int count, char** words) {
   try {
-    if (count == 2) return replay(words[1]);
+    if (count == 2) return reconstruct_rounds(words[1]);
     fmt::print(stderr, "usage: fuzz_replay CORPUS\n");
   } catch (const std::exception& error) {
     fmt::print(stderr, "fuzz_replay: {}\n", error.what());

@@ -1,4 +1,4 @@
-#include "calibrate/experiment/run_folder.h"
+#include "calibrate/experiment/run_store.h"
 #include "tests/fuzz/scratch_file.h"
 
 namespace repose::fuzz {

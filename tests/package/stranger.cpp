@@ -95,7 +95,7 @@ bool runs_a_study(const std::filesystem::path& folder) {
   record.budget.settings.max_jobs = 20;
   const StudyProblem problem = problem_of(record.study, record.grain, record.budget);
   const StudySimulator simulator(record.study, record.grain, problem.problem.parameters);
-  const RunFolder runs(folder / "calibration");
+  const RunStore runs(folder / "calibration");
   ThreadExecutor executor(simulator, 2);
   const std::atomic<bool> is_interrupted = false;
   const std::optional<StudyOutcome> outcome =

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/input_error.h"
-#include "dem/verify/trial.h"
+#include "dem/verify/scene.h"
 #include "dem/verify/verify.h"
 
 namespace repose::dem {

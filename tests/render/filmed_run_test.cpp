@@ -7,8 +7,6 @@
 #include <gmock/gmock.h>
 
 #include "dem/shape/clump/clump_shape.h"
-#include "render/run/between.h"
-#include "render/run/film_truth.h"
 #include "tests/render/drawn.h"
 
 namespace repose::render {

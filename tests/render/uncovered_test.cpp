@@ -1,5 +1,3 @@
-#include "render/silhouette/uncovered.h"
-
 #include <algorithm>
 #include <functional>
 

@@ -10,7 +10,7 @@
 
 #include "tests/support/heap_random.h"
 #include "vision/camera/board.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::testing {
 namespace {
@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using vision::Point;
 
 // The sheet around the board, in squares: what a page of A4 leaves.
-constexpr double kBeside = 1.15, kAbove = 0.4, kBelow = 1.3;
+constexpr double kSameEdgeTolerance = 1.15, kAbove = 0.4, kIndent = 1.3;
 
 /// Black where a patch is; a table of fine cells, for there are 400 patches and millions of pixels.
 class BoardPattern {
@@ -48,8 +48,8 @@ class BoardPattern {
 };
 
 bool is_on_sheet(double x, double y) {
-  return x >= -kBeside && x <= vision::kBoardColumns + kBeside && y >= -kAbove &&
-         y <= vision::kBoardRows + kBelow;
+  return x >= -kSameEdgeTolerance && x <= vision::kBoardColumns + kSameEdgeTolerance &&
+         y >= -kAbove && y <= vision::kBoardRows + kIndent;
 }
 
 /// All of the sheet, and what its blur adds.
@@ -58,8 +58,9 @@ cv::Rect frame_of(const BoardCamera& camera, const BoardPlace& place) {
   std::vector<cv::Point> points;
   for (int i = 0; i <= kSteps; ++i) {
     for (int j = 0; j <= kSteps; ++j) {
-      const double x = -kBeside + (vision::kBoardColumns + 2 * kBeside) * i / kSteps;
-      const double y = -kAbove + (vision::kBoardRows + kAbove + kBelow) * j / kSteps;
+      const double x =
+          -kSameEdgeTolerance + (vision::kBoardColumns + 2 * kSameEdgeTolerance) * i / kSteps;
+      const double y = -kAbove + (vision::kBoardRows + kAbove + kIndent) * j / kSteps;
       const Point seen =
           camera.seen(place.origin_mm + place.square_mm * place.rotation * Vector3d(x, y, 0));
       points.emplace_back(cvRound(seen.x), cvRound(seen.y));

@@ -36,7 +36,7 @@ vision::Picture DrawnDrop::picture(int frame, const cv::Mat& scene) const {
   const cv::Mat behind = is_other ? drawn_scene({width, height}, seed, true) : scene;
   const int parts = exposure > 0 ? 8 : 1;
   const double floor = kFloorPart * height + radius_px * .3;
-  const double turn_c = std::cos(lean_rad), turn_s = std::sin(lean_rad);
+  const double turn_c = std::cos(roll_rad), turn_s = std::sin(roll_rad);
   cv::Mat seen = exposed(behind, parts, [&](cv::Mat& now, int part) {
     const double begin_s = (frame + exposure * ((part + .5) / parts - .5)) / frames_per_s;
     for (int grain = 0; grain < grains; ++grain) {

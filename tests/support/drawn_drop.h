@@ -21,7 +21,7 @@ struct DrawnDrop {
   double exposure = .3;       ///< of the time between frames
   double noise = 2;           ///< standard deviation of a grey level
   double readout_s = 0;       ///< from the first row to the last
-  double lean_rad = 0;        ///< of the camera, clockwise
+  double roll_rad = 0;        ///< of the camera, clockwise
   double shake_px = 0;        ///< of the camera
   bool has_hand = false;      ///< holds the grain, then leaves
   bool has_shadow = true;

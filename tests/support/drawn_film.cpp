@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/drawn_board.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::testing {
 

@@ -51,7 +51,7 @@ cv::Point2d placed(const DrawnRoll& roll, const cv::Point2d& at) {
   const double across = kFootPart * roll.width + at.x - .5 * roll.width;
   const cv::Point2d plain(roll.goes_left ? -across : across,
                           kFloorPart * roll.height - at.y - .5 * roll.height);
-  const double c = std::cos(roll.lean_rad), s = std::sin(roll.lean_rad);
+  const double c = std::cos(roll.roll_rad), s = std::sin(roll.roll_rad);
   return {plain.x * c - plain.y * s + .5 * roll.width,
           plain.x * s + plain.y * c + .5 * roll.height};
 }

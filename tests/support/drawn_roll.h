@@ -22,7 +22,7 @@ struct DrawnRoll {
   double roll_s = 1.5;    ///< from the release to rest
   double exposure = .3;   ///< of the time between frames
   double noise = 2;       ///< standard deviation of a grey level
-  double lean_rad = 0;    ///< of the camera, clockwise
+  double roll_rad = 0;    ///< of the camera, clockwise
   double hop_px = 0;      ///< how high it hops when it comes to the flat
   bool has_hand = false;  ///< holds the grain, then leaves
   bool has_shadow = true;

@@ -31,7 +31,7 @@ struct Placing {
   Placing(const DrawnTilt& tilt, double time_s)
       : tilt_(tilt),
         plate_(turn_by(tilt.angle_deg(time_s) * kDegree)),
-        lean_(turn_by(tilt.lean_rad)),
+        lean_(turn_by(tilt.roll_rad)),
         shift(tilt.shakes_px * std::sin(std::numbers::pi * time_s)) {}
 
   cv::Point2d in_picture(const cv::Point2d& at) const {

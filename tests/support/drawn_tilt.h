@@ -30,7 +30,7 @@ struct DrawnTilt {
   bool has_texture = false;  ///< on the plate
   bool has_shadow = true;
   bool goes_left = false;  ///< mirrored
-  double lean_rad = 0;     ///< of the camera, clockwise
+  double roll_rad = 0;     ///< of the camera, clockwise
   double exposure = .3;    ///< of the time between frames
   double noise = 2;        ///< standard deviation of a grey level
   double rolls = 0;        ///< turns against the plate per radius of its way; 0: slides

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/picture/jpeg.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::testing {
 namespace {

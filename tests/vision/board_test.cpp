@@ -8,8 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "tests/support/drawn_board.h"
-#include "vision/camera/board_page.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {

@@ -1,5 +1,3 @@
-#include "vision/measure/body_texture.h"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -7,6 +5,7 @@
 
 #include "tests/support/heap_random.h"
 #include "tests/vision/pictures.h"
+#include "vision/measure/likeness.h"
 
 namespace repose::vision {
 namespace {

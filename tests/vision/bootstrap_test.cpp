@@ -1,5 +1,3 @@
-#include "vision/measure/bootstrap.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,8 +1,8 @@
-#include "vision/track/bounce_numbers.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "vision/track/drop_candidate.h"
 
 namespace repose::vision {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSmallWidth = 640;
 
-Choice choice_of(const cv::Mat& picture) { return choose_reading(work_of(picture), {}); }
+SelectedCandidate choice_of(const cv::Mat& picture) { return choose_reading(work_of(picture), {}); }
 
 Reading reading_of(const cv::Mat& picture) {
   const WorkingPicture work = work_of(picture);
@@ -61,7 +61,7 @@ TEST(Reading, AngleIsTheMeanOfTheSidesThatExist) {
 }
 
 TEST(ChooseReading, SegmentationsAgreeOnAClearPicture) {
-  const Choice choice = choice_of(mat_of(drawn("clean", 2, kSmallWidth).picture));
+  const SelectedCandidate choice = choice_of(mat_of(drawn("clean", 2, kSmallWidth).picture));
   EXPECT_GT(choice.best.score, 0.55);
   EXPECT_LT(choice.disagreement_rad, 0.3 * kDegree);
   EXPECT_LT(choice.left_disagreement_rad, 0.5 * kDegree);
@@ -77,11 +77,11 @@ cv::Mat3b masked_heap(const cv::Scalar& beside) {
 }
 
 TEST(ChooseReading, OfTwoColoursAsksOneSegmentation) {
-  const Choice two = choice_of(masked_heap({0, 0, 0}));
+  const SelectedCandidate two = choice_of(masked_heap({0, 0, 0}));
   EXPECT_EQ(two.best.segmentation.name, kTwoTones);
   EXPECT_EQ(two.disagreement_rad, 0);
   EXPECT_NEAR(two.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
-  const Choice three = choice_of(masked_heap({0, 0, 200}));
+  const SelectedCandidate three = choice_of(masked_heap({0, 0, 200}));
   EXPECT_NE(three.best.segmentation.name, kTwoTones);
   EXPECT_NEAR(three.best.angle_rad(), two.best.angle_rad(), 0.3 * kDegree);
 }
@@ -91,7 +91,7 @@ TEST(ChooseReading, OfTwoColoursHearsWhatAPersonSays) {
   options.hints.heap = Box{.x = 60, .y = 150, .width = 480, .height = 200};
   const WorkingPicture work =
       working_picture(picture_of(masked_heap({0, 0, 0})), {}, options.hints);
-  const Choice choice = choose_reading(work, options);
+  const SelectedCandidate choice = choose_reading(work, options);
   EXPECT_NE(choice.best.segmentation.name, kTwoTones);
   EXPECT_NEAR(choice.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
 }
@@ -101,7 +101,7 @@ TEST(ChooseReading, TakesTheSegmentationThatSeesTheHeap) {
   cv::Mat3b picture(400, 600, cv::Vec3b(150, 130, 130));
   const std::vector<std::vector<cv::Point>> heap = {{{120, 320}, {300, 220}, {480, 320}}};
   cv::fillPoly(picture, heap, {70, 135, 165});
-  const Choice choice = choice_of(picture);
+  const SelectedCandidate choice = choice_of(picture);
   ASSERT_TRUE(choice.best.has_flank());
   EXPECT_NE(choice.best.segmentation.name, "otsu lightness");
   EXPECT_NEAR(choice.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
@@ -118,7 +118,7 @@ cv::Mat3b before_the_tables_edge(const cv::Scalar& table) {
 
 TEST(ChooseReading, TakesTheReadingThatSeesTheHeapsFoot) {
   // Only colour tells the grey table from the backdrop's side.
-  const Choice choice = choice_of(before_the_tables_edge({100, 100, 100}));
+  const SelectedCandidate choice = choice_of(before_the_tables_edge({100, 100, 100}));
   ASSERT_TRUE(choice.best.has_flank());
   EXPECT_FALSE(choice.best.body.ground.behind);
   EXPECT_NEAR(choice.best.body.ground.y(300), 290, 3);
@@ -126,7 +126,7 @@ TEST(ChooseReading, TakesTheReadingThatSeesTheHeapsFoot) {
 
 TEST(ChooseReading, WhereNoReadingSeesTheFootTheFlanksAboveTheTablesEdgeAreMeasured) {
   // The table is nearer to the heap than to the backdrop, in every channel.
-  const Choice choice = choice_of(before_the_tables_edge({60, 95, 140}));
+  const SelectedCandidate choice = choice_of(before_the_tables_edge({60, 95, 140}));
   ASSERT_TRUE(choice.best.has_flank());
   EXPECT_GT(choice.best.score, 0.5);
   EXPECT_NEAR(choice.best.angle_rad(), std::atan(140. / 210), 0.5 * kDegree);
@@ -143,7 +143,7 @@ TEST(ChooseReading, AnEdgeAboveARoundFootIsBehindTheHeap) {
   cv::ellipse(heap, {300, 290}, {210, 18}, 0, 0, 360, 255, cv::FILLED);
   picture.rowRange(0, 250).setTo(cv::Scalar(40, 100, 150), heap.rowRange(0, 250));
   picture.rowRange(250, 400).setTo(cv::Scalar(20, 70, 110), heap.rowRange(250, 400));
-  const Choice choice = choice_of(picture);
+  const SelectedCandidate choice = choice_of(picture);
   ASSERT_TRUE(choice.best.has_flank());
   EXPECT_FALSE(choice.best.body.ground.behind);
   EXPECT_GT(choice.best.body.ground.y(300), 285);
@@ -163,19 +163,19 @@ TEST(ChooseReading, APlateThatCarriesAHeapIsNoHeap) {
   cv::ellipse(picture, {300, 312}, {150, 10}, 0, 0, 360, grains, cv::FILLED);
   const WorkingPicture work = work_of(picture);
   Reading sharpest;
-  for (const Segmentation& segmentation : blind_segmentations(work)) {
+  for (const Segmentation& segmentation : unsupervised_segmentations(work)) {
     const Reading reading = read_heap(segmentation, work, {});
     if (reading.score > sharpest.score) sharpest = reading;
   }
   ASSERT_LT(sharpest.profile.crest_height, 60) << "the plate is no easier to see than its heap";
-  const Choice choice = choose_reading(work, {});
+  const SelectedCandidate choice = choose_reading(work, {});
   ASSERT_TRUE(choice.best.has_flank());
   EXPECT_GT(choice.best.profile.crest_height, 80);
   EXPECT_NEAR(choice.best.angle_rad(), std::atan(92. / 150), 0.5 * kDegree);
 }
 
 TEST(ChooseReading, AnUprightBodyIsSaidToBeOne) {
-  const Choice choice = choice_of(mat_of(drawn("column", 1, kSmallWidth).picture));
+  const SelectedCandidate choice = choice_of(mat_of(drawn("column", 1, kSmallWidth).picture));
   EXPECT_FALSE(choice.best.has_flank());
   EXPECT_TRUE(choice.best.left.vertical || choice.best.right.vertical);
 }

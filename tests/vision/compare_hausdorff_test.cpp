@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/heap_random.h"
-#include "vision/compare/hausdorff.h"
+#include "vision/compare/skyline.h"
 
 namespace repose::vision {
 namespace {

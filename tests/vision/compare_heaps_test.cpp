@@ -55,7 +55,7 @@ TEST(CompareHeaps, TrianglesOnOneBaseHaveTheExactNumbers) {
   EXPECT_NEAR(*c.profile_mean, 0.15 / 4, kExact);
   EXPECT_NEAR(*c.profile_rmse, 0.15 / std::sqrt(12), kExact);
   for (const SideComparison& side : {c.left, c.right}) {
-    EXPECT_EQ(side.cover, Cover::whole);
+    EXPECT_EQ(side.cover, Coverage::whole);
     EXPECT_NEAR(*side.iou, 0.5, kExact);
     EXPECT_NEAR(*side.profile_mean, 0.15 / 4, kExact);
     EXPECT_NEAR(*side.profile_rmse, 0.15 / std::sqrt(12), kExact);
@@ -178,7 +178,7 @@ TEST(CompareHeaps, AMissingFlankLeavesTheOtherSide) {
   const HeapComparison c = compare({.has_right = false}, {.right_base = 900}, scaled(1e-3, 1e-3));
   EXPECT_EQ(c.status, MeasureStatus::ok);
   EXPECT_TRUE(c.is_aligned_by_crest);
-  EXPECT_EQ(c.right.cover, Cover::none);
+  EXPECT_EQ(c.right.cover, Coverage::none);
   EXPECT_FALSE(c.right.iou);
   EXPECT_FALSE(c.right.angle);
   EXPECT_NEAR(*c.iou, 1, kExact) << "of the left sides, which are equal";
@@ -200,8 +200,8 @@ TEST(CompareHeaps, OppositeFlanksCompareAnglesOnly) {
 
 TEST(CompareHeaps, ASideCutByTheFrameIsComparedAsFarAsItIsSeen) {
   const HeapComparison c = compare({.cut_left = 200}, {}, scaled(1e-3, 1e-3));
-  EXPECT_EQ(c.left.cover, Cover::part);
-  EXPECT_EQ(c.right.cover, Cover::whole);
+  EXPECT_EQ(c.left.cover, Coverage::part);
+  EXPECT_EQ(c.right.cover, Coverage::whole);
   EXPECT_NEAR(*c.iou, 1, kExact) << "what is out of the frame is no difference";
   EXPECT_FALSE(c.left.angle);
   EXPECT_FALSE(c.left.run_out[0]);
@@ -230,7 +230,7 @@ ReposeAngle without_angle(const TriangleHeap& heap) {
   ReposeAngle result = measured(heap);
   result.status = MeasureStatus::refused;
   result.reason = "the left side is round.";
-  result.outline_holds = true;
+  result.outline_valid = true;
   result.angle_rad.reset();
   result.uncertainty_rad.reset();
   result.left.angle_rad.reset();
@@ -252,7 +252,7 @@ TEST(CompareHeaps, OutlinesAreComparedWhereOnlyAnAngleIsRefused) {
   const HeapComparison one_sided =
       compare_heaps(without_angle({.has_left = false}), measured({}), scaled(1e-3, 1e-3));
   EXPECT_FALSE(one_sided.angle);
-  EXPECT_EQ(one_sided.right.cover, Cover::whole);
+  EXPECT_EQ(one_sided.right.cover, Coverage::whole);
 }
 
 TEST(CompareHeaps, PicturesBringTheirWarningsAndFlags) {

@@ -7,7 +7,7 @@
 #include "tests/vision/measured_triangles.h"
 #include "tests/vision/plain_picture.h"
 #include "vision/drawing/heap_comparison_overlay.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {

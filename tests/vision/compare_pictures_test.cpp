@@ -116,8 +116,8 @@ TEST(ComparePictures, AFlankOutOfTheFrameLeavesTheRest) {
   const cv::Mat whole = heap();
   const cv::Mat cut = whole(cv::Rect(200, 0, 600, whole.rows)).clone();
   const HeapComparison c = compare_in_pixels(whole, cut);
-  EXPECT_NE(c.left.cover, Cover::whole);
-  EXPECT_EQ(c.right.cover, Cover::whole);
+  EXPECT_NE(c.left.cover, Coverage::whole);
+  EXPECT_EQ(c.right.cover, Coverage::whole);
   EXPECT_GT(*c.right.iou, kPixelIou);
   EXPECT_FALSE(c.base[1]);
   EXPECT_EQ(c.angle->verdict, Agreement::equivalent);

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "vision/track/drop_candidate.h"
-#include "vision/track/flight_finder.h"
 #include "vision/track/flight_fit.h"
 
 namespace repose::vision {
@@ -57,11 +56,12 @@ FlightFit fit_of(const std::vector<SeenAt>& path) {
 }
 
 Estimate restitution(const FlightFit& fit, std::size_t k) {
-  return fit.estimate(k, k + 1,
-                      [](const FlightCurve& before, const FlightCurve& after, const Pull& pull) {
-                        const double time_s = meeting_time_s(before, after, pull);
-                        return -speed_at(after, time_s, pull) / speed_at(before, time_s, pull);
-                      });
+  return fit.estimate(
+      k, k + 1,
+      [](const FlightCurve& before, const FlightCurve& after, const FlightDynamics& pull) {
+        const double time_s = meeting_time_s(before, after, pull);
+        return -speed_at(after, time_s, pull) / speed_at(before, time_s, pull);
+      });
 }
 
 TEST(Flights, AreThePartsBetweenReleaseImpactsAndRest) {

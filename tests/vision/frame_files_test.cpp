@@ -1,5 +1,3 @@
-#include "vision/film/frame_files.h"
-
 #include <string>
 #include <vector>
 

@@ -6,8 +6,6 @@
 
 #include <gmock/gmock.h>
 
-#include "vision/film/repeat_finder.h"
-
 namespace repose::vision {
 namespace {
 

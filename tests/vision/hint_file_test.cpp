@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/pictures.h"
 
@@ -102,14 +102,14 @@ TEST_F(HintFile, ScaleAndLensAreSavedAndReadAgain) {
   board.scale.lens_file = folder_.path() / "camera.toml";
   board.scale.finds_board = true;
   board.scale.square_mm = 23.5;
-  board.scale.behind_mm = 120;
+  board.scale.board_offset_mm = 120;
   save_hints(board, picture());
   PictureSettings again = read_all();
   ASSERT_TRUE(again.scale.lens);
   EXPECT_EQ(again.scale.lens->focal_px.value, 400);
   EXPECT_TRUE(again.scale.finds_board);
   EXPECT_EQ(again.scale.square_mm, 23.5);
-  EXPECT_EQ(again.scale.behind_mm, 120);
+  EXPECT_EQ(again.scale.board_offset_mm, 120);
   EXPECT_EQ(again.measuring.hints.source, hint_file_of(picture()).filename())
       << "a lens changes the angle";
 

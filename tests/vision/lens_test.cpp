@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "tests/support/drawn_board.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/camera/board.h"
 #include "vision/camera/lens_file.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {

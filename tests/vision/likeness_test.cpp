@@ -44,7 +44,7 @@ void fill(cv::Mat3b& picture, const std::vector<cv::Point>& corners, const cv::S
   cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{corners}, colour);
 }
 
-TEST(Likeness, DrawnHeapsLookLikeHeaps) {
+TEST(HeapPlausibility, DrawnHeapsLookLikeHeaps) {
   for (const char* condition : {"clean", "silhouette", "half_heap", "hollow_power", "few_grains",
                                 "hazelnut", "apron", "blur_noise_jpeg"}) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -55,7 +55,7 @@ TEST(Likeness, DrawnHeapsLookLikeHeaps) {
   }
 }
 
-TEST(Likeness, ASmoothTriangleIsFlagged) {
+TEST(HeapPlausibility, ASmoothTriangleIsFlagged) {
   const Picture sign = painted([](cv::Mat3b& picture) {
     fill(picture, {{120, 400}, {320, 280}, {520, 400}}, kBrown);
   });
@@ -84,7 +84,7 @@ Reading body_with_gap(int top, int gap_from) {
   return reading;
 }
 
-TEST(Likeness, LegsLeaveGapsThatToesDoNot) {
+TEST(HeapPlausibility, LegsLeaveGapsThatToesDoNot) {
   const WorkingPicture work = work_of(cv::Mat3b(120, 300, cv::Vec3b(90, 90, 90)));
   EXPECT_EQ(likeness_of(body_with_gap(20, 100), work).filled, 1);
   EXPECT_EQ(likeness_of(body_with_gap(20, 96), work).filled, 1);  // under 6 % of the height
@@ -92,7 +92,7 @@ TEST(Likeness, LegsLeaveGapsThatToesDoNot) {
   EXPECT_NEAR(likeness_of(body_with_gap(20, 64), work).filled, 1 - 0.7 * 31.2 / 75.2, 0.01);
 }
 
-TEST(Likeness, AnEdgeThatRisesAgainClimbs) {
+TEST(HeapPlausibility, AnEdgeThatRisesAgainClimbs) {
   const WorkingPicture work = work_of(cv::Mat3b(120, 300, cv::Vec3b(90, 90, 90)));
   Reading reading = body_with_gap(20, 100);
   for (std::size_t i = 0; i < 200; ++i) {  // two humps, 80 and 60 high, and 40 between them
@@ -104,7 +104,7 @@ TEST(Likeness, AnEdgeThatRisesAgainClimbs) {
   EXPECT_NEAR(likeness_of(reading, work).climb, 20.0 / 80, 0.02);
 }
 
-TEST(Likeness, TreadsOfStairsAreLevelAndASlopeIsNot) {
+TEST(HeapPlausibility, TreadsOfStairsAreLevelAndASlopeIsNot) {
   const WorkingPicture work = work_of(cv::Mat3b(120, 300, cv::Vec3b(90, 90, 90)));
   Reading reading = body_with_gap(20, 100);
   FlankFit& flank = reading.right;
@@ -120,29 +120,35 @@ TEST(Likeness, TreadsOfStairsAreLevelAndASlopeIsNot) {
 }
 
 TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {
-  const Likeness heap;
+  const HeapPlausibility heap;
   EXPECT_THAT(reason_against_heap(heap, 8), IsEmpty());
   const auto reason = [](auto change, std::optional<double> grain = 8) {
-    Likeness other;
+    HeapPlausibility other;
     change(other);
     return reason_against_heap(other, grain);
   };
-  EXPECT_THAT(reason([](Likeness& l) { l.filled = 0.9; }), HasSubstr("10 % of the area under"));
-  EXPECT_THAT(reason([](Likeness& l) { l.climb = 0.2; }), HasSubstr("rises again by 20 %"));
-  EXPECT_THAT(reason([](Likeness& l) { l.level = 0.8; }), HasSubstr("80 % of its edge is level"));
-  EXPECT_THAT(reason([](Likeness& l) { l.inside.straight = 1.5; }), HasSubstr("1.5 times as long"));
-  EXPECT_THAT(reason([](Likeness& l) { l.inside.patchy = 0.3; }), HasSubstr("different colours"));
-  EXPECT_THAT(reason([](Likeness& l) { l.inside.aligned = 0.6; }), HasSubstr("straight lines"));
-  EXPECT_THAT(reason([](Likeness& l) { l.inside.crossed = 0.6; }), HasSubstr("straight lines"));
-  EXPECT_THAT(reason([](Likeness& l) { l.inside.regular = 0.6; }),
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.filled = 0.9; }),
+              HasSubstr("10 % of the area under"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.climb = 0.2; }), HasSubstr("rises again by 20 %"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.level = 0.8; }),
+              HasSubstr("80 % of its edge is level"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.inside.straight = 1.5; }),
+              HasSubstr("1.5 times as long"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.inside.patchy = 0.3; }),
+              HasSubstr("different colours"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.inside.aligned = 0.6; }),
+              HasSubstr("straight lines"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.inside.crossed = 0.6; }),
+              HasSubstr("straight lines"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.inside.regular = 0.6; }),
               HasSubstr("60 % of its pattern"));
-  EXPECT_THAT(reason([](Likeness& l) { l.inside.noise = 0.2; }), HasSubstr("no grains"));
-  EXPECT_THAT(reason([](Likeness&) {}, std::nullopt), HasSubstr("no grains"));
+  EXPECT_THAT(reason([](HeapPlausibility& l) { l.inside.noise = 0.2; }), HasSubstr("no grains"));
+  EXPECT_THAT(reason([](HeapPlausibility&) {}, std::nullopt), HasSubstr("no grains"));
 }
 
 TEST(ReasonAgainstHeap, AnEdgeIsAsRoughAsItsGrains) {
   const auto reason = [](double rough_px, std::optional<double> grain, double sharpness = 1) {
-    Likeness edge;
+    HeapPlausibility edge;
     edge.rough_px = rough_px;
     edge.sharpness = sharpness;
     return reason_against_heap(edge, grain);
@@ -154,7 +160,7 @@ TEST(ReasonAgainstHeap, AnEdgeIsAsRoughAsItsGrains) {
 }
 
 TEST(ReasonAgainstHeap, ASilhouetteShowsNoGrainsButItsEdgeDoes) {
-  Likeness silhouette;
+  HeapPlausibility silhouette;
   silhouette.inside = {.noise = 0, .even = 1, .aligned = 0.9, .crossed = 0.9, .regular = 0.9};
   silhouette.rough_px = 0.15;
   EXPECT_THAT(reason_against_heap(silhouette, std::nullopt), IsEmpty());

@@ -25,14 +25,14 @@ constexpr double kSlope = -0.5;
 constexpr double kIntercept = 120;
 
 /// A flank's edge: 200 points that scatter by half a pixel around a line; of the lower half,
-/// `strays` are lifted by 5 to 40 pixels.
-Points flank_points(int strays, std::uint64_t seed) {
+/// `loose_particles` are lifted by 5 to 40 pixels.
+Points flank_points(int loose_particles, std::uint64_t seed) {
   testing::Random random(seed);
   Points points;
   for (int i = 0; i < 200; ++i) {
     points.add(i, kIntercept + kSlope * i + random.normal(0, 0.5));
   }
-  for (int i = 0; i < strays; ++i) {
+  for (int i = 0; i < loose_particles; ++i) {
     points.y[static_cast<std::size_t>(random.integer(100, 199))] += random.uniform(5, 40);
   }
   return points;
@@ -72,7 +72,7 @@ TEST(RobustLine, StraysMoveItLessThanHalfAsMuchAsTheLeastSquaresLine) {
     const double robust = robust_line(points.x, points.y).slope - kSlope;
     const double ordinary = least_squares_line(points.x, points.y).slope - kSlope;
     EXPECT_GT(ordinary, 0.04) << "2 degrees: the strays matter";
-    // All strays lie on one half, nearly one in two: no easy case.
+    // All loose_particles lie on one half, nearly one in two: no easy case.
     EXPECT_LT(std::abs(robust), 0.6 * ordinary) << seed;
   }
 }

@@ -10,8 +10,8 @@
 
 #include "base/input_error.h"
 #include "tests/vision/plain_picture.h"
-#include "vision/drawing/lettering.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/drawing/canvas.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {

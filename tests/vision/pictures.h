@@ -12,7 +12,7 @@
 #include "tests/support/heap_picture.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/measure/working_picture.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 #include "vision/picture/picture.h"
 
 /// Pictures that the measuring tests share.

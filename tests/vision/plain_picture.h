@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 

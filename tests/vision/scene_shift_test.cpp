@@ -1,9 +1,9 @@
-#include "vision/film/scene_shift.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
+
+#include "vision/film/scene_change.h"
 
 namespace repose::vision {
 namespace {

@@ -126,7 +126,7 @@ TEST(BlindSegmentations, BackdropModelFollowsAGradient) {
       picture(row, col) = cv::Vec3b::all(cv::saturate_cast<std::uint8_t>(grey));
     }
   }
-  const auto all = blind_segmentations(work_of(picture));
+  const auto all = unsupervised_segmentations(work_of(picture));
   EXPECT_LT(overlap(segmentation_named(all, "otsu lightness").inside, mask), 0.8);
   EXPECT_GT(overlap(segmentation_named(all, "backdrop model").inside, mask), 0.97);
 }
@@ -135,12 +135,12 @@ TEST(BlindSegmentations, ColourTellsHeapsAsBrightAsTheirBackdrop) {
   const cv::Mat1b mask = heap_mask({600, 400});
   cv::Mat3b picture(mask.size(), cv::Vec3b(150, 130, 130));
   picture.setTo(cv::Scalar(70, 135, 165), mask);
-  const auto all = blind_segmentations(work_of(picture));
+  const auto all = unsupervised_segmentations(work_of(picture));
   EXPECT_GT(overlap(segmentation_named(all, "otsu yellow-blue").inside, mask), 0.97);
 }
 
 TEST(BlindSegmentations, CoverThePictureUnderDifferentNames) {
-  const auto all = blind_segmentations(work_of(cv::Mat3b(120, 160, cv::Vec3b(90, 90, 90))));
+  const auto all = unsupervised_segmentations(work_of(cv::Mat3b(120, 160, cv::Vec3b(90, 90, 90))));
   std::set<std::string> names;
   for (const Segmentation& segmentation : all) {
     EXPECT_EQ(segmentation.inside.size(), cv::Size(160, 120));
@@ -203,7 +203,7 @@ TEST(BlindSegmentations, ExcludedPixelsDoNotShineInFromABox) {
         cv::Vec3b::all(static_cast<std::uint8_t>(paint));
     const WorkingPicture work = working_picture(picture_of(picture), {box});
     valid_mask = work.valid_mask;
-    found.push_back(blind_segmentations(work));
+    found.push_back(unsupervised_segmentations(work));
   }
   for (std::size_t i = 0; i < found[0].size(); ++i) {
     // L*a*b* from 0 to 100; the box differs by 100.

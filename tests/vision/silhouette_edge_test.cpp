@@ -1,10 +1,9 @@
-#include "vision/measure/silhouette_edge.h"
-
 #include <functional>
 
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "vision/measure/outline_angle.h"
 
 namespace repose::vision {
 namespace {

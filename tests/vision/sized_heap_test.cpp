@@ -10,7 +10,7 @@
 #include "tests/support/heap_random.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/film/film_angle.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 #include "vision/video/film_writer.h"
 
 namespace repose::vision {
@@ -75,14 +75,14 @@ struct Stage {
   }
 
   /// The board beside it, upright, in or behind the plane of its middle.
-  Picture picture_with_board(double behind_mm = 0, double lean_rad = 0) const {
+  Picture picture_with_board(double board_offset_mm = 0, double roll_rad = 0) const {
     Picture drawn = picture();
     Eigen::Matrix3d world_from_level;
     world_from_level << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-    const auto upright = testing::placed_board({0, 0, 0}, 0, lean_rad, 0);
+    const auto upright = testing::placed_board({0, 0, 0}, 0, roll_rad, 0);
     testing::BoardPlace place = upright;
     place.rotation = view() * world_from_level * upright.rotation;
-    place.origin_mm = view() * (Eigen::Vector3d(radius_mm + 165, behind_mm, 116) - eye() +
+    place.origin_mm = view() * (Eigen::Vector3d(radius_mm + 165, board_offset_mm, 116) - eye() +
                                 world_from_level * upright.origin_mm);
     draw_board(camera, place, {}, drawn);
     return drawn;
@@ -149,11 +149,12 @@ TEST(SizedHeap, ABoardAndALensGivePitchAndSizes) {
 TEST(SizedHeap, ABoardBehindTheHeapIsAllowedForByPerspective) {
   const Stage stage;
   const Picture picture = stage.picture_with_board(240);
-  const ScaleOptions told{.lens = stage.lens(), .finds_board = true, .behind_mm = 240, .scale = {}};
+  const ScaleOptions told{
+      .lens = stage.lens(), .finds_board = true, .board_offset_mm = 240, .scale = {}};
   const SizedHeap heap = measure_sized_heap(picture, kIsHeap, told);
   expect_holds(heap.sizes.base_mm, 300, .04);
   ScaleOptions untold = told;
-  untold.behind_mm = 0;
+  untold.board_offset_mm = 0;
   const SizedHeap wrong = measure_sized_heap(picture, kIsHeap, untold);
   EXPECT_NEAR(wrong.sizes.base_mm->value / heap.sizes.base_mm->value, 1.2, .01);
   ScaleOptions no_lens = told;

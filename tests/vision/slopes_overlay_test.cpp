@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "base/input_error.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {

@@ -8,8 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/vision/pictures.h"
-#include "vision/measure/edge_distance.h"
-#include "vision/measure/heap_template.h"
+#include "vision/measure/choice.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::vision {

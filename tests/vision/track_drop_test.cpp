@@ -11,7 +11,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/warnings.h"
-#include "vision/drawing/drop_overlay.h"
+#include "vision/drawing/track_overlays.h"
 #include "vision/track/drop_track.h"
 #include "vision/video/film_writer.h"
 
@@ -91,11 +91,11 @@ TEST(TrackDrop, TellsAFilmThatPlaysSlowerThanItWasTaken) {
 TEST(TrackDrop, FollowsTheGrainWhereAHandAndALeaningCameraAreInTheWay) {
   DrawnDrop drop = small_drop();
   drop.has_hand = true;
-  drop.lean_rad = .05;
+  drop.roll_rad = .05;
   const DropTrack track = tracked(drop);
   ASSERT_FALSE(track.bounces.empty()) << track.reason;
   EXPECT_NEAR(track.bounces[0].restitution.value, .6, .015);
-  EXPECT_NEAR(std::abs(track.lean_rad), .05, .004);
+  EXPECT_NEAR(std::abs(track.roll_rad), .05, .004);
   EXPECT_THAT(track.warnings, has_warning("leaning"));
 }
 

@@ -6,7 +6,7 @@
 #include "tests/support/drawn_film_file.h"
 #include "tests/support/drawn_roll.h"
 #include "tests/support/temporary_folder.h"
-#include "vision/drawing/roll_overlay.h"
+#include "vision/drawing/track_overlays.h"
 #include "vision/track/roll_track.h"
 
 namespace repose::vision {
@@ -103,7 +103,7 @@ TEST(TrackRoll, FindsItWhereTheGrainRollsToTheLeftAndAHandLetsGoOfIt) {
 
 TEST(TrackRoll, FollowsAFlatThatLeansInThePicture) {
   DrawnRoll roll = small_roll();
-  roll.lean_rad = .05;
+  roll.roll_rad = .05;
   const RollTrack track = tracked_roll(roll);
   expect_rest(track, roll);
   EXPECT_THAT(track.warnings, Contains(Field(&Warning::code, "leaning")));

@@ -10,7 +10,7 @@
 #include "tests/support/drawn_tilt.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/warnings.h"
-#include "vision/drawing/tilt_overlay.h"
+#include "vision/drawing/track_overlays.h"
 #include "vision/track/tilt_track.h"
 
 namespace repose::vision {
@@ -69,7 +69,7 @@ TEST(TrackTilt, FindsItWhereTheHingeIsOutOfThePictureOnTheOtherSide) {
   tilt.plate_from = -.4;
   tilt.goes_left = true;
   tilt.has_texture = true;
-  tilt.lean_rad = .015;
+  tilt.roll_rad = .015;
   expect_slide(tracked_tilt(tilt), tilt);
 }
 
@@ -165,7 +165,7 @@ TEST(TrackTilt, FlagsATableWhoseEdgeLiesBehindTheLevelPlate) {
                        .thickness_px = 4,
                        .edge_row = .8774,
                        .goes_left = true,
-                       .lean_rad = .0131};
+                       .roll_rad = .0131};
   const TiltTrack track = tracked_tilt(tilt);
   ASSERT_TRUE(track.has_reading) << track.reason;
   EXPECT_THAT(track.warnings, has_warning("level_hidden"));

@@ -23,8 +23,8 @@ FlankFit flank_with_error(double fit_error_rad) {
   return fit;
 }
 
-Choice choice_with_errors(double left_error_rad, double right_error_rad) {
-  Choice choice;
+SelectedCandidate choice_with_errors(double left_error_rad, double right_error_rad) {
+  SelectedCandidate choice;
   choice.best.left = flank_with_error(left_error_rad);
   choice.best.right = flank_with_error(right_error_rad);
   return choice;
@@ -43,7 +43,7 @@ TEST(Uncertainty, GrainsCountByStudentsFactor) {
 }
 
 TEST(Uncertainty, AnEdgeThatIsRoughlyKnownTurnsTheLine) {
-  Choice choice = choice_with_errors(0.01, 0.01);
+  SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   for (FlankFit* fit : {&choice.best.left, &choice.best.right}) {
     fit->along = {0, 40};
     fit->robust.slope = -0.75;  // 50 px long
@@ -62,7 +62,7 @@ TEST(Uncertainty, MeanOfTwoFlanksHasBothTheirPoints) {
 }
 
 TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
-  Choice choice = choice_with_errors(0.01, 0.01);
+  SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
   choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty after = uncertainty_of(choice);
@@ -72,7 +72,7 @@ TEST(Uncertainty, GroundTiltEntersTheSidesButNotTheirMean) {
 }
 
 TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
-  Choice choice = choice_with_errors(0.01, 0.01);
+  SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   choice.best.right.status = FlankStatus::truncated;
   choice.best.body.ground.deviation_rad = 0.02;
   const Uncertainty u = uncertainty_of(choice);
@@ -82,7 +82,7 @@ TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
 }
 
 TEST(Uncertainty, GrowsWhereSegmentationsDisagree) {
-  Choice choice = choice_with_errors(0.01, 0.01);
+  SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
   choice.disagreement_rad = 0.03;
   choice.left_disagreement_rad = 0.05;
@@ -93,7 +93,7 @@ TEST(Uncertainty, GrowsWhereSegmentationsDisagree) {
 }
 
 TEST(Uncertainty, WindowCountsBeyondWhatTheGrainsExplain) {
-  Choice choice = choice_with_errors(0.01, 0.01);
+  SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
   choice.best.left.window_spread_rad = 0.02;  // two standard errors: chance
   EXPECT_EQ(uncertainty_of(choice).left_rad, before.left_rad);
@@ -103,14 +103,14 @@ TEST(Uncertainty, WindowCountsBeyondWhatTheGrainsExplain) {
 }
 
 TEST(Uncertainty, TheWindowsPartDoesNotAverageOut) {
-  Choice choice = choice_with_errors(0, 0);
+  SelectedCandidate choice = choice_with_errors(0, 0);
   choice.best.left.window_spread_rad = choice.best.right.window_spread_rad = 0.1;
   const Uncertainty u = uncertainty_of(choice);
   EXPECT_NEAR(u.mean_rad, u.left_rad, 1e-12);
 }
 
 TEST(Uncertainty, AnEdgeBehindTheHeapCountsByTheFlanksBend) {
-  Choice choice = choice_with_errors(0.01, 0.01);
+  SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   choice.best.left.bend_rad = -0.04;
   choice.best.right.bend_rad = 0.02;
   const Uncertainty before = uncertainty_of(choice);

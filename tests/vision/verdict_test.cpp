@@ -26,7 +26,7 @@ FlankFit good_flank() {
 
 /// A heap of 30 grains with a sharp edge, seen by a level camera.
 struct Case {
-  Choice choice;
+  SelectedCandidate choice;
   MeasureOptions options;
   ReposeAngle result;
 
@@ -112,15 +112,15 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Judge, AnOutlineHoldsWhereOnlyAFlankIsRefused) {
   Case round;
   round.choice.best.left.bend_rad = -20 * kDegree;
-  EXPECT_TRUE(round.judged().outline_holds);
+  EXPECT_TRUE(round.judged().outline_valid);
   Case on_legs = round;
   on_legs.choice.likeness.filled = 0.8;
-  EXPECT_FALSE(on_legs.judged().outline_holds);
+  EXPECT_FALSE(on_legs.judged().outline_valid);
   on_legs.options.hints.heap = Box{.x = 0, .y = 0, .width = 9, .height = 9};
-  EXPECT_TRUE(on_legs.judged().outline_holds);
+  EXPECT_TRUE(on_legs.judged().outline_valid);
   Case faint = round;
   faint.choice.best.score = 0.1;
-  EXPECT_FALSE(faint.judged().outline_holds);
+  EXPECT_FALSE(faint.judged().outline_valid);
 }
 
 class Flagged : public ::testing::TestWithParam<Error> {};
@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"grains", [](Case& c) { c.choice.best.grain = 20; }, "few_grains"},
         Error{"tilt", [](Case& c) { c.choice.best.body.ground.slope = 0.07; }, "tilted_picture"},
         Error{"mirror", [](Case& c) { c.choice.best.body.ground.mirrored = true; }, "mirror"},
-        Error{"strays", [](Case& c) { c.result.strays = 3; }, "strays"},
+        Error{"strays", [](Case& c) { c.result.loose_particles = 3; }, "strays"},
         Error{"definitions",
               [](Case& c) {
                 c.result.definitions = {{"cone", "", 25 * kDegree}};

@@ -1,16 +1,23 @@
 #include "vision/camera/board.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
 
+#include <cairo-pdf.h>
+#include <cairo.h>
+#include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "vision/camera/markers.h"
-#include "vision/picture/mat_of_picture.h"
-#include "vision/picture/opencv_threads.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
+
 namespace {
 
 constexpr std::size_t kFewestCorners = 6;
@@ -92,6 +99,153 @@ std::vector<SeenCorner> find_board(const Picture& picture) {
   std::sort(corners.begin(), corners.end(),
             [](const SeenCorner& a, const SeenCorner& b) { return a.number < b.number; });
   return corners;
+}
+
+namespace {
+
+constexpr double kInch_mm = 25.4;
+constexpr double kPoint_mm = kInch_mm / 72;
+
+struct PageSize {
+  double width_mm = 0;
+  double height_mm = 0;
+};
+
+PageSize size_of(Paper paper) {
+  return paper == Paper::a4 ? PageSize{297, 210} : PageSize{279.4, 215.9};
+}
+
+struct Destroy {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_t* pen) const { cairo_destroy(pen); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
+using Pen = std::unique_ptr<cairo_t, Destroy>;
+
+constexpr double kTop_mm = 10;     // above the board: printers leave some millimetres white
+constexpr double kRuler_mm = 100;  // long
+constexpr double kTick_mm = 10;    // apart
+constexpr double kBelow_mm = 8.5;  // from the board down to the ruler
+constexpr double kLetters_mm = 3.1;
+constexpr double kLine_mm = 4.6;  // from one line of text to the next
+
+void draw_board(cairo_t* pen, const PageSize& page) {
+  cairo_save(pen);
+  cairo_translate(pen, (page.width_mm - kBoardColumns * kBoardSquare_mm) / 2, kTop_mm);
+  cairo_scale(pen, kBoardSquare_mm, kBoardSquare_mm);
+  for (const BoardPatch& patch : board_patches()) {
+    cairo_rectangle(pen, patch.x, patch.y, patch.width, patch.height);
+  }
+  cairo_fill(pen);
+  cairo_restore(pen);
+}
+
+void draw_ruler(cairo_t* pen, double x, double y) {
+  constexpr double kHalfTick_mm = 1.5;
+  cairo_set_line_width(pen, 0.25);
+  cairo_move_to(pen, x, y);
+  cairo_line_to(pen, x + kRuler_mm, y);
+  for (int tick = 0; tick * kTick_mm <= kRuler_mm; ++tick) {
+    const double half = tick % 10 == 0 ? 2 * kHalfTick_mm : kHalfTick_mm;
+    cairo_move_to(pen, x + tick * kTick_mm, y - half);
+    cairo_line_to(pen, x + tick * kTick_mm, y + half);
+  }
+  cairo_stroke(pen);
+}
+
+void write(cairo_t* pen, double x, double y, const std::string& text) {
+  cairo_move_to(pen, x, y);
+  cairo_show_text(pen, text.c_str());
+}
+
+/// In millimetres.
+void draw_page(cairo_t* pen, const PageSize& page, const std::string& how_to_print) {
+  cairo_set_source_rgb(pen, 1, 1, 1);
+  cairo_paint(pen);
+  cairo_set_source_rgb(pen, 0, 0, 0);
+  draw_board(pen, page);
+  const double left = (page.width_mm - kBoardColumns * kBoardSquare_mm) / 2;
+  const double ruler = kTop_mm + kBoardRows * kBoardSquare_mm + kBelow_mm;
+  draw_ruler(pen, left, ruler);
+  cairo_select_font_face(pen, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(pen, kLetters_mm);
+  write(pen, left + kRuler_mm + 5, ruler + kLetters_mm / 3,
+        "This line is 100 mm long. If it is not: print again, or measure a square.");
+  const std::array<std::string, 3> lines = {
+      fmt::format("repose board: ChArUco, {} x {} squares of {:g} mm, markers of {:g} mm, {}. {}",
+                  kBoardColumns, kBoardRows, kBoardSquare_mm, kMarkerPart * kBoardSquare_mm,
+                  kBoardDictionary, how_to_print),
+      "Glue it to a flat plate. Stand it upright beside the heap, in the plane of the heap's "
+      "middle, "
+      "facing the camera:",
+      "repose measure PICTURE --board.  For the camera's lens: repose camera, with ten pictures of "
+      "it from all sides.",
+  };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    write(pen, left, ruler + 8 + static_cast<double>(i) * kLine_mm, lines[i]);
+  }
+}
+
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+/// What only a lack of memory would bring about.
+void require(cairo_status_t status) {
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  throw std::runtime_error(
+      fmt::format("the board cannot be drawn: {}", cairo_status_to_string(status)));
+}
+
+}  // namespace
+
+std::string board_pdf(Paper paper) {
+  const PageSize page = size_of(paper);
+  std::string pdf;
+  const Surface surface(cairo_pdf_surface_create_for_stream(append, &pdf, page.width_mm / kPoint_mm,
+                                                            page.height_mm / kPoint_mm));
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, "repose board");
+  // Else the time at which it is written.
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
+                                 "2000-01-01T00:00:00Z");
+  const Pen pen(cairo_create(surface.get()));
+  cairo_scale(pen.get(), 1 / kPoint_mm, 1 / kPoint_mm);
+  draw_page(pen.get(), page, "Print at 100 % (actual size).");
+  cairo_show_page(pen.get());
+  require(cairo_status(pen.get()));
+  cairo_surface_finish(surface.get());
+  require(cairo_surface_status(surface.get()));
+  return pdf;
+}
+
+Picture board_picture(Paper paper, double pixels_per_inch) {
+  const PageSize page = size_of(paper);
+  const double px_per_mm = pixels_per_inch / kInch_mm;
+  const auto pixels = [&](double length_mm) {
+    return static_cast<int>(std::lround(length_mm * px_per_mm));
+  };
+  Picture picture = blank_picture(pixels(page.width_mm), pixels(page.height_mm));
+  const Surface surface(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, picture.width, picture.height));
+  const Pen pen(cairo_create(surface.get()));
+  cairo_scale(pen.get(), px_per_mm, px_per_mm);
+  draw_page(pen.get(), page, fmt::format("Print at {:g} pixels per inch.", pixels_per_inch));
+  require(cairo_status(pen.get()));
+  cairo_surface_flush(surface.get());
+  const unsigned char* pixels_of_page = cairo_image_surface_get_data(surface.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+  // A pixel is 32 bits in the machine's order, blue in the lowest 8: grey, so any byte will do but
+  // the highest.
+  cv::Mat target = mat_of(picture);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const unsigned char* pixel =
+          pixels_of_page + static_cast<std::size_t>(y) * stride + 4 * static_cast<std::size_t>(x);
+      target.at<cv::Vec3b>(y, x) = {pixel[1], pixel[1], pixel[1]};
+    }
+  }
+  return picture;
 }
 
 }  // namespace repose::vision

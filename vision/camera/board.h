@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "vision/picture/picture.h"
@@ -9,6 +10,7 @@
 /// in each of its white squares (ChArUco), so that a part of it is known wherever it is seen.
 ///
 /// On the board x points right, y down, from the outer corner of the top left square, in squares.
+
 namespace repose::vision {
 
 inline constexpr int kBoardColumns = 10;
@@ -49,5 +51,14 @@ struct SeenCorner {
 /// The corners of the board that a picture shows, by their numbers; none where it shows no board.
 /// Finer than a pixel. Deterministic.
 std::vector<SeenCorner> find_board(const Picture& picture);
+
+enum class Paper { a4, letter };
+
+/// A page of PDF with the board at true size, a line of 100 mm to check the print by, and what it
+/// is. The same bytes whenever it is made.
+std::string board_pdf(Paper paper);
+
+/// The same page as a picture of that many pixels per inch.
+Picture board_picture(Paper paper, double pixels_per_inch);
 
 }  // namespace repose::vision

@@ -8,7 +8,7 @@ namespace repose::vision {
 struct BoardPlacing {
   double square_mm = kBoardSquare_mm;  ///< as printed
   /// How far it stands behind the plane that is measured; says nothing without the lens.
-  double behind_mm = 0;
+  double board_offset_mm = 0;
 };
 
 }  // namespace repose::vision

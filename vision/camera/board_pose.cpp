@@ -17,7 +17,7 @@ namespace repose::vision {
 namespace {
 
 // Paper is not quite flat and corners that look alike are found alike: no corner is known better.
-constexpr double kLeastDeviation_px = 0.05;
+constexpr double kMinDeviation_px = 0.05;
 
 /// The values that the lens's three numbers keep to, and how closely: standard deviations.
 struct Prior {
@@ -30,15 +30,15 @@ struct Prior {
 
 Prior prior_of(const std::optional<Lens>& lens, int width, int height) {
   // Exact values would leave nothing to be fitted.
-  constexpr double kLeastFocal = 1e-5, kLeastCentre_px = 1e-3;
+  constexpr double kMinFocal = 1e-5, kMinCentre_px = 1e-3;
   if (lens) {
     const double focal = lens->focal_px.value;
     return {
         .log_focal = std::log(focal),
-        .log_focal_sd = std::max(kLeastFocal, lens->focal_px.uncertainty / focal / base::kNormal95),
+        .log_focal_sd = std::max(kMinFocal, lens->focal_px.uncertainty / focal / base::kNormal95),
         .centre = {lens->centre_x_px.value, lens->centre_y_px.value},
-        .centre_x_sd = std::max(kLeastCentre_px, lens->centre_x_px.uncertainty / base::kNormal95),
-        .centre_y_sd = std::max(kLeastCentre_px, lens->centre_y_px.uncertainty / base::kNormal95)};
+        .centre_x_sd = std::max(kMinCentre_px, lens->centre_x_px.uncertainty / base::kNormal95),
+        .centre_y_sd = std::max(kMinCentre_px, lens->centre_y_px.uncertainty / base::kNormal95)};
   }
   constexpr double kFactor = 3, kOffCentre = 0.03;
   const double longest = std::max(width, height);
@@ -234,7 +234,7 @@ BoardPose fit_pose(const std::vector<SeenCorner>& corners, const std::optional<L
     const double freedom = std::max(1.0, 2.0 * static_cast<double>(corners.size()) - 8);
     const double squares =
         std::pow(error_of(best.numbers, corners), 2) * static_cast<double>(corners.size());
-    deviation_px = std::max(kLeastDeviation_px, std::sqrt(squares / freedom));
+    deviation_px = std::max(kMinDeviation_px, std::sqrt(squares / freedom));
   }
   return {.numbers = best.numbers,
           .covariance = best.covariance,

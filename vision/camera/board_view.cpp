@@ -48,7 +48,7 @@ enum : int { k_lean = BoardPose::kNumbers, k_tilt, k_turn, k_behind, k_inputs };
 
 /// How much of the sheet is left out around the board, in squares: what is printed below it is
 /// part of the sheet.
-constexpr double kBesideBoard = 1.25, kAbove = 0.6, kBelow = 1.4;
+constexpr double kBesideBoard = 1.25, kAbove = 0.6, kIndent = 1.4;
 
 /// What of the board is seen: all of it, or what the heap leaves.
 Segment part_seen(const std::vector<SeenCorner>& corners) {
@@ -59,7 +59,7 @@ Segment part_seen(const std::vector<SeenCorner>& corners) {
     part.to = {std::max(part.to.x, place.x), std::max(part.to.y, place.y)};
   }
   return {{part.from.x - 1 - kBesideBoard, part.from.y - 1 - kAbove},
-          {part.to.x + 1 + kBesideBoard, part.to.y + 1 + kBelow}};
+          {part.to.x + 1 + kBesideBoard, part.to.y + 1 + kIndent}};
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ BoardView::BoardView(const BoardPose& pose, const BoardPlacing& placing)
   const BoardPose::Covariance slopes = slopes_by_distance(pose.numbers);
   inputs_.covariance.topLeftCorner<BoardPose::kNumbers, BoardPose::kNumbers>() =
       slopes * pose.covariance * slopes.transpose();
-  inputs_.values[k_behind] = placing.behind_mm;
+  inputs_.values[k_behind] = placing.board_offset_mm;
   inputs_.covariance(k_lean, k_lean) = std::pow(kLean_rad / base::kNormal95, 2);
   inputs_.covariance(k_tilt, k_tilt) = std::pow(kLean_rad / base::kNormal95, 2);
   inputs_.covariance(k_turn, k_turn) = std::pow(kTurned_rad / base::kNormal95, 2);
@@ -80,11 +80,12 @@ BoardView::BoardView(const BoardPose& pose, const BoardPlacing& placing)
 }
 
 HeapView BoardView::view(const Eigen::VectorXd& values) const {
-  return view_by_board(pose_of(values.head<BoardPose::kNumbers>()), {.square_mm = square_mm_,
-                                                                     .behind_mm = values[k_behind],
-                                                                     .lean_rad = values[k_lean],
-                                                                     .tilt_rad = values[k_tilt],
-                                                                     .turn_rad = values[k_turn]});
+  return view_by_board(pose_of(values.head<BoardPose::kNumbers>()),
+                       {.square_mm = square_mm_,
+                        .board_offset_mm = values[k_behind],
+                        .roll_rad = values[k_lean],
+                        .tilt_rad = values[k_tilt],
+                        .turn_rad = values[k_turn]});
 }
 
 void BoardView::take_pitch(double pitch_rad) {

@@ -51,12 +51,12 @@ HeapView view_by_board(const BoardPose::Numbers& pose, const BoardStand& stand) 
   HeapView view{
       .focal_px = std::exp(pose[6]), .centre = {pose[7], pose[8]}, .up = {}, .normal = {}};
   const Eigen::Vector3d away = rotation.col(2);
-  view.up = Eigen::AngleAxisd(stand.lean_rad, sides.right) *
+  view.up = Eigen::AngleAxisd(stand.roll_rad, sides.right) *
             (Eigen::AngleAxisd(-stand.tilt_rad, away) * sides.up);
   view.normal = Eigen::AngleAxisd(stand.turn_rad, view.up) * levelled(away, view.up);
   const Eigen::Vector3d middle =
       rotation * Eigen::Vector3d(kBoardColumns / 2.0, kBoardRows / 2.0, 0) + pose.segment<3>(3);
-  view.distance_mm = stand.square_mm * view.normal.dot(middle) - stand.behind_mm;
+  view.distance_mm = stand.square_mm * view.normal.dot(middle) - stand.board_offset_mm;
   return view;
 }
 

@@ -30,11 +30,11 @@ struct HeapView {
 
 /// How a person has put up a board, as it is meant and by how much it fails.
 struct BoardStand {
-  double square_mm = 0;  ///< as printed
-  double behind_mm = 0;  ///< how far behind the heap's plane
-  double lean_rad = 0;   ///< how far its upper side leans away from the camera
-  double tilt_rad = 0;   ///< in its own plane: how far its right end is too low
-  double turn_rad = 0;   ///< about its upright axis, from being parallel to the heap's plane
+  double square_mm = 0;        ///< as printed
+  double board_offset_mm = 0;  ///< how far behind the heap's plane
+  double roll_rad = 0;         ///< how far its upper side leans away from the camera
+  double tilt_rad = 0;         ///< in its own plane: how far its right end is too low
+  double turn_rad = 0;         ///< about its upright axis, from being parallel to the heap's plane
 };
 
 /// By a board that stands upright, but for those errors, parallel to the heap's plane.

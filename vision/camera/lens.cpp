@@ -9,7 +9,7 @@
 
 #include "base/input_error.h"
 #include "vision/camera/lens_correction.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {

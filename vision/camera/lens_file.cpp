@@ -11,9 +11,9 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "base/toml_nesting.h"
-#include "base/whole_file.h"
 
 namespace repose::vision {
 namespace {
@@ -129,23 +129,23 @@ void check_plausible(const Lens& lens, LensReader& reader) {
   const double x = std::max(lens.centre_x_px.value, lens.width - lens.centre_x_px.value) / focal;
   const double y = std::max(lens.centre_y_px.value, lens.height - lens.centre_y_px.value) / focal;
   const double corner = std::hypot(x, y);
-  constexpr double kMostMoved = .6;  // a fisheye lens that is not called one has half of it
+  constexpr double kMaxMoved = .6;  // a fisheye lens that is not called one has half of it
   constexpr int kSteps = 100;
   double before = 0;
   for (int step = 1; step <= kSteps; ++step) {
     const double r = corner * step / kSteps, r2 = r * r;
     const double factor = 1 + r2 * (lens.k1.value + r2 * (lens.k2.value + r2 * lens.k3.value));
-    const bool is_possible = std::abs(factor - 1) <= kMostMoved && factor * r > before;
+    const bool is_possible = std::abs(factor - 1) <= kMaxMoved && factor * r > before;
     before = factor * r;
     if (is_possible) continue;
     reader.require(false, largest_term(lens, r),
                    "moves the edge of the picture by more than 60 %, or folds it", "no lens does");
     break;
   }
-  constexpr double kMostTilted = .1;
-  reader.require(std::abs(lens.p1.value) * corner <= kMostTilted, "p1",
+  constexpr double kMaxTilted = .1;
+  reader.require(std::abs(lens.p1.value) * corner <= kMaxTilted, "p1",
                  "moves the corner of the picture by more than 10 %", "no lens does");
-  reader.require(std::abs(lens.p2.value) * corner <= kMostTilted, "p2",
+  reader.require(std::abs(lens.p2.value) * corner <= kMaxTilted, "p2",
                  "moves the corner of the picture by more than 10 %", "no lens does");
 }
 

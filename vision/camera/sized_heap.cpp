@@ -161,7 +161,7 @@ HeapSizes sizes_by_bar(const ScaleBar& bar, const Lens& lens, const Sizing& sizi
 
 void check(const Picture& picture, const MeasureOptions& options, const ScaleOptions& scale) {
   base::Faults faults;
-  faults.require(scale.behind_mm == 0 || scale.lens,
+  faults.require(scale.board_offset_mm == 0 || scale.lens,
                  {.value = "the board's distance behind the heap says nothing without the camera's "
                            "focal length",
                   .fix = fmt::format("give a {}, or put the board in the plane of the heap's "
@@ -199,7 +199,7 @@ SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& optio
   std::optional<BoardView> board;
   if (!corners.empty()) {
     const BoardPose pose = fit_pose(corners, heap.lens, measured.width, measured.height);
-    board.emplace(pose, BoardPlacing{scale.square_mm, scale.behind_mm});
+    board.emplace(pose, BoardPlacing{scale.square_mm, scale.board_offset_mm});
     heap.board = described(*board, pose, corners, heap.lens.has_value());
     const auto box = box_around(heap.board->outline, measured.width, measured.height);
     if (box) heap.options.excluded.push_back(*box);

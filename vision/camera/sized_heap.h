@@ -20,7 +20,8 @@ struct ScaleOptions {
   std::filesystem::path lens_file = {};  ///< that it was read from
   bool finds_board = false;
   double square_mm = kBoardSquare_mm;  ///< as printed
-  double behind_mm = 0;  ///< how far behind the heap's middle plane the board stands; needs a lens
+  double board_offset_mm =
+      0;  ///< how far behind the heap's middle plane the board stands; needs a lens
   std::optional<ScaleBar> scale = {};  ///< in the picture as it is; in place of a board
 };
 

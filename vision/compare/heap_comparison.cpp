@@ -1,20 +1,165 @@
 #include "vision/compare/heap_comparison.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
 #include "vision/compare/angle_difference.h"
-#include "vision/compare/comparison_notes.h"
-#include "vision/compare/hausdorff.h"
-#include "vision/compare/outline_scale.h"
-#include "vision/compare/placed_heap.h"
 #include "vision/compare/skyline.h"
 
 namespace repose::vision {
+
 namespace {
+
+using Measured = std::array<const ReposeAngle*, 2>;
+
+const char* name_of_picture(int picture) { return picture == 0 ? "first" : "second"; }
+
+void note(HeapComparison& result, std::string code, std::string message) {
+  result.warnings.push_back({std::nullopt, {std::move(code), std::move(message)}});
+}
+
+void note_side(HeapComparison& result, const SideComparison& side, const char* name,
+               const std::array<const Flank*, 2>& flanks) {
+  if (side.cover == Coverage::whole) return;
+  std::string where;
+  for (const int picture : {0, 1}) {
+    const Flank& flank = *flanks[static_cast<std::size_t>(picture)];
+    const bool is_missing =
+        side.cover == Coverage::none ? flank.status == FlankStatus::absent : flank.leaves_frame;
+    if (!is_missing) continue;
+    if (!where.empty()) where += " and the ";
+    where += name_of_picture(picture);
+  }
+  if (side.cover == Coverage::none) {
+    note(result, "side_not_compared",
+         fmt::format("There is no {} flank in the {} picture: that side is not compared.", name,
+                     where));
+  } else {
+    note(result, "side_cut",
+         fmt::format("The {} foot is out of the frame in the {} picture: that side is compared as "
+                     "far as both show it.",
+                     name, where));
+  }
+}
+
+void note_scale(HeapComparison& result, const CompareOptions& options) {
+  if (result.unit == LengthUnit::metre) return;
+  if (options.scale[0]) {
+    note(result, "base_not_seen",
+         "The base is not fully visible in both pictures, so its known width gives no scale.");
+  }
+  note(result, "no_scale",
+       fmt::format("Without a scale only shapes are compared, scaled to the same {}: it cannot be "
+                   "told which heap is larger.",
+                   result.unit == LengthUnit::height ? "height" : "area"));
+}
+
+void note_angles(HeapComparison& result, const Measured& measured, const CompareOptions& options) {
+  if (measured[0]->window != measured[1]->window || measured[0]->method != measured[1]->method) {
+    note(result, "unlike_definitions",
+         "The two angles are measured by different methods or windows, which accounts for part of "
+         "their difference.");
+  }
+  if (options.same_measurement) {
+    note(result, "same_picture",
+         "Both are the same picture, with the same errors, so their difference has none.");
+  }
+  if (!result.angle) return;
+  const bool left = result.left.angle.has_value();
+  const bool right = result.right.angle.has_value();
+  if (!left && !right) {
+    note(result, "unlike_sides",
+         "No flank was measured in both pictures: the angles of opposite sides are compared, in "
+         "which a camera's roll counts twice.");
+  } else if (left != right) {
+    note(result, "one_side",
+         fmt::format("The angles are those of the {} sides only.", left ? "left" : "right"));
+  }
+  const auto differs = [](const SideComparison& side) {
+    return side.angle && side.angle->verdict == Agreement::different;
+  };
+  if (result.angle->verdict == Agreement::equivalent &&
+      (differs(result.left) || differs(result.right))) {
+    note(result, "sides_differ",
+         "The mean angles are equivalent, but a side's angle differs: one heap leans.");
+  }
+}
+
+/// Adds the pictures' own warnings, and what the comparison could not do and why.
+void add_notes(HeapComparison& result, const Measured& measured, const CompareOptions& options) {
+  for (const int picture : {0, 1}) {
+    const ReposeAngle& heap = *measured[static_cast<std::size_t>(picture)];
+    if (heap.status == MeasureStatus::refused) {
+      result.warnings.push_back(
+          {picture,
+           {"angle_refused", "Its outline is compared, but its angle is refused: " + heap.reason}});
+    }
+    for (const Warning& warning : heap.warnings) result.warnings.push_back({picture, warning});
+  }
+  note_side(result, result.left, "left", {&measured[0]->left, &measured[1]->left});
+  note_side(result, result.right, "right", {&measured[0]->right, &measured[1]->right});
+  note_angles(result, measured, options);
+  if (result.is_aligned_by_crest && result.iou) {
+    note(result, "aligned_by_crest",
+         "The outlines are aligned by their crests, which depend on single grains: see what the "
+         "best shift changes.");
+  }
+  note_scale(result, options);
+}
+
+struct OutlineScale {
+  LengthUnit unit = LengthUnit::root_area;
+  std::array<double, 2> unit_per_px = {};
+};
+
+/// Empty when the base that is known was not measured.
+std::optional<double> metres_per_px(const ReposeAngle& measured, const PictureScale& scale) {
+  if (scale.from == PictureScale::From::pixel) return scale.length_m;
+  const auto shows_foot = [](const Flank& flank) {
+    return flank.status == FlankStatus::ok && !flank.leaves_frame;
+  };
+  if (!shows_foot(measured.left) || !shows_foot(measured.right)) return std::nullopt;
+  return scale.length_m / *measured.base_px;
+}
+
+/// Of the sides that are compared [px^2]; nothing when a foot is missing from one of them.
+std::optional<double> compared_area(const Skyline& skyline, const Reach& reach) {
+  double area = 0;
+  const double from = std::min(0.0, skyline.front().along);
+  const double to = std::max(0.0, skyline.back().along);
+  const std::array stretches = {std::array{from, 0.0}, std::array{0.0, to}};
+  for (const std::size_t side : {0, 1}) {
+    if (reach.cover[side] == Coverage::part) return std::nullopt;
+    if (reach.cover[side] == Coverage::none) continue;
+    area += difference_of(skyline, skyline, stretches[side][0], stretches[side][1]).covered;
+  }
+  if (area <= 0) return std::nullopt;
+  return area;
+}
+
+/// The given scales; else equal areas of what is compared; else, where a foot is out of the frame
+/// or no side is in both pictures, equal heights. `skylines` are aligned, in px.
+OutlineScale outline_scale(const std::array<const ReposeAngle*, 2>& measured,
+                           const std::array<Skyline, 2>& skylines, const Reach& reach,
+                           const CompareOptions& options) {
+  if (options.scale[0] && options.scale[1]) {
+    const auto first = metres_per_px(*measured[0], *options.scale[0]);
+    const auto second = metres_per_px(*measured[1], *options.scale[1]);
+    if (first && second) return {LengthUnit::metre, {*first, *second}};
+  }
+  const auto first = compared_area(skylines[0], reach);
+  const auto second = compared_area(skylines[1], reach);
+  if (first && second) {
+    return {LengthUnit::root_area, {1 / std::sqrt(*first), 1 / std::sqrt(*second)}};
+  }
+  return {LengthUnit::height, {1 / *measured[0]->height_px, 1 / *measured[1]->height_px}};
+}
 
 constexpr double kWidestShift = 0.25;  // of the wider base
 constexpr int kShiftSteps = 50;        // each way
@@ -95,7 +240,7 @@ SideComparison compare_side(const Measured& measured, const Skylines& heaps, con
     return side == Side::left ? measured[i]->left : measured[i]->right;
   };
   result.cover = reach.cover[at];
-  if (result.cover != Cover::none) {
+  if (result.cover != Coverage::none) {
     const SkylineDifference difference = difference_on(heaps, reach, side);
     result.iou = difference.iou();
     result.profile_rmse = difference.rmse();
@@ -136,8 +281,8 @@ void compare_angles(HeapComparison& result, const Measured& measured,
 void forget_made_equal(HeapComparison& result) {
   if (result.unit != LengthUnit::root_area) return;
   result.profile_mean.reset();
-  if (result.left.cover == Cover::none) result.right.profile_mean.reset();
-  if (result.right.cover == Cover::none) result.left.profile_mean.reset();
+  if (result.left.cover == Coverage::none) result.right.profile_mean.reset();
+  if (result.right.cover == Coverage::none) result.left.profile_mean.reset();
 }
 
 /// Everything that the outlines alone say, in the unit.
@@ -163,7 +308,7 @@ void compare_outlines(HeapComparison& result, const Measured& measured, const Sk
 }
 
 bool has_outline(const ReposeAngle* measured) {
-  return measured->status != MeasureStatus::refused || measured->outline_holds;
+  return measured->status != MeasureStatus::refused || measured->outline_valid;
 }
 
 HeapComparison refused(const Measured& measured) {

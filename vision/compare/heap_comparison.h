@@ -33,6 +33,7 @@
 /// the outlines; only the angles are corrected for its pitch.
 ///
 /// Differences are the first heap minus the second.
+
 namespace repose::vision {
 
 /// A place along the ground and the height above it.
@@ -96,7 +97,7 @@ struct AngleDifference {
   Agreement verdict = Agreement::cannot_tell;
 };
 
-enum class Cover {
+enum class Coverage {
   whole,  ///< from axis to foot in both pictures
   part,   ///< as far as both pictures show it: an edge of one cuts it off
   none,   ///< there is no such flank in one of them
@@ -104,7 +105,7 @@ enum class Cover {
 
 /// One side of both heaps, from the axis outwards.
 struct SideComparison {
-  Cover cover = Cover::none;
+  Coverage cover = Coverage::none;
   std::optional<double> iou;
   std::optional<double> profile_rmse;
   std::optional<double> profile_mean;            ///< > 0: the first heap is the higher one here

@@ -13,6 +13,7 @@
 ///
 /// Differences are the first set minus the second. Outlines are aligned by their axes, as
 /// vision/compare/heap_comparison.h says.
+
 namespace repose::vision {
 
 /// One heap, seen in a picture or in several from around it.

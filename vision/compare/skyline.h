@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "vision/compare/heap_comparison.h"
+#include "vision/measure/flank.h"
 
 /// Heaps as their upper edges, in one unit for places and heights.
+
 namespace repose::vision {
 
 /// A heap's silhouette from the side: all between the ground and straight lines through points
@@ -42,5 +46,49 @@ struct SkylineDifference {
 };
 
 SkylineDifference difference_of(const Skyline& a, const Skyline& b, double from, double to);
+
+/// How far two upper edges are apart, by the nearest point of the other, not vertically.
+struct EdgeDistance {
+  double largest = 0;  ///< Hausdorff distance: no point is farther from the other edge
+  double most_of_it =
+      0;  ///< the same for the nearest 95 % of either edge: loose_particles count less
+};
+
+/// Both edges are followed in 2,000 equal steps; the largest distance is exact to one of them.
+///
+///     H(A, B) = max(h(A, B), h(B, A)),  h(A, B) = largest (or 95 % quantile) over a in A of the
+///     distance from a to the nearest point of B
+///
+/// Source: Huttenlocher, Klanderman & Rucklidge, IEEE Trans. Pattern Anal. Mach. Intell. 15 (1993)
+/// 850-863, sec. 2 and 3 (directed and ranked distances).
+/// Both need a point. Checked by tests/vision/compare_hausdorff_test.cpp.
+EdgeDistance edge_distance(const Skyline& a, const Skyline& b);
+
+/// A measured heap on level ground [px of its picture], not yet aligned with another one.
+struct StandingHeap {
+  Skyline skyline;
+  double height = 0;
+  double crest = 0;            ///< along the ground
+  std::optional<double> axis;  ///< likewise; empty unless both flanks are there
+  Segment ground;
+
+  /// Point of the picture that lies there on the ground [px].
+  Point on_ground(double along) const;
+};
+
+/// Needs a result that is not refused.
+StandingHeap standing_heap(const ReposeAngle& measured);
+
+/// How far the two heaps, aligned and in one unit, can be compared.
+struct Reach {
+  std::array<Coverage, 2> cover = {Coverage::none, Coverage::none};  ///< left, right
+  /// Whether the picture's edge cuts off that side: [heap][left, right].
+  std::array<std::array<bool, 2>, 2> is_cut = {};
+
+  /// The stretch left (ends at 0) or right (begins at 0) of the axis; empty where cover is none.
+  std::array<double, 2> stretch(const Skyline& a, const Skyline& b, Side side) const;
+};
+
+Reach reach_of(const ReposeAngle& first, const ReposeAngle& second);
 
 }  // namespace repose::vision

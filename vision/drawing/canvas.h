@@ -1,13 +1,76 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include "vision/drawing/overlay_style.h"
+#include "base/units.h"
 #include "vision/picture/picture.h"
 
+/// Colours and words that marks and caption share.
+
+namespace cv::freetype {
+class FreeType2;
+}
+
 namespace repose::vision {
+
+/// Blue, green, red. Okabe and Ito's set, which colour-blind people tell apart.
+inline const cv::Scalar kOrange{0, 159, 230};
+inline const cv::Scalar kSkyBlue{233, 180, 86};
+inline const cv::Scalar kYellow{66, 228, 240};
+inline const cv::Scalar kGreen{115, 158, 0};
+inline const cv::Scalar kVermilion{0, 94, 213};
+inline const cv::Scalar kWhite{255, 255, 255};
+inline const cv::Scalar kGrey{190, 190, 190};
+inline const cv::Scalar kDark{28, 24, 22};
+
+/// "23.4° ± 0.5°"; a second decimal when the first one of the interval would say nothing.
+inline std::string angle_text(double angle_rad, std::optional<double> uncertainty_rad) {
+  if (!uncertainty_rad) return fmt::format("{:.1f}°", to_degrees(angle_rad));
+  const double uncertainty_deg = to_degrees(*uncertainty_rad);
+  const int decimals = uncertainty_deg < 0.1 ? 2 : 1;
+  return fmt::format("{:.{}f}° ± {:.{}f}°", to_degrees(angle_rad), decimals, uncertainty_deg,
+                     decimals);
+}
+
+inline constexpr int kSmallestCaption = 640;  ///< px wide, beneath narrow pictures
+
+/// How many times larger to draw a picture, so that lines and letters suit it: whole numbers keep
+/// the pixels of small pictures square.
+double drawing_scale(const Picture& picture);
+
+cv::Mat scaled(const Picture& picture, double scale);
+
+/// Where systems keep a font that has degree and plus-minus signs.
+std::span<const std::filesystem::path> usual_fonts();
+
+/// Draws text. With the first font of a list that is there; with OpenCV's own strokes, which are
+/// plain ASCII, when none is.
+class Lettering {
+ public:
+  explicit Lettering(std::span<const std::filesystem::path> fonts = usual_fonts());
+
+  /// Width of a line of text, of letters `height` pixels high with all that sticks out.
+  int width(const std::string& text, int height) const;
+
+  /// Draws a line of text; `top_left` is the corner of its box of width() x `height`.
+  void draw(cv::Mat& image, const std::string& text, cv::Point top_left, int height,
+            const cv::Scalar& colour) const;
+
+  /// The text in lines that are not wider than `max_width`, broken at spaces; a word that is
+  /// wider alone is broken anywhere.
+  std::vector<std::string> wrap(const std::string& text, int height, int max_width) const;
+
+ private:
+  cv::Ptr<cv::freetype::FreeType2> font_;
+};
 
 using Path = std::vector<cv::Point2d>;
 
@@ -42,5 +105,15 @@ class Canvas {
   cv::Scalar halo_;
   Point corner_;
 };
+
+/// A text of a legend; with a heap's line before it where `heap` is 0 or 1.
+struct TextRow {
+  std::string text;
+  cv::Scalar colour;
+  int heap = -1;
+};
+
+/// A white bar of `width` pixels with the texts below each other, wrapped to it.
+cv::Mat draw_text_rows(int width, const std::vector<TextRow>& rows, const Lettering& lettering);
 
 }  // namespace repose::vision

@@ -7,7 +7,6 @@
 
 #include "vision/compare/heap_comparison.h"
 #include "vision/drawing/canvas.h"
-#include "vision/drawing/lettering.h"
 
 /// How the two heaps of a comparison are told apart, in chart and legend: by the line's kind first,
 /// so that a black-and-white print will do. And the words that its figures share.

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "base/input_error.h"
-#include "vision/drawing/drawn_size.h"
+#include "vision/drawing/canvas.h"
 #include "vision/drawing/track_drawing.h"
 
 namespace repose::vision {

@@ -5,9 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/input_error.h"
-#include "vision/drawing/drawn_size.h"
-#include "vision/drawing/overlay_style.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/drawing/canvas.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 

@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "vision/drawing/canvas.h"
-#include "vision/drawing/lettering.h"
-#include "vision/drawing/text_rows.h"
 #include "vision/picture/picture.h"
 #include "vision/track/track.h"
 

@@ -23,4 +23,14 @@ struct FilmFile {
   std::optional<Lens> lens = {};
 };
 
+/// What a film is, whatever it shows.
+struct FilmFacts {
+  int width = 0;
+  int height = 0;
+  int frames = 0;
+  double frames_per_s = 0;
+  double length_s = 0;
+  int dropped_frames = 0;
+};
+
 }  // namespace repose::vision

@@ -1,8 +1,13 @@
 #include "vision/film/film_reader.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <fstream>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -11,28 +16,135 @@
 
 #include <fmt/format.h>
 
-#include "base/whole_file.h"
-#include "vision/film/frame_files.h"
+#include "base/atomic_file.h"
+#include "base/input_error.h"
 #include "vision/picture/film_head.h"
-#include "vision/picture/mat_of_picture.h"
-#include "vision/picture/opencv_threads.h"
+#include "vision/picture/opencv.h"
 #include "vision/picture/picture.h"
 #include "vision/video/video_decoder.h"
 
 namespace repose::vision {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 7> kEndings{".jpg",  ".jpeg", ".png", ".tif",
+                                                   ".tiff", ".bmp",  ".webp"};
+
+[[noreturn]] void refuse_frames(const fs::path& folder, const std::string& what,
+                                const std::string& fix) {
+  throw base::InputError({.where = folder.string(),
+                          .value = what,
+                          .rule = "a folder that is a film holds its frames as pictures whose "
+                                  "names differ in their numbers alone, such as frame_0001.png",
+                          .fix = fix});
+}
+
+std::string small_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
+}
+
+/// A name split at the last number in it.
+struct NumberedName {
+  std::string others;  ///< what is before and behind the number
+  std::int64_t number = 0;
+};
+
+std::optional<NumberedName> numbered(const fs::path& file) {
+  constexpr const char* kDigits = "0123456789";
+  const std::string name = file.stem().string();
+  const std::size_t last = name.find_last_of(kDigits);
+  if (last == std::string::npos) return std::nullopt;
+  const std::size_t before = name.find_last_not_of(kDigits, last);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  NumberedName found{.others =
+                         name.substr(0, first) + '*' + name.substr(last + 1) + small_ending(file)};
+  const char* end = name.data() + last + 1;
+  const auto read = std::from_chars(name.data() + first, end, found.number);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return found;
+}
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> pictures;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const bool is_hidden = entry->path().filename().string().starts_with('.');
+    const std::string ending = small_ending(entry->path());
+    if (!is_hidden && std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end()) {
+      pictures.push_back(entry->path());
+    }
+  }
+  if (error)
+    refuse_frames(folder, "cannot be read: " + error.message(), "get permission to read it.");
+  std::sort(pictures.begin(), pictures.end());
+  return pictures;
+}
+
+}  // namespace
+
+std::vector<FrameFile> frame_files(const fs::path& folder) {
+  std::vector<FrameFile> frames;
+  std::string others;
+  for (const fs::path& picture : pictures_in(folder)) {
+    const auto name = numbered(picture);
+    if (!name) {
+      refuse_frames(folder,
+                    fmt::format("{} has no number in its name", picture.filename().string()),
+                    "move it elsewhere, or name the pictures by themselves.");
+    }
+    if (frames.empty()) others = name->others;
+    if (name->others != others) {
+      refuse_frames(
+          folder,
+          fmt::format("{} and {} differ in more than a number",
+                      frames.front().file.filename().string(), picture.filename().string()),
+          "a folder for each film.");
+    }
+    frames.push_back({.file = picture, .place = name->number});
+  }
+  if (frames.empty()) {
+    refuse_frames(folder, "has no pictures", "name the folder of the frames, or the films in it.");
+  }
+  std::sort(frames.begin(), frames.end(),
+            [](const FrameFile& a, const FrameFile& b) { return a.place < b.place; });
+  std::int64_t step = 0;
+  const std::int64_t first = frames.front().place;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const std::int64_t gap = frames[k].place - frames[k - 1].place;
+    if (gap == 0) {
+      refuse_frames(
+          folder,
+          fmt::format("{} and {} have the same number", frames[k - 1].file.filename().string(),
+                      frames[k].file.filename().string()),
+          "remove one of them.");
+    }
+    step = std::gcd(step, gap);
+  }
+  for (FrameFile& frame : frames) {
+    frame.place = step > 0 ? (frame.place - first) / step : 0;
+  }
+  return frames;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
 
 /// Two pictures of 8K: what is decoded is kept several times.
-constexpr double kMostPixels = 70e6;
+constexpr double kMaxFramePixels = 70e6;
 constexpr double kUsualFramesPerS = 30;
 
 void check_size(const fs::path& file, double pixels) {
-  if (pixels <= kMostPixels) return;
+  if (pixels <= kMaxFramePixels) return;
   base::refuse(file,
                fmt::format("its frames have {:.0f} million pixels, {:.0f} million are the most",
-                           pixels / 1e6, kMostPixels / 1e6),
+                           pixels / 1e6, kMaxFramePixels / 1e6),
                "convert it to 1920 x 1080.");
 }
 
@@ -94,7 +206,7 @@ class FilmReader::VideoSource : public FilmReader::Source {
   }
   int claimed_frames() const override {
     const std::int64_t count = film_.claimed_frames();
-    return count > 0 && count < kMostFrames ? static_cast<int>(count) : 0;
+    return count > 0 && count < kMaxFrames ? static_cast<int>(count) : 0;
   }
   double time_unit_s() const override { return film_.stamp_unit_s(); }
 
@@ -112,7 +224,7 @@ class FilmReader::VideoSource : public FilmReader::Source {
     return time_s > last_s_ ? time_s : usual_s;
   }
 
-  static constexpr std::int64_t kMostFrames = 1'000'000'000;
+  static constexpr std::int64_t kMaxFrames = 1'000'000'000;
 
   VideoDecoder film_;
   double claimed_interval_s_;

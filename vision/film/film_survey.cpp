@@ -4,14 +4,75 @@
 #include <cmath>
 #include <utility>
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/film/comb_finder.h"
 #include "vision/film/film_reader.h"
 #include "vision/film/frame_times.h"
 
 namespace repose::vision {
+
 namespace {
+
+/// Tells interlaced films: every other row of a frame was taken half a frame later, so that what
+/// moves has a comb for an edge. Where something has moved since the frame before, rows that go up
+/// and down by turns are counted.
+class CombFinder {
+ public:
+  /// Frames in their order; some may be left out.
+  void look(const cv::Mat& bgr);
+
+  /// Whether enough of the frames in which something moves are combed.
+  bool is_interlaced() const;
+
+ private:
+  cv::Mat before_;
+  int combed_frames_ = 0;
+  int moving_frames_ = 0;
+};
+
+constexpr int kMoved = 24;  ///< grey levels between two frames
+
+constexpr int kRowStep = 14;  ///< from each row of a comb to the next; noise goes on for fewer rows
+
+/// Whether five rows from this one on go up and down by turns.
+bool is_comb(const cv::Mat& grey, int row, int column) {
+  int before = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int step = grey.at<uchar>(row + k + 1, column) - grey.at<uchar>(row + k, column);
+    if (std::abs(step) < kRowStep || step * before > 0) return false;
+    before = step;
+  }
+  return true;
+}
+
+void CombFinder::look(const cv::Mat& bgr) {
+  constexpr int kRows = 5, kFewestMoved_px = 60;
+  constexpr double kCombedPart = .08;
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  cv::swap(grey, before_);  // `grey` is the frame before from here on
+  if (grey.size() != before_.size()) return;
+  int moved = 0, combed = 0;
+  for (int row = 0; row + kRows <= before_.rows; ++row) {
+    const uchar* now = before_.ptr<uchar>(row + kRows / 2);
+    const uchar* then = grey.ptr<uchar>(row + kRows / 2);
+    for (int column = 0; column < before_.cols; ++column) {
+      if (std::abs(now[column] - then[column]) < kMoved) continue;
+      ++moved;
+      combed += is_comb(before_, row, column) ? 1 : 0;
+    }
+  }
+  if (moved < kFewestMoved_px) return;
+  ++moving_frames_;
+  combed_frames_ += combed > kCombedPart * moved ? 1 : 0;
+}
+
+bool CombFinder::is_interlaced() const {
+  constexpr int kFewest = 3;
+  constexpr double kPart = .3;  // of the frames in which something moves; slow things have no comb
+  return combed_frames_ >= kFewest && combed_frames_ >= kPart * moving_frames_;
+}
 
 /// Keeps every frame, then every second, every fourth ... so that at most as many stay as fit.
 class Samples {
@@ -32,9 +93,9 @@ class Samples {
  private:
   static std::size_t most_of(const cv::Mat& frame) {
     constexpr double kMemory = 160e6;
-    constexpr double kFewest = 14, kMost = 30;
+    constexpr double kFewest = 14, kMax = 30;
     const double bytes = static_cast<double>(frame.total() * frame.elemSize());
-    return 2 * static_cast<std::size_t>(std::clamp(kMemory / bytes, kFewest, kMost) / 2);
+    return 2 * static_cast<std::size_t>(std::clamp(kMemory / bytes, kFewest, kMax) / 2);
   }
 
   std::vector<cv::Mat> kept_;
@@ -99,8 +160,8 @@ FilmSurvey survey_film(const FilmFile& file, const FilmProgress& progress) {
   CutFinder cuts;
   CombFinder combs;
   // Of a long film it is enough to look at every fourth frame.
-  constexpr int kLooks = 60, kMostStep = 4;
-  const int step = std::clamp(film.claimed_frames() / kLooks, 1, kMostStep);
+  constexpr int kLooks = 60, kMaxStep = 4;
+  const int step = std::clamp(film.claimed_frames() / kLooks, 1, kMaxStep);
   FilmFrame frame;
   for (int number = 0;; ++number) {
     const bool looks = number % step == 0;

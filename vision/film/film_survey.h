@@ -11,7 +11,7 @@
 
 namespace repose::vision {
 
-/// Told which fraction of the work is done, from 0 to 1.
+/// UserHints which fraction of the work is done, from 0 to 1.
 using FilmProgress = std::function<void(double)>;
 
 /// Fewer frames show no movement.

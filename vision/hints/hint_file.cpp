@@ -5,20 +5,169 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
+#include "base/atomic_file.h"
+#include "base/input_error.h"
+#include "base/toml_nesting.h"
 #include "base/units.h"
-#include "base/whole_file.h"
 #include "vision/camera/lens_file.h"
-#include "vision/hints/hint_reader.h"
 
 namespace repose::vision {
+
 namespace {
+
+/// Reads the values of one hint file; what is wrong with them is collected.
+class HintReader {
+ public:
+  HintReader(const toml::table& table, const std::filesystem::path& file)
+      : table_(table), file_(file) {}
+
+  template <std::size_t kCount>
+  std::optional<std::array<double, kCount>> numbers(const char* key, const char* meaning) {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return std::nullopt;
+    return numbers_of<kCount>(*node, key, meaning);
+  }
+
+  /// A list of such groups.
+  template <std::size_t kCount>
+  std::vector<std::array<double, kCount>> groups(const char* key, const char* meaning) {
+    std::vector<std::array<double, kCount>> all;
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return all;
+    if (!node->is_array()) {
+      add(*node, key, "", fmt::format("must be a list of {}", meaning));
+      return all;
+    }
+    for (const toml::node& item : *node->as_array()) {
+      if (const auto group = numbers_of<kCount>(item, key, meaning)) all.push_back(*group);
+    }
+    return all;
+  }
+
+  std::optional<double> number(const char* key);
+  /// A number above 0.
+  std::optional<double> positive(const char* key);
+  std::optional<bool> truth(const char* key);
+  std::string file_name(const char* key);
+
+  void refuse_other_keys(std::initializer_list<std::string_view> known);
+  /// What the value of a key, which is there, must not be beside others.
+  void refuse(const char* key, const std::string& value, const std::string& rule);
+  void throw_if_any() const { errors_.throw_if_any(); }
+
+ private:
+  static constexpr double kLargestPixel = 1e6;
+
+  void add(const toml::node& node, const std::string& key, const std::string& value,
+           const std::string& rule);
+
+  template <std::size_t kCount>
+  std::optional<std::array<double, kCount>> numbers_of(const toml::node& node, const char* key,
+                                                       const char* meaning) {
+    std::array<double, kCount> values{};
+    const toml::array* list = node.as_array();
+    bool is_good = list != nullptr && list->size() == kCount;
+    for (std::size_t i = 0; is_good && i < kCount; ++i) {
+      const auto value = list->get(i)->value<double>();
+      is_good = value && std::abs(*value) <= kLargestPixel;  // NaN fails
+      values[i] = value.value_or(0);
+    }
+    if (is_good) return values;
+    add(node, key, "", fmt::format("must be {}", meaning));
+    return std::nullopt;
+  }
+
+  const toml::table& table_;
+  const std::filesystem::path& file_;
+  base::Faults errors_;
+};
+
+namespace fs = std::filesystem;
+
+std::optional<double> HintReader::number(const char* key) {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return std::nullopt;
+  const auto value = node->value<double>();
+  if (!value || !std::isfinite(*value)) add(*node, key, "", "must be a number");
+  return value;
+}
+
+std::optional<double> HintReader::positive(const char* key) {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return std::nullopt;
+  const auto value = node->value<double>();
+  if (value && *value > 0 && *value <= kLargestPixel) return value;  // NaN fails
+  add(*node, key, "", "must be a number above 0");
+  return std::nullopt;
+}
+
+std::optional<bool> HintReader::truth(const char* key) {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return std::nullopt;
+  const auto value = node->value<bool>();
+  if (!value) add(*node, key, "", "must be true or false");
+  return value;
+}
+
+std::string HintReader::file_name(const char* key) {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return {};
+  const auto value = node->value<std::string>();
+  if (!value) add(*node, key, "", "must be a file's name in quotes");
+  return value.value_or("");
+}
+
+void HintReader::refuse_other_keys(std::initializer_list<std::string_view> known) {
+  for (const auto& [key, node] : table_) {
+    if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+    add(node, std::string(key.str()),
+        fmt::format("is not a hint. Known hints: {}", fmt::join(known, ", ")), "");
+  }
+}
+
+void HintReader::refuse(const char* key, const std::string& value, const std::string& rule) {
+  if (const toml::node* node = table_.get(key)) add(*node, key, value, rule);
+}
+
+void HintReader::add(const toml::node& node, const std::string& key, const std::string& value,
+                     const std::string& rule) {
+  errors_.add({.where = fmt::format("{}:{}: {}", file_.string(), node.source().begin.line, key),
+               .value = value,
+               .rule = rule,
+               .fix = "correct it, or delete the line."});
+}
+
+/// The text of a hint file.
+/// @throws base::InputError  it is no TOML.
+toml::table parse_hints(const std::string& text, const fs::path& file) {
+  if (const auto line = base::line_of_deep_key(text)) {
+    throw base::InputError(
+        {.where = fmt::format("{}:{}", file.string(), *line),
+         .value = fmt::format("a key has more than {} points", base::kMaxPointsInAKey),
+         .fix = "correct this line, or delete the file."});
+  }
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw base::InputError({.where = fmt::format("{}:{}", file.string(), error.source().begin.line),
+                            .value = fmt::format("{}", error.description()),
+                            .rule = "the text must be TOML (https://toml.io)",
+                            .fix = "correct this line, or delete the file."});
+  }
+}
 
 namespace fs = std::filesystem;
 
@@ -81,7 +230,7 @@ ScaleOptions read_scale(HintReader& reader) {
                   fmt::format("must be from {:g} to {:g}, of a printed board", kSmallestSquare_mm,
                               kLargestSquare_mm));
   }
-  scale.behind_mm = reader.positive("board_behind_mm").value_or(0);
+  scale.board_offset_mm = reader.positive("board_behind_mm").value_or(0);
   scale.scale = scale_of(reader);
   if (scale.finds_board) {
     reader.refuse("scale", "stands beside board = true", "one scale");
@@ -89,7 +238,7 @@ ScaleOptions read_scale(HintReader& reader) {
     reader.refuse("square_mm", "is of a board", "it needs board = true");
     reader.refuse("board_behind_mm", "is of a board", "it needs board = true");
   }
-  if (scale.lens_file.empty() && scale.behind_mm > 0) {
+  if (scale.lens_file.empty() && scale.board_offset_mm > 0) {
     reader.refuse("board_behind_mm", "needs the focal length", "it needs camera_file");
   }
   return scale;
@@ -104,7 +253,7 @@ void add_scale(const ScaleOptions& saved, const fs::path& folder, ScaleOptions& 
   if (given.finds_board || given.scale) return;
   given.finds_board = saved.finds_board;
   given.square_mm = saved.square_mm;
-  given.behind_mm = saved.behind_mm;
+  given.board_offset_mm = saved.board_offset_mm;
   given.scale = saved.scale;
 }
 
@@ -153,7 +302,8 @@ std::string scale_text(const ScaleOptions& scale, const fs::path& picture) {
   if (scale.square_mm != kBoardSquare_mm) {
     text += fmt::format("square_mm = {:.6g}\n", scale.square_mm);
   }
-  if (scale.behind_mm > 0) text += fmt::format("board_behind_mm = {:.6g}\n", scale.behind_mm);
+  if (scale.board_offset_mm > 0)
+    text += fmt::format("board_behind_mm = {:.6g}\n", scale.board_offset_mm);
   return text;
 }
 

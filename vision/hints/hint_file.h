@@ -6,6 +6,7 @@
 #include "vision/measure/repose_angle.h"
 
 /// What a person has said of a picture, kept in a small file beside it.
+
 namespace repose::vision {
 
 /// The file in which the hints of a picture are kept: its name with ".repose.toml" behind.

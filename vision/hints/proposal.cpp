@@ -14,7 +14,7 @@
 namespace repose::vision {
 namespace {
 
-constexpr std::size_t kMostOfAKind = 4;  // candidates that are tried
+constexpr std::size_t kMaxOfAKind = 4;   // candidates that are tried
 constexpr int kSmallestFrame = 64;       // px: nothing is measured in smaller ones
 constexpr double kMargin = 0.06;         // of a thing's size, left around it
 constexpr double kSameBox = 0.7;         // overlap over union of boxes that are one
@@ -43,7 +43,7 @@ void add_new(std::vector<cv::Rect>& boxes, const cv::Rect& box) {
 void keep_largest(std::vector<cv::Rect>& boxes) {
   std::stable_sort(boxes.begin(), boxes.end(),
                    [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
-  if (boxes.size() > kMostOfAKind) boxes.resize(kMostOfAKind);
+  if (boxes.size() > kMaxOfAKind) boxes.resize(kMaxOfAKind);
 }
 
 /// Boxes around timers, labels and other lettering.
@@ -73,7 +73,7 @@ std::vector<cv::Rect> labels_in(const WorkingPicture& work) {
 /// Boxes around the larger things that any segmentation sees.
 std::vector<cv::Rect> things_in(const WorkingPicture& work) {
   std::vector<cv::Rect> things;
-  for (const Segmentation& segmentation : blind_segmentations(work)) {
+  for (const Segmentation& segmentation : unsupervised_segmentations(work)) {
     for (const Body& body : find_bodies(segmentation, work)) {
       const cv::Rect box = cv::boundingRect(body.mask);
       const double fraction = static_cast<double>(box.area()) / work.frame.area();

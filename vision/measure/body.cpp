@@ -36,7 +36,7 @@ cv::Mat1b solid_mask(const Segmentation& segmentation, const WorkingPicture& wor
   cv::Mat1b mask = (segmentation.inside > 0) & work.valid_mask;
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
-  const Told& told = work.told;
+  const UserHints& told = work.told;
   if (!told.on_heap.empty()) mask |= told.on_heap;
   if (!told.beside_heap.empty()) mask &= ~told.beside_heap;
   return holes_filled(mask);
@@ -125,13 +125,14 @@ int count_strays(const Body& body, const Segmentation& segmentation, const Worki
   if (shown.empty()) return 0;
   const Pieces pieces(above(shown));
   const double largest = kLargestStray * cv::countNonZero(body.mask);
-  int strays = 0;
+  int loose_particles = 0;
   for (int i = 1; i < pieces.count; ++i) {
     const cv::Rect box = pieces.box(i) + shown.tl();
     const double gap = body.ground.y(box.x + box.width / 2.0) - box.br().y;
-    if (pieces.area(i) >= kSmallestStray && pieces.area(i) < largest && gap < box.height) ++strays;
+    if (pieces.area(i) >= kSmallestStray && pieces.area(i) < largest && gap < box.height)
+      ++loose_particles;
   }
-  return strays;
+  return loose_particles;
 }
 
 }  // namespace repose::vision

@@ -6,13 +6,42 @@
 
 #include <opencv2/core.hpp>
 
-#include "vision/measure/edge_distance.h"
 #include "vision/measure/refinement.h"
 #include "vision/measure/regions.h"
 #include "vision/measure/segmentation.h"
 #include "vision/measure/traced_edge.h"
 
 namespace repose::vision {
+
+namespace {
+
+/// 0 beside the heap.
+double height_at(const Profile& profile, double along) {
+  const auto after = std::lower_bound(profile.along.begin(), profile.along.end(), along);
+  if (after == profile.along.end()) return 0;
+  if (after == profile.along.begin() && along < *after) return 0;
+  return profile.height[static_cast<std::size_t>(after - profile.along.begin())];
+}
+
+}  // namespace
+
+double edge_distance(const Reading& one, const Reading& other) {
+  const double crest = one.profile.along[one.profile.crest];
+  double squares = 0;
+  std::size_t points = 0;
+  for (const Side side : {Side::left, Side::right}) {
+    const FlankFit& flank = one.flank(side);
+    for (std::size_t i = 0; i < flank.along.size(); ++i) {
+      const double along = side == Side::left ? crest - flank.along[i] : crest + flank.along[i];
+      const double away = height_at(other.profile, along) - flank.height[i];
+      squares += away * away;
+    }
+    points += flank.along.size();
+  }
+  if (points == 0) return 0;
+  return std::sqrt(squares / static_cast<double>(points)) / one.profile.crest_height;
+}
+
 namespace {
 
 constexpr double kNearlyAsGood = 0.85;  // of the best score
@@ -25,7 +54,7 @@ constexpr double kHardlyAnEdge = 0.25;  // score of a chance line through clutte
 constexpr double kSeesTheHeap = 0.5;    // of the best score: such a reading knows where the foot is
 constexpr double kCrossed = 0.1;        // of the heap's height above its foot: no error of the line
 constexpr double kSameLine_px = 3;      // grounds that two segmentations see so close are one
-constexpr double kBeside =
+constexpr double kSameEdgeTolerance =
     0.06;  // of the height, root mean square: edges that are not the same one
 constexpr double kCarried = 0.8;  // of a body's columns, under which another one begins
 
@@ -238,10 +267,6 @@ void look_again(std::vector<Reading>& readings, const WorkingPicture& work,
   if (again.score > 0) readings.push_back(std::move(again));
 }
 
-}  // namespace
-
-namespace {
-
 /// Between a box and a ground line there is one heap. Readings of another edge than the one traced
 /// there are of something else.
 void keep_what_is_traced(std::vector<Reading>& readings) {
@@ -251,25 +276,26 @@ void keep_what_is_traced(std::vector<Reading>& readings) {
   if (traced == readings.end() || traced->score < kSeesTheHeap * best_of(readings).score) return;
   std::vector<Reading> same;
   for (const Reading& reading : readings) {
-    if (reading.has_flank() && edge_distance(*traced, reading) <= kBeside) same.push_back(reading);
+    if (reading.has_flank() && edge_distance(*traced, reading) <= kSameEdgeTolerance)
+      same.push_back(reading);
   }
   readings = std::move(same);
 }
 
 /// The readings that need nothing but the picture and what a person has said.
 std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOptions& options) {
-  if (work.tones && work.told.is_nothing()) {
+  if (work.tones && work.told.empty()) {
     return {read_heap(two_tone_segmentation(work, *work.tones), work, options)};
   }
   std::vector<Reading> readings;
-  for (const Segmentation& segmentation : blind_segmentations(work)) {
+  for (const Segmentation& segmentation : unsupervised_segmentations(work)) {
     readings.push_back(read_heap(segmentation, work, options));
   }
   if (best_of(readings).score < kFairlyGood) {
     readings.push_back(read_heap(rough_segmentation(work), work, options));
   }
   if (work.told.has_box || work.told.has_places()) {
-    readings.push_back(read_heap(pointed_segmentation(work, options.seed), work, options));
+    readings.push_back(read_heap(seeded_segmentation(work, options.seed), work, options));
   }
   if (work.told.has_box && work.told.ground) {
     readings.push_back(read_heap(traced_segmentation(work), work, options));
@@ -280,14 +306,14 @@ std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOpt
 
 }  // namespace
 
-Choice choose_reading(const WorkingPicture& work, const MeasureOptions& options) {
+SelectedCandidate choose_reading(const WorkingPicture& work, const MeasureOptions& options) {
   std::vector<Reading> readings = first_readings(work, options);
   const bool knows_ground = work.told.ground.has_value();
   if (!knows_ground) {
     leave_out_plates(readings);
     prefer_seen_feet(readings);
   }
-  Choice choice;
+  SelectedCandidate choice;
   if (best_of(readings).score < kHardlyAnEdge && work.told.has_box) {
     choice.best = largest_of(readings);  // says best why there is no angle
     if (!choice.best.has_flank()) return choice;

@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/measure/light_steps.h"
+#include "vision/measure/likeness.h"
 
 namespace repose::vision {
 namespace {
@@ -59,7 +59,7 @@ std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& bo
   cv::erode(body(box), core, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
   cv::Mat1f lightness;
   cv::extractChannel(work.lab(box), lightness, 0);
-  if (light_steps(lightness, core).are_of_silhouette()) return std::nullopt;
+  if (light_steps(lightness, core).is_silhouette()) return std::nullopt;
   cv::Mat1f inside;
   core.convertTo(inside, CV_32F, 1 / 255.0);
   // The local mean over the body alone: what lies outside must not shine in.

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {

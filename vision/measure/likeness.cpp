@@ -5,7 +5,220 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
 namespace repose::vision {
+
+LightSteps light_steps(const cv::Mat1f& lightness, const cv::Mat1b& inside) {
+  constexpr float kNone = 0.05F;
+  double sum = 0;
+  int even = 0;
+  int pairs = 0;
+  for (int row = 0; row < inside.rows; row += 2) {
+    for (int col = 0; col + 1 < inside.cols; col += 2) {
+      if (inside(row, col) == 0 || inside(row, col + 1) == 0) continue;
+      const float step = std::abs(lightness(row, col + 1) - lightness(row, col));
+      sum += step;
+      even += step < kNone ? 1 : 0;
+      ++pairs;
+    }
+  }
+  return {.mean = sum / std::max(1, pairs), .even = static_cast<double>(even) / std::max(1, pairs)};
+}
+
+namespace {
+
+constexpr int kRim_px = 5;               // of the body, whose own edge is no edge inside it
+constexpr double kUpright = 3.7;         // tan 75 degrees: edges so steep are walls and rulers
+constexpr double kPatchBlur = 1.0 / 14;  // of the crest's height
+constexpr double kPatchStep = 1.0 / 10;  // ... over which the colour may not change
+constexpr double kCoarser = 4;           // pixels of the picture in one that is compared
+constexpr double kPatchChange = 9;       // distance in L*a*b* that is another part
+constexpr double kGradientBlur_px = 1;   // single pixels have no direction
+constexpr float kFaintestGradient = 1e-3F;
+constexpr std::size_t kRings = 32;  // of wavelengths
+constexpr double kStrong = 8;       // times the mean of the ring: by chance one in 3000
+
+/// The part of the picture that the body's box shows.
+struct Inside {
+  cv::Mat1b core;  ///< the body without its rim
+  cv::Mat3f lab;
+  cv::Mat1f lightness;
+  cv::Mat3b bgr;
+};
+
+Inside inside_of(const cv::Mat1b& body, const WorkingPicture& work) {
+  const cv::Rect box = cv::boundingRect(body);
+  Inside inside;
+  cv::erode(body(box), inside.core,
+            cv::getStructuringElement(cv::MORPH_RECT, {2 * kRim_px + 1, 2 * kRim_px + 1}), {-1, -1},
+            1, cv::BORDER_CONSTANT, 0);
+  inside.lab = work.lab(box);
+  inside.bgr = work.bgr(box);
+  return inside;
+}
+
+/// There are pixels inside, and all have one colour.
+bool is_flat(const Inside& inside) {
+  const cv::Vec3b* first = nullptr;
+  for (int row = 0; row < inside.bgr.rows; ++row) {
+    for (int col = 0; col < inside.bgr.cols; ++col) {
+      if (inside.core(row, col) == 0) continue;
+      if (first == nullptr) first = &inside.bgr(row, col);
+      if (inside.bgr(row, col) != *first) return false;
+    }
+  }
+  return first != nullptr;
+}
+
+double longest_edge_in(const Inside& inside) {
+  cv::Mat1b grey;
+  cv::cvtColor(inside.bgr, grey, cv::COLOR_BGR2GRAY);
+  std::vector<cv::Vec4f> segments;
+  cv::createLineSegmentDetector(cv::LSD_REFINE_STD)->detect(grey, segments);
+  double longest = 0;
+  for (const cv::Vec4f& s : segments) {
+    const cv::Point middle(static_cast<int>((s[0] + s[2]) / 2),
+                           static_cast<int>((s[1] + s[3]) / 2));
+    if (!cv::Rect({}, inside.core.size()).contains(middle) || inside.core(middle) == 0) continue;
+    if (std::abs(s[3] - s[1]) > kUpright * std::abs(s[2] - s[0])) continue;
+    longest = std::max<double>(longest, std::hypot(s[2] - s[0], s[3] - s[1]));
+  }
+  return longest;
+}
+
+double distance(const cv::Vec3f& a, const cv::Vec3f& b) { return cv::norm(a - b); }
+
+double patchy_part(const Inside& inside, double crest_height) {
+  const double height = crest_height / kCoarser;
+  cv::Mat3f sharp = inside.lab.clone();
+  sharp.setTo(cv::Scalar::all(0), ~inside.core);
+  cv::Mat1f sharp_weight;
+  inside.core.convertTo(sharp_weight, CV_32F, 1 / 255.0);
+  cv::Mat3f colour;
+  cv::Mat1f weight;
+  cv::resize(sharp, colour, {}, 1 / kCoarser, 1 / kCoarser, cv::INTER_AREA);
+  cv::resize(sharp_weight, weight, {}, 1 / kCoarser, 1 / kCoarser, cv::INTER_AREA);
+  const cv::Mat1b core = weight > 0.5;
+  cv::GaussianBlur(colour, colour, {}, std::max(0.5, kPatchBlur * height));
+  cv::GaussianBlur(weight, weight, {}, std::max(0.5, kPatchBlur * height));
+  const int step = std::max(1, static_cast<int>(kPatchStep * height));
+  int pairs = 0;
+  int changed = 0;
+  for (const cv::Point shift : {cv::Point(step, 0), cv::Point(0, step)}) {
+    for (int row = 0; row + shift.y < core.rows; ++row) {
+      for (int col = 0; col + shift.x < core.cols; ++col) {
+        const cv::Point here(col, row);
+        const cv::Point there = here + shift;
+        if (core(here) == 0 || core(there) == 0) continue;
+        ++pairs;
+        const cv::Vec3f before = colour(here) / weight(here);
+        changed += distance(before, colour(there) / weight(there)) > kPatchChange ? 1 : 0;
+      }
+    }
+  }
+  return pairs > 0 ? static_cast<double>(changed) / pairs : 0;
+}
+
+/// Lengths of the mean of exp(2 i a) and of exp(4 i a), a the directions of the gradients, weighted
+/// by their lengths: 0 where they point anywhere, as around grains.
+void add_directions(BodyTexture& texture, const Inside& inside) {
+  cv::Mat1f smooth;
+  cv::GaussianBlur(inside.lightness, smooth, {}, kGradientBlur_px);
+  cv::Mat1f across;
+  cv::Mat1f down;
+  cv::Scharr(smooth, across, CV_32F, 1, 0);
+  cv::Scharr(smooth, down, CV_32F, 0, 1);
+  double lengths = 0;
+  cv::Vec2d twice;
+  cv::Vec2d four_times;
+  for (int row = 0; row < inside.core.rows; ++row) {
+    for (int col = 0; col < inside.core.cols; ++col) {
+      const double x = across(row, col);
+      const double y = down(row, col);
+      const double length = std::sqrt(x * x + y * y);
+      if (inside.core(row, col) == 0 || length < kFaintestGradient) continue;
+      const double cos2 = (x * x - y * y) / (length * length);
+      const double sin2 = 2 * x * y / (length * length);
+      lengths += length;
+      twice += length * cv::Vec2d(cos2, sin2);
+      four_times += length * cv::Vec2d(cos2 * cos2 - sin2 * sin2, 2 * cos2 * sin2);
+    }
+  }
+  if (lengths == 0) return;
+  texture.aligned = cv::norm(twice) / lengths;
+  texture.crossed = cv::norm(four_times) / lengths;
+}
+
+/// Power of the pattern at all its wavelengths.
+cv::Mat1f spectrum_of(const Inside& inside) {
+  cv::Mat1f weight;
+  inside.core.convertTo(weight, CV_32F, 1 / 255.0);
+  const double coarse_px = std::max(2.0, inside.core.rows / 8.0);
+  cv::Mat1f sum;
+  cv::Mat1f count;
+  cv::GaussianBlur(inside.lightness.mul(weight), sum, {}, coarse_px);
+  cv::GaussianBlur(weight, count, {}, coarse_px);
+  const cv::Mat1f pattern = (inside.lightness - sum / (count + 1e-6)).mul(weight);
+  cv::Mat1f padded;
+  cv::copyMakeBorder(pattern, padded, 0, cv::getOptimalDFTSize(pattern.rows) - pattern.rows, 0,
+                     cv::getOptimalDFTSize(pattern.cols) - pattern.cols, cv::BORDER_CONSTANT, 0);
+  cv::Mat2f waves;
+  cv::dft(padded, waves, cv::DFT_COMPLEX_OUTPUT);
+  std::vector<cv::Mat1f> parts;
+  cv::split(waves, parts);
+  return parts[0].mul(parts[0]) + parts[1].mul(parts[1]);
+}
+
+/// Part of the pattern's power in waves that are much stronger than others of about their length:
+/// grains that lie by chance have none, what is laid or woven has little else.
+double regular_part(const Inside& inside) {
+  const cv::Mat1f power = spectrum_of(inside);
+  std::vector<double> sum(kRings, 0);
+  std::vector<int> count(kRings, 0);
+  const auto ring_of = [&](int row, int col) {
+    const double down = static_cast<double>(std::min(row, power.rows - row)) / power.rows;
+    const double across = static_cast<double>(std::min(col, power.cols - col)) / power.cols;
+    return static_cast<std::size_t>(2 * kRings * std::hypot(down, across));
+  };
+  double all = 0;
+  for (int row = 0; row < power.rows; ++row) {
+    for (int col = 0; col < power.cols; ++col) {
+      const std::size_t ring = ring_of(row, col);
+      if (ring >= kRings) continue;  // in the corners: shorter than two pixels
+      sum[ring] += power(row, col);
+      ++count[ring];
+      all += power(row, col);
+    }
+  }
+  if (all <= 0) return 0;
+  double strong = 0;
+  for (int row = 0; row < power.rows; ++row) {
+    for (int col = 0; col < power.cols; ++col) {
+      const std::size_t ring = ring_of(row, col);
+      if (ring >= kRings) continue;
+      strong += power(row, col) > kStrong * sum[ring] / count[ring] ? power(row, col) : 0;
+    }
+  }
+  return strong / all;
+}
+
+}  // namespace
+
+BodyTexture texture_of(const cv::Mat1b& body, double crest_height, const WorkingPicture& work) {
+  Inside inside = inside_of(body, work);
+  if (is_flat(inside)) return {.noise = 0, .even = 1};
+  cv::extractChannel(inside.lab, inside.lightness, 0);
+  const LightSteps steps = light_steps(inside.lightness, inside.core);
+  BodyTexture texture{.noise = steps.mean, .even = steps.even};
+  texture.straight = longest_edge_in(inside) / std::max(1.0, crest_height);
+  texture.patchy = patchy_part(inside, crest_height);
+  if (steps.is_silhouette()) return texture;
+  texture.regular = regular_part(inside);
+  add_directions(texture, inside);
+  return texture;
+}
+
 namespace {
 
 constexpr std::size_t kSmoothingParts =
@@ -81,15 +294,15 @@ double level_part(const FlankFit& flank) {
   return static_cast<double>(level) / static_cast<double>(flank.height.size() - kTread_px);
 }
 
-constexpr double kLeastFilled = 0.93;
-constexpr double kMostClimb = 0.08;
+constexpr double kMinFilled = 0.93;
+constexpr double kMaxClimb = 0.08;
 constexpr double kLongestStraight = 0.4;
-constexpr double kMostPatchy = 0.12;
-constexpr double kMostAligned = 0.4;
-constexpr double kMostCrossed = 0.15;
-constexpr double kMostRegular = 0.33;
-constexpr double kMostLevel = 0.5;
-constexpr double kLeastNoise = 0.4;
+constexpr double kMaxPatchy = 0.12;
+constexpr double kMaxAligned = 0.4;
+constexpr double kMaxCrossed = 0.15;
+constexpr double kMaxRegular = 0.33;
+constexpr double kMaxLevel = 0.5;
+constexpr double kMinNoise = 0.4;
 // Roughness of an edge that no grains make [working px]: of grains of some size, where the edge is
 // sharp or blurred, and at all.
 constexpr double kSmoothGrain = 0.04;
@@ -100,7 +313,7 @@ constexpr double kBlurred = 0.6;  // sharpness below which it is
 constexpr double kSharpEdge_px = 0.1;
 
 /// Below it an edge is smoother than grains make it [working px].
-double least_roughness(const Likeness& likeness, std::optional<double> grain) {
+double least_roughness(const HeapPlausibility& likeness, std::optional<double> grain) {
   if (!grain) return kSharpEdge_px;
   const double of_grain = likeness.sharpness < kBlurred ? kBlurredGrain
                           : *grain < kFineGrain_px      ? kSmoothFineGrain
@@ -108,18 +321,18 @@ double least_roughness(const Likeness& likeness, std::optional<double> grain) {
   return std::max(kSharpEdge_px, of_grain * *grain);
 }
 
-std::string reason_of_shape(const Likeness& likeness) {
-  if (likeness.filled < kLeastFilled) {
+std::string reason_of_shape(const HeapPlausibility& likeness) {
+  if (likeness.filled < kMinFilled) {
     return fmt::format(
         "{:.0f} % of the area under its edge does not belong to it, as with legs, "
         "wheels and branches",
         100 * (1 - likeness.filled));
   }
-  if (likeness.climb > kMostClimb) {
+  if (likeness.climb > kMaxClimb) {
     return fmt::format("its edge rises again by {:.0f} % of the height on the way down",
                        100 * likeness.climb);
   }
-  if (likeness.level > kMostLevel) {
+  if (likeness.level > kMaxLevel) {
     return fmt::format("{:.0f} % of its edge is level, as on stairs", 100 * likeness.level);
   }
   return {};
@@ -130,19 +343,19 @@ std::string reason_of_texture(const BodyTexture& inside, bool has_grains) {
     return fmt::format("it has a straight edge inside, {:.1f} times as long as it is high",
                        inside.straight);
   }
-  if (inside.patchy > kMostPatchy) {
+  if (inside.patchy > kMaxPatchy) {
     return fmt::format("it has parts of different colours ({:.0f} % of it lies between them)",
                        100 * inside.patchy);
   }
   if (inside.is_silhouette()) return {};
-  if (inside.aligned > kMostAligned || inside.crossed > kMostCrossed) {
+  if (inside.aligned > kMaxAligned || inside.crossed > kMaxCrossed) {
     return "its pattern runs in straight lines, as on boards, bricks, tiles and cloth";
   }
-  if (inside.regular > kMostRegular) {
+  if (inside.regular > kMaxRegular) {
     return fmt::format("{:.0f} % of its pattern repeats, as on tiles and cloth",
                        100 * inside.regular);
   }
-  if (!has_grains || inside.noise < kLeastNoise) {
+  if (!has_grains || inside.noise < kMinNoise) {
     return "it shows no grains, and is not a silhouette";
   }
   return {};
@@ -150,7 +363,7 @@ std::string reason_of_texture(const BodyTexture& inside, bool has_grains) {
 
 }  // namespace
 
-Likeness likeness_of(const Reading& reading, const WorkingPicture& work) {
+HeapPlausibility likeness_of(const Reading& reading, const WorkingPicture& work) {
   return {.filled = filled_part(reading, work),
           .climb = climb_of(reading),
           .rough_px = std::max(roughness_of(reading.left), roughness_of(reading.right)),
@@ -159,7 +372,7 @@ Likeness likeness_of(const Reading& reading, const WorkingPicture& work) {
           .inside = texture_of(reading.body.mask, reading.profile.crest_height, work)};
 }
 
-std::string reason_against_heap(const Likeness& likeness, std::optional<double> grain) {
+std::string reason_against_heap(const HeapPlausibility& likeness, std::optional<double> grain) {
   std::string reason = reason_of_shape(likeness);
   if (reason.empty()) reason = reason_of_texture(likeness.inside, grain.has_value());
   if (reason.empty() && likeness.rough_px < least_roughness(likeness, grain)) {

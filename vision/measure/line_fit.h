@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 namespace repose::vision {
@@ -21,7 +22,7 @@ LineFit least_squares_line(std::span<const double> x, std::span<const double> y)
 /// about 4.7 robust standard deviations do not count. r2 is that of the start.
 ///
 /// Scale: 1.4826 times the median absolute residual, of the start at first, then of each new line
-/// until it settles: strays widen the start's.
+/// until it settles: loose_particles widen the start's.
 /// Source: Huber & Ronchetti, Robust Statistics (2009), sec. 4.8 (biweight), 5.1 (median
 /// deviation).
 LineFit robust_line(std::span<const double> x, std::span<const double> y);
@@ -31,5 +32,20 @@ double median(std::span<const double> values);
 
 /// The median of absolute residuals times this is the standard deviation of a normal distribution.
 inline constexpr double kMadToSigma = 1.4826;
+
+/// Standard error of a line's slope when neighbouring residuals belong together: one grain is
+/// dozens of edge points, so the plain formula is several times too small.
+///
+/// Moving-block bootstrap of the residuals: blocks of `block` neighbours are drawn with replacement
+/// and the slope is refitted; the standard deviation of those slopes, times sqrt(b / (b - 2)) for
+/// the b independent blocks there are.
+/// Source: Davison & Hinkley, Bootstrap Methods and their Application (1997), sec. 8.2.3.
+/// Proved by tests/vision/bootstrap_test.cpp.
+/// @param x  ascending positions; @param residual  same size; points with weight 0 do not count.
+double block_bootstrap_slope_error(std::span<const double> x, std::span<const double> residual,
+                                   std::size_t block, std::uint64_t seed);
+
+/// How many independent blocks n points make; at least 4, so that an interval exists.
+double independent_blocks(std::size_t points, std::size_t block);
 
 }  // namespace repose::vision

@@ -5,6 +5,7 @@
 #include "vision/measure/profile.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/measure/segmentation.h"
+#include "vision/measure/working_picture.h"
 
 namespace repose::vision {
 
@@ -35,5 +36,8 @@ Reading read_heap(const Segmentation& segmentation, const WorkingPicture& work,
 /// Reads the heap anew by another segmentation, on the ground line of an earlier reading.
 Reading read_again(const Reading& earlier, const Segmentation& segmentation,
                    const WorkingPicture& work, const MeasureOptions& options);
+
+/// Fills in the reading's edge contrast, edge sharpness and score from the picture beside the edge.
+void score(Reading& reading, const WorkingPicture& work);
 
 }  // namespace repose::vision

@@ -154,7 +154,7 @@ Segmentation grabcut_segmentation(const WorkingPicture& work, const Body& body,
   return grab_cut("grabcut", work, labels, seed);
 }
 
-Segmentation pointed_segmentation(const WorkingPicture& work, std::uint64_t seed) {
+Segmentation seeded_segmentation(const WorkingPicture& work, std::uint64_t seed) {
   cv::Mat1b labels(work.bgr.size(), static_cast<std::uint8_t>(cv::GC_PR_BGD));
   labels.setTo(cv::GC_PR_FGD, triangle_in(work));
   labels.setTo(cv::GC_BGD, ~work.valid_mask);

@@ -20,6 +20,6 @@ Segmentation grabcut_segmentation(const WorkingPicture& work, const Body& body, 
 /// Heap and backdrop by GrabCut from what a person has said: places on the heap and beside it, and
 /// a box around it, which a heap fills like a triangle on the box's lower side. Same seed, same
 /// result.
-Segmentation pointed_segmentation(const WorkingPicture& work, std::uint64_t seed);
+Segmentation seeded_segmentation(const WorkingPicture& work, std::uint64_t seed);
 
 }  // namespace repose::vision

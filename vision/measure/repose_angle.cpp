@@ -13,13 +13,37 @@
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/choice.h"
 #include "vision/measure/definitions.h"
-#include "vision/measure/paper_method.h"
+#include "vision/measure/reading.h"
 #include "vision/measure/uncertainty.h"
 #include "vision/measure/verdict.h"
-#include "vision/picture/opencv_threads.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
+
 namespace {
+
+/// The chain of the published hazelnut study, for comparison: grey picture, Otsu's threshold,
+/// largest region with its holes filled, upper edge, ordinary least squares through each side, mean
+/// of the two sides' absolute slopes. Angles are against the picture's horizontal; toe and crest
+/// are left out only as far as the window does.
+SelectedCandidate read_by_paper(const WorkingPicture& work, const MeasureOptions& options) {
+  SelectedCandidate choice;
+  Reading& reading = choice.best;
+  reading.segmentation = grey_otsu(work);
+  reading.body = largest_region(reading.segmentation, work);
+  if (reading.body.mask.empty()) return choice;
+  reading.profile = upper_profile(reading.body, reading.segmentation, work);
+  if (reading.profile.size() < 10) return choice;
+  FlankOptions flank{options.window_from, options.window_to, false, std::nullopt, options.seed};
+  reading.left = fit_flank(reading.profile, Side::left, flank);
+  reading.right = fit_flank(reading.profile, Side::right, flank);
+  for (FlankFit* side : {&reading.left, &reading.right}) {
+    side->shown = side->least_squares;
+    side->angle_rad = std::atan(-side->least_squares.slope);
+  }
+  score(reading, work);
+  return choice;
+}
 
 constexpr double kNarrowestWindow = 0.1;
 constexpr double kLargestPitch_rad = 30 * std::numbers::pi / 180;
@@ -165,7 +189,7 @@ std::vector<Point> outline_of(const cv::Mat1b& mask, const WorkingPicture& work)
 }
 
 /// Everything that was seen, in the picture's own pixels; judged later.
-ReposeAngle described(const Choice& choice, const WorkingPicture& work,
+ReposeAngle described(const SelectedCandidate& choice, const WorkingPicture& work,
                       const MeasureOptions& options) {
   const Reading& best = choice.best;
   ReposeAngle result;
@@ -197,10 +221,10 @@ ReposeAngle described(const Choice& choice, const WorkingPicture& work,
   result.crest = work.in_picture(ground.picture(crest, best.profile.crest_height));
   result.height_px = best.profile.crest_height * work.shrink;
   result.base_bow = best.body.ground.bow;
-  result.hides_foot = best.body.ground.behind;
+  result.foot_occluded = best.body.ground.behind;
   result.base_px = (best.profile.along.back() - best.profile.along.front()) * work.shrink;
   if (best.grain) result.grain_px = *best.grain * work.shrink;
-  result.strays = count_strays(best.body, best.segmentation, work);
+  result.loose_particles = count_strays(best.body, best.segmentation, work);
   result.definitions = other_definitions(best);
   for (NamedAngle& other : result.definitions) {
     other.angle_rad = correction.angle_rad(other.angle_rad);
@@ -284,8 +308,8 @@ ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& o
   if (std::min(work.frame.width, work.frame.height) < kSmallestSide) {
     return too_small(picture, options);
   }
-  const Choice choice = options.method == Method::paper ? read_by_paper(work, options)
-                                                        : choose_reading(work, options);
+  const SelectedCandidate choice = options.method == Method::paper ? read_by_paper(work, options)
+                                                                   : choose_reading(work, options);
   ReposeAngle result = described(choice, work, options);
   judge(result, choice, options);
   result.reason = base::with_names(result.reason, options.names);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/input_error.h"
@@ -15,6 +16,7 @@
 ///
 /// Angles are radians, from the ground line, positive; uncertainties are half-widths of 95 %
 /// intervals. A number that does not exist is an empty optional, never 0.
+
 namespace repose::vision {
 
 enum class Method {
@@ -112,7 +114,7 @@ struct NamedAngle {
 struct ReposeAngle {
   MeasureStatus status = MeasureStatus::refused;
   std::string reason;               ///< when refused: what is wrong and how to mend it
-  bool outline_holds = false;       ///< when refused: only a flank's angle is, not the outline
+  bool outline_valid = false;       ///< when refused: only a flank's angle is, not the outline
   std::optional<double> angle_rad;  ///< mean of the sides that exist
   std::optional<double> uncertainty_rad;
   /// Parts of that, half-widths too: what is this picture's own, and what the camera's pitch and
@@ -136,9 +138,9 @@ struct ReposeAngle {
   std::optional<double> height_px;  ///< crest above the ground line
   std::optional<double> base_px;    ///< width of the base along the ground line
   std::optional<double> base_bow;   ///< how far the base bows downwards / base_px; empty: not seen
-  bool hides_foot = false;          ///< the ground line is an edge behind the heap
+  bool foot_occluded = false;       ///< the ground line is an edge behind the heap
   std::optional<double> grain_px;   ///< typical grain size, from the body's pattern
-  int strays = 0;                   ///< grains lying apart from the body
+  int loose_particles = 0;          ///< grains lying apart from the body
   std::vector<NamedAngle> definitions;  ///< height over base, half-height tangent, ...
 };
 
@@ -151,5 +153,33 @@ std::optional<double> angle_by(const ReposeAngle& measured, std::string_view def
 /// @throws base::InputError  options.problems() is not empty, the picture is empty, or an
 ///   excluded box or a hint lies outside it.
 ReposeAngle measure_repose_angle(const Picture& picture, const MeasureOptions& options = {});
+
+inline constexpr std::array<std::pair<MeasureStatus, const char*>, 3> kStatusNames = {
+    {{MeasureStatus::ok, "ok"},
+     {MeasureStatus::flagged, "flagged"},
+     {MeasureStatus::refused, "refused"}}};
+
+inline constexpr const auto& names_for(MeasureStatus) { return kStatusNames; }
+
+inline const char* name_of(MeasureStatus status) {
+  for (const auto& [known, name] : kStatusNames) {
+    if (known == status) return name;
+  }
+  return "refused";
+}
+
+inline const char* name_of(FlankStatus status) {
+  switch (status) {
+    case FlankStatus::ok:
+      return "ok";
+    case FlankStatus::truncated:
+      return "truncated";
+    case FlankStatus::absent:
+      break;
+  }
+  return "absent";
+}
+
+inline const char* name_of(Method method) { return method == Method::paper ? "paper" : "auto"; }
 
 }  // namespace repose::vision

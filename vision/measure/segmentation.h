@@ -21,7 +21,7 @@ struct Segmentation {
 
 /// Segmentations that need nothing but the picture: Otsu on several channels, distance from a
 /// backdrop model, adaptive threshold.
-std::vector<Segmentation> blind_segmentations(const WorkingPicture& work);
+std::vector<Segmentation> unsupervised_segmentations(const WorkingPicture& work);
 
 inline constexpr const char* kTwoTones = "two tones";  ///< name of the next one
 

@@ -9,10 +9,265 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/measure/heap_template.h"
-#include "vision/measure/side_contrast.h"
+#include "vision/measure/ground.h"
 
 namespace repose::vision {
+
+namespace {
+
+constexpr std::array kReaches = {4, 12};  // px on either side: fine grains, and lumps
+constexpr int kSamples = 4;               // columns on either side of the pixel's own
+constexpr double kEnough = 0.25;          // of each side that must be evidence
+constexpr double kUnsharp = 4;            // variance that nothing is without, as for step_contrast
+
+constexpr int kSums = 6;  // of four channels, of their squares, and how many
+using Sums = cv::Vec<double, kSums>;
+
+/// Sums of the columns from the top down to each row.
+class ColumnSums {
+ public:
+  ColumnSums(const cv::Mat4f& material, const cv::Mat1b& valid_mask)
+      : sums_(material.rows + 1, material.cols, Sums()) {
+    for (int row = 0; row < material.rows; ++row) {
+      for (int col = 0; col < material.cols; ++col) {
+        Sums here = sums_(row, col);
+        if (valid_mask(row, col) != 0) {
+          const cv::Vec4f& value = material(row, col);
+          for (int i = 0; i < 4; ++i) here[i] += value[i];
+          here[4] += value.dot(value);
+          here[5] += 1;
+        }
+        sums_(row + 1, col) = here;
+      }
+    }
+  }
+  int rows() const { return sums_.rows - 1; }
+  int cols() const { return sums_.cols; }
+  Sums between(int from, int to, int col) const {
+    return sums_(std::clamp(to, 0, rows()), col) - sums_(std::clamp(from, 0, rows()), col);
+  }
+
+ private:
+  cv::Mat_<Sums> sums_;
+};
+
+double variance(const Sums& sums) {
+  double squares = 0;
+  for (int i = 0; i < 4; ++i) squares += sums[i] * sums[i];
+  return std::max(0.0, sums[4] / sums[5] - squares / (sums[5] * sums[5]));
+}
+
+/// A short line, and how far its sides reach up and down from it.
+struct Stroke {
+  double slope;
+  double step;  ///< columns from one sample to the next
+  int depth;    ///< rows
+
+  Stroke(double rise, int reach)
+      : slope(rise),
+        step(reach / std::hypot(1, rise) / kSamples),
+        depth(static_cast<int>(std::lround(reach * std::hypot(1, rise)))) {}
+
+  float contrast(const ColumnSums& sums, int row, int col) const {
+    Sums above;
+    Sums below;
+    for (int k = -kSamples; k <= kSamples; ++k) {
+      const int there = col + static_cast<int>(std::lround(k * step));
+      if (there < 0 || there >= sums.cols()) continue;
+      const int level = row - static_cast<int>(std::lround(k * step * slope));
+      above += sums.between(level - depth, level, there);
+      below += sums.between(level, level + depth, there);
+    }
+    const double enough = kEnough * (2 * kSamples + 1) * depth;
+    if (above[5] < enough || below[5] < enough) return -1;
+    double squares = 0;
+    for (int i = 0; i < 4; ++i) {
+      const double step_here = above[i] / above[5] - below[i] / below[5];
+      squares += step_here * step_here;
+    }
+    const double scatter = kUnsharp + variance(above) + 0.5 * variance(below);
+    return static_cast<float>(saturated(std::sqrt(squares / scatter), 1));
+  }
+};
+
+/// The mean over the reaches of the contrast beside lines of one slope.
+cv::Mat1f contrast_along(double slope, const ColumnSums& sums) {
+  cv::Mat1f contrast(sums.rows(), sums.cols(), 0.F);
+  for (const int reach : kReaches) {
+    const Stroke stroke(slope, reach);
+    for (int row = 0; row < contrast.rows; ++row) {
+      for (int col = 0; col < contrast.cols; ++col) {
+        const float here = stroke.contrast(sums, row, col);
+        float& mean = contrast(row, col);
+        mean = here < 0 || mean < 0 ? -1 : mean + here / static_cast<float>(kReaches.size());
+      }
+    }
+  }
+  return contrast;
+}
+
+}  // namespace
+
+SideContrast::SideContrast(const cv::Mat4f& material, const cv::Mat1b& valid_mask) {
+  const ColumnSums sums(material, valid_mask);
+  for (int rise = -kSteepest; rise <= kSteepest; ++rise) {
+    const int slope_index = rise + kSteepest;
+    cv::Mat1f& best = contrast_[static_cast<std::size_t>(slope_index)];
+    best = contrast_along(rise, sums);
+    for (const double slope : {rise - 0.5, rise + 0.5}) {
+      if (std::abs(slope) < kSteepest) best = cv::max(best, contrast_along(slope, sums));
+    }
+  }
+}
+
+double usual_contrast(std::span<const cv::Mat1f> contrast, double part) {
+  constexpr int kStep = 4;
+  std::vector<float> values;
+  for (const cv::Mat1f& one : contrast) {
+    for (int row = 0; row < one.rows; row += kStep) {
+      for (int col = 0; col < one.cols; col += kStep) {
+        if (one(row, col) >= 0) values.push_back(one(row, col));
+      }
+    }
+  }
+  if (values.empty()) return 1;
+  const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+namespace {
+
+constexpr double kUsualOfBox = 0.75;  // part of all places that show less contrast than an edge
+                                      // would: a row of flank is worth what it shows beyond that
+constexpr double kLevelCost = 0.06;   // what a column of level crest costs: a box may cut it off
+constexpr double kAside = 0.015;      // of the height: how far bumps lie from the rough flank
+constexpr std::array kBows = {-0.08, 0., 0.08};  // real flanks are hollow, or a little round
+constexpr int kSearchStep = 3;                   // px between the places that are tried
+constexpr double kFlattest = 0.1;                // rise a column
+constexpr double kMinHeight = 0.75;              // of the box: it is drawn close around the heap
+
+struct Candidate {
+  RoughFlank flank;
+  double worth = -std::numeric_limits<double>::infinity();
+};
+
+class Search {
+ public:
+  Search(const SideContrast& contrast, const std::vector<int>& ground)
+      : ground_(ground), cols_(static_cast<int>(ground.size())) {
+    const int deepest = *std::max_element(ground.begin(), ground.end());
+    const int aside = std::max(1, static_cast<int>(kAside * deepest));
+    const cv::Mat near = cv::Mat1b::ones(2 * aside + 1, 1);
+    for (int rise = -SideContrast::kSteepest; rise <= SideContrast::kSteepest; ++rise) {
+      cv::Mat1f best;
+      cv::dilate(contrast.of(rise), best, near);
+      contrast_.push_back(best);
+    }
+    chance_ = usual_contrast(contrast_, kUsualOfBox);
+  }
+
+  /// For each column that may be its top (in steps), the best flank up to a height.
+  /// @param inwards  1: a left flank, -1: a right one
+  std::vector<Candidate> flanks(int height, int inwards) const {
+    std::vector<Candidate> best;
+    for (int top = 0; top < cols_; top += kSearchStep) {
+      Candidate here;
+      for (int foot = top - inwards; foot >= 0 && foot < cols_; foot -= inwards * kSearchStep) {
+        const double rise = static_cast<double>(height) / std::abs(top - foot);
+        if (rise > SideContrast::kSteepest) continue;
+        if (rise < kFlattest) break;
+        for (const double bow : kBows) {
+          const RoughFlank flank{static_cast<double>(foot), static_cast<double>(top), bow};
+          const double worth = worth_of(flank, rise * inwards, height);
+          if (worth > here.worth) here = {flank, worth};
+        }
+      }
+      best.push_back(here);
+    }
+    return best;
+  }
+
+ private:
+  const std::vector<int>& ground_;
+  int cols_;
+  std::vector<cv::Mat1f> contrast_;
+  double chance_ = 0;
+
+  double worth_of(const RoughFlank& flank, double rise, int height) const {
+    double worth = 0;
+    const auto slope = static_cast<std::size_t>(std::lround(rise) + SideContrast::kSteepest);
+    const int ground = ground_[static_cast<std::size_t>(flank.foot)];
+    for (int up = 1; up < height; up += 2) {
+      const int col = static_cast<int>(flank.column(static_cast<double>(up) / height));
+      const float here =
+          contrast_[slope](ground - std::min(up, ground), std::clamp(col, 0, cols_ - 1));
+      if (here >= 0) worth += 2 * (here - chance_);
+    }
+    return worth;
+  }
+};
+
+/// The best flank that ends at or before each column, seen in the order of `candidates`.
+std::vector<Candidate> best_so_far(std::vector<Candidate> candidates) {
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    const double levelled = candidates[i - 1].worth - kLevelCost * kSearchStep;
+    if (levelled <= candidates[i].worth) continue;
+    candidates[i] = candidates[i - 1];
+    candidates[i].worth = levelled;
+  }
+  return candidates;
+}
+
+}  // namespace
+
+double RoughFlank::column(double part) const {
+  return foot + (top - foot) * (part + 4 * bow * part * (1 - part));
+}
+
+double RoughFlank::part(double col) const {
+  const double straight = (col - foot) / (top - foot);
+  if (straight <= 0 || straight >= 1) return straight;
+  double part = straight;
+  for (int round = 0; round < 4; ++round) part = straight - 4 * bow * part * (1 - part);
+  return part;
+}
+
+double HeapTemplate::flank_height(double col) const {
+  double lower = std::numeric_limits<double>::infinity();
+  for (const auto& flank : {left, right}) {
+    if (flank) lower = std::min(lower, flank->part(col) * height);
+  }
+  return std::max(0.0, lower);
+}
+
+HeapTemplate best_template(const SideContrast& contrast, const std::vector<int>& ground) {
+  const Search search(contrast, ground);
+  const int deepest = *std::min_element(ground.begin(), ground.end());
+  HeapTemplate best;
+  double most = 0;
+  for (int height = deepest; height > kMinHeight * deepest; height -= kSearchStep) {
+    const auto left = best_so_far(search.flanks(height, 1));
+    auto right = search.flanks(height, -1);
+    std::reverse(right.begin(), right.end());
+    right = best_so_far(right);
+    std::reverse(right.begin(), right.end());
+    const auto consider = [&](const Candidate* l, const Candidate* r, double worth) {
+      if (worth <= most) return;
+      most = worth;
+      best = {.left = l ? std::optional(l->flank) : std::nullopt,
+              .right = r ? std::optional(r->flank) : std::nullopt,
+              .height = static_cast<double>(height)};
+    };
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      consider(&left[i], &right[i], left[i].worth + right[i].worth);
+    }
+    consider(&left.back(), nullptr, left.back().worth);
+    consider(nullptr, &right.front(), right.front().worth);
+  }
+  return best;
+}
+
 namespace {
 
 constexpr int kTracedSide = 400;     // px; the cost grows with the square

@@ -66,7 +66,7 @@ double side_95(const FlankFit& flank, const Reading& reading, double disagreemen
 
 }  // namespace
 
-Uncertainty uncertainty_of(const Choice& choice) {
+Uncertainty uncertainty_of(const SelectedCandidate& choice) {
   const Reading& best = choice.best;
   const Ground& ground = best.body.ground;
   Uncertainty u;

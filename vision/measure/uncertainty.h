@@ -23,6 +23,6 @@ struct Uncertainty {
 ///   earned its place, so the others only bound its error;
 /// - a floor for what a single picture cannot show (lens, pixels).
 /// Source: JCGM 100:2008 (GUM), 5.1.2 and G.4.1.
-Uncertainty uncertainty_of(const Choice& choice);
+Uncertainty uncertainty_of(const SelectedCandidate& choice);
 
 }  // namespace repose::vision

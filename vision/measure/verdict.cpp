@@ -2,16 +2,146 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
 #include "vision/measure/camera_pitch.h"
-#include "vision/measure/flank_verdict.h"
-#include "vision/measure/verdict_notes.h"
+#include "vision/measure/reading.h"
+#include "vision/measure/repose_angle.h"
+
+/// What one side of a heap is worth.
 
 namespace repose::vision {
+
 namespace {
+
+/// Tells the user something that does not put the number in doubt.
+inline void note(ReposeAngle& result, std::string code, std::string message) {
+  result.warnings.push_back({std::move(code), std::move(message)});
+}
+
+/// Tells the user why a person must look before the number is used.
+inline void flag(ReposeAngle& result, std::string code, std::string message) {
+  result.status = MeasureStatus::flagged;
+  note(result, std::move(code), std::move(message));
+}
+
+// Refusals.
+constexpr double kFlattest_rad = 4 * kDegree;
+
+constexpr double kSteepest_rad = 65 * kDegree;
+
+constexpr double kMinR2 = 0.85;
+
+constexpr double kRoundest_rad = 17 * kDegree;  // the upper half of a ball lies 20 degrees flatter
+
+constexpr double kLargestSpread_rad = 12 * kDegree;
+
+// Warnings that ask a person to look.
+constexpr double kDoubtfulBend_rad = 10 * kDegree;
+
+constexpr double kUncoveredSpread_rad = 1 * kDegree;  // beyond the interval
+
+constexpr double kHalvesPerWhole = 4;  // standard error of the halves' difference, of the line's:
+
+// 2^1.5 for half the length, times the root of 2 for two
+constexpr double kByChance = 2;  // standard errors that the grains' scatter explains
+
+std::string_view name_of(Side side) { return side == Side::left ? "left" : "right"; }
+
+/// How far the flank bends beyond what the grains' scatter explains.
+double sure_bend_rad(const FlankFit& flank) {
+  const double chance = kByChance * kHalvesPerWhole * flank.fit_error_rad;
+  return std::sqrt(std::max(0.0, flank.bend_rad * flank.bend_rad - chance * chance));
+}
+
+/// Why a side is no flank, and what to do; empty when it is one, or absent.
+std::string reason_against(const FlankFit& flank, Side side) {
+  const std::string_view name = name_of(side);
+  if (flank.status != FlankStatus::ok) return {};
+  if (flank.angle_rad < kFlattest_rad) {
+    return fmt::format(
+        "the {} side is level ({:.1f} degrees): this is a layer, not a heap. Fix: photograph a "
+        "heap "
+        "whose flanks end on the ground.",
+        name, to_degrees(flank.angle_rad));
+  }
+  if (flank.angle_rad > kSteepest_rad) {
+    return fmt::format(
+        "the {} side has a slope of {:.0f} degrees, too steep for loose grains. Fix: cover walls, "
+        "gates and tubes with an {}.",
+        name, to_degrees(flank.angle_rad), base::field("excluded box"));
+  }
+  if (flank.bend_rad < -kRoundest_rad) {
+    return fmt::format(
+        "the {} side is round, {:.0f} degrees flatter at the top than at the foot: not a straight "
+        "flank. Fix: check that the picture shows a heap.",
+        name, -to_degrees(flank.bend_rad));
+  }
+  if (flank.window_spread_rad > kLargestSpread_rad) {
+    return fmt::format(
+        "the {} side's angle changes by {:.0f} degrees with the window: not a straight flank, or a "
+        "heap and its plate taken for one object. Fix: use a level camera and a plate of a "
+        "different colour from the grains.",
+        name, to_degrees(flank.window_spread_rad));
+  }
+  if (flank.least_squares.r2 < kMinR2) {
+    return fmt::format(
+        "the {} side's edge is not a line (r2 {:.2f}). Fix: use a plainer backdrop, or cover what "
+        "is in front of the flank with an {}.",
+        name, flank.least_squares.r2, base::field("excluded box"));
+  }
+  return {};
+}
+
+/// Adds what a user should know of a side, and flags what a person must look at. `result` has its
+/// intervals.
+void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
+  const FlankFit& flank = reading.flank(side);
+  const std::string_view name = name_of(side);
+  if (flank.status != FlankStatus::ok) {
+    note(result, flank.status == FlankStatus::truncated ? "flank_truncated" : "one_flank",
+         fmt::format("No {} flank: {}. The angle is that of the other side alone.", name,
+                     flank.reason));
+    return;
+  }
+  if (flank.frame_cut) {
+    note(result, "flank_cut_by_frame",
+         fmt::format("The picture's edge cuts off the {} flank: it is fitted above {:.0f} % of the "
+                     "height.",
+                     name, 100 * flank.window_from));
+  }
+  if (flank.apron_cut) {
+    note(result, "apron_left_out",
+         fmt::format("A thin apron at the {} foot is left out: the line starts at {:.0f} % of the "
+                     "height.",
+                     name, 100 * flank.window_from));
+  }
+  if (flank.high_apron) {
+    flag(result, "high_apron",
+         fmt::format("On the {} the foot levels out at {:.0f} % of the height, too high to be left "
+                     "out: the angle is that of flank and foot together.",
+                     name, 100 * *flank.high_apron));
+  }
+  if (sure_bend_rad(flank) > kDoubtfulBend_rad) {
+    flag(result, "bent_flank",
+         fmt::format("The {} flank is {}: its slope differs by {:.0f} degrees between its lower "
+                     "and upper half, so one angle does not describe it.",
+                     name, flank.bend_rad > 0 ? "concave" : "convex",
+                     std::abs(to_degrees(flank.bend_rad))));
+  }
+  const Flank& shown = side == Side::left ? result.left : result.right;
+  if (flank.window_spread_rad > shown.uncertainty_rad.value_or(0) + kUncoveredSpread_rad) {
+    flag(result, "window_sensitive",
+         fmt::format("The {} angle changes by {:.1f} degrees with the window, more than its "
+                     "interval covers.",
+                     name, to_degrees(flank.window_spread_rad)));
+  }
+}
 
 // Refusals.
 constexpr double kMinConfidence = 0.35;
@@ -23,7 +153,7 @@ constexpr double kLargestSeenPitch_rad = 10 * kDegree;
 constexpr double kDoubtfulConfidence = 0.65;
 constexpr double kDoubtfulPitch_rad = 5 * kDegree;
 constexpr double kPitchTolerance_rad = 6 * kDegree;
-constexpr double kMostOfUnlike = 0.5;  // confidence in what may be no heap
+constexpr double kMaxOfUnlike = 0.5;  // confidence in what may be no heap
 constexpr double kWideInterval_rad = 5 * kDegree;
 constexpr double kTooUnequal_rad = 15 * kDegree;
 
@@ -48,14 +178,14 @@ void refuse(ReposeAngle& result, std::string reason) {
 }
 
 /// The boundary's quality, lowered when equally good segmentations disagree.
-double confidence_of(const Choice& choice) {
+double confidence_of(const SelectedCandidate& choice) {
   const double boundary = std::clamp(choice.best.score / 0.55, 0.0, 1.0);
   const double disagreement = to_degrees(choice.disagreement_rad) / 2;
   return boundary * std::exp(-disagreement * disagreement);
 }
 
 /// Why what was found is nothing to measure; empty when it is.
-std::string reason_against_picture(const Choice& choice, const MeasureOptions& options,
+std::string reason_against_picture(const SelectedCandidate& choice, const MeasureOptions& options,
                                    double confidence) {
   const Reading& best = choice.best;
   if (best.body.mask.empty()) {
@@ -117,19 +247,20 @@ void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
 }
 
 /// Why it may be no heap; empty when a person has said that it is one.
-std::string reason_to_doubt(const Choice& choice, const MeasureOptions& options) {
+std::string reason_to_doubt(const SelectedCandidate& choice, const MeasureOptions& options) {
   const Hints& hints = options.hints;
   if (hints.heap || !hints.keep.empty() || hints.mask.width > 0) return {};
   return reason_against_heap(choice.likeness, choice.best.grain);
 }
 
-void warn_of_likeness(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
+void warn_of_likeness(ReposeAngle& result, const SelectedCandidate& choice,
+                      const MeasureOptions& options) {
   const std::string reason = reason_to_doubt(choice, options);
   if (reason.empty()) return;
   flag(result, "unlike_a_heap",
        fmt::format("This may not be a heap: {}. If it is one, mark it with a {}.", reason,
                    base::field("heap box")));
-  result.confidence = std::min(result.confidence, kMostOfUnlike);
+  result.confidence = std::min(result.confidence, kMaxOfUnlike);
 }
 
 /// Adds what the other common definitions say where that lies outside the interval.
@@ -201,7 +332,8 @@ double below_axis_rad(const ReposeAngle& result, const MeasureOptions& options) 
   return std::atan((middle - options.pinhole->centre.y) / options.pinhole->focal_px);
 }
 
-void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
+void warn_of_scene(ReposeAngle& result, const SelectedCandidate& choice,
+                   const MeasureOptions& options) {
   const Reading& best = choice.best;
   const Ground& ground = best.body.ground;
   const double pitch = pitch_from_bow(ground.bow.value_or(0));
@@ -236,18 +368,19 @@ void warn_of_scene(ReposeAngle& result, const Choice& choice, const MeasureOptio
   if (ground.mirrored) {
     note(result, "mirror", "The ground line is the axis of the heap's reflection.");
   }
-  if (result.strays > 0) {
+  if (result.loose_particles > 0) {
     note(result, "strays",
-         fmt::format("{} small object{} beside the heap {} ignored.", result.strays,
-                     result.strays == 1 ? "" : "s", result.strays == 1 ? "is" : "are"));
+         fmt::format("{} small object{} beside the heap {} ignored.", result.loose_particles,
+                     result.loose_particles == 1 ? "" : "s",
+                     result.loose_particles == 1 ? "is" : "are"));
   }
 }
 
 }  // namespace
 
-void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& options) {
+void judge(ReposeAngle& result, const SelectedCandidate& choice, const MeasureOptions& options) {
   result.status = MeasureStatus::ok;
-  result.outline_holds = false;
+  result.outline_valid = false;
   result.confidence = confidence_of(choice);
   if (std::string reason = reason_against_picture(choice, options, result.confidence);
       !reason.empty()) {
@@ -256,7 +389,7 @@ void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& opti
   }
   if (std::string reason = reason_against_flanks(choice.best); !reason.empty()) {
     refuse(result, std::move(reason));
-    result.outline_holds = reason_to_doubt(choice, options).empty();
+    result.outline_valid = reason_to_doubt(choice, options).empty();
     return;
   }
   if (result.confidence < kDoubtfulConfidence) {

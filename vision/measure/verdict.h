@@ -7,6 +7,6 @@ namespace repose::vision {
 
 /// Decides whether the measured number may be used: fills in status, reason, confidence and
 /// warnings of a result that holds everything else.
-void judge(ReposeAngle& result, const Choice& choice, const MeasureOptions& options);
+void judge(ReposeAngle& result, const SelectedCandidate& choice, const MeasureOptions& options);
 
 }  // namespace repose::vision

@@ -5,9 +5,36 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
+
+std::optional<Tones> tones_of(const cv::Mat3b& bgr) {
+  if (bgr.empty()) return std::nullopt;
+  Tones tones = {bgr(0, 0), bgr(0, 0)};
+  bool has_two = false;
+  for (int row = 0; row < bgr.rows; ++row) {
+    const cv::Vec3b* const end = bgr[row] + bgr.cols;
+    const cv::Vec3b* at = bgr[row];
+    const auto is_known = [&](const cv::Vec3b& colour) {
+      return colour == tones[0] || colour == tones[1];
+    };
+    while ((at = std::find_if_not(at, end, is_known)) != end) {
+      if (has_two) return std::nullopt;
+      has_two = true;
+      tones[1] = *at;
+    }
+  }
+  if (!has_two) return std::nullopt;
+  return tones;
+}
+
+bool is_grey(const Tones& tones) {
+  return std::all_of(tones.begin(), tones.end(), [](const cv::Vec3b& tone) {
+    return tone[0] == tone[1] && tone[0] == tone[2];
+  });
+}
+
 namespace {
 
 constexpr double kBarBlack = 24;      // a bar's brightest pixel, of 255: JPEG ringing stays below
@@ -122,7 +149,7 @@ cv::Mat1b marked(const std::vector<Point>& places, const WorkingPicture& work) {
   return mask;
 }
 
-void add_mask(Told& told, const Picture& picture, const WorkingPicture& work) {
+void add_mask(UserHints& told, const Picture& picture, const WorkingPicture& work) {
   cv::Mat1b grey;
   cv::cvtColor(mat_of(picture), grey, cv::COLOR_BGR2GRAY);
   cv::resize(grey, grey, work.bgr.size(), 0, 0, cv::INTER_AREA);
@@ -133,8 +160,8 @@ void add_mask(Told& told, const Picture& picture, const WorkingPicture& work) {
   add(told.beside_heap, grey < kTooDark);
 }
 
-Told told_by(const Hints& hints, const WorkingPicture& work) {
-  Told told;
+UserHints identified_by(const Hints& hints, const WorkingPicture& work) {
+  UserHints told;
   if (hints.ground) {
     told.ground = line_of(*hints.ground, work.shrink);
     const double length = std::abs(hints.ground->to.x - hints.ground->from.x) / work.shrink;
@@ -188,7 +215,7 @@ WorkingPicture working_picture(const Picture& picture, const std::vector<Box>& e
     box.y -= seen.y;
     work.valid_mask(shrunk(box, work.shrink) & cv::Rect({}, work.bgr.size())) = 0;
   }
-  work.told = told_by(hints.heap ? hints_within(hints, *hints.heap) : hints, work);
+  work.told = identified_by(hints.heap ? hints_within(hints, *hints.heap) : hints, work);
   work.told.has_box = hints.heap.has_value();
   leave_ground_out(work);
   return work;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -7,13 +8,21 @@
 
 #include "vision/measure/geometry.h"
 #include "vision/measure/hints.h"
-#include "vision/measure/tones.h"
 #include "vision/picture/picture.h"
 
 namespace repose::vision {
 
+/// Two colours, as in a mask or a rendered silhouette.
+using Tones = std::array<cv::Vec3b, 2>;
+
+/// The two colours of a picture in which every pixel is one or the other. Empty for all other
+/// pictures.
+std::optional<Tones> tones_of(const cv::Mat3b& bgr);
+
+bool is_grey(const Tones& tones);
+
 /// What a person has said of a working picture.
-struct Told {
+struct UserHints {
   bool has_box = false;  ///< the frame is a box around the heap
   std::optional<PictureLine> ground;
   double ground_deviation_rad = 0;  ///< standard uncertainty of its tilt
@@ -21,7 +30,7 @@ struct Told {
   cv::Mat1b beside_heap;            ///< likewise
 
   bool has_places() const { return !on_heap.empty() || !beside_heap.empty(); }
-  bool is_nothing() const { return !has_box && !ground && !has_places(); }
+  bool empty() const { return !has_box && !ground && !has_places(); }
 };
 
 /// The picture at the size at which heaps are found: at most kWorkingSide pixels a side.
@@ -36,7 +45,7 @@ struct WorkingPicture {
   std::optional<Tones> tones;  ///< of a picture that has only two colours
   double shrink = 1;           ///< pixels of the picture in a working pixel
   Point origin;                ///< its corner in the picture: that of the box around the heap
-  Told told;
+  UserHints told;
 
   /// A point of the working picture in the picture.
   Point in_picture(const Point& working) const {

@@ -9,17 +9,15 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
-#include "vision/picture/bmp.h"
+#include "vision/picture/decoding.h"
 #include "vision/picture/film_head.h"
 #include "vision/picture/jpeg.h"
 #include "vision/picture/made_here.h"
-#include "vision/picture/mat_of_picture.h"
+#include "vision/picture/opencv.h"
+#include "vision/picture/other_formats.h"
 #include "vision/picture/png.h"
-#include "vision/picture/tiff.h"
-#include "vision/picture/upright.h"
-#include "vision/picture/webp.h"
 
 namespace repose::vision {
 namespace {

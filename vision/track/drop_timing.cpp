@@ -5,17 +5,17 @@
 #include <optional>
 #include <utility>
 
-#include "vision/track/parabola.h"
+#include "vision/track/flight_fit.h"
 
 namespace repose::vision {
 namespace {
 
 /// Those that flew most, the best first.
 std::vector<DropCandidate> candidates_in(const FilmGrains& film) {
-  constexpr std::size_t kMost = 24;
+  constexpr std::size_t kMax = 24;
   std::vector<DropCandidate> candidates;
   for (const GrainPath& path : film.paths) {
-    if (candidates.size() == kMost) break;
+    if (candidates.size() == kMax) break;
     candidates.push_back(drop_candidate(path, film));
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
@@ -82,8 +82,8 @@ std::vector<Step> steps_of(const FilmGrains& film, const GrainPath& path) {
 /// How many frames' way step k is, by the two steps before it and the two after it, which in flight
 /// change evenly: 1, unless it surely is another whole number.
 int frames_in(const std::vector<Step>& steps, std::size_t k) {
-  constexpr double kLeastWay_px = 4, kEven = .15, kMostChange = .5, kOff = .12, kNoise_px = .6;
-  constexpr double kMost = 6;
+  constexpr double kMinWay_px = 4, kEven = .15, kMaxChange = .5, kOff = .12, kNoise_px = .6;
+  constexpr double kMax = 6;
   for (std::size_t n = k - 2; n <= k + 2; ++n) {
     if (!steps[n].is_single) return 1;
   }
@@ -92,10 +92,10 @@ int frames_in(const std::vector<Step>& steps, std::size_t k) {
   const cv::Point2d mean = .5 * (steps[k - 1].way + steps[k + 1].way);
   const double length = cv::norm(mean);
   const double most_px = kEven * length + kNoise_px;
-  if (length < kLeastWay_px || cv::norm(speeds_up - goes_on) > most_px) return 1;
-  if (cv::norm(speeds_up) > kMostChange * length) return 1;
+  if (length < kMinWay_px || cv::norm(speeds_up - goes_on) > most_px) return 1;
+  if (cv::norm(speeds_up) > kMaxChange * length) return 1;
   const double times = std::round(steps[k].way.dot(mean) / (length * length));
-  if (times < 2 || times > kMost) return 1;
+  if (times < 2 || times > kMax) return 1;
   // Over as many frames more the speed changes more.
   const cv::Point2d change = steps[k + 1].way - steps[k - 1].way - (times + 1) * speeds_up;
   if (cv::norm(change) > (times + 1) * most_px) return 1;
@@ -113,7 +113,7 @@ bool is_smooth(const Step& a, const Step& b, const Step& c) {
 /// How many times as far the grain suddenly goes in a frame as it would by going on, or less far if
 /// below 1, on a way that goes on straight: nothing but the film can do that. 1: it does not.
 double sudden_change(const std::vector<Step>& steps, std::size_t k) {
-  constexpr double kStraight = .97, kLeastWay_px = 1.5;
+  constexpr double kStraight = .97, kMinWay_px = 1.5;
   if (!is_smooth(steps[k - 2], steps[k - 1], steps[k]) ||
       !is_smooth(steps[k + 2], steps[k + 3], steps[k + 4])) {
     return 1;
@@ -123,7 +123,7 @@ double sudden_change(const std::vector<Step>& steps, std::size_t k) {
   const double would = cv::norm(expected), is = cv::norm(after);
   const bool goes_on = expected.dot(after) > kStraight * would * is &&
                        steps[k].way.dot(after) > kStraight * cv::norm(steps[k].way) * is;
-  if (!goes_on || std::min({would, is, cv::norm(steps[k].way)}) < kLeastWay_px) return 1;
+  if (!goes_on || std::min({would, is, cv::norm(steps[k].way)}) < kMinWay_px) return 1;
   return is / would;
 }
 
@@ -153,12 +153,12 @@ std::vector<SeenAt> not_flown(const DropCandidate& grain) {
 /// Whether a flight rises and falls, long enough to be sure of its bend.
 bool is_arc(const std::vector<SeenAt>& path, const FlightSpan& span) {
   constexpr std::size_t kFewest = 7;
-  constexpr double kLeastSag_px = 8, kSide = .2, kRms = .04;
+  constexpr double kMinSag_px = 8, kSide = .2, kRms = .04;
   if (span.to - span.from < kFewest) return false;
   const Parabola parabola = parabola_through(path, span.from, span.to - span.from);
   const double length_s = path[span.to - 1].time_s - path[span.from].time_s;
   const double sag_px = parabola.acceleration * length_s * length_s / 8;
-  if (sag_px < kLeastSag_px || parabola.rms_px > kRms * sag_px) return false;
+  if (sag_px < kMinSag_px || parabola.rms_px > kRms * sag_px) return false;
   double top_px = path[span.from].y_px;
   for (std::size_t k = span.from; k < span.to; ++k) top_px = std::min(top_px, path[k].y_px);
   return path[span.from].y_px - top_px > kSide * sag_px &&

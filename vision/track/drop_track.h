@@ -51,7 +51,7 @@ struct DropTrack {
   std::vector<Point> board = {};  ///< corners of the board's sheet, where that is the scale
   /// Gravity as scale and time stamps have it; none without a scale.
   std::optional<Estimate> gravity_m_s2 = {};
-  double lean_rad = 0;    ///< of gravity against the picture's upright, clockwise
+  double roll_rad = 0;    ///< of gravity against the picture's upright, clockwise
   double readout_ms = 0;  ///< from the first row of a frame to the last
   double noise_px = 0;    ///< standard deviation of a centre
   double grain_px = 0;    ///< diameter of a disc of the grain's area

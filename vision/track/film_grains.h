@@ -1,14 +1,59 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "vision/film/film_file.h"
 #include "vision/film/film_survey.h"
-#include "vision/film/repeat_finder.h"
-#include "vision/track/grain_path.h"
+#include "vision/film/frame_times.h"
+#include "vision/picture/picture.h"
+#include "vision/track/blobs.h"
 
 namespace repose::vision {
+
+/// Where one thing was seen, in the order of time.
+struct Sighting {
+  int frame = 0;
+  double time_s = 0;
+  Blob blob;
+};
+using GrainPath = std::vector<Sighting>;
+
+/// Joins blobs of successive frames that are the same thing: near where it was expected, had it
+/// flown on, come to rest or bounced, and of like size and colour.
+class PathFinder {
+ public:
+  /// @param interval_s  between frames
+  explicit PathFinder(double interval_s) : interval_s_(interval_s) {}
+
+  void add(int frame, double time_s, const std::vector<Blob>& blobs);
+
+  /// Those that moved, the longest way first.
+  std::vector<GrainPath> paths() &&;
+
+ private:
+  /// How badly a blob fits a path; infinite: not at all.
+  double cost(const GrainPath& path, double time_s, const Blob& blob) const;
+  void forget_lost(double time_s);
+
+  /// Frames that are missing: while they were taken nothing could be seen, and nothing is lost.
+  struct Gap {
+    double begins_s = 0;
+    double lasts_s = 0;
+  };
+  void note_gap(double time_s);
+  double unseen_s(double since_s) const;
+
+  double interval_s_;
+  std::optional<double> last_s_;
+  std::vector<Gap> gaps_;
+  std::vector<GrainPath> open_;
+  std::vector<GrainPath> closed_;
+};
+
+/// The length of the way along a path, without the jitter of a thing at rest [px].
+double way_px(const GrainPath& path);
 
 /// All that moved in a film.
 struct FilmGrains {
@@ -31,5 +76,8 @@ double farthest_shift_px(const FilmGrains& film);
 /// a whole, and films of a few frames, are looked through once: they have no paths.
 /// @throws base::InputError  see FilmReader.
 FilmGrains grains_in_film(const FilmFile& file, const FilmProgress& progress);
+
+/// The scene with the grain in it at successive places of its path, about its width apart or more.
+Picture strobe_picture(const FilmFile& file, const cv::Mat& scene, const GrainPath& path);
 
 }  // namespace repose::vision

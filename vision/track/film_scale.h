@@ -1,12 +1,17 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "vision/camera/board_view.h"
+#include "vision/film/resting_picture.h"
+#include "vision/track/film_grains.h"
 #include "vision/track/track.h"
+
+/// What is wrong with a film of grains.
 
 namespace repose::vision {
 
@@ -38,5 +43,12 @@ class FilmScale {
 inline constexpr const char* kNoBoardSeen =
     "no board was found. Rule: it faces the camera, sharp and evenly lit, at least 10 pixels a "
     "square, and nothing hides it. Fix: put it up beside the grain's way, or give a scale.";
+
+/// What is wrong with the shot, or that nothing moves in it.
+std::string fault_of(const FilmGrains& film);
+
+/// Adds what is to be known of it.
+/// @returns whether a person must look at something first
+bool warn_of_film(const FilmGrains& film, std::vector<Warning>& warnings);
 
 }  // namespace repose::vision

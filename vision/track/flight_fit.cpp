@@ -3,21 +3,182 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include <boost/math/distributions/students_t.hpp>
+#include <opencv2/core.hpp>
 
 namespace repose::vision {
+
+Parabola parabola_through(const std::vector<SeenAt>& path, std::size_t from, std::size_t count) {
+  const SeenAt& middle = path[from + count / 2];
+  const double length_s = path[from + count - 1].time_s - path[from].time_s;
+  cv::Matx33d normal = cv::Matx33d::zeros();
+  cv::Vec3d right(0, 0, 0);
+  double squares = 0;
+  for (std::size_t k = from; k < from + count; ++k) {
+    const double t = (path[k].time_s - middle.time_s) / length_s;
+    const double y = path[k].y_px - middle.y_px;
+    const cv::Vec3d terms(1, t, .5 * t * t);
+    normal += terms * terms.t();
+    right += y * terms;
+    squares += y * y;
+  }
+  const cv::Matx33d inverse = normal.inv();
+  const cv::Vec3d solution = inverse * right;
+  constexpr double kMinRms_px = .1;
+  const double left = std::max(0.0, squares - solution.dot(right));
+  const double rms = std::sqrt(left / static_cast<double>(count - 3));
+  const double per_s2 = 1 / (length_s * length_s);
+  return {.acceleration = per_s2 * solution[2],
+          .rms_px = rms,
+          .error = per_s2 * std::max(rms, kMinRms_px) * std::sqrt(inverse(2, 2))};
+}
+
+namespace {
+
+constexpr std::size_t kFewestInFlight = 4;
+/// Costs in squared deviations: of a loose sighting, and of a flight more.
+constexpr double kLoose = 16;
+constexpr double kFlight = 20;
+/// How far the middle of a flight's parabola must lie from its chord.
+constexpr double kMinSag_px = 2;
+constexpr double kMinSag_sigmas = 6;
+
+/// The bend of those stretches that parabolas fit, the highest ones before all.
+std::optional<double> gravity_of(const std::vector<SeenAt>& path, double noise_px) {
+  std::vector<std::pair<double, double>> found;  // acceleration and weight
+  double total = 0;
+  for (const std::size_t count :
+       std::array<std::size_t, 10>{5, 7, 10, 14, 20, 28, 40, 56, 80, 112}) {
+    const std::size_t step = std::max<std::size_t>(1, count / 6);
+    for (std::size_t from = 0; from + count <= path.size(); from += step) {
+      const Parabola parabola = parabola_through(path, from, count);
+      const double length_s = path[from + count - 1].time_s - path[from].time_s;
+      const double sag_px = parabola.acceleration * length_s * length_s / 8;
+      const double least_px = kMinSag_sigmas * std::max(parabola.rms_px, .1 * noise_px);
+      if (parabola.rms_px > 2.5 * noise_px || sag_px < std::max(kMinSag_px, least_px)) continue;
+      found.emplace_back(parabola.acceleration, sag_px * sag_px);
+      total += sag_px * sag_px;
+    }
+  }
+  std::sort(found.begin(), found.end());
+  double sum = 0;
+  for (const auto& [acceleration, weight] : found) {
+    sum += weight;
+    if (sum >= .5 * total) return acceleration;
+  }
+  return std::nullopt;
+}
+
+/// A parabola of nearly the gravity through sightings that are added one by one, relative to it.
+class NearlyFalling {
+ public:
+  /// @param unit_s  makes the sums alike in size
+  NearlyFalling(double gravity, double noise_px, double unit_s)
+      : unit_s_(unit_s), gravity_(gravity) {
+    const double tolerated = kTolerated * gravity * unit_s * unit_s;
+    normal_(2, 2) = noise_px * noise_px / (tolerated * tolerated);
+  }
+
+  void add(double time_s, double y_px) {
+    const double t = time_s / unit_s_;
+    const double z = y_px - .5 * gravity_ * time_s * time_s;
+    const cv::Vec3d terms(1, t, .5 * t * t);
+    normal_ += terms * terms.t();
+    right_ += z * terms;
+    squares_ += z * z;
+  }
+  /// Squared deviations, that of the gravity too; infinite where it is another one.
+  double squares() const {
+    const cv::Vec3d solution = normal_.solve(right_, cv::DECOMP_CHOLESKY);
+    const double most = 3 * kTolerated * gravity_ * unit_s_ * unit_s_;
+    if (std::abs(solution[2]) > most) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, squares_ - right_.dot(solution));
+  }
+
+ private:
+  /// Air, lens and readout change the bend of a flight as a whole.
+  static constexpr double kTolerated = .12;
+
+  double unit_s_;
+  double gravity_;
+  cv::Matx33d normal_ = cv::Matx33d::zeros();
+  cv::Vec3d right_{0, 0, 0};
+  double squares_ = 0;
+};
+
+std::vector<FlightSpan> cheapest_cut(const std::vector<SeenAt>& path, double gravity,
+                                     double noise_px) {
+  const std::size_t count = path.size();
+  const double unit_s = (path.back().time_s - path.front().time_s) / static_cast<double>(count);
+  std::vector<double> cost(count + 1, 0);
+  std::vector<std::size_t> begin(count + 1, 0);
+  for (std::size_t end = 1; end <= count; ++end) {
+    cost[end] = cost[end - 1] + kLoose;
+    begin[end] = end - 1;
+    const SeenAt& last = path[end - 1];
+    NearlyFalling falling(gravity, noise_px, unit_s);
+    for (std::size_t from = end; from-- > 0;) {
+      falling.add(path[from].time_s - last.time_s, path[from].y_px - last.y_px);
+      const std::size_t length = end - from;
+      if (length < kFewestInFlight) continue;
+      const double misfit = falling.squares() / (noise_px * noise_px);
+      if (std::isinf(misfit)) continue;
+      if (misfit > 2 * kLoose * static_cast<double>(length)) break;
+      if (cost[from] + misfit + kFlight < cost[end]) {
+        cost[end] = cost[from] + misfit + kFlight;
+        begin[end] = from;
+      }
+    }
+  }
+  std::vector<FlightSpan> spans;
+  for (std::size_t end = count; end > 0; end = begin[end]) {
+    if (end - begin[end] >= kFewestInFlight) spans.push_back({begin[end], end});
+  }
+  std::reverse(spans.begin(), spans.end());
+  return spans;
+}
+
+/// Whether a flight is no short stretch of a grain that lies still, to which any line is near.
+bool is_bent(const std::vector<SeenAt>& path, const FlightSpan& span, double gravity,
+             double noise_px) {
+  const double length_s = path[span.to - 1].time_s - path[span.from].time_s;
+  const double sag_px = gravity * length_s * length_s / 8;
+  if (sag_px < std::max(kMinSag_px, kMinSag_sigmas * noise_px)) return false;
+  const SeenAt& first = path[span.from];
+  NearlyFalling falling(gravity, noise_px, length_s);
+  for (std::size_t k = span.from; k < span.to; ++k) {
+    falling.add(path[k].time_s - first.time_s, path[k].y_px - first.y_px);
+  }
+  constexpr double kOff = .1;
+  const double count = static_cast<double>(span.to - span.from);
+  return std::sqrt(falling.squares() / count) < kOff * sag_px;
+}
+
+}  // namespace
+
+Flights find_flights(const std::vector<SeenAt>& path, double noise_px) {
+  const auto gravity = gravity_of(path, noise_px);
+  if (!gravity) return {};
+  Flights flights{.spans = cheapest_cut(path, *gravity, noise_px), .gravity_px_s2 = *gravity};
+  std::erase_if(flights.spans,
+                [&](const FlightSpan& span) { return !is_bent(path, span, *gravity, noise_px); });
+  return flights;
+}
+
 namespace {
 
 constexpr int kFitRounds = 4;
 constexpr double kStraySigmas = 4;
 /// Between two flights with nothing but an impact between them, in frames.
 constexpr double kLongestGap = 4.5;
-constexpr double kLeastNoise_px = .03;
+constexpr double kMinNoise_px = .03;
 /// Centres are not better than this, however little they scatter: shadows and the scene behind the
 /// grain move them alike in many frames.
-constexpr double kLeastError_px = .1;
+constexpr double kMinError_px = .1;
 /// Frames so near in time err alike, as films of 240 frames per second show.
 constexpr double kAlike_s = 1. / 60;
 /// Air decelerates a sphere of the radius r at the speed v by 3 Cd p v^2 / (8 r q), with the
@@ -40,23 +201,24 @@ cv::Mat inverse_of(const cv::Mat& normal) {
 
 }  // namespace
 
-double top_s(const FlightCurve& curve, const Pull& pull) {
+double top_s(const FlightCurve& curve, const FlightDynamics& pull) {
   return curve.t0_s - curve.v_px_s / pull.gravity;
 }
 
-double speed_at(const FlightCurve& curve, double time_s, const Pull& pull) {
+double speed_at(const FlightCurve& curve, double time_s, const FlightDynamics& pull) {
   const double s = time_s - top_s(curve, pull);
   return pull.gravity * s - pull.drag * s * s * std::abs(s) / 3;
 }
 
-double height_at(const FlightCurve& curve, double time_s, const Pull& pull) {
+double height_at(const FlightCurve& curve, double time_s, const FlightDynamics& pull) {
   const double t = time_s - curve.t0_s;
   const double s = time_s - top_s(curve, pull);
   return curve.y0_px + t * (curve.v_px_s + .5 * pull.gravity * t) -
          pull.drag * s * s * s * std::abs(s) / 12;
 }
 
-double meeting_time_s(const FlightCurve& before, const FlightCurve& after, const Pull& pull) {
+double meeting_time_s(const FlightCurve& before, const FlightCurve& after,
+                      const FlightDynamics& pull) {
   double time_s = .5 * (before.ends_s + after.begins_s);
   constexpr int kSteps = 4;  // the flights are nearly parabolas, whose difference is a line
   for (int step = 0; step < kSteps; ++step) {
@@ -120,7 +282,7 @@ void FlightFit::solve() {
     }
   }
   const auto know = [&](int which, double value, double sd) {
-    const double weight = std::pow(std::max(noise_px_, kLeastNoise_px) / sd, 2);
+    const double weight = std::pow(std::max(noise_px_, kMinNoise_px) / sd, 2);
     normal.at<double>(which, which) += weight;
     right.at<double>(which) -= weight * value;
   };
@@ -155,7 +317,7 @@ void FlightFit::read_residuals() {
   }
   const auto flights = static_cast<int>(curves_.size());
   const int freedom = std::max(1, sightings_ - 2 * flights - 1);
-  noise_px_ = std::max(kLeastNoise_px, std::sqrt(squares / freedom));
+  noise_px_ = std::max(kMinNoise_px, std::sqrt(squares / freedom));
   correlation_ = squares > 0 ? std::clamp(products / squares, 0.0, .8) : 0;
 }
 
@@ -228,7 +390,7 @@ double FlightFit::factor() const {
   const double freedom =
       std::max(2.0, (sightings_ - 2 * flights - 1) * (1 - correlation_) / (1 + correlation_));
   const boost::math::students_t student(freedom);
-  return boost::math::quantile(student, .975) * std::max(noise_px_, kLeastError_px) * inflation;
+  return boost::math::quantile(student, .975) * std::max(noise_px_, kMinError_px) * inflation;
 }
 
 Estimate FlightFit::estimate(std::size_t before, std::size_t after, const Reading& reading) const {
@@ -240,7 +402,7 @@ Estimate FlightFit::estimate(std::size_t before, std::size_t after, const Readin
   const auto slope = [&](double step, auto change) {
     const auto moved = [&](double by) {
       FlightCurve a = curves_[before], b = curves_[after];
-      Pull pull = pull_;
+      FlightDynamics pull = pull_;
       change(a, b, pull, by);
       return reading(a, b, pull);
     };
@@ -249,19 +411,22 @@ Estimate FlightFit::estimate(std::size_t before, std::size_t after, const Readin
   const int a = 2 * static_cast<int>(before), b = 2 * static_cast<int>(after);
   const double step_s = step_px / length_s;
   using Curve = FlightCurve;
-  slopes.at<double>(a) = slope(step_px, [](Curve& x, Curve&, Pull&, double by) { x.y0_px += by; });
+  slopes.at<double>(a) =
+      slope(step_px, [](Curve& x, Curve&, FlightDynamics&, double by) { x.y0_px += by; });
   slopes.at<double>(a + 1) =
-      slope(step_s, [](Curve& x, Curve&, Pull&, double by) { x.v_px_s += by; });
+      slope(step_s, [](Curve& x, Curve&, FlightDynamics&, double by) { x.v_px_s += by; });
   if (after != before) {
     slopes.at<double>(b) =
-        slope(step_px, [](Curve&, Curve& y, Pull&, double by) { y.y0_px += by; });
+        slope(step_px, [](Curve&, Curve& y, FlightDynamics&, double by) { y.y0_px += by; });
     slopes.at<double>(b + 1) =
-        slope(step_s, [](Curve&, Curve& y, Pull&, double by) { y.v_px_s += by; });
+        slope(step_s, [](Curve&, Curve& y, FlightDynamics&, double by) { y.v_px_s += by; });
   }
   slopes.at<double>(unknowns - 3) =
-      slope(step_s / length_s, [](Curve&, Curve&, Pull& pull, double by) { pull.gravity += by; });
-  slopes.at<double>(unknowns - 2) = slope(step_s / length_s / length_s / length_s,
-                                          [](Curve&, Curve&, Pull& p, double by) { p.drag += by; });
+      slope(step_s / length_s,
+            [](Curve&, Curve&, FlightDynamics& pull, double by) { pull.gravity += by; });
+  slopes.at<double>(unknowns - 2) =
+      slope(step_s / length_s / length_s / length_s,
+            [](Curve&, Curve&, FlightDynamics& p, double by) { p.drag += by; });
   const cv::Mat variance = slopes.t() * covariance_ * slopes;
   return {value, factor() * std::sqrt(std::max(0.0, variance.at<double>(0)))};
 }

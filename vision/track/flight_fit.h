@@ -1,17 +1,53 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
-#include "vision/track/flight_finder.h"
 #include "vision/track/track.h"
 
 namespace repose::vision {
 
+/// The centre of a grain in one frame.
+struct SeenAt {
+  double time_s = 0;
+  double x_px = 0;
+  double y_px = 0;    ///< downwards
+  double row_px = 0;  ///< of the frame, from its middle: rows may be exposed one after the other
+};
+
+/// Sightings [from, to) in one free flight.
+struct FlightSpan {
+  std::size_t from = 0;
+  std::size_t to = 0;
+};
+
+struct Flights {
+  std::vector<FlightSpan> spans;
+  double gravity_px_s2 = 0;
+};
+
+/// Parts of a path that are free flights under one and the same gravity, which the path itself
+/// tells.
+///
+/// Of all ways to cut the path into parabolas of nearly one bend and loose sightings (held, at
+/// rest, blurred by an impact), the one is taken that costs least. A flight whose bend does not
+/// stand out from the noise is none.
+Flights find_flights(const std::vector<SeenAt>& path, double noise_px);
+
+struct Parabola {
+  double acceleration = 0;
+  double rms_px = 0;
+  double error = 0;  ///< standard error of the acceleration
+};
+
+/// Least squares through `count` sightings from `from` on: of their heights over time.
+Parabola parabola_through(const std::vector<SeenAt>& path, std::size_t from, std::size_t count);
+
 /// What accelerates a grain in flight [px].
-struct Pull {
+struct FlightDynamics {
   double gravity = 0;  ///< per s2
   double drag = 0;  ///< deceleration by air at the speed v, as a part of (v / gravity)^2: px / s4
 };
@@ -39,7 +75,7 @@ class FlightFit {
             double frame_height_px, double radius_px);
 
   const std::vector<FlightCurve>& curves() const { return curves_; }
-  const Pull& pull() const { return pull_; }
+  const FlightDynamics& pull() const { return pull_; }
   double readout_s_per_px() const { return readout_; }
   double noise_px() const { return noise_px_; }
   int sightings() const { return sightings_; }
@@ -50,8 +86,8 @@ class FlightFit {
   double impact_time_s(std::size_t k) const;
 
   /// Anything that follows from two flights and gravity, with its interval.
-  using Reading =
-      std::function<double(const FlightCurve& before, const FlightCurve& after, const Pull& pull)>;
+  using Reading = std::function<double(const FlightCurve& before, const FlightCurve& after,
+                                       const FlightDynamics& pull)>;
   Estimate estimate(std::size_t before, std::size_t after, const Reading& reading) const;
 
  private:
@@ -73,7 +109,7 @@ class FlightFit {
   double interval_s_;
   double most_readout_s_per_px_;
   double radius_px_;
-  Pull pull_;
+  FlightDynamics pull_;
   double readout_ = 0;
   double noise_px_ = 0;
   double correlation_ = 0;
@@ -82,13 +118,14 @@ class FlightFit {
 };
 
 /// When two flights meet.
-double meeting_time_s(const FlightCurve& before, const FlightCurve& after, const Pull& pull);
+double meeting_time_s(const FlightCurve& before, const FlightCurve& after,
+                      const FlightDynamics& pull);
 
 /// When a flight is, or would be, at its highest.
-double top_s(const FlightCurve& curve, const Pull& pull);
+double top_s(const FlightCurve& curve, const FlightDynamics& pull);
 
 /// Speed downwards [px/s].
-double speed_at(const FlightCurve& curve, double time_s, const Pull& pull);
-double height_at(const FlightCurve& curve, double time_s, const Pull& pull);
+double speed_at(const FlightCurve& curve, double time_s, const FlightDynamics& pull);
+double height_at(const FlightCurve& curve, double time_s, const FlightDynamics& pull);
 
 }  // namespace repose::vision

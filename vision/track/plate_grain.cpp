@@ -2,20 +2,274 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <vector>
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/units.h"
 #include "vision/film/film_reader.h"
-#include "vision/film/scene_shift.h"
-#include "vision/track/background.h"
+#include "vision/film/scene_change.h"
 #include "vision/track/blobs.h"
-#include "vision/track/grain_template.h"
-#include "vision/track/standing_things.h"
 
 namespace repose::vision {
+
 namespace {
+
+/// Where something is found that was seen before.
+struct TemplateMatch {
+  cv::Point2d moved;      ///< [px]
+  double turned_rad = 0;  ///< clockwise
+  double likeness = 0;    ///< 1: it looks the same; 0: anything else would do as well
+};
+
+/// A piece of a picture that is found again in others to a fraction of a pixel, by least squares of
+/// its colours, each less its mean. Source: S. Baker, I. Matthews, Lucas-Kanade 20 years on, Int.
+/// J. Comput. Vision 56 (2004) 221-255, section 3.2 (the inverse compositional algorithm), for a
+/// shift and a turn about the piece's centre. Holds for shifts of a pixel or so from where the
+/// search begins, which goes through whole pixels first. Checked by track_tilt_test.cpp of
+/// tests/vision.
+class GrainTemplate {
+ public:
+  /// @param mask  of the picture's size: what belongs to it
+  GrainTemplate(const cv::Mat& bgr, const cv::Mat& mask);
+
+  /// Turned as expected.
+  /// @param expected  where to begin
+  /// @param reach_px  how far from there it may be along the rows
+  TemplateMatch find(const cv::Mat& bgr, const TemplateMatch& expected, int reach_px) const;
+  /// From a place that was found: with its turn.
+  TemplateMatch find_turned(const cv::Mat& bgr, const TemplateMatch& found) const;
+
+ private:
+  struct Pixel {
+    cv::Point2d place;  ///< from the centre
+    cv::Vec3f colour;   ///< less the mean
+    cv::Vec3f across, down;
+  };
+
+  bool sample(const cv::Mat& bgr, const TemplateMatch& match, std::vector<cv::Vec3f>& seen) const;
+  double squares(const std::vector<cv::Vec3f>& seen) const;
+  TemplateMatch refined(const cv::Mat& bgr, TemplateMatch match, bool turns) const;
+
+  std::vector<Pixel> pixels_;
+  cv::Point2d centre_;
+  double contrast_ = 0;         ///< sum of the squared colours
+  double mean_square_px2_ = 0;  ///< of the distances from the centre
+};
+
+cv::Vec3f at(const cv::Mat& bgr, double x, double y) {
+  const int column = cvFloor(x), row = cvFloor(y);
+  const auto fx = static_cast<float>(x - column), fy = static_cast<float>(y - row);
+  const auto* above = bgr.ptr<cv::Vec3b>(row);
+  const auto* below = bgr.ptr<cv::Vec3b>(row + 1);
+  return (1 - fy) * ((1 - fx) * cv::Vec3f(above[column]) + fx * cv::Vec3f(above[column + 1])) +
+         fy * ((1 - fx) * cv::Vec3f(below[column]) + fx * cv::Vec3f(below[column + 1]));
+}
+
+void take_out_mean(std::vector<cv::Vec3f>& colours) {
+  cv::Vec3f mean(0, 0, 0);
+  const auto count = static_cast<float>(colours.size());
+  for (const cv::Vec3f& one : colours) mean += one / count;
+  for (cv::Vec3f& one : colours) one -= mean;
+}
+
+GrainTemplate::GrainTemplate(const cv::Mat& bgr, const cv::Mat& mask) {
+  std::vector<cv::Vec3f> colours;
+  for (int y = 1; y + 1 < bgr.rows; ++y) {
+    for (int x = 1; x + 1 < bgr.cols; ++x) {
+      if (mask.at<uchar>(y, x) == 0) continue;
+      const auto colour = [&](int row, int column) {
+        return cv::Vec3f(bgr.at<cv::Vec3b>(row, column));
+      };
+      colours.push_back(colour(y, x));
+      pixels_.push_back({.place = cv::Point2d(x, y),
+                         .colour = {},
+                         .across = .5F * (colour(y, x + 1) - colour(y, x - 1)),
+                         .down = .5F * (colour(y + 1, x) - colour(y - 1, x))});
+      centre_ += cv::Point2d(x, y);
+    }
+  }
+  if (pixels_.empty()) return;
+  centre_ /= static_cast<double>(pixels_.size());
+  take_out_mean(colours);
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    pixels_[k].place -= centre_;
+    pixels_[k].colour = colours[k];
+    contrast_ += colours[k].dot(colours[k]);
+    mean_square_px2_ +=
+        pixels_[k].place.dot(pixels_[k].place) / static_cast<double>(pixels_.size());
+  }
+}
+
+/// False where most of it would lie outside.
+bool GrainTemplate::sample(const cv::Mat& bgr, const TemplateMatch& match,
+                           std::vector<cv::Vec3f>& seen) const {
+  const double c = std::cos(match.turned_rad), s = std::sin(match.turned_rad);
+  const cv::Point2d centre = centre_ + match.moved;
+  if (centre.x < 1 || centre.y < 1 || centre.x > bgr.cols - 2 || centre.y > bgr.rows - 2)
+    return false;
+  seen.clear();
+  for (const Pixel& pixel : pixels_) {
+    const double x = centre.x + c * pixel.place.x - s * pixel.place.y;
+    const double y = centre.y + s * pixel.place.x + c * pixel.place.y;
+    seen.push_back(
+        at(bgr, std::clamp(x, 0.0, bgr.cols - 1.001), std::clamp(y, 0.0, bgr.rows - 1.001)));
+  }
+  take_out_mean(seen);
+  return true;
+}
+
+double GrainTemplate::squares(const std::vector<cv::Vec3f>& seen) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const cv::Vec3f off = seen[k] - pixels_[k].colour;
+    sum += off.dot(off);
+  }
+  return sum;
+}
+
+TemplateMatch GrainTemplate::refined(const cv::Mat& bgr, TemplateMatch match, bool turns) const {
+  constexpr int kRounds = 12;
+  constexpr double kEnough_px = .002, kLongest_px = 1.5;
+  cv::Matx33d normal = cv::Matx33d::zeros();
+  const auto terms_of = [&](const Pixel& pixel, int channel) {
+    const double across = pixel.across[channel], down = pixel.down[channel];
+    return cv::Vec3d(across, down, turns ? down * pixel.place.x - across * pixel.place.y : 0);
+  };
+  for (const Pixel& pixel : pixels_) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const cv::Vec3d terms = terms_of(pixel, channel);
+      normal += terms * terms.t();
+    }
+  }
+  // Of a round one the turn is unknown, and stays what it was.
+  constexpr double kRidge = 1e-3, kTurnRidge = .02;
+  const double spread = normal(0, 0) + normal(1, 1);
+  normal(0, 0) += kRidge * spread;
+  normal(1, 1) += kRidge * spread;
+  normal(2, 2) += kTurnRidge * spread * mean_square_px2_ + kRidge * spread;
+  std::vector<cv::Vec3f> seen;
+  for (int round = 0; round < kRounds; ++round) {
+    if (!sample(bgr, match, seen)) break;
+    cv::Vec3d right(0, 0, 0);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const cv::Vec3f off = seen[k] - pixels_[k].colour;
+      for (int channel = 0; channel < 3; ++channel) {
+        right += off[channel] * terms_of(pixels_[k], channel);
+      }
+    }
+    const cv::Vec3d step = normal.solve(right, cv::DECOMP_CHOLESKY);
+    const double c = std::cos(match.turned_rad), s = std::sin(match.turned_rad);
+    cv::Point2d moved(c * step[0] - s * step[1], s * step[0] + c * step[1]);
+    const double length = std::hypot(moved.x, moved.y);
+    if (length > kLongest_px) moved *= kLongest_px / length;
+    match.moved -= moved;
+    match.turned_rad -= step[2];
+    if (length < kEnough_px) break;
+  }
+  match.likeness = 0;
+  if (contrast_ > 0 && sample(bgr, match, seen)) match.likeness = 1 - squares(seen) / contrast_;
+  return match;
+}
+
+TemplateMatch GrainTemplate::find(const cv::Mat& bgr, const TemplateMatch& expected,
+                                  int reach_px) const {
+  constexpr int kRise_px = 1;
+  TemplateMatch best = expected;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<cv::Vec3f> seen;
+  for (int rise = -kRise_px; rise <= kRise_px; ++rise) {
+    for (int along = -reach_px; along <= reach_px; ++along) {
+      const TemplateMatch one{.moved = expected.moved + cv::Point2d(along, rise),
+                              .turned_rad = expected.turned_rad};
+      if (!sample(bgr, one, seen)) continue;
+      const double off = squares(seen);
+      if (off >= least) continue;
+      least = off;
+      best = one;
+    }
+  }
+  return refined(bgr, best, false);
+}
+
+TemplateMatch GrainTemplate::find_turned(const cv::Mat& bgr, const TemplateMatch& found) const {
+  return refined(bgr, found, true);
+}
+
+/// The backdrop as if nothing stood before it: along each row the median of its surroundings, which
+/// reach farther than grains do.
+cv::Mat backdrop_of(const cv::Mat& strip) {
+  constexpr int kStep_px = 8;
+  const int reach = std::max(1, strip.cols / 4);
+  const int columns = strip.cols / kStep_px + 1;
+  cv::Mat coarse(strip.rows, columns, CV_8UC3);
+  std::vector<uchar> values;
+  for (int y = 0; y < strip.rows; ++y) {
+    for (int k = 0; k < columns; ++k) {
+      const int from = std::max(0, k * kStep_px - reach);
+      const int to = std::min(strip.cols, k * kStep_px + reach + 1);
+      for (int channel = 0; channel < 3; ++channel) {
+        values.clear();
+        for (int x = from; x < to; ++x) values.push_back(strip.at<cv::Vec3b>(y, x)[channel]);
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        coarse.at<cv::Vec3b>(y, k)[channel] = *middle;
+      }
+    }
+  }
+  cv::Mat backdrop;
+  cv::resize(coarse, backdrop, strip.size(), 0, 0, cv::INTER_LINEAR);
+  return backdrop;
+}
+
+OnPlate thing_of(const cv::Mat& mask, const cv::Rect& box) {
+  OnPlate thing{.mask = mask};
+  const cv::Moments moments = cv::moments(mask, true);
+  thing.centre = {moments.m10 / moments.m00, moments.m01 / moments.m00};
+  thing.width_px = box.width;
+  thing.height_px = box.height;
+  const double half_sum = .5 * (moments.mu20 + moments.mu02);
+  const double spread = std::hypot(.5 * (moments.mu20 - moments.mu02), moments.mu11);
+  thing.elongation = std::sqrt((half_sum + spread) / std::max(1e-9, half_sum - spread));
+  thing.touches_edge = box.x <= 1 || box.br().x >= mask.cols - 1 || box.y <= 1;
+  return thing;
+}
+
+/// What differs from the backdrop left and right of it and reaches down to the plate, the largest
+/// first.
+/// @param strip  see strip_picture()
+std::vector<OnPlate> standing_things(const cv::Mat& strip) {
+  constexpr double kMinDifference = 22, kPartOfMost = .35, kLongest = .5;
+  constexpr int kMin_px = 4, kGap_px = 3;
+  constexpr std::size_t kMax = 8;
+  cv::Mat difference = greatest_difference(strip, backdrop_of(strip));
+  cv::GaussianBlur(difference, difference, {3, 3}, 0);
+  double most = 0;
+  cv::minMaxLoc(difference, nullptr, &most);
+  const cv::Mat differs = difference > std::max(kMinDifference, kPartOfMost * most);
+  cv::Mat labels, stats, centres;
+  const int count = cv::connectedComponentsWithStats(differs, labels, stats, centres);
+  std::vector<std::pair<int, OnPlate>> things;
+  for (int label = 1; label < count; ++label) {
+    const cv::Rect box(
+        stats.at<int>(label, cv::CC_STAT_LEFT), stats.at<int>(label, cv::CC_STAT_TOP),
+        stats.at<int>(label, cv::CC_STAT_WIDTH), stats.at<int>(label, cv::CC_STAT_HEIGHT));
+    if (box.width < kMin_px || box.height < kMin_px || box.width > kLongest * strip.cols ||
+        box.br().y < strip.rows - kGap_px)
+      continue;
+    things.emplace_back(stats.at<int>(label, cv::CC_STAT_AREA), thing_of(labels == label, box));
+  }
+  std::stable_sort(things.begin(), things.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<OnPlate> largest;
+  for (auto& [area, thing] : things) {
+    if (largest.size() < kMax) largest.push_back(std::move(thing));
+  }
+  return largest;
+}
 
 /// A thing with what it looked like.
 struct FollowedGrain {
@@ -30,13 +284,13 @@ struct FollowedGrain {
 /// The strip as it is before anything can have slid: the median of frames up to a few degrees.
 cv::Mat first_strip(const FilmFile& file, const PlateMotion& motion, const PlateStrip& strip) {
   constexpr double kBefore_rad = 4 * kDegree;
-  constexpr std::size_t kMost = 25;
+  constexpr std::size_t kMax = 25;
   std::vector<std::size_t> numbers;
   for (std::size_t k = 0; k < motion.seen.size(); ++k) {
     if (motion.turned_at(motion.seen[k]) > kBefore_rad) break;
     numbers.push_back(k);
   }
-  const std::size_t stride = numbers.size() / kMost + 1;
+  const std::size_t stride = numbers.size() / kMax + 1;
   std::vector<cv::Mat> strips;
   FilmReader film(file);
   FilmFrame frame;
@@ -93,20 +347,20 @@ TemplateMatch turned_match(const FollowedGrain& followed, const cv::Mat& strip,
 
 void follow(FollowedGrain& followed, const cv::Mat& strip, std::size_t plate, double time_s,
             double sense) {
-  constexpr double kPatience_s = .3, kLeastLikeness = .25, kMostRise_px = 4;
+  constexpr double kPatience_s = .3, kMinLikeness = .25, kMaxRise_px = 4;
   constexpr int kReach_px = 12;
   if (followed.is_over) return;
   const TemplateMatch expected{.moved = 2 * followed.last.moved - followed.before.moved};
   const TemplateMatch match = followed.looks.find(strip, expected, kReach_px);
   const TemplateMatch turned = turned_match(followed, strip, match, kReach_px);
   const TemplateMatch& best = turned.likeness > match.likeness ? turned : match;
-  if (best.likeness < kLeastLikeness || std::abs(best.moved.y) > kMostRise_px) {
+  if (best.likeness < kMinLikeness || std::abs(best.moved.y) > kMaxRise_px) {
     followed.is_over = time_s - followed.last_s > kPatience_s;
     return;
   }
   const double unlike = 1 - match.likeness;
   // What turns in place of sliding is found by its turn alone after a while.
-  const bool is_found = match.likeness >= kLeastLikeness;
+  const bool is_found = match.likeness >= kMinLikeness;
   const cv::Point2d moved = is_found ? match.moved : turned.moved;
   followed.before = followed.last;
   followed.last = {.moved = moved, .turned_rad = turned.turned_rad};

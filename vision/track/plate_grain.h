@@ -7,7 +7,7 @@
 
 #include "vision/film/film_file.h"
 #include "vision/film/film_survey.h"
-#include "vision/track/plate_strip.h"
+#include "vision/track/plate_motion.h"
 
 namespace repose::vision {
 

@@ -3,20 +3,173 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 
 #include "base/distributions.h"
 #include "base/units.h"
-#include "vision/track/bent_path.h"
 #include "vision/track/film_grains.h"
 #include "vision/track/film_scale.h"
-#include "vision/track/film_verdict.h"
-#include "vision/track/strobe.h"
 
 namespace repose::vision {
+
 namespace {
+
+/// A straight line by least squares of the distances from it.
+struct PathLine {
+  cv::Point2d middle;
+  cv::Point2d along;           ///< of length 1, the way that was gone
+  double offset_error_px = 0;  ///< standard error across the line, at its middle
+  double angle_error_rad = 0;
+};
+
+/// Two straight lines after each other: down an incline, out on a flat.
+struct BentPath {
+  PathLine incline;
+  PathLine flat;
+  double rms_px = 0;           ///< of the places from their lines
+  double left_out = 0;         ///< part of the places that lie on none, as where a grain hops
+  double bend_rad = 0;         ///< between the lines, above 0
+  double bend_error_rad = 0;   ///< standard error
+  cv::Point2d corner;          ///< where the lines meet
+  double corner_error_px = 0;  ///< standard error along the flat
+};
+
+constexpr std::size_t kFewestInLine = 5;
+
+/// Neighbouring places err alike: so many count as one.
+constexpr double kPlacesAlike = 3;
+
+/// Sums of places that are added one by one.
+class LineSums {
+ public:
+  void add(const cv::Point2d& p) {
+    ++count_;
+    const cv::Point2d off = p - mean_;
+    mean_ += off / count_;
+    const cv::Point2d rest = p - mean_;
+    xx_ += off.x * rest.x;
+    xy_ += off.x * rest.y;
+    yy_ += off.y * rest.y;
+  }
+  /// Sum of the squared distances from the line.
+  double squares() const { return std::max(0.0, .5 * (xx_ + yy_) - half_spread()); }
+  /// Sum of the squared places along the line.
+  double spread() const { return .5 * (xx_ + yy_) + half_spread(); }
+  double count() const { return count_; }
+
+  PathLine line(const cv::Point2d& way, double variance) const {
+    const double angle = .5 * std::atan2(2 * xy_, xx_ - yy_);
+    cv::Point2d along(std::cos(angle), std::sin(angle));
+    if (along.dot(way) < 0) along = -along;
+    return {.middle = mean_,
+            .along = along,
+            .offset_error_px = std::sqrt(kPlacesAlike * variance / count_),
+            .angle_error_rad = std::sqrt(kPlacesAlike * variance / spread())};
+  }
+
+ private:
+  double half_spread() const { return std::hypot(.5 * (xx_ - yy_), xy_); }
+
+  double count_ = 0;
+  cv::Point2d mean_;
+  double xx_ = 0, xy_ = 0, yy_ = 0;
+};
+
+/// Squared deviations of the first k places from their line, for each k.
+std::vector<double> deviations(const std::vector<cv::Point2d>& path) {
+  std::vector<double> squares = {0};
+  LineSums sums;
+  for (const cv::Point2d& p : path) {
+    sums.add(p);
+    squares.push_back(sums.squares());
+  }
+  return squares;
+}
+
+double distance_from(const PathLine& line, const cv::Point2d& p) {
+  return std::abs((p - line.middle).cross(line.along));
+}
+
+/// Of the places that lie on one line, without those that do not, as where a grain hops at the
+/// bend: it begins with the `sure` ones, which are farthest from there.
+LineSums sums_along(std::span<const cv::Point2d> places, std::span<const cv::Point2d> sure) {
+  constexpr int kRounds = 4;
+  constexpr double kFarOff = 3 * 1.4826, kNear_px = .6;
+  std::vector<cv::Point2d> kept(sure.begin(), sure.end());
+  LineSums sums;
+  for (int round = 0; kept.size() >= kFewestInLine; ++round) {
+    sums = {};
+    for (const cv::Point2d& p : kept) sums.add(p);
+    if (round == kRounds) break;
+    const PathLine line = sums.line({}, 0);
+    std::vector<double> distances;
+    for (const cv::Point2d& p : kept) distances.push_back(distance_from(line, p));
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    const double most = std::max(kNear_px, kFarOff * *middle);
+    kept.clear();
+    std::copy_if(places.begin(), places.end(), std::back_inserter(kept),
+                 [&](const cv::Point2d& p) { return distance_from(line, p) <= most; });
+  }
+  return sums;
+}
+
+/// Standard error across the line, beside a place on it.
+double error_at(const PathLine& line, const cv::Point2d& p) {
+  return std::hypot(line.offset_error_px, line.angle_error_rad * (p - line.middle).dot(line.along));
+}
+
+/// The number of the first place on the second line.
+std::size_t bend_of(const std::vector<cv::Point2d>& path) {
+  const std::vector<double> before = deviations(path);
+  const std::vector<double> after = deviations({path.rbegin(), path.rend()});
+  std::size_t bend = kFewestInLine;
+  for (std::size_t k = kFewestInLine; k + kFewestInLine <= path.size(); ++k) {
+    if (before[k] + after[path.size() - k] < before[bend] + after[path.size() - bend]) bend = k;
+  }
+  return bend;
+}
+
+/// The two lines that fit best; none where fewer than 5 places lie on one of them, or both have one
+/// direction.
+/// @param path  in its order, without what lies still
+std::optional<BentPath> bent_path_through(const std::vector<cv::Point2d>& path) {
+  // The places next to the bend may be on both lines at once.
+  if (path.size() < 2 * kFewestInLine + 2) return std::nullopt;
+  const std::size_t bend = bend_of(path);
+  const std::span<const cv::Point2d> all = path;
+  const auto before = all.first(bend - 1), after = all.subspan(bend + 1);
+  const auto far = [](std::size_t count) {
+    return std::max(count / 2, std::min(count, kFewestInLine));
+  };
+  const LineSums down = sums_along(before, before.first(far(before.size())));
+  const LineSums out = sums_along(after, after.last(far(after.size())));
+  const double used = down.count() + out.count();
+  if (std::min(down.count(), out.count()) < kFewestInLine - 1) return std::nullopt;
+  const double variance = (down.squares() + out.squares()) / std::max(1.0, used - 4);
+  BentPath found;
+  found.incline = down.line(path[bend - 1] - path.front(), variance);
+  found.flat = out.line(path.back() - path[bend], variance);
+  found.rms_px = std::sqrt(variance);
+  found.left_out = 1 - used / static_cast<double>(path.size() - 2);
+  const PathLine &a = found.incline, &b = found.flat;
+  const double sine = std::abs(a.along.cross(b.along));
+  constexpr double kMinSine = 1e-3;
+  if (sine < kMinSine) return std::nullopt;
+  found.bend_rad = std::atan2(sine, a.along.dot(b.along));
+  found.bend_error_rad = std::hypot(a.angle_error_rad, b.angle_error_rad);
+  found.corner =
+      b.middle + b.along * ((a.middle - b.middle).cross(a.along) / b.along.cross(a.along));
+  found.corner_error_px =
+      std::hypot(error_at(a, found.corner), error_at(b, found.corner) * std::cos(found.bend_rad)) /
+      sine;
+  return found;
+}
 
 constexpr double kRollStill_s = .3;
 /// A bend is no foot beyond these.
@@ -66,11 +219,11 @@ double slope_rad(const cv::Point2d& along) { return std::atan2(along.y, std::abs
 /// Whether it runs down one line and on along a nearly level other one, and not just anyhow.
 bool is_roll(const BentPath& bent, double width_px) {
   constexpr double kStraight = .15;  // of the grain's width
-  constexpr double kMostLeftOut = .3;
+  constexpr double kMaxLeftOut = .3;
   return bent.bend_rad > kGentlest_rad && bent.bend_rad < kSteepestRoll_rad &&
          slope_rad(bent.incline.along) > slope_rad(bent.flat.along) &&
          std::abs(slope_rad(bent.flat.along)) < kLevel_rad &&
-         bent.incline.along.x * bent.flat.along.x > 0 && bent.left_out < kMostLeftOut &&
+         bent.incline.along.x * bent.flat.along.x > 0 && bent.left_out < kMaxLeftOut &&
          bent.rms_px < std::max(1.0, kStraight * width_px);
 }
 
@@ -132,8 +285,8 @@ std::string fault_of_end(const GrainPath& path, const Rest& rest, const FilmGrai
       kRollStill_s);
 }
 
-/// Ways from the foot, in pixels, with standard errors.
-struct Ways {
+/// PathLengths from the foot, in pixels, with standard errors.
+struct PathLengths {
   double stopped_px = 0;
   double released_px = 0;
   double foot_error_px = 0;  ///< of both, which it makes one shorter and the other longer
@@ -141,7 +294,7 @@ struct Ways {
 };
 
 /// By a scale in the picture.
-void measure_by(const Estimate& scale, const Ways& ways, RollTrack& track) {
+void measure_by(const Estimate& scale, const PathLengths& ways, RollTrack& track) {
   const double error_px = base::kNormal95 * std::hypot(ways.foot_error_px, ways.end_error_px);
   const auto length_mm = [&](double px) {
     return Estimate{px * scale.value, std::hypot(error_px * scale.value, px * scale.uncertainty)};
@@ -153,7 +306,7 @@ void measure_by(const Estimate& scale, const Ways& ways, RollTrack& track) {
 }
 
 /// By the way up the incline, which is known.
-void measure_by(double released_mm, const Ways& ways, RollTrack& track) {
+void measure_by(double released_mm, const PathLengths& ways, RollTrack& track) {
   track.mm_per_px = released_mm / ways.released_px;
   const double value = ways.stopped_px * track.mm_per_px;
   const double per_stopped = 1 / std::abs(ways.stopped_px), per_released = 1 / ways.released_px;
@@ -174,10 +327,11 @@ void read_roll(const Roll& roll, const FilmScale& scale, const TrackOptions& opt
   constexpr double kShape = .15, kEnd_px = .3;
   const double radius = .5 * track.grain_px;
   const double before = radius * std::tan(.5 * bent.bend_rad);
-  const Ways ways{.stopped_px = (last.crest - bent.corner).dot(bent.flat.along) + before,
-                  .released_px = (bent.corner - first.crest).dot(bent.incline.along) + before,
-                  .foot_error_px = std::hypot(bent.corner_error_px, kShape * before),
-                  .end_error_px = kEnd_px};
+  const PathLengths ways{
+      .stopped_px = (last.crest - bent.corner).dot(bent.flat.along) + before,
+      .released_px = (bent.corner - first.crest).dot(bent.incline.along) + before,
+      .foot_error_px = std::hypot(bent.corner_error_px, kShape * before),
+      .end_error_px = kEnd_px};
   if (scale.exists()) {
     const cv::Point2d middle = .5 * (bent.corner + last.crest);
     measure_by(scale.mm_per_px(middle, bent.flat.along), ways, track);
@@ -259,12 +413,12 @@ std::string read(const FilmGrains& film, const std::optional<Roll>& roll, const 
 }
 
 void warn_of_roll(const Roll& roll, RollTrack& track) {
-  const double lean_rad = slope_rad(roll.bent.flat.along);
-  if (std::abs(lean_rad) > kRollLean_rad) {
+  const double roll_rad = slope_rad(roll.bent.flat.along);
+  if (std::abs(roll_rad) > kRollLean_rad) {
     track.warnings.push_back(
         {"leaning", fmt::format("the flat leans by {:.1f} degrees in the picture, and was "
                                 "followed: level the camera; the flat counts as level",
-                                std::abs(lean_rad) / kDegree)});
+                                std::abs(roll_rad) / kDegree)});
   }
   constexpr double kFewHops = .05;
   if (roll.bent.left_out > kFewHops) {

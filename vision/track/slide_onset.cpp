@@ -13,7 +13,7 @@ namespace repose::vision {
 namespace {
 
 /// Of a place between whole pixels, as drawn films show it.
-constexpr double kLeastSlideNoise_px = .1;
+constexpr double kMinSlideNoise_px = .1;
 /// Neighbouring places err alike: so many count as one.
 constexpr double kAlikeInSlide = 3;
 constexpr double kChiSquare95 = 3.84;
@@ -192,7 +192,7 @@ std::optional<SlideOnset> slide_onset(const std::vector<SlidAt>& places, double 
       std::min_element(profile.begin(), profile.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   const double free = std::max(1.0, static_cast<double>(fitted.size()) - 5);
-  const double variance = std::max(best->second / free, kLeastSlideNoise_px * kLeastSlideNoise_px);
+  const double variance = std::max(best->second / free, kMinSlideNoise_px * kMinSlideNoise_px);
   const double limit = best->second + kChiSquare95 * kAlikeInSlide * variance;
   auto earliest = best, latest = best;
   while (earliest != profile.begin() && std::prev(earliest)->second <= limit) --earliest;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vision/camera/board_placing.h"
-#include "vision/film/film_facts.h"
+#include "vision/film/film_file.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/measure/scale_bar.h"
 #include "vision/picture/picture.h"
@@ -22,7 +22,7 @@ struct TrackOptions {
   /// Of a roll without a scale: how far up the incline the grain was let go.
   std::optional<double> released_mm = {};
   bool draws_strobe = false;
-  /// Told which fraction of the work is done, from 0 to 1; may throw to stop it.
+  /// UserHints which fraction of the work is done, from 0 to 1; may throw to stop it.
   std::function<void(double)> progress = {};
 };
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "vision/video/film_encoder.h"
 
 namespace repose::vision {

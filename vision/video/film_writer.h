@@ -6,7 +6,7 @@
 #include "vision/picture/picture.h"
 
 namespace repose::base {
-class PartFile;
+class TemporaryFile;
 }  // namespace repose::base
 
 namespace repose::vision {
@@ -42,7 +42,7 @@ class FilmWriter {
   void open_encoder();
 
   std::filesystem::path file_;
-  std::unique_ptr<base::PartFile> part_;  ///< from the first picture on
+  std::unique_ptr<base::TemporaryFile> part_;  ///< from the first picture on
   double frames_per_s_;
   std::unique_ptr<FilmEncoder> encoder_;
   int width_ = 0;

@@ -4,10 +4,6 @@
 #include <string>
 #include <utility>
 
-extern "C" {
-#include <libavutil/imgutils.h>
-}
-
 #include "base/input_error.h"
 #include "vision/picture/ffmpeg.h"
 #include "vision/picture/made_here.h"
@@ -19,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A frame rate such as 29.97 becomes 30000/1001.
-constexpr int kMostOfFraction = 1'001'000;
+constexpr int kMaxOfFraction = 1'001'000;
 
 /// The usual quality, of one thread: what several write depends on their number. "mbtree" shares
 /// bits out by what later pictures reuse; with AVX-512, x264 then reads memory that nobody set
@@ -43,7 +39,7 @@ ffmpeg::Codec opened_encoder(double frames_per_s, int width, int height) {
   if (!codec) throw std::bad_alloc();
   codec->width = width;
   codec->height = height;
-  codec->framerate = av_d2q(frames_per_s, kMostOfFraction);
+  codec->framerate = av_d2q(frames_per_s, kMaxOfFraction);
   codec->time_base = av_inv_q(codec->framerate);
   codec->pix_fmt = AV_PIX_FMT_YUV420P;
   codec->color_range = AVCOL_RANGE_MPEG;

@@ -12,6 +12,64 @@
 #include "calibrate/statistics/bench/method.h"
 
 namespace repose::calibrate {
+
+double restitution_of(double drop_m, double rebound_m) { return std::sqrt(rebound_m / drop_m); }
+
+double sliding_friction_of(double angle_rad) { return std::tan(angle_rad); }
+
+double rolling_friction_of(double incline_rad, double released_m, double stopped_m) {
+  return released_m * std::sin(incline_rad) / (released_m * std::cos(incline_rad) + stopped_m);
+}
+
+double foot_distance_m(double incline_rad, double radius_m) {
+  return radius_m * std::tan(incline_rad / 2);
+}
+
+double rolled_distance_m(double mu_r, double incline_rad, double released_m, double radius_m) {
+  const double sine = std::sin(incline_rad);
+  const double cosine = std::cos(incline_rad);
+  const double foot_m = foot_distance_m(incline_rad, radius_m);
+  const double kept = std::max(0., (5 * cosine + 2) / 7 - 5. / 7 * mu_r * sine);
+  return kept * kept * (released_m - foot_m) * (sine - mu_r * cosine) / mu_r + foot_m;
+}
+
+double rolling_friction_of(double incline_rad, double released_m, double stopped_m,
+                           double radius_m) {
+  // The distance falls with the friction as long as the ball leaves the foot. By halving.
+  double low = 0;
+  double high =
+      std::min(std::tan(incline_rad), (std::cos(incline_rad) + .4) / std::sin(incline_rad));
+  constexpr int kHalvings = 60;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = .5 * (low + high);
+    const bool rolls_on = rolled_distance_m(middle, incline_rad, released_m, radius_m) > stopped_m;
+    (rolls_on ? low : high) = middle;
+  }
+  return .5 * (low + high);
+}
+
+double pendulum_restitution_of(double release_rad, double swing_rad) {
+  return 2 * std::sin(swing_rad / 2) / std::sin(release_rad / 2) - 1;
+}
+
+double density_of(double mass_kg, double displaced_m3) { return mass_kg / displaced_m3; }
+
+double young_modulus_of(double force_n, double area_m2, double compression_m, double height_m) {
+  return (force_n / area_m2) / (compression_m / height_m);
+}
+
+double poisson_ratio_of(double widening, double width, double shortening, double height) {
+  return (widening / width) / (shortening / height);
+}
+
+double geometric_mean_diameter_of(double length, double width, double thickness) {
+  return std::cbrt(length * width * thickness);
+}
+
+double sphericity_of(double length, double width, double thickness) {
+  return geometric_mean_diameter_of(length, width, thickness) / length;
+}
+
 namespace {
 
 Method method_of(BenchTest test) {
@@ -176,7 +234,7 @@ std::vector<std::string> notes_on(const Method& method, std::span<const BenchRea
 void note_other_drops(const std::vector<ReadingColumn>& columns,
                       std::span<const BenchReading> readings, std::vector<std::string>& notes) {
   constexpr double kSame = .05;
-  constexpr std::size_t kMostNamed = 5;
+  constexpr std::size_t kMaxNamed = 5;
   const auto column = std::ranges::find(columns, "drop_mm", &ReadingColumn::name);
   if (column == columns.end()) return;
   const auto at = static_cast<std::size_t>(column - columns.begin());
@@ -188,14 +246,14 @@ void note_other_drops(const std::vector<ReadingColumn>& columns,
   std::size_t others = 0;
   for (const BenchReading& reading : readings) {
     const double drop_mm = reading.values[at];
-    if (std::abs(drop_mm - *middle) <= kSame * *middle || ++others > kMostNamed) continue;
+    if (std::abs(drop_mm - *middle) <= kSame * *middle || ++others > kMaxNamed) continue;
     named += fmt::format("{}{} ({:.4g} mm)", named.empty() ? "" : ", ", reading.place, drop_mm);
   }
   if (others == 0) return;
   notes.push_back(fmt::format(
       "{} of {} drops are from another height than {:.4g} mm, by more than {:g} %: {}{}. "
       "Restitution falls with speed: do not mix heights, nor first with later bounces.",
-      others, readings.size(), *middle, 100 * kSame, named, others > kMostNamed ? " ..." : ""));
+      others, readings.size(), *middle, 100 * kSame, named, others > kMaxNamed ? " ..." : ""));
 }
 
 }  // namespace
@@ -221,8 +279,8 @@ std::vector<double> sample_means(BenchTest test, std::string_view column,
 
 void check_readings(BenchTest test, std::span<const BenchReading> readings) {
   const Method method = method_of(test);
-  constexpr std::size_t kMostErrors = 10;  // a table may have a million rows
-  base::Faults errors(kMostErrors);
+  constexpr std::size_t kMaxErrors = 10;  // a table may have a million rows
+  base::Faults errors(kMaxErrors);
   for (const BenchReading& reading : readings) check_reading(method, reading, errors);
   check_all_or_none(method, readings, errors);
   errors.throw_if_any();

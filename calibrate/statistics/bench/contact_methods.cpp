@@ -7,9 +7,8 @@
 #include "base/air_drag.h"
 #include "base/input_error.h"
 #include "base/units.h"
-#include "calibrate/statistics/bench/formulas.h"
+#include "calibrate/statistics/bench/bench.h"
 #include "calibrate/statistics/bench/method.h"
-#include "calibrate/statistics/bench/units.h"
 
 namespace repose::calibrate {
 namespace {

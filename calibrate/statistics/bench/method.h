@@ -8,9 +8,17 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "base/units.h"
 #include "calibrate/statistics/bench/bench.h"
 
 namespace repose::calibrate {
+
+constexpr double kM3PerMl = 1e-6;
+constexpr double kKgPerG = 1e-3;
+constexpr double kRightAngle_deg = 90;
+
+/// A bound that 0 itself is above.
+constexpr double kFromZero = -1e-300;
 
 /// One repeat of a test, as its formulas see it.
 class ReadingValues {

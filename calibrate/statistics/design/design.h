@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "calibrate/statistics/factor.h"
+#include "calibrate/statistics/regress/regression.h"
 
 /// Experiment designs: which runs to make so that a response surface can be fitted to their
 /// results. Runs are in standard order, levels coded: -1 and +1 are a factor's low and high. Each
 /// function throws base::InputError with every error, a line each. THEORY.md has the
 /// definitions, tests/calibrate/design_test.cpp the proofs.
+
 namespace repose::calibrate {
 
 enum class PointKind { cube, edge, axial, centre, spread, step };
@@ -69,5 +71,14 @@ void randomise_order(Design& design, std::uint64_t seed);
 
 /// "cube", "axial", ...
 std::string name_of(PointKind kind);
+
+/// Runs up (or down) the slope of a fitted first-order surface, from the middle of its factors on:
+/// each step changes the coded factors in proportion to their coefficients, and the steepest one by
+/// `stride`. Box and Wilson (1951); Montgomery, sec. 11.2. Proved by SteepestAscent.* in
+/// tests/calibrate/design_test.cpp.
+///
+/// @throws base::InputError  every error: a model with other terms, a stride that is not above
+/// 0, a level surface, too few runs.
+Design steepest_ascent(const Regression& regression, int runs, double stride, bool descends);
 
 }  // namespace repose::calibrate

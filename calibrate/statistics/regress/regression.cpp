@@ -2,18 +2,147 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
+#include <optional>
+#include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/distributions.h"
 #include "base/input_error.h"
-#include "calibrate/statistics/regress/blocks.h"
-#include "calibrate/statistics/regress/quadratic.h"
+#include "calibrate/statistics/regress/canonical.h"
+
+/// Blocks in the model matrix: b - 1 columns that are 1 in a block, -1 in the last one and 0 in all
+/// others. So the shifts add up to 0, and the terms describe the mean of the blocks.
 
 namespace repose::calibrate {
+
+namespace {
+
+using Eigen::Index;
+
+using Eigen::MatrixXd;
+
+using Eigen::VectorXd;
+
+/// Whether values, one of each run, differ between runs of one block.
+bool varies_within(const Blocks& blocks, const std::vector<double>& values) {
+  std::vector<std::optional<double>> first(blocks.labels.size());
+  for (std::size_t run = 0; run < values.size(); ++run) {
+    std::optional<double>& known = first[blocks.of_runs[run]];
+    if (!known) known = values[run];
+    if (*known != values[run]) return true;
+  }
+  return false;
+}
+
+/// Of b blocks, b - 1.
+std::size_t block_columns_of(const RunTable& table) {
+  return table.blocks && !table.blocks->labels.empty() ? table.blocks->labels.size() - 1 : 0;
+}
+
+/// Adds every error: a block for each run, two blocks or more, a response that varies within them.
+void check_blocks(const RunTable& table, base::Faults& errors) {
+  if (!table.blocks) return;
+  const Blocks& blocks = *table.blocks;
+  const auto is_known = [&](std::size_t block) { return block < blocks.labels.size(); };
+  if (blocks.of_runs.size() != table.responses.size() ||
+      !std::all_of(blocks.of_runs.begin(), blocks.of_runs.end(), is_known)) {
+    errors.add({.where = table.name,
+                .value = fmt::format("{} has {} values for {} runs", blocks.name,
+                                     blocks.of_runs.size(), table.responses.size()),
+                .fix = "give one for each run."});
+    return;
+  }
+  errors.require(blocks.labels.size() > 1,
+                 {.where = table.name,
+                  .value = fmt::format("{} is the same in every run", blocks.name),
+                  .rule = "two blocks or more",
+                  .fix = "leave the blocks out."});
+  errors.require(
+      varies_within(blocks, table.responses),
+      {.where = table.name,
+       .value = fmt::format("{} only differs between the blocks of {}, not within any",
+                            table.response_name, blocks.name),
+       .fix = "there is nothing to explain: name another response or leave the blocks out."});
+}
+
+/// Fills in the last columns of the model matrix.
+void add_block_columns(const Blocks& blocks, MatrixXd& design) {
+  const std::size_t columns = blocks.labels.size() - 1;
+  const Index first = design.cols() - index_of(columns);
+  for (Index run = 0; run < design.rows(); ++run) {
+    const std::size_t block = blocks.of_runs[static_cast<std::size_t>(run)];
+    for (std::size_t k = 0; k < columns; ++k) {
+      design(run, first + index_of(k)) = block == k ? 1 : block == columns ? -1 : 0;
+    }
+  }
+}
+
+/// The shifts, without their errors, from the coefficients of those columns; and what the blocks'
+/// means explain, before the terms: Montgomery, Design and Analysis of Experiments (8th ed.),
+/// sec. 4.1. In a design whose blocks are orthogonal, it is the same after them.
+FittedBlocks fitted_blocks(const RunTable& table, const VectorXd& values) {
+  FittedBlocks fitted{.runs = *table.blocks, .effects = {}, .variance = {}};
+  const std::size_t count = fitted.runs.labels.size();
+  std::vector<double> sums(count);
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double value = index_of(k) < values.size() ? values[index_of(k)] : -values.sum();
+    fitted.effects.push_back(
+        {.label = fitted.runs.labels[k], .runs = 0, .value = value, .standard_error = 0});
+  }
+  for (std::size_t run = 0; run < table.responses.size(); ++run) {
+    const std::size_t block = fitted.runs.of_runs[run];
+    sums[block] += table.responses[run];
+    sum += table.responses[run];
+    ++fitted.effects[block].runs;
+  }
+  const double mean = sum / static_cast<double>(table.responses.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const int runs = fitted.effects[k].runs;
+    fitted.variance.sum_of_squares += runs * std::pow(sums[k] / runs - mean, 2);
+  }
+  fitted.variance.df = static_cast<int>(count) - 1;
+  return fitted;
+}
+
+/// @param covariance  of the coefficients of the blocks' columns
+void set_errors(FittedBlocks& blocks, const MatrixXd& covariance) {
+  for (std::size_t k = 0; k < blocks.effects.size(); ++k) {
+    // The last shift is minus the sum of the others.
+    const bool is_last = index_of(k) == covariance.cols();
+    blocks.effects[k].standard_error =
+        std::sqrt(is_last ? covariance.sum() : covariance(index_of(k), index_of(k)));
+  }
+}
+
+}  // namespace
+
+std::vector<Term> terms_of(SurfaceModel model, std::size_t factors) {
+  std::vector<Term> terms = {{}};
+  for (std::size_t i = 0; i < factors; ++i) terms.push_back({i});
+  if (model == SurfaceModel::linear) return terms;
+  for (std::size_t i = 0; i < factors; ++i) {
+    for (std::size_t j = i + 1; j < factors; ++j) terms.push_back({i, j});
+  }
+  if (model == SurfaceModel::interaction) return terms;
+  for (std::size_t i = 0; i < factors; ++i) terms.push_back({i, i});
+  return terms;
+}
+
+std::string name_of(const Term& term, const std::vector<Factor>& factors) {
+  if (term.empty()) return "1";
+  const std::string& first = factors[term.front()].name;
+  if (term.size() == 1) return first;
+  if (term.front() == term.back()) return first + "^2";
+  return fmt::format("{}*{}", first, factors[term.back()].name);
+}
+
 namespace {
 
 using Eigen::Index;

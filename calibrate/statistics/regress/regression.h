@@ -10,6 +10,7 @@
 
 /// Response surfaces: a polynomial of the factors, fitted to the runs of a design by least squares.
 /// Factors are coded (Factor): -1 and +1 are their low and high. THEORY.md has the formulas.
+
 namespace repose::calibrate {
 
 enum class SurfaceModel {

@@ -10,6 +10,7 @@
 
 /// What a fitted surface says: its shape, its extremes within the runs' box, and where it takes a
 /// wanted value.
+
 namespace repose::calibrate {
 
 struct SurfacePoint {

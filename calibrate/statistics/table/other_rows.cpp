@@ -316,11 +316,11 @@ class Footer {
 
 void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
                      Unlabelled unlabelled, OtherRows& other, base::Faults& errors) {
-  constexpr std::size_t kMostRows = 8, kFewestReadings = 2;
+  constexpr std::size_t kMaxRows = 8, kFewestReadings = 2;
   constexpr double kUnlikely = .01;
   if (readings.empty() || table.rows.size() <= kFewestReadings) return;
   const Footer footer(table, readings);
-  const std::size_t most = std::min(kMostRows, table.rows.size() - kFewestReadings);
+  const std::size_t most = std::min(kMaxRows, table.rows.size() - kFewestReadings);
   for (std::size_t count = unlabelled == Unlabelled::refused ? most : 0; count > 0; --count) {
     const auto chance = footer.chance_of_last(count);
     if (!chance || *chance >= kUnlikely) continue;

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/closest_word.h"
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/text.h"
 
 namespace repose::calibrate {
 namespace {
@@ -328,7 +328,7 @@ Table parse_table(const std::string& name, std::string_view text, NoRows no_rows
                  {.where = name,
                   .value = "has no rows below its header",
                   .fix = "add a row for each reading or run."});
-  base::Faults ragged(kMostRowErrors);
+  base::Faults ragged(kMaxRowErrors);
   for (const TableRow& row : table.rows) {
     if (row.cells.size() == table.columns.size()) continue;
     ragged.add({.where = fmt::format("{}:{}", name, row.line),
@@ -397,7 +397,7 @@ std::vector<std::vector<double>> numbers_of(const Table& table,
                 .fix = fmt::format("it has {}.", fmt::join(table.columns, ", "))});
   }
   const NumberMarks marks(table, places);
-  base::Faults cells(kMostRowErrors);
+  base::Faults cells(kMaxRowErrors);
   std::vector<std::vector<double>> numbers(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (const TableRow& row : table.rows) {

@@ -14,7 +14,7 @@
 namespace repose::calibrate {
 
 /// Of errors in rows, this many are listed; the others are counted.
-inline constexpr std::size_t kMostRowErrors = 10;
+inline constexpr std::size_t kMaxRowErrors = 10;
 
 struct TableRow {
   int line = 0;  ///< of the file, from 1

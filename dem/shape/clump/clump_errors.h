@@ -7,6 +7,10 @@
 
 namespace repose::dem {
 
+/// How many groups the spheres fall into that do not touch each other. More than one is no grain:
+/// others could pass through the gap.
+int sphere_groups(const std::vector<ClumpSphere>& spheres);
+
 /// How much the union of a clump's spheres differs from the body it stands for.
 struct ClumpErrors {
   /// Volume in one of the two only (missing and sticking out), per volume of the body. Never less

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
-#include "dem/shape/clump/sphere_groups.h"
+#include "dem/shape/clump/clump_errors.h"
 #include "dem/shape/scan/scan.h"
 
 namespace repose::dem {

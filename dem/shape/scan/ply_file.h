@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "dem/shape/scan/polygon_surface.h"
+#include "dem/shape/scan/mesh_file.h"
 
 namespace repose::dem {
 

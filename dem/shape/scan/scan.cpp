@@ -9,14 +9,9 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "dem/shape/scan/hole_filling.h"
-#include "dem/shape/scan/mass_properties.h"
-#include "dem/shape/scan/mesh_edges.h"
+#include "dem/shape/scan/mesh.h"
 #include "dem/shape/scan/mesh_file.h"
-#include "dem/shape/scan/mesh_measure.h"
-#include "dem/shape/scan/mesh_orientation.h"
-#include "dem/shape/scan/self_crossing.h"
-#include "dem/shape/scan/weld.h"
+#include "dem/shape/scan/repair.h"
 
 namespace repose::dem {
 namespace {

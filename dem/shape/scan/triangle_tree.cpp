@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "dem/shape/scan/mesh_measure.h"
+#include "dem/shape/scan/mesh.h"
 
 namespace repose::dem {
 namespace {

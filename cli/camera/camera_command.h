@@ -1,9 +1,0 @@
-#pragma once
-
-#include "cli/common/command.h"
-
-namespace repose::cli {
-
-Command camera_command();
-
-}  // namespace repose::cli
