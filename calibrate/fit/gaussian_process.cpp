@@ -16,8 +16,6 @@
 
 namespace repose::calibrate {
 
-namespace {
-
 /// How values at two points of the unit box vary together, in variances of the data.
 ///
 /// k(x, x') = signal^2 M(r) + trend^2 s.s' + level^2, with s = (x - 1/2) / length, r = |s - s'|,
@@ -49,6 +47,8 @@ class Covariance {
   double noise2_;
 };
 
+namespace {
+
 constexpr double kRoot5 = 2.2360679774997896964;
 
 constexpr double kLevel2 = 4;  // the mean of the data is no surprise within two of their sd's
@@ -73,6 +73,8 @@ Eigen::MatrixXd as_rows(const std::vector<Point>& points) {
   }
   return matrix;
 }
+
+}  // namespace
 
 Covariance::Covariance(const Hyperparameters& hyper)
     : length_(Eigen::Map<const Eigen::RowVectorXd>(hyper.length.data(),
@@ -149,6 +151,8 @@ Eigen::VectorXd Covariance::weighted_gradient(const Eigen::MatrixXd& x,
   gradient(d + 2) = 2 * noise2_ * weight.trace();
   return gradient;
 }
+
+namespace {
 
 struct SearchResult {
   Hyperparameters hyper;
