@@ -241,6 +241,12 @@ TEST(Judge, ABaseThatBowsOtherwiseThanThePitchGivenIsFlagged) {
   }
 }
 
+TEST(Judge, ACameraThatLooksUpIsFlagged) {
+  EXPECT_EQ(judged_with(std::nullopt, -20).status, MeasureStatus::flagged);
+  EXPECT_THAT(judged_with(0, -15).warnings, ElementsAre(Field(&Warning::code, "pitch_disagrees")));
+  EXPECT_EQ(judged_with(0, -3).status, MeasureStatus::ok);
+}
+
 TEST(Judge, ABaseThatIsNotSeenDisagreesWithNoPitch) {
   const ReposeAngle result = judged_with(std::nullopt, 17);
   EXPECT_EQ(result.status, MeasureStatus::ok);

@@ -332,6 +332,28 @@ double below_axis_rad(const ReposeAngle& result, const MeasureOptions& options) 
   return std::atan((middle - options.pinhole->centre.y) / options.pinhole->focal_px);
 }
 
+/// A pitch that was given, against the one that the base gives away.
+void warn_of_pitch(ReposeAngle& result, const Ground& ground, const MeasureOptions& options) {
+  const double given = *options.camera_pitch_rad;
+  // The bow tells from how far above the base is seen: by a known lens, below its axis.
+  const double below_axis = below_axis_rad(result, options);
+  const double expected = given + below_axis;
+  if (expected < -kPitchTolerance_rad) {
+    flag(
+        result, "pitch_disagrees",
+        fmt::format("A camera that looks up by {:.0f} degrees does not see the plate that the heap "
+                    "stands on. Give a downward pitch as a positive number.",
+                    to_degrees(-given)));
+    return;
+  }
+  if (!ground.bow) return;
+  const double pitch = pitch_from_bow(*ground.bow);
+  if (std::abs(pitch - std::max(0.0, expected)) <= kPitchTolerance_rad) return;
+  flag(result, "pitch_disagrees",
+       fmt::format("The curved base implies a pitch of {:.0f} degrees, not the {:.0f} given.",
+                   to_degrees(pitch - below_axis), to_degrees(given)));
+}
+
 void warn_of_scene(ReposeAngle& result, const SelectedCandidate& choice,
                    const MeasureOptions& options) {
   const Reading& best = choice.best;
@@ -344,16 +366,7 @@ void warn_of_scene(ReposeAngle& result, const SelectedCandidate& choice,
              "the {} if it did.",
              to_degrees(pitch), base::field("camera pitch")));
   }
-  if (options.camera_pitch_rad && ground.bow) {
-    // The bow tells from how far above the base is seen: by a known lens, below its axis.
-    const double below_axis = below_axis_rad(result, options);
-    const double expected = std::max(0.0, *options.camera_pitch_rad + below_axis);
-    if (std::abs(pitch - expected) > kPitchTolerance_rad) {
-      flag(result, "pitch_disagrees",
-           fmt::format("The curved base implies a pitch of {:.0f} degrees, not the {:.0f} given.",
-                       to_degrees(pitch - below_axis), to_degrees(*options.camera_pitch_rad)));
-    }
-  }
+  if (options.camera_pitch_rad) warn_of_pitch(result, ground, options);
   if (std::abs(ground.tilt_rad()) > kTilted_rad) {
     note(result, "tilted_picture",
          fmt::format("The ground is tilted by {:.1f} degrees in the picture; angles are measured "
