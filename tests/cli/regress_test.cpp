@@ -194,8 +194,11 @@ TEST_F(RegressCommand, AColumnOfTextIsBlocks) {
   Words named = words;
   named.insert(named.end(), {"--blocks", "Day"});
   EXPECT_EQ(result(named)["coefficients"], blocked["coefficients"]);
-  folder_.write("runs.csv", two_days("Block", "1", "2"));
-  EXPECT_EQ(result(words)["coefficients"], blocked["coefficients"]);
+  for (const char* name : {"Block", "batch", "Operator"}) {
+    folder_.write("runs.csv", two_days(name, "1", "2"));
+    EXPECT_EQ(result(words)["coefficients"], blocked["coefficients"]) << name;
+    EXPECT_THAT(run(words).out, HasSubstr("taken for names of blocks")) << name;
+  }
   Words wrong = words;
   wrong.insert(wrong.end(), {"--blocks", "Week"});
   EXPECT_THAT(run(wrong).err, HasSubstr("has no column Week for blocks"));

@@ -103,10 +103,15 @@ std::string bookkeeping_of(const std::string& name, const Column& column) {
 }
 
 /// What people call that which runs made together have in common; numbers of it are no levels.
+bool is_name_of_blocks(const std::string& name) {
+  return is_one_of(plain_name(name),
+                   {"block", "blocks", "session", "shift", "batch", "lot", "series", "operator",
+                    "person", "site", "lab", "machine", "rig", "replicate", "replication", "rep"});
+}
+
+/// Runs of one day may be a block, and an age in days may be a factor.
 bool sounds_like_blocks(const std::string& name) {
-  return is_one_of(plain_name(name), {"day", "week", "month", "session", "shift", "batch", "lot",
-                                      "series", "operator", "person", "site", "lab", "machine",
-                                      "rig", "replicate", "replication", "rep"});
+  return is_one_of(plain_name(name), {"day", "week", "month"});
 }
 
 /// Says of each column what it is.
@@ -138,17 +143,23 @@ class ColumnSorter {
     const Column column(table_, place);
     const std::string bookkeeping = bookkeeping_of(name, column);
     const bool seeks_blocks = wanted_.blocks.empty();
-    const bool is_called_block = is_one_of(plain_name(name), {"block", "blocks"});
+    const bool is_called_block = is_name_of_blocks(name);
     if (!bookkeeping.empty()) {
       leave_out(name, bookkeeping);
     } else if (column.is_empty()) {
       leave_out(name, "empty");
     } else if (seeks_blocks && (column.is_text() || is_called_block) && column.may_be_blocks()) {
       candidates_.push_back(name);
+      if (!column.is_text()) {
+        notes_.push_back(fmt::format(
+            "The numbers of {} are taken for names of blocks, runs that were made together. If "
+            "they are levels of a factor, name the {}.",
+            name, base::with_names(base::field("factor columns"), wanted_.names)));
+      }
     } else if (column.is_text() || is_called_block) {
       leave_out(name, column.different() == 1 ? "the same in every run"
-                      : seeks_blocks          ? "text that does not part the runs into blocks"
-                      : blocks_.empty()       ? "no blocks are wanted, and text is no factor"
+                      : seeks_blocks          ? "it does not part the runs into blocks"
+                      : blocks_.empty()       ? "no blocks are wanted, and its name is no factor's"
                                               : "the blocks are those of " + blocks_);
     } else if (!wanted_.factors.empty()) {
       return;  // left out by who named the factors

@@ -33,7 +33,7 @@ struct TableOfRuns {
 /// The runs of a table, without rows that are none (take_other_rows).
 ///
 /// Blocks, where none are named: a column of text in which each of two or more words stands in two
-/// or more rows, or one called "block" or "blocks" whose values do.
+/// or more rows, or one of numbers that is called "block", "batch", "operator" or the like.
 ///
 /// Without `factors`, these are all columns but the response, blocks, and what programs for designs
 /// and people write beside them: columns called so ("run", "StdOrder", "PtType", "NAME_coded"),
