@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
-/// Several pictures of the same thing: their mean, scatter, and how sure the mean is.
+/// Several readings of the same thing: their mean, scatter, how sure the mean is, and what is far
+/// off.
 namespace repose::calibrate {
 
 /// All in the unit of the values.
@@ -25,5 +28,18 @@ struct Summary {
 /// tests/calibrate/summary_test.cpp.
 /// @throws base::InputError  there is no value.
 Summary summarise(std::span<const double> values);
+
+/// Numbers of the values that are no part of the others, in rising order: the generalised extreme
+/// Studentised deviate of Rosner (1983, Technometrics 25, 165). The i-th time, the value farthest
+/// from the mean of those left is taken away; the last one whose distance, in standard deviations
+/// of those left, is more than
+///
+///     lambda_i = (n - i) t / sqrt((n - i - 1 + t^2)(n - i + 1)),
+///
+/// t the quantile 1 - alpha / 2(n - i + 1) of Student's distribution of n - i - 1 degrees of
+/// freedom, and all before it, are outliers. At most a third of the values are. Of normal values it
+/// finds any in a fraction `alpha` of all samples; the approximation is good from 15 values on, and
+/// fewer than 5 have none. Checked by tests/calibrate/summary_test.cpp on Rosner's own example.
+std::vector<std::size_t> outliers_of(std::span<const double> values, double alpha);
 
 }  // namespace repose::calibrate

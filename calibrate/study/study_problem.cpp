@@ -351,6 +351,14 @@ class StudyProblemBuilder {
     const dem::Range readable = dem::readable_in(observable.unit);
     observable.least = readable.from;
     observable.most = readable.to;
+    if (observable.sd && observable.n < 2) {
+      made_.notes.push_back(fmt::format(
+          "{}: sd = {:g} of n = 1 is not used, since one reading has no scatter. Fix: give the n "
+          "of "
+          "the readings that it is the scatter of; or, if it says how well the reading is known, "
+          "bias_sd.",
+          observable.name, *observable.sd));
+    }
     if (!observable.sd || observable.n < 2) {
       observable.sd.reset();
       observable.assumed_sd_fraction = observable.assumed_sd_fraction.value_or(entry.usual_scatter);

@@ -12,6 +12,7 @@ namespace repose::calibrate {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -79,6 +80,30 @@ TEST(OtherRows, AReadingThatMayBeChanceCountsAndIsSaid) {
   EXPECT_THAT(mean.error, IsEmpty());
   ASSERT_EQ(mean.other.notes.size(), 1U);
   EXPECT_THAT(mean.other.notes[0], HasSubstr("a.csv:5: equals the mean of the rows above"));
+}
+
+TEST(OtherRows, HowManyThereAreMayStandAboveTheirMean) {
+  const Left left = left_of("sample,angle_deg\na,22.1\nb,22.9\nn,2\nmin,22.1\nmax,22.9\n");
+  EXPECT_EQ(left.lines, (std::vector{2, 3}));
+  EXPECT_THAT(left.error, IsEmpty());
+}
+
+TEST(OtherRows, ASlipOfThePenIsSaid) {
+  EXPECT_THAT(left_of("angle_deg\n22\n23\n2.3\n22.5\n21\n22\n").other.notes,
+              ElementsAre(HasSubstr("a.csv:4: angle_deg = 2.3 lies far from the other readings")));
+  // Mean and scatter, worked out wrongly, and a number of readings.
+  EXPECT_THAT(left_of("angle_deg\n22.1\n22.9\n23.1\n21.5\n22.6\n0.73\n4\n").other.notes,
+              ElementsAre(HasSubstr("a.csv:7"), HasSubstr("a.csv:8")));
+  // Most grains stay, and some rebound far.
+  EXPECT_THAT(left_of("x\n0\n0\n12.5\n0\n41\n0\n0\n55\n3\n0\n", {"x"}).other.notes, IsEmpty());
+}
+
+TEST(OtherRows, RadiansAndFractionsAreSaid) {
+  EXPECT_THAT(left_of("angle_deg\n.40\n.41\n.38\n").other.notes,
+              ElementsAre(HasSubstr("multiply them by 57.2958")));
+  EXPECT_THAT(left_of("x_percent\n.51\n.49\n.52\n", {"x_percent"}).other.notes.front(),
+              HasSubstr("multiply them by 100"));
+  EXPECT_THAT(left_of("angle_deg\n1.4\n1.7\n1.2\n").other.notes, IsEmpty());
 }
 
 TEST(OtherRows, RepeatedReadingsAreNoStatistics) {

@@ -47,5 +47,25 @@ TEST(Summary, NoValueIsRefused) {
   EXPECT_THROW(summarise(std::vector<double>{}), base::InputError);
 }
 
+// Rosner (1983), Technometrics 25, 165, table 1: at 5 % three of 54 are outliers, although the
+// farthest alone is none.
+TEST(Outliers, AreThoseOfRosner) {
+  std::vector<double> values = {-.25, .68,  .94,  1.15, 1.2,  1.26, 1.26, 1.34, 1.38, 1.43, 1.49,
+                                1.49, 1.55, 1.56, 1.58, 1.65, 1.69, 1.7,  1.76, 1.77, 1.81, 1.91,
+                                1.94, 1.96, 1.99, 2.06, 2.09, 2.1,  2.14, 2.15, 2.23, 2.24, 2.26,
+                                2.35, 2.37, 2.4,  2.47, 2.54, 2.62, 2.64, 2.9,  2.92, 2.92, 2.93,
+                                3.21, 3.26, 3.3,  3.59, 3.68, 4.3,  4.64, 5.34, 5.42, 6.01};
+  EXPECT_THAT(outliers_of(values, .05), ::testing::ElementsAre(51, 52, 53));
+  EXPECT_THAT(outliers_of(values, .001), ::testing::IsEmpty());
+  std::reverse(values.begin(), values.end());
+  EXPECT_THAT(outliers_of(values, .05), ::testing::ElementsAre(0, 1, 2));
+}
+
+TEST(Outliers, FewOrEqualValuesHaveNone) {
+  EXPECT_THAT(outliers_of(std::vector<double>{}, .05), ::testing::IsEmpty());
+  EXPECT_THAT(outliers_of(std::vector{1., 1., 1., 9.}, .05), ::testing::IsEmpty());
+  EXPECT_THAT(outliers_of(std::vector(8, 22.), .05), ::testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace repose::calibrate

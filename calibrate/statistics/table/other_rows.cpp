@@ -4,12 +4,16 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "calibrate/statistics/summary.h"
 
 namespace repose::calibrate {
 namespace {
@@ -126,15 +130,31 @@ bool is_short_label(const std::string& cell) {
   return word == "n" || word == "s" || word == "u" || word == "k";
 }
 
+bool has_short_label(const TableRow& row) { return std::ranges::any_of(row.cells, is_short_label); }
+
+/// Line of the first row labelled as a statistic, or of how many readings there are above it.
+int first_labelled_line(const Table& table) {
+  const auto has_label = [&](const TableRow& row) {
+    for (std::size_t place = 0; place < row.cells.size(); ++place) {
+      if (is_label(table, place, row.cells[place])) return true;
+    }
+    return false;
+  };
+  auto first = std::ranges::find_if(table.rows, has_label);
+  if (first == table.rows.end()) return std::numeric_limits<int>::max();
+  while (first != table.rows.begin() && has_short_label(*std::prev(first))) --first;
+  return first->line;
+}
+
 /// Rows labelled as a statistic. Below the first of them no readings are looked for.
 void take_labelled(Table& table, OtherRows& other, base::Faults& errors) {
   const Table whole = table;
-  bool any = false;
+  const int first_line = first_labelled_line(table);
   std::erase_if(table.rows, [&](const TableRow& row) {
+    const bool any = row.line >= first_line;
     for (std::size_t place = 0; place < row.cells.size(); ++place) {
       const std::string& cell = row.cells[place];
       if (!is_label(whole, place, cell) && !(any && is_short_label(cell))) continue;
-      any = true;
       other.left_out.push_back(
           {fmt::format("line {}", row.line), fmt::format("labelled \"{}\"", cell)});
       return true;
@@ -343,6 +363,56 @@ void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
       table.name, table.rows.back().line));
 }
 
+/// Of grains that mostly stay where they fell, those that rebound are no slips.
+bool are_mostly_equal(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [&](double value) {
+    return 2 * std::ranges::count(values, value) > std::ssize(values);
+  });
+}
+
+/// Readings that count, but may be slips of the pen.
+void note_outliers(const Table& table, std::size_t place, const std::vector<double>& values,
+                   OtherRows& other) {
+  constexpr double kUnlikely = .001;
+  if (are_mostly_equal(values)) return;
+  for (const std::size_t far : outliers_of(values, kUnlikely)) {
+    other.notes.push_back(fmt::format(
+        "{}:{}: {} = {} lies far from the other readings (of normal ones, less than one table in "
+        "1000 has such), and counts. If it is a slip or no reading, correct or delete it.",
+        table.name, table.rows[far].line, table.columns[place], table.rows[far].cells[place]));
+  }
+}
+
+/// A column of small numbers may be in another unit than its name says.
+void note_other_unit(const Table& table, const std::string& name, double most, OtherRows& other) {
+  constexpr double kRightAngle_rad = 1.58, kWhole = 1;
+  if (most > 0 && most < kRightAngle_rad && name.ends_with("_deg")) {
+    other.notes.push_back(
+        fmt::format("{}: {} is at most {:g}: degrees are expected. If these are radians, multiply "
+                    "them by 57.2958.",
+                    table.name, name, most));
+  }
+  if (most > 0 && most <= kWhole && name.ends_with("_percent")) {
+    other.notes.push_back(fmt::format(
+        "{}: {} is at most {:g}: percent are expected. If these are fractions, multiply "
+        "them by 100.",
+        table.name, name, most));
+  }
+}
+
+void note_doubtful(const Table& table, std::span<const std::size_t> readings, OtherRows& other) {
+  for (const std::size_t place : readings) {
+    std::vector<double> values;
+    for (const TableRow& row : table.rows) {
+      if (const auto value = number_of(row.cells[place])) values.push_back(*value);
+    }
+    // Cells that are no numbers are refused elsewhere.
+    if (values.empty() || values.size() < table.rows.size()) continue;
+    note_outliers(table, place, values, other);
+    note_other_unit(table, table.columns[place], *std::ranges::max_element(values), other);
+  }
+}
+
 }  // namespace
 
 OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
@@ -352,6 +422,7 @@ OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
   take_units(table, places, other, errors);
   take_labelled(table, other, errors);
   find_unlabelled(table, places, unlabelled, other, errors);
+  if (unlabelled == Unlabelled::refused) note_doubtful(table, places, other);
   return other;
 }
 

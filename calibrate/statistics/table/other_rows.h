@@ -33,8 +33,9 @@ enum class Unlabelled {
 /// on of the rows above, are errors where chance gives such readings in less than 1 of 100 tables:
 /// by Student's distribution of a further reading (Hahn, Meeker 1991, Statistical Intervals, sec.
 /// 4.7), times the step of the last digit. A last row that equals the mean and could be chance, or
-/// is not to be refused, is in the notes. Proved by OtherRows.* in
-/// tests/calibrate/other_rows_test.cpp.
+/// is not to be refused, is in the notes. So are readings far from all others, and columns of
+/// degrees or percent that look like radians or fractions, unless the rows are runs. Proved by
+/// OtherRows.* in tests/calibrate/other_rows_test.cpp.
 ///
 /// @param readings  columns with the numbers that were read; those that the table lacks are passed
 ///                  over

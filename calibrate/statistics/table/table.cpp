@@ -391,6 +391,14 @@ std::vector<std::vector<double>> numbers_of(const Table& table,
       continue;
     }
     const std::string guess = base::closest_word(wanted.name, table.columns);
+    const bool is_in_other_unit =
+        guess.substr(0, guess.rfind('_')) == wanted.name.substr(0, wanted.name.rfind('_'));
+    if (is_in_other_unit) {
+      errors.add({.where = table.name,
+                  .value = fmt::format("has {}, not {}", guess, wanted.name),
+                  .fix = fmt::format("convert its numbers, and name it {}.", wanted.name)});
+      continue;
+    }
     errors.add({.where = table.name,
                 .value = fmt::format("has no column {}{}", wanted.name,
                                      guess.empty() ? "" : fmt::format(". Did you mean {}?", guess)),
