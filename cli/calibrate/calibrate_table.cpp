@@ -41,8 +41,8 @@ Table parameters_table(const calibrate::JointResult& joint) {
                    name_of(parameter.verdict)});
     const std::string condition = condition_text(joint, parameter);
     if (!condition.empty()) {
-      table.add_note(
-          kIndent, fmt::format("{} {}, which was assumed", name_of(parameter.verdict), condition));
+      table.add_note(kNoteIndent, fmt::format("{} {}, which was assumed",
+                                              name_of(parameter.verdict), condition));
     }
   }
   return table;

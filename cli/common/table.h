@@ -16,7 +16,7 @@ namespace repose::cli {
 /// Stands where a number does not exist.
 inline constexpr const char* kMissing = "–";
 /// Before what is said below a row.
-inline constexpr const char* kIndent = "  ";
+inline constexpr const char* kNoteIndent = "  ";
 
 enum class Align { left, right };
 enum class Colour { none, green, yellow, red };

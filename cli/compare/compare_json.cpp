@@ -108,9 +108,9 @@ std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& 
   json["best_shift_rmse"] = length(comparison.best_shift_rmse);
   json["warnings"] = compare_warnings_json(comparison.warnings);
   if (is_refused) json["reason"] = comparison.reason;
-  constexpr int kIndent = 2;
+  constexpr int kNoteIndent = 2;
   // File names need not be UTF-8, JSON must be.
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 namespace {
@@ -176,9 +176,9 @@ std::string sets_json(const ComparePlan& plan,
   for (const vision::Warning& warning : comparison.warnings) {
     json["warnings"].push_back({{"code", warning.code}, {"message", warning.message}});
   }
-  constexpr int kIndent = 2;
+  constexpr int kNoteIndent = 2;
   // File names need not be UTF-8, JSON must be.
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace repose::cli

@@ -121,9 +121,9 @@ std::string export_json(const ExportPlan& plan) {
   json["sets"] = Json::array();
   for (const std::vector<double>& set : plan.sets) json["sets"].push_back(set);
   json["warnings"] = plan.made.warnings;
-  constexpr int kIndent = 2;
+  constexpr int kNoteIndent = 2;
   // Names of folders need not be UTF-8, JSON must be.
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 std::string export_table(const ExportPlan& plan, int columns) {

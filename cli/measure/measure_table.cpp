@@ -148,12 +148,12 @@ Colour row_colour(const MeasuredPicture& picture, bool has_colour) {
 
 void add_definitions(Table& table, const vision::ReposeAngle& angle) {
   for (const vision::NamedAngle& definition : angle.definitions) {
-    table.add_note(fmt::format("{}{:5.2f}°  ", kIndent, to_degrees(definition.angle_rad)),
+    table.add_note(fmt::format("{}{:5.2f}°  ", kNoteIndent, to_degrees(definition.angle_rad)),
                    fmt::format("{}: {}", definition.name, definition.description));
   }
   for (const auto& [side, flank] : {std::pair("left", &angle.left), {"right", &angle.right}}) {
     for (const vision::WindowAngle& other : flank->other_windows) {
-      table.add_note(fmt::format("{}{:5.2f}°  ", kIndent, to_degrees(other.angle_rad)),
+      table.add_note(fmt::format("{}{:5.2f}°  ", kNoteIndent, to_degrees(other.angle_rad)),
                      fmt::format("{} side, window {:.0f}–{:.0f} % of the height", side,
                                  100 * other.window_from, 100 * other.window_to));
     }
@@ -218,10 +218,11 @@ std::string board_text(const vision::SeenBoard& board) {
 }
 
 void add_sizes(Table& table, const MeasuredPicture& picture) {
-  if (picture.sizes.mm_per_px) table.add_note(kIndent, sizes_text(picture));
-  if (picture.board) table.add_note(fmt::format("{}board: ", kIndent), board_text(*picture.board));
+  if (picture.sizes.mm_per_px) table.add_note(kNoteIndent, sizes_text(picture));
+  if (picture.board)
+    table.add_note(fmt::format("{}board: ", kNoteIndent), board_text(*picture.board));
   if (picture.angle.status != vision::MeasureStatus::refused && !picture.sizes.reason.empty()) {
-    table.add_note(fmt::format("{}no sizes: ", kIndent), picture.sizes.reason);
+    table.add_note(fmt::format("{}no sizes: ", kNoteIndent), picture.sizes.reason);
   }
 }
 
@@ -240,16 +241,16 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
        angle.ground_tilt_rad ? fmt::format("{:.2f}", to_degrees(*angle.ground_tilt_rad)) : kMissing,
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
       colour);
-  if (picture.filmed) table.add_note(kIndent, film_text(*picture.filmed));
+  if (picture.filmed) table.add_note(kNoteIndent, film_text(*picture.filmed));
   if (angle.status == vision::MeasureStatus::refused) {
-    table.add_note(fmt::format("{}refused: ", kIndent), angle.reason);
+    table.add_note(fmt::format("{}refused: ", kNoteIndent), angle.reason);
     if (picture.proposal) {
-      table.add_note(fmt::format("{}try: ", kIndent), proposal_text(picture));
+      table.add_note(fmt::format("{}try: ", kNoteIndent), proposal_text(picture));
     }
   }
   add_sizes(table, picture);
   for (const vision::Warning& warning : angle.warnings) {
-    table.add_note(fmt::format("{}! ", kIndent), warning.message);
+    table.add_note(fmt::format("{}! ", kNoteIndent), warning.message);
   }
   if (style.shows_definitions) add_definitions(table, angle);
 }

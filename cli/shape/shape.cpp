@@ -154,9 +154,9 @@ std::string shape_json(const dem::ClumpFile& clump, std::optional<double> densit
                   {"falls_short_mm", kMmPerM * errors.falls_short_m},
                   {"repairs", clump.repairs},
                   {"warnings", warnings_json(clump)}};
-  constexpr int kIndent = 2;
+  constexpr int kNoteIndent = 2;
   // File names need not be UTF-8, JSON must be.
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 /// Its options by the fields that the library finds fault with.

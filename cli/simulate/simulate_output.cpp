@@ -20,12 +20,12 @@ namespace {
 
 using calibrate::Json;
 
-constexpr int kIndent = 2;
+constexpr int kNoteIndent = 2;
 constexpr double kMillimetres = 1e3;
 
 std::string text_of(const Json& json) {
   // Names of files need not be UTF-8, JSON must be.
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 /// JSON has no NaN: a number that does not exist is null.

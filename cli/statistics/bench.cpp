@@ -234,8 +234,8 @@ std::string bench_json(const std::string& test, const calibrate::BenchResult& re
                   {"equation", result.source},
                   {"quantities", std::move(quantities)},
                   {"notes", result.notes}};
-  constexpr int kIndent = 2;
-  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
+  constexpr int kNoteIndent = 2;
+  return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace

@@ -32,10 +32,10 @@ std::string scale_text(const vision::DropTrack& drop) {
 /// Why there is no number, and what to know.
 void add_notes(Table& table, const TrackedFilm& film) {
   if (film.error.empty() && status_of(film) == vision::MeasureStatus::refused) {
-    table.add_note(fmt::format("{}refused: ", kIndent), reason_of(film));
+    table.add_note(fmt::format("{}refused: ", kNoteIndent), reason_of(film));
   }
   for (const vision::Warning& warning : warnings_of(film)) {
-    table.add_note(fmt::format("{}! ", kIndent), warning.message);
+    table.add_note(fmt::format("{}! ", kNoteIndent), warning.message);
   }
 }
 
@@ -71,7 +71,7 @@ void add_drop(Table& table, const TrackedFilm& film, bool has_colour) {
             cell(bounce.drop_mm, 1), cell(bounce.rebound_mm, 1));
   }
   add_unread(std::numeric_limits<int>::max());
-  if (!drop.bounces.empty()) table.add_note(kIndent, scale_text(drop));
+  if (!drop.bounces.empty()) table.add_note(kNoteIndent, scale_text(drop));
   add_notes(table, film);
 }
 

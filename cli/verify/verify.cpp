@@ -57,8 +57,8 @@ std::string verify_json(const std::vector<dem::CaseResult>& results) {
                     {"timestep_s", result.timestep_s},
                     {"holds", result.holds}});
   }
-  constexpr int kIndent = 2;
-  return json.dump(kIndent) + '\n';
+  constexpr int kNoteIndent = 2;
+  return json.dump(kNoteIndent) + '\n';
 }
 
 }  // namespace

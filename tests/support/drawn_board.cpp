@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using vision::Point;
 
 // The sheet around the board, in squares: what a page of A4 leaves.
-constexpr double kSameEdgeTolerance = 1.15, kAbove = 0.4, kIndent = 1.3;
+constexpr double kSameEdgeTolerance = 1.15, kAbove = 0.4, kNoteIndent = 1.3;
 
 /// Black where a patch is; a table of fine cells, for there are 400 patches and millions of pixels.
 class BoardPattern {
@@ -49,7 +49,7 @@ class BoardPattern {
 
 bool is_on_sheet(double x, double y) {
   return x >= -kSameEdgeTolerance && x <= vision::kBoardColumns + kSameEdgeTolerance &&
-         y >= -kAbove && y <= vision::kBoardRows + kIndent;
+         y >= -kAbove && y <= vision::kBoardRows + kNoteIndent;
 }
 
 /// All of the sheet, and what its blur adds.
@@ -60,7 +60,7 @@ cv::Rect frame_of(const BoardCamera& camera, const BoardPlace& place) {
     for (int j = 0; j <= kSteps; ++j) {
       const double x =
           -kSameEdgeTolerance + (vision::kBoardColumns + 2 * kSameEdgeTolerance) * i / kSteps;
-      const double y = -kAbove + (vision::kBoardRows + kAbove + kIndent) * j / kSteps;
+      const double y = -kAbove + (vision::kBoardRows + kAbove + kNoteIndent) * j / kSteps;
       const Point seen =
           camera.seen(place.origin_mm + place.square_mm * place.rotation * Vector3d(x, y, 0));
       points.emplace_back(cvRound(seen.x), cvRound(seen.y));
