@@ -70,6 +70,7 @@ using render::PictureSize;
 using render::Renderer;
 using render::Scene;
 using render::scene_of;
+using render::SilhouetteStyle;
 using vision::Picture;
 using vision::write_picture;
 

@@ -47,7 +47,7 @@ bool falls() {
   return fallen_m > .049 && fallen_m < .0491;
 }
 
-/// Soft rough balls, few and fast: heaps of a third of a second.
+/// Soft rough balls, few and fast: heaps of a fifth of a second.
 constexpr const char* kBalls = R"([particle]
 size_mm = [18, 18, 18]
 spheres = 1
@@ -68,7 +68,7 @@ rolling_friction = { value = 0.3, min = 0.1, max = 0.5 }
 [uncertainty]
 vary = false
 [experiment.heap]
-grains = 50
+grains = 40
 stiffness_factor = 0.3
 lift_speed_mm_s = 100
 )";
@@ -83,10 +83,11 @@ bool simulates_a_heap(const fs::path& folder) {
   std::cout << "a simulated heap has " << *angle_deg << " degrees\n";
   const repose::Scene scene = repose::scene_of(repose::read_state(run.state));
   repose::Renderer renderer;
-  const repose::Picture picture = renderer
-                                      .draw(scene, repose::OrthographicCamera{},
-                                            {.width = 640, .height = 360}, repose::PhotoStyle{})
-                                      .picture;
+  const repose::Picture picture =
+      renderer
+          .draw(scene, repose::OrthographicCamera{}, {.width = 640, .height = 360},
+                repose::SilhouetteStyle{})
+          .picture;
   repose::write_picture(folder / "heap.png", picture);
   return *angle_deg > 10 && *angle_deg < 60 &&
          repose::read_picture(folder / "heap.png").width == 640;
@@ -98,7 +99,7 @@ bool calibrates_from_pictures(const fs::path& photos, const fs::path& folder) {
       << kBalls << "measured = { pictures = ['" << (photos / "heap_01.jpg").string() << "', '"
       << (photos / "heap_03.jpg").string() << "'] }\n";
   repose::StudyRequest request{.study = folder / "study.toml", .folder = folder / "calibration"};
-  request.budget.settings.max_jobs = 8;
+  request.budget.settings.max_jobs = 6;
   request.budget.verification_repeats = 2;
   request.budget.family_sets = 0;
   std::vector<std::string> said;
